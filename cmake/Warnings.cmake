@@ -1,0 +1,16 @@
+# bdpt_compile_options(TARGET): the language level, the warnings and the arithmetic that all our code
+# is built with.
+function(bdpt_compile_options target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
+  target_compile_options(${target} PRIVATE
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wnon-virtual-dtor
+    -Wold-style-cast -Woverloaded-virtual -Wimplicit-fallthrough
+    # A product and a sum are rounded apart on every CPU, so that pictures are equal to the bit.
+    -ffp-contract=off
+    # No errno and no trapping: sqrt and comparisons become single instructions. Values stay IEEE.
+    -fno-math-errno -fno-trapping-math)
+  if(BDPT_WERROR)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+endfunction()

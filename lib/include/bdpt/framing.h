@@ -1,0 +1,21 @@
+#pragma once
+
+#include <bdpt/scene.h>
+
+namespace bdpt {
+
+/// A view for a scene that came without a camera.
+struct FramedView {
+    CameraDesc camera;
+    /// The view stands in a space that hardly any ray leaves, so that light from infinity would not
+    /// reach it.
+    bool enclosed = false;
+    /// A point in free space well above the camera's target, where a lamp lights what is seen.
+    Vec3 lamp_position{0.0f};
+};
+
+/// Frames a whole scene: from outside, three quarters and slightly above, if it is an object; from
+/// inside if it is a room. Deterministic. `aspect` is width over height.
+[[nodiscard]] FramedView frame_scene(const Scene& scene, float aspect);
+
+}  // namespace bdpt

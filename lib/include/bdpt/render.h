@@ -1,0 +1,42 @@
+#pragma once
+
+#include <bdpt/film.h>
+#include <bdpt/render_options.h>
+#include <bdpt/scene.h>
+
+#include <functional>
+#include <limits>
+#include <stop_token>
+
+namespace bdpt {
+
+struct Progress {
+    std::int64_t samples_done = 0;   ///< per pixel
+    std::int64_t samples_total = 0;  ///< per pixel
+    double seconds = 0.0;
+};
+
+/// How a caller watches and stops a render. Everything is optional.
+struct RenderControl {
+    /// A request ends the render after the pass in flight.
+    std::stop_token stop;
+    /// Called between passes on the thread that called render(). What it throws ends the render and
+    /// reaches the caller.
+    std::function<void(const Progress&)> on_progress;
+    /// No pass starts that would probably end after this [s].
+    double time_limit = std::numeric_limits<double>::infinity();
+};
+
+struct RenderResult {
+    Film film;
+    SampleRange samples;  ///< those that are in `film`; fewer than asked for after a stop
+    double seconds = 0.0;
+};
+
+/// Blocks until all samples are done, `control.stop` is requested or the time is up; at least one
+/// pass is always done. The result depends on scene, camera and options only, to the bit: not on
+/// threads, tiles or time. Throws `Error` (usage) for options out of range.
+[[nodiscard]] RenderResult render(const Scene& scene, const CameraDesc& camera,
+                                  const RenderOptions& options, const RenderControl& control = {});
+
+}  // namespace bdpt

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <bdpt/scene_desc.h>
+
+#include <cstddef>
+#include <memory>
+
+namespace bdpt {
+
+class World;
+
+/// Axis-aligned box [m].
+struct Bounds {
+    Vec3 min{0.0f};
+    Vec3 max{0.0f};
+};
+
+/// What a scene holds, for reports.
+struct SceneCounts {
+    std::size_t triangles = 0;             ///< in meshes, each mesh once
+    std::size_t instanced_triangles = 0;   ///< as rays see them
+    std::size_t degenerate_triangles = 0;  ///< without area: skipped
+    std::size_t emissive_triangles = 0;
+    std::size_t lights = 0;  ///< emissive triangles and all others
+};
+
+/// A scene that is ready to trace: validated, its Embree BVH built, immutable and safe to share
+/// between threads.
+class Scene {
+public:
+    /// Throws `Error` (invalid_input) when an index, a transform or a value in `desc` is invalid;
+    /// the message names the item and the value.
+    explicit Scene(SceneDesc desc);
+    Scene(Scene&&) noexcept;
+    Scene& operator=(Scene&&) noexcept;
+    ~Scene();
+
+    /// Of all instances; both corners are zero in an empty scene.
+    [[nodiscard]] Bounds bounds() const;
+    [[nodiscard]] SceneCounts counts() const;
+
+    /// For the library itself.
+    [[nodiscard]] const World& world() const { return *world_; }
+
+private:
+    std::unique_ptr<const World> world_;
+};
+
+}  // namespace bdpt

@@ -1,0 +1,130 @@
+#pragma once
+
+#include <bdpt/image.h>
+#include <bdpt/types.h>
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace bdpt {
+
+enum class MeshId : std::uint32_t {};
+enum class MaterialId : std::uint32_t {};
+enum class ImageId : std::uint32_t {};
+
+/// Triangles with one material, in object space [m].
+struct MeshDesc {
+    std::string name;
+    std::vector<Vec3> positions;
+    std::vector<Vec3> normals;   ///< empty: use face normals
+    std::vector<Vec4> tangents;  ///< xyz and handedness (+1, -1); empty: derived from uvs[0]
+    std::array<std::vector<Vec2>, 2> uvs;  ///< empty: all (0, 0); v grows downwards (glTF)
+    std::vector<Vec4> colors;      ///< linear RGBA that multiplies the base colour; empty: white
+    std::vector<UVec3> triangles;  ///< counter-clockwise from the front
+};
+
+enum class Wrap : std::uint8_t { repeat, mirrored_repeat, clamp_to_edge };
+
+/// A picture used by a material slot, with the transform of KHR_texture_transform.
+struct TextureRef {
+    ImageId image{};
+    int uv_set = 0;  ///< 0 or 1
+    Wrap wrap_u = Wrap::repeat;
+    Wrap wrap_v = Wrap::repeat;
+    Vec2 offset{0.0f};
+    float rotation = 0.0f;  ///< [rad], counter-clockwise
+    Vec2 scale{1.0f};
+};
+
+/// glTF 2.0 metallic-roughness material with KHR_materials_{emissive_strength, ior, specular,
+/// transmission, volume}; names, defaults and ranges are those of the specification.
+struct MaterialDesc {
+    std::string name;
+    Vec4 base_color{1.0f};  ///< [0, 1]
+    float metallic = 1.0f;
+    float roughness = 1.0f;  ///< perceptual; GGX alpha is its square; 0 is a perfect mirror
+    Rgb emission{0.0f};      ///< radiance [nit]
+    float normal_scale = 1.0f;
+    bool double_sided = false;  ///< emits from both sides; scattering is two-sided in any case
+
+    float ior = 1.5f;       ///< >= 1
+    float specular = 1.0f;  ///< [0, 1]; 0 takes the dielectric reflection away
+    Rgb specular_color{1.0f};
+    float transmission = 0.0f;  ///< [0, 1]
+    float thickness = 0.0f;     ///< > 0: the mesh bounds a solid body; 0: a thin sheet
+    float attenuation_distance = std::numeric_limits<float>::infinity();  ///< [m]
+    Rgb attenuation_color{1.0f};  ///< what is left of white light after that distance
+
+    std::optional<TextureRef> base_color_texture;          ///< sRGB, times base_color
+    std::optional<TextureRef> metallic_roughness_texture;  ///< linear; G roughness, B metallic
+    std::optional<TextureRef> normal_texture;              ///< linear, tangent space
+    std::optional<TextureRef> emission_texture;            ///< sRGB, times emission
+    std::optional<TextureRef> specular_texture;            ///< linear; A
+    std::optional<TextureRef> specular_color_texture;      ///< sRGB
+    std::optional<TextureRef> transmission_texture;        ///< linear; R
+};
+
+/// A mesh placed in the world. Meshes are shared: many instances cost one BVH.
+struct InstanceDesc {
+    std::string name;
+    MeshId mesh{};
+    MaterialId material{};
+    Mat4 world_from_object{1.0f};  ///< affine, invertible; a negative determinant is fine
+};
+
+struct PointLightDesc {
+    std::string name;
+    Vec3 position{0.0f};
+    Rgb intensity{1.0f};  ///< [cd]
+};
+
+struct SpotLightDesc {
+    std::string name;
+    Vec3 position{0.0f};
+    Vec3 direction{0.0f, 0.0f, -1.0f};
+    Rgb intensity{1.0f};                  ///< [cd] within the inner cone
+    float inner_cone_angle = 0.0f;        ///< [rad] from the axis
+    float outer_cone_angle = 0.7853982f;  ///< [rad] from the axis, in (inner, pi/2]
+};
+
+struct DirectionalLightDesc {
+    std::string name;
+    Vec3 direction{0.0f, 0.0f, -1.0f};  ///< the way the light travels
+    Rgb illuminance{1.0f};              ///< [lx] on a surface that faces the light
+};
+
+/// Light from infinity. `radiance` is equirectangular [nit]: its top row is +y, its centre column
+/// is seen along -z and columns to the right turn towards +x. A 1 x 1 picture is constant.
+struct EnvironmentLightDesc {
+    Image radiance;
+    Mat3 world_from_environment{1.0f};  ///< rotation
+};
+
+using LightDesc =
+    std::variant<PointLightDesc, SpotLightDesc, DirectionalLightDesc, EnvironmentLightDesc>;
+
+/// Everything that light meets, as plain data: what a loader fills in and what `Scene` is built
+/// from. Emissive triangles are lights by their material.
+struct SceneDesc {
+    std::vector<TexelImage> images;
+    std::vector<MaterialDesc> materials;
+    std::vector<MeshDesc> meshes;
+    std::vector<InstanceDesc> instances;
+    std::vector<LightDesc> lights;  ///< at most one environment
+};
+
+/// A pinhole camera with the glTF axes: it looks down -z, +y is up.
+struct CameraDesc {
+    std::string name;
+    Mat4 world_from_camera{1.0f};     ///< its scale is ignored
+    float vertical_fov = 0.7853982f;  ///< [rad], in (0, pi)
+    /// Width over height that the scene's author had in mind, if any. The film's own wins.
+    std::optional<float> aspect_ratio;
+};
+
+}  // namespace bdpt

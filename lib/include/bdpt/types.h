@@ -1,0 +1,21 @@
+#pragma once
+
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+namespace bdpt {
+
+using Vec2 = glm::vec2;
+using Vec3 = glm::vec3;
+using Vec4 = glm::vec4;
+using UVec3 = glm::uvec3;
+using Mat3 = glm::mat3;
+using Mat4 = glm::mat4;
+
+/// Linear Rec. 709 triple: radiance [nit = cd/m^2], importance, or a unitless weight.
+using Rgb = glm::vec3;
+
+}  // namespace bdpt

@@ -1,0 +1,251 @@
+#include <bdpt/error.h>
+#include <bdpt/film.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace bdpt {
+namespace {
+
+constexpr int unit_exponent = -60;  // the low word counts multiples of 2^-60
+
+std::size_t half_of(std::int64_t sample_index)
+{
+    return static_cast<std::size_t>(sample_index & 1);
+}
+
+}  // namespace
+
+ExactSum& ExactSum::operator=(const ExactSum& other) noexcept
+{
+    low_.store(other.low_.load(std::memory_order_relaxed), std::memory_order_relaxed);
+    high_.store(other.high_.load(std::memory_order_relaxed), std::memory_order_relaxed);
+    return *this;
+}
+
+void ExactSum::add(float value) noexcept
+{
+    const auto bits = std::bit_cast<std::uint32_t>(value);
+    const auto biased_exponent = static_cast<int>(bits >> 23U);
+    if (biased_exponent == 0) {
+        return;  // zero or denormal: far below the unit
+    }
+    const std::uint64_t mantissa = (bits & 0x7fffffU) | 0x800000U;
+    const int shift = biased_exponent - 150 - unit_exponent;
+    if (shift >= 64) {
+        add_words(0, mantissa << (shift - 64));
+    } else if (shift > 0) {
+        add_words(mantissa << shift, mantissa >> (64 - shift));
+    } else if (shift > -25) {
+        const std::uint64_t half = shift < 0 ? std::uint64_t{1} << (-shift - 1) : 0;
+        add_words((mantissa + half) >> -shift, 0);
+    }
+}
+
+void ExactSum::add(const ExactSum& other) noexcept
+{
+    add_words(other.low_.load(std::memory_order_relaxed),
+              other.high_.load(std::memory_order_relaxed));
+}
+
+void ExactSum::add_words(std::uint64_t low, std::uint64_t high) noexcept
+{
+    if (low != 0) {
+        const std::uint64_t before = low_.fetch_add(low, std::memory_order_relaxed);
+        high += before + low < before ? 1U : 0U;
+    }
+    if (high != 0) {
+        high_.fetch_add(high, std::memory_order_relaxed);
+    }
+}
+
+double ExactSum::value() const noexcept
+{
+    return std::ldexp(static_cast<double>(high_.load(std::memory_order_relaxed)),
+                      64 + unit_exponent) +
+           std::ldexp(static_cast<double>(low_.load(std::memory_order_relaxed)), unit_exponent);
+}
+
+bool ExactSum::operator==(const ExactSum& other) const noexcept
+{
+    return low_.load(std::memory_order_relaxed) == other.low_.load(std::memory_order_relaxed) &&
+           high_.load(std::memory_order_relaxed) == other.high_.load(std::memory_order_relaxed);
+}
+
+void Film::Pixel::add(Rgb value) noexcept
+{
+    rgb[0].add(value.r);
+    rgb[1].add(value.g);
+    rgb[2].add(value.b);
+}
+
+Film::Film(int width, int height, bool splats) : width_(width), height_(height)
+{
+    const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    for (std::size_t half = 0; half < 2; ++half) {
+        samples_[half].resize(pixels);
+        splats_[half].resize(splats ? pixels : 0);
+    }
+}
+
+Film::Film(Film&& other) noexcept
+{
+    *this = std::move(other);
+}
+
+Film& Film::operator=(Film&& other) noexcept
+{
+    width_ = std::exchange(other.width_, 0);
+    height_ = std::exchange(other.height_, 0);
+    counts_ = std::exchange(other.counts_, {});
+    samples_ = std::exchange(other.samples_, {});
+    splats_ = std::exchange(other.splats_, {});
+    invalid_ = other.invalid_.exchange(0);
+    saturated_ = other.saturated_.exchange(0);
+    first_invalid_ = other.first_invalid_.exchange(~std::uint64_t{0});
+    return *this;
+}
+
+std::size_t Film::index(int x, int y) const
+{
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+           static_cast<std::size_t>(x);
+}
+
+bool Film::accept(Rgb& value, int x, int y, std::int64_t sample_index) noexcept
+{
+    bool saturated = false;
+    for (int c = 0; c < 3; ++c) {
+        if (!(value[c] >= 0.0f && value[c] <= std::numeric_limits<float>::max())) {
+            invalid_.fetch_add(1, std::memory_order_relaxed);
+            const std::uint64_t place =
+                static_cast<std::uint64_t>(sample_index) << 32U | index(x, y);
+            std::uint64_t first = first_invalid_.load(std::memory_order_relaxed);
+            while (place < first && !first_invalid_.compare_exchange_weak(first, place)) {
+            }
+            return false;
+        }
+        if (value[c] > ExactSum::max_value) {
+            value[c] = ExactSum::max_value;
+            saturated = true;
+        }
+    }
+    if (saturated) {
+        saturated_.fetch_add(1, std::memory_order_relaxed);
+    }
+    return true;
+}
+
+void Film::add_sample(int x, int y, std::int64_t sample_index, Rgb radiance) noexcept
+{
+    if (accept(radiance, x, y, sample_index)) {
+        samples_[half_of(sample_index)][index(x, y)].add(radiance);
+    }
+}
+
+void Film::add_splat(Vec2 raster, std::int64_t sample_index, Rgb radiance) noexcept
+{
+    const bool inside = raster.x >= 0.0f && raster.x < static_cast<float>(width_) &&
+                        raster.y >= 0.0f && raster.y < static_cast<float>(height_);
+    if (!inside) {
+        return;
+    }
+    const int x = static_cast<int>(raster.x);
+    const int y = static_cast<int>(raster.y);
+    if (accept(radiance, x, y, sample_index)) {
+        splats_[half_of(sample_index)][index(x, y)].add(radiance);
+    }
+}
+
+void Film::count_samples(std::int64_t begin, std::int64_t end)
+{
+    const std::int64_t even = (end + 1) / 2 - (begin + 1) / 2;
+    counts_[0] += even;
+    counts_[1] += end - begin - even;
+}
+
+void Film::merge(const Film& other)
+{
+    if (width_ != other.width_ || height_ != other.height_ ||
+        splats_[0].size() != other.splats_[0].size()) {
+        throw Error(ErrorCode::usage,
+                    "films to merge differ: " + std::to_string(width_) + "x" +
+                        std::to_string(height_) + " and " + std::to_string(other.width_) + "x" +
+                        std::to_string(other.height_) + ", or only one has splats");
+    }
+    const auto add = [](std::vector<Pixel>& to, const std::vector<Pixel>& from) {
+        for (std::size_t i = 0; i < to.size(); ++i) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                to[i].rgb[c].add(from[i].rgb[c]);
+            }
+        }
+    };
+    for (std::size_t half = 0; half < 2; ++half) {
+        add(samples_[half], other.samples_[half]);
+        add(splats_[half], other.splats_[half]);
+        counts_[half] += other.counts_[half];
+    }
+    invalid_ += other.invalid_;
+    saturated_ += other.saturated_;
+    first_invalid_ = std::min(first_invalid_.load(), other.first_invalid_.load());
+}
+
+Image Film::develop(std::span<const std::size_t> halves) const
+{
+    std::int64_t count = 0;
+    for (const std::size_t half : halves) {
+        count += counts_[half];
+    }
+    Image image{width_, height_, std::vector<Rgb>(samples_[0].size(), Rgb(0.0f))};
+    if (count == 0) {
+        return image;
+    }
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            double sum = 0.0;
+            for (const std::size_t half : halves) {
+                sum += samples_[half][i].rgb[c].value();
+                sum += splats_[half].empty() ? 0.0 : splats_[half][i].rgb[c].value();
+            }
+            image.pixels[i][static_cast<int>(c)] =
+                static_cast<float>(sum / static_cast<double>(count));
+        }
+    }
+    return image;
+}
+
+Image Film::develop() const
+{
+    return develop(std::array<std::size_t, 2>{0, 1});
+}
+
+Image Film::develop_half(int half) const
+{
+    return develop(std::array<std::size_t, 1>{static_cast<std::size_t>(half)});
+}
+
+FilmDefects Film::defects() const
+{
+    FilmDefects defects{.invalid = invalid_, .saturated = saturated_, .first_invalid = {}};
+    if (const std::uint64_t first = first_invalid_; first != ~std::uint64_t{0}) {
+        const auto pixel = static_cast<int>(first & 0xffffffffU);
+        defects.first_invalid =
+            FilmDefects::Place{.x = pixel % width_,
+                               .y = pixel / width_,
+                               .sample_index = static_cast<std::int64_t>(first >> 32U)};
+    }
+    return defects;
+}
+
+bool Film::operator==(const Film& other) const
+{
+    return width_ == other.width_ && height_ == other.height_ && counts_ == other.counts_ &&
+           samples_ == other.samples_ && splats_ == other.splats_ && invalid_ == other.invalid_ &&
+           saturated_ == other.saturated_ && first_invalid_ == other.first_invalid_;
+}
+
+}  // namespace bdpt

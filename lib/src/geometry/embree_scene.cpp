@@ -1,0 +1,192 @@
+#include "geometry/embree_scene.h"
+
+#include "geometry/embree.h"
+
+#include <bdpt/error.h>
+
+#include <limits>
+#include <new>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace bdpt {
+namespace {
+
+constexpr unsigned all_rays = 0xffffffffU;  // Embree 4 would default to a mask of 1
+
+template <auto release>
+struct Releaser {
+    template <typename T>
+    void operator()(T* handle) const
+    {
+        release(handle);
+    }
+};
+
+template <typename Handle, auto release>
+using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Releaser<release>>;
+
+using OwnedDevice = Owned<RTCDevice, rtcReleaseDevice>;
+using OwnedScene = Owned<RTCScene, rtcReleaseScene>;
+using OwnedGeometry = Owned<RTCGeometry, rtcReleaseGeometry>;
+
+void check(RTCDevice device, const char* action)
+{
+    const RTCError code = rtcGetDeviceError(device);
+    if (code == RTC_ERROR_NONE) {
+        return;
+    }
+    if (code == RTC_ERROR_OUT_OF_MEMORY) {
+        throw Error(ErrorCode::out_of_memory, std::string("not enough memory to ") + action);
+    }
+    throw Error(ErrorCode::internal, std::string("Embree failed to ") + action + " (error " +
+                                         std::to_string(static_cast<int>(code)) + ")");
+}
+
+/// Embree reads whole 16-byte vectors, so one more float must follow the last vertex.
+std::vector<Vec3> padded(std::vector<Vec3> positions)
+{
+    positions.emplace_back(0.0f);
+    return positions;
+}
+
+OwnedScene new_scene(RTCDevice device)
+{
+    OwnedScene scene(rtcNewScene(device));
+    check(device, "make a scene");
+    rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);  // watertight
+    rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_MEDIUM);
+    return scene;
+}
+
+OwnedGeometry new_triangles(RTCDevice device, const std::vector<Vec3>& padded_positions,
+                            const std::vector<UVec3>& triangles)
+{
+    OwnedGeometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
+    rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                               padded_positions.data(), 0, sizeof(Vec3),
+                               padded_positions.size() - 1);
+    rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                               triangles.data(), 0, sizeof(UVec3), triangles.size());
+    rtcSetGeometryMask(geometry.get(), all_rays);
+    rtcCommitGeometry(geometry.get());
+    check(device, "take over a mesh");
+    return geometry;
+}
+
+RTCRay to_embree(const Ray& ray)
+{
+    RTCRay out{};
+    out.org_x = ray.origin.x;
+    out.org_y = ray.origin.y;
+    out.org_z = ray.origin.z;
+    out.dir_x = ray.direction.x;
+    out.dir_y = ray.direction.y;
+    out.dir_z = ray.direction.z;
+    out.tfar = ray.t_max;
+    out.mask = all_rays;
+    return out;
+}
+
+}  // namespace
+
+struct EmbreeScene::State {
+    OwnedDevice device;
+    std::vector<OwnedScene> shared;  // by mesh; null for meshes that are used at most once
+    std::vector<std::vector<Vec3>> positions;  // what Embree reads: by mesh or by instance
+    OwnedScene top;
+    std::span<const PlacedMesh> placed;
+};
+
+EmbreeScene::EmbreeScene(std::span<const InstanceDesc> instances, std::span<PlacedMesh> placed,
+                         std::size_t mesh_count)
+    : state_(std::make_unique<State>())
+{
+    State& state = *state_;
+    state.device.reset(rtcNewDevice(nullptr));
+    RTCDevice device = state.device.get();
+    check(nullptr, "start");
+    state.placed = placed;
+    state.top = new_scene(device);
+
+    std::vector<std::size_t> uses(mesh_count, 0);
+    for (const InstanceDesc& instance : instances) {
+        ++uses[static_cast<std::size_t>(instance.mesh)];
+    }
+    state.shared.resize(mesh_count);
+    state.positions.reserve(mesh_count);  // at most one entry for each used mesh: never moves
+
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+        const auto mesh = static_cast<std::size_t>(instances[i].mesh);
+        const MeshDesc& desc = placed[i].mesh();
+        const auto id = static_cast<unsigned>(i);
+        if (desc.triangles.empty()) {
+            continue;
+        }
+        if (uses[mesh] == 1) {
+            std::vector<Vec3> world;
+            world.reserve(desc.positions.size() + 1);
+            for (const Vec3& p : desc.positions) {
+                world.push_back(placed[i].world_point(p));
+            }
+            state.positions.push_back(padded(std::move(world)));
+            placed[i].use_world_positions(state.positions.back().data());
+            const OwnedGeometry geometry =
+                new_triangles(device, state.positions.back(), desc.triangles);
+            rtcAttachGeometryByID(state.top.get(), geometry.get(), id);
+            continue;
+        }
+        if (!state.shared[mesh]) {
+            state.positions.push_back(padded(desc.positions));
+            state.shared[mesh] = new_scene(device);
+            const OwnedGeometry geometry =
+                new_triangles(device, state.positions.back(), desc.triangles);
+            rtcAttachGeometryByID(state.shared[mesh].get(), geometry.get(), 0);
+            rtcCommitScene(state.shared[mesh].get());
+            check(device, "build the BVH of a mesh");
+        }
+        const OwnedGeometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE));
+        rtcSetGeometryInstancedScene(geometry.get(), state.shared[mesh].get());
+        rtcSetGeometryTransform(geometry.get(), 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR,
+                                &instances[i].world_from_object[0][0]);
+        rtcSetGeometryMask(geometry.get(), all_rays);
+        rtcCommitGeometry(geometry.get());
+        rtcAttachGeometryByID(state.top.get(), geometry.get(), id);
+    }
+    rtcCommitScene(state.top.get());
+    check(device, "build the BVH of the scene");
+}
+
+EmbreeScene::EmbreeScene(EmbreeScene&&) noexcept = default;
+EmbreeScene::~EmbreeScene() = default;
+
+std::optional<RayHit> EmbreeScene::intersect(const Ray& ray) const noexcept
+{
+    RTCRayHit query{};
+    query.ray = to_embree(ray);
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    embree::intersect(state_->top.get(), query);
+    const RTCHit& hit = query.hit;
+    if (hit.geomID == RTC_INVALID_GEOMETRY_ID) {
+        return std::nullopt;
+    }
+    const bool shared = hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
+    const std::uint32_t instance = shared ? hit.instID[0] : hit.geomID;
+    const PlacedMesh& mesh = state_->placed[instance];
+    const Vec3 normal(hit.Ng_x, hit.Ng_y, hit.Ng_z);
+    return RayHit{.instance = instance,
+                  .triangle = hit.primID,
+                  .barycentrics = {hit.u, hit.v},
+                  .normal = shared ? mesh.world_normal(normal) : mesh.front_sign() * normal};
+}
+
+bool EmbreeScene::occluded(const Ray& ray) const noexcept
+{
+    RTCRay query = to_embree(ray);
+    embree::occluded(state_->top.get(), query);
+    return query.tfar < 0.0f;
+}
+
+}  // namespace bdpt

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "geometry/placed_mesh.h"
+#include "geometry/ray.h"
+
+#include <bdpt/scene_desc.h>
+
+#include <memory>
+#include <optional>
+#include <span>
+
+namespace bdpt {
+
+/// The ray-tracing acceleration structure over all instances; the only class that calls Embree. A
+/// mesh that is used once goes into the top level in world space; one that is used more often gets
+/// a BVH of its own, shared by its instances.
+class EmbreeScene {
+public:
+    /// `placed[i]` belongs to `instances[i]`; both must outlive this object, and meshes that went
+    /// into the top level are told so (PlacedMesh::use_world_positions). Throws `Error` when Embree
+    /// fails.
+    EmbreeScene(std::span<const InstanceDesc> instances, std::span<PlacedMesh> placed,
+                std::size_t mesh_count);
+    EmbreeScene(EmbreeScene&&) noexcept;
+    ~EmbreeScene();
+
+    [[nodiscard]] std::optional<RayHit> intersect(const Ray& ray) const noexcept;
+    /// Anything in (0, ray.t_max)?
+    [[nodiscard]] bool occluded(const Ray& ray) const noexcept;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace bdpt

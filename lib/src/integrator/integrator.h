@@ -1,0 +1,37 @@
+#pragma once
+
+#include <bdpt/film.h>
+#include <bdpt/render_options.h>
+
+#include <memory>
+
+namespace bdpt {
+
+class Camera;
+class World;
+
+/// Half-open rectangle of pixels.
+struct Tile {
+    int x_begin = 0;
+    int x_end = 0;
+    int y_begin = 0;
+    int y_end = 0;
+};
+
+/// A light transport algorithm. Const while rendering: every thread calls the same object.
+class Integrator {
+public:
+    virtual ~Integrator() = default;
+    /// Adds the samples of all pixels of `tile` to `film`, and what their light paths splat
+    /// anywhere.
+    virtual void render_tile(const Tile& tile, SampleRange samples, Film& film) const = 0;
+    /// Does it splat on pixels that are not its own?
+    [[nodiscard]] virtual bool splats() const = 0;
+};
+
+/// `options` have been checked. The world and the camera must outlive the integrator.
+[[nodiscard]] std::unique_ptr<const Integrator> make_integrator(const World& world,
+                                                                const Camera& camera,
+                                                                const RenderOptions& options);
+
+}  // namespace bdpt

@@ -1,0 +1,16 @@
+#include "integrator/bdpt_integrator.h"
+#include "integrator/integrator.h"
+#include "integrator/path_integrator.h"
+
+namespace bdpt {
+
+std::unique_ptr<const Integrator> make_integrator(const World& world, const Camera& camera,
+                                                  const RenderOptions& options)
+{
+    if (options.integrator == IntegratorKind::bdpt) {
+        return std::make_unique<BdptIntegrator>(world, camera, options);
+    }
+    return std::make_unique<PathIntegrator>(world, camera, options);
+}
+
+}  // namespace bdpt

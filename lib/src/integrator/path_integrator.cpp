@@ -1,0 +1,142 @@
+#include "integrator/path_integrator.h"
+
+#include "camera/camera.h"
+#include "math/rgb.h"
+#include "math/sampler.h"
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <limits>
+
+namespace bdpt {
+
+struct PathIntegrator::Ray {
+    SegmentEnd origin;
+    Vec3 direction{0.0f};
+    SolidAnglePdf pdf;
+    /// Light sampling at the origin could have found what this ray hits.
+    bool competes = false;
+};
+
+PathIntegrator::PathIntegrator(const World& world, const Camera& camera,
+                               const RenderOptions& options)
+    : world_(world), camera_(camera), options_(options)
+{}
+
+void PathIntegrator::render_tile(const Tile& tile, SampleRange samples, Film& film) const
+{
+    for (int y = tile.y_begin; y < tile.y_end; ++y) {
+        for (int x = tile.x_begin; x < tile.x_end; ++x) {
+            for (std::int64_t index = samples.begin; index < samples.end; ++index) {
+                Sampler sampler(options_.seed, x, y, index);
+                sampler.start(SampleUse::film);
+                const Vec2 raster = Vec2(x, y) + sampler.next_2d();
+                film.add_sample(x, y, index, estimate(raster, sampler));
+            }
+        }
+    }
+}
+
+Rgb PathIntegrator::estimate(Vec2 raster, Sampler& sampler) const
+{
+    const CameraRay first = camera_.generate_ray(raster);
+    Ray ray{.origin = {.p = first.ray.origin},
+            .direction = first.ray.direction,
+            .pdf = first.pdf_direction};
+    Rgb radiance(0.0f);
+    Rgb beta(1.0f);
+    for (int depth = 1; depth <= options_.max_depth; ++depth) {
+        const auto point = world_.intersect(ray.origin, ray.direction);
+        if (!point) {
+            if (const auto id = world_.lights().environment()) {
+                const auto& light = std::get<EnvironmentLight>(world_.lights()[*id].model());
+                const Rgb open = medium_transmittance(ray.origin, {}, ray.direction,
+                                                      std::numeric_limits<float>::max());
+                radiance += beta * open *
+                            emission(ray, *id, {.p = ray.direction}, light.radiance(ray.direction));
+            }
+            break;
+        }
+        const Vec3 along = point->end.p - ray.origin.p;
+        beta *= medium_transmittance(ray.origin, point->end, ray.direction,
+                                     std::sqrt(dot(along, along)));
+        if (point->light) {
+            radiance += beta * emission(ray, *point->light, point->end, point->emission);
+        }
+        if (depth == options_.max_depth) {
+            break;
+        }
+        const Vec3 wo = -ray.direction;
+        const auto vertex = static_cast<std::uint32_t>(depth + 1);
+        if (point->bsdf.connectible()) {
+            sampler.start(SampleUse::next_event, vertex);
+            radiance += beta * sample_light(*point, wo, sampler);
+        }
+        sampler.start(SampleUse::camera_walk, vertex);
+        const float u_lobe = sampler.next_1d();
+        const auto scattered =
+            point->bsdf.sample(wo, u_lobe, sampler.next_2d(), TransportMode::radiance);
+        if (!scattered || is_black(scattered->weight)) {
+            break;
+        }
+        beta *= scattered->weight;
+        ray = {.origin = point->end,
+               .direction = scattered->wi,
+               .pdf = scattered->pdf_fwd,
+               .competes = !scattered->delta && options_.integrator == IntegratorKind::mis};
+    }
+    return radiance;
+}
+
+float PathIntegrator::weight(float used, float other) const
+{
+    const float ratio = other / used;
+    return 1.0f / (1.0f + (options_.heuristic == Heuristic::power ? ratio * ratio : ratio));
+}
+
+Rgb PathIntegrator::emission(const Ray& ray, LightId light, const SegmentEnd& hit,
+                             Rgb radiance) const
+{
+    if (!ray.competes || is_black(radiance)) {
+        return radiance;
+    }
+    const LightSet& lights = world_.lights();
+    const float probability = lights.receiver_probability(light, ray.origin.p);
+    const AreaPdf pdf = lights[light].pdf_incident(ray.origin.p, ray.direction) * probability;
+    if (lights[light].is_infinite()) {
+        return radiance * weight(ray.pdf.value, pdf.value);
+    }
+    const Vec3 along = hit.p - ray.origin.p;
+    const AreaPdf used = to_area(ray.pdf, std::abs(dot(hit.ng, ray.direction)), dot(along, along));
+    return radiance * weight(used.value, pdf.value);
+}
+
+Rgb PathIntegrator::sample_light(const SurfacePoint& point, Vec3 wo, Sampler& sampler) const
+{
+    const auto choice = world_.lights().choose_for_receiver(point.end.p, sampler.next_2d());
+    if (!choice) {
+        return Rgb(0.0f);
+    }
+    const Light& light = world_.lights()[choice->id];
+    if (options_.integrator == IntegratorKind::pt && !light.is_delta()) {
+        return Rgb(0.0f);
+    }
+    const auto incident = light.sample_incident(point.end.p, sampler.next_2d());
+    if (!incident) {
+        return Rgb(0.0f);
+    }
+    const BsdfEval f = point.bsdf.eval(wo, incident->wi, TransportMode::radiance);
+    Rgb value = f.f_cos * incident->weight / choice->probability;
+    if (is_black(value)) {
+        return Rgb(0.0f);
+    }
+    value *= light.is_infinite() ? world_.transmittance_to_infinity(point.end, incident->wi)
+                                 : world_.transmittance(point.end, incident->end);
+    if (light.is_delta()) {
+        return value;
+    }
+    return value * weight(incident->pdf_solid_angle.value * choice->probability, f.pdf_fwd.value);
+}
+
+}  // namespace bdpt

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "light/bounding_sphere.h"
+#include "light/light_samples.h"
+#include "math/distribution_2d.h"
+
+#include <bdpt/scene_desc.h>
+
+#include <optional>
+#include <vector>
+
+namespace bdpt {
+
+/// Light from all directions at infinity, from an equirectangular picture that is looked up with
+/// bilinear interpolation. Directions are sampled by luminance.
+class EnvironmentLight {
+public:
+    /// The picture is copied; negative values have been refused before.
+    EnvironmentLight(const EnvironmentLightDesc& desc, const BoundingSphere& bounds);
+
+    /// `to_light`: unit, from the scene towards infinity.
+    [[nodiscard]] Rgb radiance(Vec3 to_light) const;
+    [[nodiscard]] SolidAnglePdf pdf_incident(Vec3 to_light) const;
+
+    [[nodiscard]] std::optional<EmissionSample> sample_emission(Vec2 u_position,
+                                                                Vec2 u_direction) const;
+    [[nodiscard]] std::optional<IncidentSample> sample_incident(Vec2 u) const;
+    /// Luminous flux into the scene's bounding sphere [lm].
+    [[nodiscard]] Rgb power() const;
+
+private:
+    struct Direction {
+        Vec3 to_light;
+        Rgb radiance;
+        SolidAnglePdf pdf;
+    };
+    [[nodiscard]] std::optional<Direction> sample_direction(Vec2 u) const;
+    [[nodiscard]] Vec2 uv_of(Vec3 to_light) const;
+    [[nodiscard]] Rgb lookup(Vec2 uv) const;
+    [[nodiscard]] const Rgb& texel(int x, int y) const;
+    [[nodiscard]] int row_of(float v) const;
+    [[nodiscard]] SolidAnglePdf to_solid_angle(float pdf_square, int row) const;
+
+    Image image_;
+    Mat3 world_from_environment_;
+    BoundingSphere bounds_;
+    std::vector<float> row_cosines_;
+    Distribution2D distribution_;
+};
+
+}  // namespace bdpt

@@ -1,0 +1,79 @@
+#include "light/light.h"
+
+#include <glm/geometric.hpp>
+
+namespace bdpt {
+
+std::optional<EmissionSample> Light::sample_emission(Vec2 u_position, Vec2 u_direction) const
+{
+    if (const auto* light = std::get_if<TriangleLight>(&model_)) {
+        return light->sample_emission(u_position, u_direction);
+    }
+    if (const auto* light = std::get_if<PunctualLight>(&model_)) {
+        return light->sample_emission(u_direction);
+    }
+    if (const auto* light = std::get_if<DirectionalLight>(&model_)) {
+        return light->sample_emission(u_position);
+    }
+    return std::get<EnvironmentLight>(model_).sample_emission(u_position, u_direction);
+}
+
+std::optional<IncidentSample> Light::sample_incident(Vec3 receiver, Vec2 u) const
+{
+    if (const auto* light = std::get_if<TriangleLight>(&model_)) {
+        return light->sample_incident(receiver, u);
+    }
+    if (const auto* light = std::get_if<PunctualLight>(&model_)) {
+        return light->sample_incident(receiver);
+    }
+    if (const auto* light = std::get_if<DirectionalLight>(&model_)) {
+        return light->sample_incident();
+    }
+    return std::get<EnvironmentLight>(model_).sample_incident(u);
+}
+
+AreaPdf Light::pdf_position(Vec3 to_light) const
+{
+    if (const auto* light = std::get_if<TriangleLight>(&model_)) {
+        return light->pdf_position();
+    }
+    if (const auto* light = std::get_if<EnvironmentLight>(&model_)) {
+        return {light->pdf_incident(to_light).value};
+    }
+    return {1.0f};
+}
+
+AreaPdf Light::pdf_incident(Vec3 /*receiver*/, Vec3 to_light) const
+{
+    return pdf_position(to_light);  // all kinds sample the same points for every receiver
+}
+
+SolidAnglePdf Light::pdf_direction(Vec3 ng, Vec3 direction) const
+{
+    if (const auto* light = std::get_if<TriangleLight>(&model_)) {
+        return light->pdf_direction(dot(ng, direction));
+    }
+    if (const auto* light = std::get_if<PunctualLight>(&model_)) {
+        return light->pdf_direction(direction);
+    }
+    return {};
+}
+
+bool Light::is_delta() const
+{
+    return std::holds_alternative<PunctualLight>(model_) ||
+           std::holds_alternative<DirectionalLight>(model_);
+}
+
+bool Light::is_infinite() const
+{
+    return std::holds_alternative<DirectionalLight>(model_) ||
+           std::holds_alternative<EnvironmentLight>(model_);
+}
+
+Rgb Light::power() const
+{
+    return std::visit([](const auto& light) { return light.power(); }, model_);
+}
+
+}  // namespace bdpt

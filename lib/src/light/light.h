@@ -1,0 +1,46 @@
+#pragma once
+
+#include "light/directional_light.h"
+#include "light/environment_light.h"
+#include "light/light_samples.h"
+#include "light/punctual_light.h"
+#include "light/triangle_light.h"
+
+#include <optional>
+#include <utility>
+#include <variant>
+
+namespace bdpt {
+
+/// Any light. To add a kind, add it to `Model` and to the functions in light.cpp.
+class Light {
+public:
+    using Model = std::variant<TriangleLight, PunctualLight, DirectionalLight, EnvironmentLight>;
+
+    explicit Light(Model model) : model_(std::move(model)) {}
+
+    [[nodiscard]] std::optional<EmissionSample> sample_emission(Vec2 u_position,
+                                                                Vec2 u_direction) const;
+    [[nodiscard]] std::optional<IncidentSample> sample_incident(Vec3 receiver, Vec2 u) const;
+
+    /// Of x_0 as the start of a light path: on the surface, or for an infinite light of the
+    /// direction `to_light`; 1 for a delta light.
+    [[nodiscard]] AreaPdf pdf_position(Vec3 to_light) const;
+    /// Of x_0 by `sample_incident` from `receiver`, in the same measure.
+    [[nodiscard]] AreaPdf pdf_incident(Vec3 receiver, Vec3 to_light) const;
+    /// Of the direction of a light path that leaves a finite light; `ng`: at x_0, zero if none.
+    [[nodiscard]] SolidAnglePdf pdf_direction(Vec3 ng, Vec3 direction) const;
+
+    /// No ray hits it by chance: s = 0 is impossible.
+    [[nodiscard]] bool is_delta() const;
+    [[nodiscard]] bool is_infinite() const;
+    /// Luminous flux [lm] into the scene.
+    [[nodiscard]] Rgb power() const;
+
+    [[nodiscard]] const Model& model() const { return model_; }
+
+private:
+    Model model_;
+};
+
+}  // namespace bdpt

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "geometry/placed_mesh.h"
+#include "light/light_samples.h"
+#include "material/material.h"
+
+#include <optional>
+
+namespace bdpt {
+
+/// One emissive triangle: a Lambertian emitter on its front or on both sides. Points are sampled
+/// uniformly by area, both for light paths and for next-event estimation.
+class TriangleLight {
+public:
+    TriangleLight(const PlacedMesh& mesh, const Material& material, std::uint32_t triangle);
+
+    [[nodiscard]] std::optional<EmissionSample> sample_emission(Vec2 u_position,
+                                                                Vec2 u_direction) const;
+    [[nodiscard]] std::optional<IncidentSample> sample_incident(Vec3 receiver, Vec2 u) const;
+
+    /// Density of a light path's direction; `cosine` is that to the front normal.
+    [[nodiscard]] SolidAnglePdf pdf_direction(float cosine) const;
+    [[nodiscard]] AreaPdf pdf_position() const { return {1.0f / area_}; }
+    /// Emitted luminous flux with the texture's average [lm].
+    [[nodiscard]] Rgb power() const;
+
+private:
+    struct Point {
+        SegmentEnd end;
+        Rgb radiance;
+    };
+    [[nodiscard]] Point point(Vec2 u) const;
+
+    const PlacedMesh* mesh_;
+    const Material* material_;
+    std::uint32_t triangle_;
+    float area_;
+};
+
+}  // namespace bdpt

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "math/pdf.h"
+
+#include <bdpt/types.h>
+
+namespace bdpt {
+
+/// Which quantity a walk carries: from the eye radiance, from the light importance-weighted power.
+/// Refraction and shading normals scatter the two differently [Veach 1997, ch. 5].
+enum class TransportMode { radiance, importance };
+
+/// The BSDF and both sampling densities for one pair of directions: all that a join needs, from one
+/// call. Delta lobes are left out of f_cos; the choice probabilities of the other lobes are not
+/// renormalised for that.
+struct BsdfEval {
+    Rgb f_cos{0.0f};        ///< f(wo, wi) |cos(wi)|  [1/sr]
+    SolidAnglePdf pdf_fwd;  ///< of sampling wi given wo
+    SolidAnglePdf pdf_rev;  ///< of sampling wo given wi
+};
+
+/// A sampled direction. For a delta lobe the densities hold P |cos| n^2, where P is the probability
+/// of choosing the lobe and cos and n (refractive index) are those on the side that is sampled
+/// towards. The Dirac factor is left out: it stands in every strategy that can make the path, and
+/// cancels (docs/mis.md).
+struct BsdfSample {
+    Vec3 wi{0.0f};     ///< unit
+    Rgb weight{0.0f};  ///< f_cos / pdf_fwd; F/P for a delta lobe  [1]
+    SolidAnglePdf pdf_fwd;
+    SolidAnglePdf pdf_rev;
+    bool delta = false;
+};
+
+}  // namespace bdpt

@@ -1,0 +1,107 @@
+#pragma once
+
+#include "material/bsdf_model.h"
+#include "material/ggx.h"
+#include "material/specular_albedo.h"
+
+#include <optional>
+
+namespace bdpt {
+
+/// What a surface that transmits light is part of.
+enum class Body {
+    thin_walled,  ///< a sheet: light passes without changing its course
+    solid,        ///< the boundary of a closed body: light is refracted
+};
+
+/// The parameters of the glTF material model at one surface point; see `MaterialDesc`.
+struct GltfParameters {
+    Rgb base_color{1.0f};
+    float metallic = 0.0f;
+    float roughness = 1.0f;  ///< perceptual
+    float specular = 1.0f;
+    Rgb specular_color{1.0f};
+    float transmission = 0.0f;
+    Body body = Body::thin_walled;
+};
+
+/// The scattering model of glTF 2.0 metallic-roughness with KHR_materials_{ior, specular,
+/// transmission, volume}. Directions are local unit vectors that point away from the surface; +z is
+/// the shading normal, outside a solid body.
+///
+/// Three kinds of lobes: reflection (a rough dielectric boundary, or metal, or a mix), transmission
+/// through the same microfacets, and a Lambertian base that gets what the boundary lets through in
+/// both directions, so that it is reciprocal and no energy is lost or made [Kelemen and
+/// Szirmay-Kalos 2001, "A Microfacet Based Coupled Specular-Matte BRDF Model"]. All but solid
+/// transmitters scatter alike from both sides. From inside a solid transmitter there is no
+/// Lambertian part: the pigment lies below the boundary for light from outside only, and a base
+/// seen from within would add to the light that is already reflected in full.
+class GltfBsdf {
+public:
+    /// GGX alpha below which the microfacet lobes are perfectly smooth, that is delta lobes.
+    static constexpr float smooth_alpha = 1e-3f;
+
+    /// Black.
+    GltfBsdf() = default;
+    /// Parameters are clamped to [0, 1]. `albedo` has the refractive index; it must outlive this.
+    GltfBsdf(const GltfParameters& parameters, const SpecularAlbedo& albedo);
+
+    [[nodiscard]] BsdfEval eval(Vec3 wo, Vec3 wi, TransportMode mode) const noexcept;
+    /// `u_lobe` and `u` are uniform in [0, 1).
+    [[nodiscard]] std::optional<BsdfSample> sample(Vec3 wo, float u_lobe, Vec2 u,
+                                                   TransportMode mode) const noexcept;
+
+    /// Scatters into a lobe that is not delta.
+    [[nodiscard]] bool has_smooth_lobe() const noexcept
+    {
+        return diffuse_weight_ > 0.0f || (has_specular_ && alpha_ >= smooth_alpha);
+    }
+
+private:
+    /// What follows from one direction alone.
+    struct Side {
+        float specular_choice;   ///< probability of the microfacet lobes
+        float base_transmitted;  ///< share of light that reaches the base, 1 - E
+    };
+
+    /// What becomes of light at one microfacet.
+    struct Shares {
+        Rgb reflected;
+        Rgb transmitted;
+        float reflect_choice;  ///< probability of reflection; equal from both sides
+    };
+
+    [[nodiscard]] bool inside(float z) const noexcept { return solid_ && z < 0.0f; }
+    [[nodiscard]] float index_at(float z) const noexcept { return inside(z) ? ior_ : 1.0f; }
+    [[nodiscard]] Side side_of(float z) const noexcept;
+    [[nodiscard]] Shares shares(float cos_outer) const noexcept;
+    [[nodiscard]] float cos_outer_of(float cos_microfacet, float z) const noexcept;
+    [[nodiscard]] BsdfEval eval_from(const Side& from, Vec3 wo, Vec3 wi,
+                                     TransportMode mode) const noexcept;
+    [[nodiscard]] BsdfEval eval_microfacets(Vec3 wo, Vec3 wi, TransportMode mode) const noexcept;
+    [[nodiscard]] std::optional<Vec3> sample_microfacets(Vec3 wo, float u_share,
+                                                         Vec2 u) const noexcept;
+    [[nodiscard]] std::optional<BsdfSample> sample_smooth(Vec3 wo, float u_share,
+                                                          float specular_choice,
+                                                          TransportMode mode) const noexcept;
+
+    Rgb base_color_{0.0f};
+    Rgb diffuse_{0.0f};  ///< the base's f before the boundary's part [1/sr]
+    Rgb f0_{0.0f};
+    float f90_ = 0.0f;
+    float metallic_ = 0.0f;
+    float transmission_ = 0.0f;  ///< of the dielectric part
+    float ior_ = 1.0f;           ///< of the inside of a solid body
+    float alpha_ = 0.0f;
+    float roughness_ = 0.0f;
+    // The largest components of the lobes' albedos, for choosing among them.
+    float f0_max_ = 0.0f;
+    float diffuse_weight_ = 0.0f;
+    float transmission_weight_ = 0.0f;
+    float metal_weight_ = 0.0f;
+    bool solid_ = false;
+    bool has_specular_ = false;
+    const SpecularAlbedo* albedo_ = nullptr;
+};
+
+}  // namespace bdpt

@@ -1,0 +1,136 @@
+#include "material/material.h"
+
+#include "math/elementary.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace bdpt {
+namespace {
+
+[[nodiscard]] std::optional<Texture> make_texture(const std::optional<TextureRef>& ref,
+                                                  std::span<const TexelImage> images,
+                                                  Encoding encoding)
+{
+    if (!ref) {
+        return std::nullopt;
+    }
+    return Texture(*ref, images[static_cast<std::size_t>(ref->image)], encoding);
+}
+
+/// The coefficient that leaves the attenuation colour after the attenuation distance.
+[[nodiscard]] Rgb absorption_of(const MaterialDesc& desc)
+{
+    constexpr float least_color = 1e-20f;     // black keeps a finite coefficient
+    constexpr float most_absorption = 1e30f;  // [1/m]
+    if (std::isinf(desc.attenuation_distance)) {
+        return Rgb{0.0f};
+    }
+    Rgb absorption{0.0f};
+    for (int channel = 0; channel < 3; ++channel) {
+        const float color = std::clamp(desc.attenuation_color[channel], least_color, 1.0f);
+        const float depth = std::max(0.0f, -log_exact(color));
+        absorption[channel] =
+            depth == 0.0f ? 0.0f : std::min(depth / desc.attenuation_distance, most_absorption);
+    }
+    return absorption;
+}
+
+/// `normal`, turned towards ng no further than it takes to lie clearly on ng's side.
+[[nodiscard]] Vec3 kept_above(Vec3 normal, Vec3 ng)
+{
+    constexpr float least_cosine = 0.01f;
+    const float cosine = dot(normal, ng);
+    if (cosine >= least_cosine) {
+        return normal;
+    }
+    const Vec3 along = normal - cosine * ng;
+    const float length = std::sqrt(dot(along, along));
+    if (length < 1e-6f) {
+        return ng;  // straight from below: no way to turn is shorter than another
+    }
+    return normalize(along * (std::sqrt(1.0f - least_cosine * least_cosine) / length) +
+                     least_cosine * ng);
+}
+
+}  // namespace
+
+Material::Material(const MaterialDesc& desc, std::span<const TexelImage> images,
+                   const SpecularAlbedo& albedo)
+    : surface_{Rgb{desc.base_color.x, desc.base_color.y, desc.base_color.z},
+               desc.metallic,
+               desc.roughness,
+               desc.specular,
+               desc.specular_color,
+               desc.transmission,
+               desc.thickness > 0.0f && desc.transmission > 0.0f ? Body::solid : Body::thin_walled},
+      emission_(desc.emission),
+      mean_emission_(desc.emission),
+      absorption_(absorption_of(desc)),
+      normal_scale_(desc.normal_scale),
+      double_sided_(desc.double_sided),
+      albedo_(&albedo),
+      base_color_map_(make_texture(desc.base_color_texture, images, Encoding::srgb)),
+      metallic_roughness_map_(
+          make_texture(desc.metallic_roughness_texture, images, Encoding::linear)),
+      normal_map_(make_texture(desc.normal_texture, images, Encoding::linear)),
+      emission_map_(make_texture(desc.emission_texture, images, Encoding::srgb)),
+      specular_map_(make_texture(desc.specular_texture, images, Encoding::linear)),
+      specular_color_map_(make_texture(desc.specular_color_texture, images, Encoding::srgb)),
+      transmission_map_(make_texture(desc.transmission_texture, images, Encoding::linear))
+{
+    if (emission_map_) {
+        mean_emission_ *= Rgb(emission_map_->mean());
+    }
+}
+
+/// glTF 2.0, 3.9.3: x along the tangent, y along cross(normal, tangent) times the handedness.
+Vec3 Material::shading_normal(const ShadingPoint& point) const noexcept
+{
+    const Vec3 along(point.tangent);
+    const Vec3 tangent = along - dot(along, point.ns) * point.ns;
+    const float length2 = dot(tangent, tangent);
+    if (!normal_map_ || !(length2 > 0.0f)) {
+        return point.ns;
+    }
+    const Vec3 t = tangent / std::sqrt(length2);
+    const Vec3 b = cross(point.ns, t) * point.tangent.w;
+    const Vec3 n = 2.0f * Vec3(normal_map_->lookup(point.uv)) - 1.0f;
+    const Vec3 world = n.x * normal_scale_ * t + n.y * normal_scale_ * b + n.z * point.ns;
+    const float world2 = dot(world, world);
+    return world2 > 0.0f ? kept_above(world / std::sqrt(world2), point.ng) : point.ns;
+}
+
+Bsdf Material::bsdf(const ShadingPoint& point) const noexcept
+{
+    GltfParameters surface = surface_;
+    surface.base_color *= Rgb(point.color);
+    if (base_color_map_) {
+        surface.base_color *= Rgb(base_color_map_->lookup(point.uv));
+    }
+    if (metallic_roughness_map_) {
+        const Vec4 texel = metallic_roughness_map_->lookup(point.uv);
+        surface.roughness *= texel.y;
+        surface.metallic *= texel.z;
+    }
+    if (specular_map_) {
+        surface.specular *= specular_map_->lookup(point.uv).w;
+    }
+    if (specular_color_map_) {
+        surface.specular_color *= Rgb(specular_color_map_->lookup(point.uv));
+    }
+    if (transmission_map_) {
+        surface.transmission *= transmission_map_->lookup(point.uv).x;
+    }
+    return {point.ng, Frame::from_normal(shading_normal(point)), GltfBsdf(surface, *albedo_)};
+}
+
+Rgb Material::emission(const std::array<Vec2, 2>& uv) const noexcept
+{
+    return emission_map_ ? emission_ * Rgb(emission_map_->lookup(uv)) : emission_;
+}
+
+}  // namespace bdpt

@@ -1,0 +1,75 @@
+#pragma once
+
+#include "material/bsdf.h"
+#include "material/texture.h"
+
+#include <bdpt/scene_desc.h>
+
+#include <array>
+#include <optional>
+#include <span>
+
+namespace bdpt {
+
+class SpecularAlbedo;
+
+/// What a material needs to know of a surface point.
+struct ShadingPoint {
+    Vec3 ng{0.0f, 0.0f, 1.0f};  ///< unit, front side
+    Vec3 ns{0.0f, 0.0f, 1.0f};  ///< unit, interpolated; in the hemisphere of ng
+    Vec4 tangent{0.0f};         ///< xyz (any length, not parallel to ns) and handedness; zero: none
+    std::array<Vec2, 2> uv{};
+    Vec4 color{1.0f};  ///< vertex colour, linear
+};
+
+/// A `MaterialDesc` made ready for lookups. Refers to the images, which must outlive it.
+class Material {
+public:
+    /// `albedo` belongs to `desc.ior`. Throws nothing: `desc` has been validated.
+    Material(const MaterialDesc& desc, std::span<const TexelImage> images,
+             const SpecularAlbedo& albedo);
+
+    [[nodiscard]] Bsdf bsdf(const ShadingPoint& point) const noexcept;
+
+    /// Emitted radiance [nit], equal in all directions of an emitting side.
+    [[nodiscard]] Rgb emission(const std::array<Vec2, 2>& uv) const noexcept;
+    /// The average of `emission` over its texture.
+    [[nodiscard]] Rgb mean_emission() const noexcept { return mean_emission_; }
+    [[nodiscard]] bool emits_from_both_sides() const noexcept { return double_sided_; }
+
+    /// Bounds a solid body that light passes through; its inside is on the back of ng.
+    [[nodiscard]] bool is_solid_transmitter() const noexcept
+    {
+        return surface_.body == Body::solid;
+    }
+    /// Of the inside of a solid transmitter [1/m] (Beer-Lambert; KHR_materials_volume); zero for
+    /// all others. A colour of
+    /// zero absorbs like 1e-20.
+    [[nodiscard]] Rgb absorption() const noexcept { return absorption_; }
+    /// Set of texture coordinates of the normal map, if there is one: it needs a tangent.
+    [[nodiscard]] std::optional<int> normal_uv_set() const noexcept
+    {
+        return normal_map_ ? std::optional(normal_map_->uv_set()) : std::nullopt;
+    }
+
+private:
+    [[nodiscard]] Vec3 shading_normal(const ShadingPoint& point) const noexcept;
+
+    GltfParameters surface_;  ///< the factors, which textures multiply
+    Rgb emission_{0.0f};
+    Rgb mean_emission_{0.0f};
+    Rgb absorption_{0.0f};
+    float normal_scale_;
+    bool double_sided_;
+    const SpecularAlbedo* albedo_;
+
+    std::optional<Texture> base_color_map_;
+    std::optional<Texture> metallic_roughness_map_;
+    std::optional<Texture> normal_map_;
+    std::optional<Texture> emission_map_;
+    std::optional<Texture> specular_map_;
+    std::optional<Texture> specular_color_map_;
+    std::optional<Texture> transmission_map_;
+};
+
+}  // namespace bdpt

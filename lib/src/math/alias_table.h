@@ -1,0 +1,59 @@
+#pragma once
+
+#include <bdpt/types.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace bdpt {
+
+/// Two random floats of 24 bits as one number in [0, 1) of 48 bits: for choices among so many items
+/// that 24 bits would be too coarse.
+[[nodiscard]] inline double fine_uniform(Vec2 u)
+{
+    return static_cast<double>(u.x) + static_cast<double>(u.y) * 0x1p-24;
+}
+
+/// Draws an index in proportion to its weight in constant time [Walker 1974; Vose 1991, "A Linear
+/// Algorithm for Generating Random Numbers with a Given Distribution"].
+class AliasTable {
+public:
+    struct Choice {
+        std::uint32_t index;
+        float probability;  ///< of this index; 0 only for an empty table
+        float u_remapped;   ///< uniform in [0, 1), independent of the index
+    };
+
+    AliasTable() = default;
+    /// Weights that are negative or not finite count as zero, and so do those whose share would
+    /// not be a normal float. Without any weight left the table is empty.
+    explicit AliasTable(std::span<const float> weights);
+
+    [[nodiscard]] bool empty() const noexcept { return buckets_.empty(); }
+    [[nodiscard]] std::size_t size() const noexcept { return buckets_.size(); }
+    /// Sum of the weights.
+    [[nodiscard]] double total() const noexcept { return total_; }
+
+    /// `u` in [0, 1). A float has 24 bits, enough for some thousand items; give `fine_uniform` for
+    /// more. Never draws an index of zero weight. An empty table gives index 0 of probability 0.
+    [[nodiscard]] Choice sample(double u) const noexcept;
+    /// Of drawing `index`, which is less than size().
+    [[nodiscard]] float probability(std::size_t index) const noexcept
+    {
+        return buckets_[index].probability;
+    }
+
+private:
+    struct Bucket {
+        float threshold;      ///< the part of the bucket that belongs to its own index
+        std::uint32_t alias;  ///< the index that owns the rest
+        float probability;
+    };
+
+    std::vector<Bucket> buckets_;
+    double total_ = 0.0;
+};
+
+}  // namespace bdpt

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <bdpt/types.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace bdpt {
+
+/// Rec. 709 luminance.
+[[nodiscard]] inline float luminance(Rgb c)
+{
+    return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b;
+}
+
+[[nodiscard]] inline float max_component(Rgb c)
+{
+    return std::max(c.r, std::max(c.g, c.b));
+}
+
+[[nodiscard]] inline bool is_black(Rgb c)
+{
+    return c.r == 0.0f && c.g == 0.0f && c.b == 0.0f;
+}
+
+[[nodiscard]] inline bool is_finite(Rgb c)
+{
+    return std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b);
+}
+
+}  // namespace bdpt

@@ -1,0 +1,99 @@
+#pragma once
+
+#include "math/elementary.h"
+#include "math/pdf.h"
+
+#include <bdpt/types.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace bdpt {
+
+// Maps from the unit square, u in [0, 1)^2, that keep neighbours neighbours, and their densities.
+// Directions are about +z.
+
+/// Uniform on the unit disk [Shirley and Chiu 1997, "A Low Distortion Map Between Disk and
+/// Square"].
+[[nodiscard]] inline Vec2 square_to_disk(Vec2 u)
+{
+    const float a = 2.0f * u.x - 1.0f;
+    const float b = 2.0f * u.y - 1.0f;
+    const bool wide = std::abs(a) > std::abs(b);
+    const float radius = wide ? a : b;
+    if (radius == 0.0f) {
+        return {0.0f, 0.0f};
+    }
+    const float offset = 0.25f * pi * (wide ? b : a) / radius;
+    const SinCos angle = sin_cos(offset);
+    return wide ? Vec2{radius * angle.cos, radius * angle.sin}
+                : Vec2{radius * angle.sin, radius * angle.cos};
+}
+
+[[nodiscard]] constexpr AreaPdf disk_pdf()
+{
+    return {inv_pi};
+}
+
+/// In proportion to the cosine, z >= 0 [Malley's method].
+[[nodiscard]] inline Vec3 square_to_cosine_hemisphere(Vec2 u)
+{
+    const Vec2 p = square_to_disk(u);
+    return {p.x, p.y, std::sqrt(std::max(0.0f, 1.0f - p.x * p.x - p.y * p.y))};
+}
+
+[[nodiscard]] constexpr SolidAnglePdf cosine_hemisphere_pdf(float cosine)
+{
+    return {cosine > 0.0f ? cosine * inv_pi : 0.0f};
+}
+
+/// Barycentric weights of the first two corners of a triangle, uniform by area [Heitz 2019, "A
+/// Low-Distortion Map Between Triangle and Square"].
+[[nodiscard]] inline Vec2 square_to_triangle(Vec2 u)
+{
+    if (u.y > u.x) {
+        const float half = 0.5f * u.x;
+        return {half, u.y - half};
+    }
+    const float half = 0.5f * u.y;
+    return {u.x - half, half};
+}
+
+[[nodiscard]] constexpr AreaPdf triangle_pdf(float area)
+{
+    return {1.0f / area};
+}
+
+/// 1 - cos of an angle in [0, pi/2] from the square of its sine, with all digits for small angles.
+[[nodiscard]] inline float one_minus_cos(float sin_squared)
+{
+    return sin_squared / (1.0f + std::sqrt(std::max(0.0f, 1.0f - sin_squared)));
+}
+
+/// Uniform in the cone whose half angle has the given 1 - cos, in (0, 2]: a narrow cone keeps its
+/// digits, 1 is the hemisphere and 2 the sphere.
+[[nodiscard]] inline Vec3 square_to_cone(Vec2 u, float one_minus_cos_max)
+{
+    const Vec2 p = square_to_disk(u);
+    // By Archimedes 1 - cos is uniform, like r^2 on the disk, and sin^2 = (1 - cos)(1 + cos).
+    const float depth = one_minus_cos_max * std::min(1.0f, p.x * p.x + p.y * p.y);
+    const float scale = std::sqrt(one_minus_cos_max * (2.0f - depth));
+    return {p.x * scale, p.y * scale, 1.0f - depth};
+}
+
+[[nodiscard]] constexpr SolidAnglePdf cone_pdf(float one_minus_cos_max)
+{
+    return {0.5f * inv_pi / one_minus_cos_max};
+}
+
+[[nodiscard]] inline Vec3 square_to_sphere(Vec2 u)
+{
+    return square_to_cone(u, 2.0f);
+}
+
+[[nodiscard]] constexpr SolidAnglePdf sphere_pdf()
+{
+    return {0.25f * inv_pi};
+}
+
+}  // namespace bdpt

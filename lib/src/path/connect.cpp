@@ -1,0 +1,180 @@
+#include "path/connect.h"
+
+#include "camera/camera.h"
+#include "math/rgb.h"
+#include "math/sampler.h"
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+
+namespace bdpt {
+namespace {
+
+const PathVertex& before_last(std::span<const PathVertex> path)
+{
+    return path[path.size() - 2];
+}
+
+/// Density of sampling `neighbor` in the direction whose density is given.
+AreaPdf at_neighbor(SolidAnglePdf pdf, const PathVertex& neighbor)
+{
+    return {pdf.value * neighbor.area_per_solid_angle};
+}
+
+/// Density of sampling `end` from a point at squared distance `distance_squared`; `w` joins them.
+AreaPdf at_end(SolidAnglePdf pdf, const SegmentEnd& end, Vec3 w, float distance_squared)
+{
+    return to_area(pdf, std::abs(dot(end.ng, w)), distance_squared);
+}
+
+}  // namespace
+
+std::optional<Contribution> hit_light(const World& world, std::span<const PathVertex> camera,
+                                      PathWeigher& weigher)
+{
+    const PathVertex& x0 = camera.back();
+    const Rgb value = x0.beta * x0.emission;
+    if (!x0.light || is_black(value)) {
+        return std::nullopt;
+    }
+    const PathVertex& x1 = before_last(camera);
+    const LightDensities densities = light_densities(world, x0, x1.end);
+    return Contribution{.unweighted = value,
+                        .weight = weigher.weight({}, camera,
+                                                 {.light_at_camera_end = densities.emit,
+                                                  .light_at_camera_neighbor = densities.to_next,
+                                                  .camera_at_light_end = {},
+                                                  .camera_at_light_neighbor = {},
+                                                  .next_event = densities.next_event})};
+}
+
+std::optional<Contribution> connect_to_light(const World& world, std::span<const PathVertex> camera,
+                                             Sampler& sampler, PathWeigher& weigher)
+{
+    const PathVertex& z = camera.back();
+    if (z.kind != VertexKind::surface || !z.connectible) {
+        return std::nullopt;
+    }
+    sampler.start(SampleUse::next_event, static_cast<std::uint32_t>(camera.size()));
+    const auto choice = world.lights().choose_for_receiver(z.end.p, sampler.next_2d());
+    if (!choice) {
+        return std::nullopt;
+    }
+    const Light& light = world.lights()[choice->id];
+    const auto incident = light.sample_incident(z.end.p, sampler.next_2d());
+    if (!incident) {
+        return std::nullopt;
+    }
+    const BsdfEval f = z.bsdf.eval(z.wo, incident->wi, TransportMode::radiance);
+    Rgb value = z.beta * f.f_cos * incident->weight / choice->probability;
+    if (is_black(value)) {
+        return std::nullopt;
+    }
+    PathVertex x0;
+    x0.light = choice->id;
+    if (light.is_infinite()) {
+        x0.kind = VertexKind::infinite;
+        x0.end.p = incident->wi;
+    } else {
+        x0.kind = VertexKind::light;
+        x0.end = incident->end;
+    }
+    value *= light.is_infinite() ? world.transmittance_to_infinity(z.end, incident->wi)
+                                 : world.transmittance(z.end, x0.end);
+    if (is_black(value)) {
+        return std::nullopt;
+    }
+    const LightDensities densities = light_densities(world, x0, z.end);
+    x0.pdf_fwd = densities.emit;
+    const AreaPdf from_camera =
+        light.is_infinite()
+            ? AreaPdf{f.pdf_fwd.value}
+            : at_end(f.pdf_fwd, x0.end, incident->wi, incident->distance * incident->distance);
+    return Contribution{
+        .unweighted = value,
+        .weight =
+            weigher.weight(std::span(&x0, 1), camera,
+                           {.light_at_camera_end = densities.to_next,
+                            .light_at_camera_neighbor = at_neighbor(f.pdf_rev, before_last(camera)),
+                            .camera_at_light_end = from_camera,
+                            .camera_at_light_neighbor = {},
+                            .next_event = incident->pdf * choice->probability})};
+}
+
+std::optional<Splat> connect_to_lens(const World& world, const Camera& camera,
+                                     std::span<const PathVertex> light, const PathVertex& lens,
+                                     PathWeigher& weigher)
+{
+    const PathVertex& y = light.back();
+    if (!y.connectible) {
+        return std::nullopt;
+    }
+    const auto to_lens = camera.sample_lens(y.end.p);
+    if (!to_lens) {
+        return std::nullopt;
+    }
+    const BsdfEval f = y.bsdf.eval(y.wo, to_lens->wi, TransportMode::importance);
+    Rgb value = y.beta * f.f_cos * to_lens->weight;
+    if (is_black(value)) {
+        return std::nullopt;
+    }
+    value *= world.transmittance(y.end, lens.end);
+    if (is_black(value)) {
+        return std::nullopt;
+    }
+    const LightDensities densities = light_densities(world, light[0], light[1].end);
+    const float distance_squared = to_lens->distance * to_lens->distance;
+    const float weight =
+        weigher.weight(light, std::span(&lens, 1),
+                       {.light_at_camera_end = {},
+                        .light_at_camera_neighbor = {},
+                        .camera_at_light_end =
+                            at_end(to_lens->pdf_direction, y.end, to_lens->wi, distance_squared),
+                        .camera_at_light_neighbor = at_neighbor(f.pdf_rev, before_last(light)),
+                        .next_event = densities.next_event});
+    return Splat{.contribution = {.unweighted = value, .weight = weight},
+                 .raster = to_lens->raster};
+}
+
+std::optional<Contribution> connect_interior(const World& world, std::span<const PathVertex> light,
+                                             std::span<const PathVertex> camera,
+                                             PathWeigher& weigher)
+{
+    const PathVertex& y = light.back();
+    const PathVertex& z = camera.back();
+    if (z.kind != VertexKind::surface || !z.connectible || !y.connectible) {
+        return std::nullopt;
+    }
+    const Vec3 to_y = y.end.p - z.end.p;
+    const float distance_squared = dot(to_y, to_y);
+    if (!(distance_squared > 0.0f)) {
+        return std::nullopt;
+    }
+    const Vec3 wi = to_y / std::sqrt(distance_squared);
+    const BsdfEval f_z = z.bsdf.eval(z.wo, wi, TransportMode::radiance);
+    if (is_black(f_z.f_cos)) {
+        return std::nullopt;
+    }
+    const BsdfEval f_y = y.bsdf.eval(y.wo, -wi, TransportMode::importance);
+    Rgb value = z.beta * f_z.f_cos * f_y.f_cos * y.beta / distance_squared;
+    if (is_black(value)) {
+        return std::nullopt;
+    }
+    value *= world.transmittance(z.end, y.end);
+    if (is_black(value)) {
+        return std::nullopt;
+    }
+    const LightDensities densities = light_densities(world, light[0], light[1].end);
+    return Contribution{
+        .unweighted = value,
+        .weight = weigher.weight(
+            light, camera,
+            {.light_at_camera_end = at_end(f_y.pdf_fwd, z.end, wi, distance_squared),
+             .light_at_camera_neighbor = at_neighbor(f_z.pdf_rev, before_last(camera)),
+             .camera_at_light_end = at_end(f_z.pdf_fwd, y.end, wi, distance_squared),
+             .camera_at_light_neighbor = at_neighbor(f_y.pdf_rev, before_last(light)),
+             .next_event = densities.next_event})};
+}
+
+}  // namespace bdpt

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "path/densities.h"
+#include "path/path_vertex.h"
+
+#include <optional>
+
+namespace bdpt {
+
+class Camera;
+class Sampler;
+
+/// What one strategy found.
+struct Contribution {
+    Rgb unweighted{0.0f};
+    float weight = 0.0f;  ///< by MIS
+};
+
+/// The same for the strategies whose pixel is not known beforehand.
+struct Splat {
+    Contribution contribution;
+    Vec2 raster{0.0f};
+};
+
+/// s = 0: the camera subpath of at least two vertices ends on a light by chance.
+[[nodiscard]] std::optional<Contribution> hit_light(const World& world,
+                                                    std::span<const PathVertex> camera,
+                                                    PathWeigher& weigher);
+
+/// s = 1: next-event estimation from the last of at least two camera vertices to a fresh point of a
+/// light.
+[[nodiscard]] std::optional<Contribution> connect_to_light(const World& world,
+                                                           std::span<const PathVertex> camera,
+                                                           Sampler& sampler, PathWeigher& weigher);
+
+/// t = 1: the last of at least two light vertices is seen through the lens.
+[[nodiscard]] std::optional<Splat> connect_to_lens(const World& world, const Camera& camera,
+                                                   std::span<const PathVertex> light,
+                                                   const PathVertex& lens, PathWeigher& weigher);
+
+/// s >= 2, t >= 2: the last vertices of both subpaths see each other.
+[[nodiscard]] std::optional<Contribution> connect_interior(const World& world,
+                                                           std::span<const PathVertex> light,
+                                                           std::span<const PathVertex> camera,
+                                                           PathWeigher& weigher);
+
+}  // namespace bdpt

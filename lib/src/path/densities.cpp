@@ -1,0 +1,109 @@
+#include "path/densities.h"
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+
+namespace bdpt {
+namespace {
+
+/// Can a strategy join at this vertex, which lies inside of a subpath?
+bool joinable(const PathVertex& vertex)
+{
+    return vertex.kind != VertexKind::surface || (vertex.connectible && !vertex.scattered_delta);
+}
+
+}  // namespace
+
+LightDensities light_densities(const World& world, const PathVertex& x0, const SegmentEnd& x1)
+{
+    const LightSet& lights = world.lights();
+    const Light& light = lights[*x0.light];
+    const bool infinite = x0.kind == VertexKind::infinite;
+    const Vec3 offset = x0.end.p - x1.p;
+    const float distance_squared = dot(offset, offset);
+    const Vec3 to_light = infinite ? x0.end.p : offset / std::sqrt(distance_squared);
+    const float cosine = std::abs(dot(x1.ng, to_light));
+    return {.emit = light.pdf_position(to_light) * lights.emission_probability(*x0.light),
+            .next_event =
+                light.pdf_incident(x1.p, to_light) * lights.receiver_probability(*x0.light, x1.p),
+            .to_next = infinite ? to_area(world.bounding_sphere().pdf_disk(), cosine)
+                                : to_area(light.pdf_direction(x0.end.ng, -to_light), cosine,
+                                          distance_squared)};
+}
+
+PathWeigher::PathWeigher(const World& world, Heuristic heuristic, int max_vertices)
+    : world_(world),
+      heuristic_(heuristic),
+      from_light_(static_cast<std::size_t>(max_vertices)),
+      from_camera_(static_cast<std::size_t>(max_vertices)),
+      sample_counts_(static_cast<std::size_t>(max_vertices) + 1)
+{}
+
+float PathWeigher::weight(std::span<const PathVertex> light, std::span<const PathVertex> camera,
+                          const JoinDensities& join)
+{
+    size_ = light.size() + camera.size();
+    gather_densities(light, camera, join);
+    gather_sample_counts(light, camera);
+    next_event_ = join.next_event;
+    return mis_weight(last_path(), static_cast<int>(light.size()), heuristic_);
+}
+
+PathDensities PathWeigher::last_path() const
+{
+    return {.from_light = std::span(from_light_).first(size_),
+            .from_camera = std::span(from_camera_).first(size_),
+            .next_event = next_event_,
+            .sample_counts = std::span(sample_counts_).first(size_ + 1)};
+}
+
+void PathWeigher::gather_densities(std::span<const PathVertex> light,
+                                   std::span<const PathVertex> camera, const JoinDensities& join)
+{
+    const std::size_t s = light.size();
+    const std::size_t t = camera.size();
+    for (std::size_t i = 0; i < s; ++i) {
+        from_light_[i] = light[i].pdf_fwd;
+        from_camera_[i] = light[i].pdf_rev;
+    }
+    for (std::size_t j = 0; j < t; ++j) {
+        from_light_[size_ - 1 - j] = camera[j].pdf_rev;
+        from_camera_[size_ - 1 - j] = camera[j].pdf_fwd;
+    }
+    from_light_[s] = join.light_at_camera_end;
+    if (t > 1) {
+        from_light_[s + 1] = join.light_at_camera_neighbor;
+    }
+    if (s > 0) {
+        from_camera_[s - 1] = join.camera_at_light_end;
+    }
+    if (s > 1) {
+        from_camera_[s - 2] = join.camera_at_light_neighbor;
+    }
+}
+
+void PathWeigher::gather_sample_counts(std::span<const PathVertex> light,
+                                       std::span<const PathVertex> camera)
+{
+    const std::size_t s = light.size();
+    // Is vertex i an end that a strategy can join? The two ends of this join are known to be.
+    const auto is_joinable = [&](std::size_t i) {
+        const bool end = i == s || i + 1 == s;
+        return end || joinable(i < s ? light[i] : camera[size_ - 1 - i]);
+    };
+    const PathVertex& x0 = s > 0 ? light[0] : camera[size_ - 1];
+    sample_counts_[0] = world_.lights()[*x0.light].is_delta() ? 0.0f : 1.0f;
+    bool left = is_joinable(0);
+    for (std::size_t i = 1; i < size_; ++i) {
+        const bool right = is_joinable(i);
+        sample_counts_[i] = left && right ? 1.0f : 0.0f;
+        left = right;
+    }
+    sample_counts_[size_] = 0.0f;  // a pinhole is never hit
+    if (size_ == 2) {
+        sample_counts_[1] = 0.0f;  // lights are seen by hitting them only
+    }
+}
+
+}  // namespace bdpt

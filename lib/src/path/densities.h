@@ -1,0 +1,61 @@
+#pragma once
+
+#include "path/mis.h"
+#include "path/path_vertex.h"
+
+#include <vector>
+
+namespace bdpt {
+
+/// The densities at a light vertex x_0 as seen from its neighbour x_1, whichever strategy made
+/// them.
+struct LightDensities {
+    AreaPdf emit;        ///< x_0 as the start of a light path (s >= 2)
+    AreaPdf next_event;  ///< x_0 sampled from x_1 (s = 1)
+    AreaPdf to_next;     ///< x_1 sampled from x_0 by a light path
+};
+
+/// `x0` is a vertex on light `x0.light`.
+[[nodiscard]] LightDensities light_densities(const World& world, const PathVertex& x0,
+                                             const SegmentEnd& x1);
+
+/// What joining two subpaths adds to the densities that the walks have stored: those of the ends
+/// and of their neighbours, which now see a new vertex.
+struct JoinDensities {
+    AreaPdf light_at_camera_end;       ///< z_{t-1} sampled from y_{s-1}
+    AreaPdf light_at_camera_neighbor;  ///< z_{t-2} sampled from z_{t-1}
+    AreaPdf camera_at_light_end;       ///< y_{s-1} sampled from z_{t-1}
+    AreaPdf camera_at_light_neighbor;  ///< y_{s-2} sampled from y_{s-1}
+    AreaPdf next_event;                ///< x_0 sampled from x_1 by next-event estimation
+};
+
+/// Gathers the densities of joined paths and weighs their strategies. Holds the arrays, so that a
+/// thread allocates them once.
+class PathWeigher {
+public:
+    PathWeigher(const World& world, Heuristic heuristic, int max_vertices);
+
+    /// Weight of having joined the first s light vertices to the first t camera vertices. For s = 0
+    /// the last camera vertex is x_0.
+    [[nodiscard]] float weight(std::span<const PathVertex> light,
+                               std::span<const PathVertex> camera, const JoinDensities& join);
+
+    /// The densities behind the last weight(), for tests.
+    [[nodiscard]] PathDensities last_path() const;
+
+private:
+    void gather_densities(std::span<const PathVertex> light, std::span<const PathVertex> camera,
+                          const JoinDensities& join);
+    void gather_sample_counts(std::span<const PathVertex> light,
+                              std::span<const PathVertex> camera);
+
+    const World& world_;
+    Heuristic heuristic_;
+    std::vector<AreaPdf> from_light_;
+    std::vector<AreaPdf> from_camera_;
+    std::vector<float> sample_counts_;
+    AreaPdf next_event_;
+    std::size_t size_ = 0;
+};
+
+}  // namespace bdpt

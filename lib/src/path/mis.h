@@ -1,0 +1,28 @@
+#pragma once
+
+#include "math/pdf.h"
+
+#include <bdpt/render_options.h>
+
+#include <span>
+
+namespace bdpt {
+
+/// All sampling densities of one full path x_0 .. x_{n-1}; x_0 is on the light, x_{n-1} on the
+/// lens.
+struct PathDensities {
+    std::span<const AreaPdf>
+        from_light;  ///< n: x_i sampled from x_{i-1}; x_0 as a light path's start
+    std::span<const AreaPdf> from_camera;  ///< n: x_i sampled from x_{i+1}
+    AreaPdf next_event;  ///< x_0 sampled from x_1 by next-event estimation (s = 1)
+    /// n + 1: how many samples the strategy with s light vertices takes for each camera path; 0
+    /// when it cannot make this path.
+    std::span<const float> sample_counts;
+};
+
+/// Weight of the strategy that sampled the first `s` vertices from the light [Veach 1997,
+/// sec. 10.2]. A pure function of the path: the weights of all possible strategies of a path add up
+/// to one. `sample_counts[s]` is not 0.
+[[nodiscard]] float mis_weight(const PathDensities& path, int s, Heuristic heuristic);
+
+}  // namespace bdpt

@@ -1,0 +1,67 @@
+#pragma once
+
+#include "scene/world.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace bdpt {
+
+enum class VertexKind : std::uint8_t {
+    camera,   ///< on the lens
+    light,    ///< where a light path starts, or a point found by next-event estimation
+    surface,  ///< on a surface, which may emit
+    infinite  ///< on a light at infinity: `end.p` is the unit direction towards it
+};
+
+/// One vertex of a light or camera subpath. The `fwd` density is that of the walk which made the
+/// vertex; the `rev` density is that of a walk which comes from the other end of the path.
+struct PathVertex {
+    SegmentEnd end;
+    Vec3 wo{0.0f};       ///< unit, towards the previous vertex
+    Rgb beta{1.0f};      ///< Monte Carlo weight of the subpath up to here, scattering not included
+    Rgb emission{0.0f};  ///< radiance towards wo, of vertices that a camera walk found [nit]
+    AreaPdf pdf_fwd;
+    AreaPdf pdf_rev;
+    /// Turns a density of directions at the next vertex into one of area here.
+    float area_per_solid_angle = 1.0f;
+    std::optional<LightId> light;
+    VertexKind kind = VertexKind::surface;
+    bool connectible = true;       ///< has a lobe that is not delta: strategies can join here
+    bool scattered_delta = false;  ///< the walk left through a delta lobe
+    Bsdf bsdf;                     ///< of surfaces
+};
+
+static_assert(std::is_trivially_copyable_v<PathVertex>);
+
+/// Storage for one walk after another; it allocates only when it is made.
+class Subpath {
+public:
+    explicit Subpath(int max_vertices) : vertices_(static_cast<std::size_t>(max_vertices)) {}
+
+    void clear() { size_ = 0; }
+    /// A vertex with default values at the end. There must be room.
+    PathVertex& append()
+    {
+        PathVertex& vertex = vertices_[size_++];
+        vertex = PathVertex{};
+        return vertex;
+    }
+    [[nodiscard]] int size() const { return static_cast<int>(size_); }
+    [[nodiscard]] int capacity() const { return static_cast<int>(vertices_.size()); }
+    [[nodiscard]] PathVertex& operator[](int i) { return vertices_[static_cast<std::size_t>(i)]; }
+    /// The first `count` vertices.
+    [[nodiscard]] std::span<const PathVertex> first(int count) const
+    {
+        return std::span(vertices_).first(static_cast<std::size_t>(count));
+    }
+
+private:
+    std::vector<PathVertex> vertices_;
+    std::size_t size_ = 0;
+};
+
+}  // namespace bdpt

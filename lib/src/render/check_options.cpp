@@ -1,0 +1,68 @@
+#include "render/check_options.h"
+
+#include "math/elementary.h"
+
+#include <bdpt/error.h>
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+
+namespace bdpt {
+namespace {
+
+constexpr int max_film_side = 1 << 16;
+constexpr int max_threads = 4096;
+constexpr int max_path_edges = 4096;
+
+void check_range(const char* what, std::int64_t value, std::int64_t low, std::int64_t high)
+{
+    if (value < low || value > high) {
+        throw Error(ErrorCode::usage, std::string(what) + " is " + std::to_string(value) +
+                                          ", not in [" + std::to_string(low) + ", " +
+                                          std::to_string(high) + "]");
+    }
+}
+
+}  // namespace
+
+void check_options(const RenderOptions& options)
+{
+    check_range("image width", options.width, 1, max_film_side);
+    check_range("image height", options.height, 1, max_film_side);
+    // Sample indices have 32 bits in the film's record of defects.
+    check_range("first sample", options.samples.begin, 0,
+                std::numeric_limits<std::uint32_t>::max());
+    check_range("number of samples", options.samples.end - options.samples.begin, 1,
+                std::numeric_limits<std::uint32_t>::max() - options.samples.begin);
+    check_range("longest path (max_depth)", options.max_depth, 1, max_path_edges);
+    check_range("tile size", options.tile_size, 1, max_film_side);
+    check_range("number of threads", options.threads, 0, max_threads);
+}
+
+void check_camera(const CameraDesc& camera)
+{
+    const std::string item =
+        camera.name.empty() ? std::string("camera") : "camera \"" + camera.name + "\"";
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 4; ++row) {
+            if (!std::isfinite(camera.world_from_camera[column][row])) {
+                throw Error(ErrorCode::invalid_input, item + ": transform is not finite");
+            }
+        }
+    }
+    const Vec3 side = cross(Vec3(camera.world_from_camera[1]), Vec3(camera.world_from_camera[2]));
+    if (!(dot(side, side) > 0.0f)) {
+        throw Error(ErrorCode::invalid_input, item + ": transform has no inverse");
+    }
+    if (!(camera.vertical_fov > 0.0f && camera.vertical_fov < pi)) {
+        throw Error(ErrorCode::invalid_input, item + ": vertical field of view is " +
+                                                  std::to_string(camera.vertical_fov) +
+                                                  " rad, not in (0, pi)");
+    }
+}
+
+}  // namespace bdpt

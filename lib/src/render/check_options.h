@@ -1,0 +1,14 @@
+#pragma once
+
+#include <bdpt/render_options.h>
+#include <bdpt/scene_desc.h>
+
+namespace bdpt {
+
+/// Throws `Error` (usage) naming the first option out of range and its value.
+void check_options(const RenderOptions& options);
+
+/// Throws `Error` (invalid_input) when the camera has no usable view.
+void check_camera(const CameraDesc& camera);
+
+}  // namespace bdpt

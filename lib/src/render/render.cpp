@@ -1,0 +1,107 @@
+#include <bdpt/error.h>
+#include <bdpt/render.h>
+
+#include "camera/camera.h"
+#include "integrator/integrator.h"
+#include "render/check_options.h"
+#include "render/flush_denormals.h"
+#include "scene/world.h"
+
+#include <tbb/blocked_range2d.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+
+namespace bdpt {
+namespace {
+
+/// A pass is one unit of progress and of stopping: it grows until it takes about this long.
+constexpr double pass_seconds = 0.5;
+constexpr std::int64_t most_samples_in_pass = 64;
+
+double seconds_since(std::chrono::steady_clock::time_point start)
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void render_pass(const Integrator& integrator, const RenderOptions& options, SampleRange samples,
+                 Film& film)
+{
+    const int columns = (options.width + options.tile_size - 1) / options.tile_size;
+    const int rows = (options.height + options.tile_size - 1) / options.tile_size;
+    tbb::parallel_for(
+        tbb::blocked_range2d<int>(0, rows, 1, 0, columns, 1),
+        [&](const tbb::blocked_range2d<int>& range) {
+            const FlushDenormals flush;
+            for (int row = range.rows().begin(); row < range.rows().end(); ++row) {
+                for (int column = range.cols().begin(); column < range.cols().end(); ++column) {
+                    const int x = column * options.tile_size;
+                    const int y = row * options.tile_size;
+                    integrator.render_tile(
+                        {.x_begin = x,
+                         .x_end = std::min(x + options.tile_size, options.width),
+                         .y_begin = y,
+                         .y_end = std::min(y + options.tile_size, options.height)},
+                        samples, film);
+                }
+            }
+        },
+        tbb::simple_partitioner{});
+    film.count_samples(samples.begin, samples.end);
+}
+
+}  // namespace
+
+RenderResult render(const Scene& scene, const CameraDesc& camera_desc, const RenderOptions& options,
+                    const RenderControl& control)
+{
+    check_options(options);
+    check_camera(camera_desc);
+    const auto start = std::chrono::steady_clock::now();
+    const Camera camera(camera_desc, options.width, options.height);
+    const auto integrator = make_integrator(scene.world(), camera, options);
+
+    const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
+    // More threads than cores are allowed only while somebody asks for them.
+    const tbb::global_control allowance(
+        tbb::global_control::max_allowed_parallelism,
+        std::max(static_cast<std::size_t>(threads),
+                 tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)));
+    tbb::task_arena arena(threads);
+
+    RenderResult result{.film = Film(options.width, options.height, integrator->splats()),
+                        .samples = {.begin = options.samples.begin, .end = options.samples.begin},
+                        .seconds = 0.0};
+    std::int64_t pass_size = 1;
+    while (result.samples.end < options.samples.end) {
+        const std::int64_t begin = result.samples.end;
+        const std::int64_t end = std::min(begin + pass_size, options.samples.end);
+        const double before = seconds_since(start);
+        arena.execute(
+            [&] { render_pass(*integrator, options, {.begin = begin, .end = end}, result.film); });
+        result.samples.end = end;
+        result.seconds = seconds_since(start);
+        if (control.on_progress) {
+            control.on_progress({.samples_done = end - options.samples.begin,
+                                 .samples_total = options.samples.end - options.samples.begin,
+                                 .seconds = result.seconds});
+        }
+        const double seconds_a_sample =
+            (result.seconds - before) / static_cast<double>(end - begin);
+        if (seconds_a_sample * static_cast<double>(2 * pass_size) < pass_seconds) {
+            pass_size = std::min(2 * pass_size, most_samples_in_pass);
+        }
+        const double next = seconds_a_sample * static_cast<double>(pass_size);
+        if (control.stop.stop_requested() || result.seconds + next > control.time_limit) {
+            break;
+        }
+    }
+    return result;
+}
+
+}  // namespace bdpt

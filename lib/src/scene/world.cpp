@@ -1,0 +1,154 @@
+#include "scene/world.h"
+
+#include "geometry/rounding.h"
+#include "material/specular_albedo.h"
+#include "math/elementary.h"
+#include "math/rgb.h"
+#include "scene/validate.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <utility>
+
+namespace bdpt {
+namespace {
+
+Bounds bounds_of(std::span<const PlacedMesh> placed)
+{
+    Bounds bounds{.min = Vec3(std::numeric_limits<float>::infinity()),
+                  .max = Vec3(-std::numeric_limits<float>::infinity())};
+    for (const PlacedMesh& mesh : placed) {
+        for (const UVec3& triangle : mesh.mesh().triangles) {
+            for (int corner = 0; corner < 3; ++corner) {
+                const Vec3 p = mesh.world_point(mesh.mesh().positions[triangle[corner]]);
+                bounds.min = min(bounds.min, p);
+                bounds.max = max(bounds.max, p);
+            }
+        }
+    }
+    return bounds.min.x <= bounds.max.x ? bounds : Bounds{};
+}
+
+BoundingSphere sphere_around(const Bounds& bounds)
+{
+    const float radius = 0.5f * glm::length(bounds.max - bounds.min);
+    // A little more, so that rounding leaves no corner outside.
+    return {.center = 0.5f * (bounds.min + bounds.max),
+            .radius = radius > 0.0f ? 1.0001f * radius : 1.0f};
+}
+
+Rgb attenuate(Rgb absorption, float distance)
+{
+    return {exp_exact(-absorption.r * distance), exp_exact(-absorption.g * distance),
+            exp_exact(-absorption.b * distance)};
+}
+
+Rgb absorption_towards(const SegmentEnd& end, Vec3 w)
+{
+    return dot(end.ng, w) < 0.0f ? end.absorption : Rgb(0.0f);
+}
+
+}  // namespace
+
+Rgb medium_transmittance(const SegmentEnd& a, const SegmentEnd& b, Vec3 w, float distance) noexcept
+{
+    const Rgb absorption = max(absorption_towards(a, w), absorption_towards(b, -w));
+    return is_black(absorption) ? Rgb(1.0f) : attenuate(absorption, distance);
+}
+
+World::World(SceneDesc desc) : desc_(std::move(desc))
+{
+    validate(desc_);
+    for (const MaterialDesc& material : desc_.materials) {
+        auto& albedo = albedos_[material.ior];
+        if (!albedo) {
+            albedo = std::make_unique<const SpecularAlbedo>(material.ior);
+        }
+        materials_.emplace_back(material, desc_.images, *albedo);
+    }
+    placed_.reserve(desc_.instances.size());
+    for (const InstanceDesc& instance : desc_.instances) {
+        placed_.emplace_back(desc_.meshes[static_cast<std::size_t>(instance.mesh)],
+                             instance.world_from_object);
+    }
+    bounds_ = bounds_of(placed_);
+    sphere_ = sphere_around(bounds_);
+    embree_ = std::make_unique<const EmbreeScene>(desc_.instances, placed_, desc_.meshes.size());
+    lights_ = std::make_unique<const LightSet>(desc_.instances, placed_, materials_, desc_.lights,
+                                               sphere_);
+    counts_ = count(desc_);
+    counts_.lights = lights_->size();
+    counts_.emissive_triangles = lights_->size() - desc_.lights.size();
+}
+
+std::optional<SurfacePoint> World::intersect(const SegmentEnd& from, Vec3 direction) const noexcept
+{
+    const auto hit = embree_->intersect(
+        {.origin = offset_origin(from.p, from.error, from.ng, direction), .direction = direction});
+    if (!hit) {
+        return std::nullopt;
+    }
+    return surface_point(*hit, direction);
+}
+
+SurfacePoint World::surface_point(const RayHit& hit, Vec3 direction) const noexcept
+{
+    const PlacedMesh& mesh = placed_[hit.instance];
+    const InstanceDesc& instance = desc_.instances[hit.instance];
+    const Material& material = materials_[static_cast<std::size_t>(instance.material)];
+
+    const float length_squared = dot(hit.normal, hit.normal);
+    const Vec3 ng = length_squared > 0.0f ? hit.normal / std::sqrt(length_squared) : -direction;
+    Vec3 ns = mesh.shading_normal(hit.triangle, hit.barycentrics);
+    const float side = dot(ns, ng);
+    ns = side > 0.0f ? ns : side < 0.0f ? -ns : ng;
+
+    const auto uv = mesh.uv(hit.triangle, hit.barycentrics);
+    const auto normal_uv_set = material.normal_uv_set();
+    const ShadingPoint shading{
+        .ng = ng,
+        .ns = ns,
+        .tangent = normal_uv_set ? mesh.tangent(hit.triangle, hit.barycentrics, *normal_uv_set)
+                                 : Vec4(0.0f),
+        .uv = uv,
+        .color = mesh.color(hit.triangle, hit.barycentrics)};
+
+    const BoundedPoint point = mesh.point(hit.triangle, hit.barycentrics);
+    SurfacePoint result{
+        .end = {.p = point.p, .error = point.error, .ng = ng, .absorption = material.absorption()},
+        .bsdf = material.bsdf(shading),
+        .emission = Rgb(0.0f),
+        .light = lights_->of_triangle(hit.instance, hit.triangle)};
+    if (result.light && (dot(ng, direction) < 0.0f || material.emits_from_both_sides())) {
+        result.emission = material.emission(uv);
+    }
+    return result;
+}
+
+Rgb World::transmittance(const SegmentEnd& a, const SegmentEnd& b) const noexcept
+{
+    // Both ends are moved to their own side of their surfaces, so the whole segment between them is
+    // tested; the factor only keeps rounding of the end from reaching through.
+    constexpr float short_of_end = 1.0f - 8.0f * std::numeric_limits<float>::epsilon();
+    const Vec3 to_b = b.p - a.p;
+    const Vec3 origin = offset_origin(a.p, a.error, a.ng, to_b);
+    const Vec3 target = offset_origin(b.p, b.error, b.ng, -to_b);
+    if (embree_->occluded(
+            {.origin = origin, .direction = target - origin, .t_max = short_of_end})) {
+        return Rgb(0.0f);
+    }
+    return medium_transmittance(a, b, to_b, std::sqrt(dot(to_b, to_b)));
+}
+
+Rgb World::transmittance_to_infinity(const SegmentEnd& a, Vec3 direction) const noexcept
+{
+    if (embree_->occluded(
+            {.origin = offset_origin(a.p, a.error, a.ng, direction), .direction = direction})) {
+        return Rgb(0.0f);
+    }
+    return medium_transmittance(a, {}, direction, std::numeric_limits<float>::max());
+}
+
+}  // namespace bdpt

@@ -1,0 +1,70 @@
+#pragma once
+
+#include "geometry/embree_scene.h"
+#include "geometry/segment_end.h"
+#include "material/bsdf.h"
+#include "material/material.h"
+#include "scene/light_set.h"
+
+#include <bdpt/scene.h>
+
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace bdpt {
+
+/// A point on a surface with everything a path needs to go on from it.
+struct SurfacePoint {
+    SegmentEnd end;
+    Bsdf bsdf;
+    Rgb emission{0.0f};            ///< radiance towards where the ray came from [nit]
+    std::optional<LightId> light;  ///< set when the surface emits, from whichever side
+};
+
+/// The scene as rays see it: geometry, materials and lights, validated and immutable.
+class World {
+public:
+    /// Throws `Error` (invalid_input).
+    explicit World(SceneDesc desc);
+    World(const World&) = delete;
+    World& operator=(const World&) = delete;
+
+    /// The first surface from `from` in the unit direction `direction`.
+    [[nodiscard]] std::optional<SurfacePoint> intersect(const SegmentEnd& from,
+                                                        Vec3 direction) const noexcept;
+    /// What is left of light between two points: zero when a surface is in between, else what the
+    /// medium lets through.
+    [[nodiscard]] Rgb transmittance(const SegmentEnd& a, const SegmentEnd& b) const noexcept;
+    /// The same from a point to infinity in the unit direction `direction`.
+    [[nodiscard]] Rgb transmittance_to_infinity(const SegmentEnd& a, Vec3 direction) const noexcept;
+
+    [[nodiscard]] const LightSet& lights() const { return *lights_; }
+    [[nodiscard]] const BoundingSphere& bounding_sphere() const { return sphere_; }
+    [[nodiscard]] const Bounds& bounds() const { return bounds_; }
+    [[nodiscard]] const SceneCounts& counts() const { return counts_; }
+
+private:
+    [[nodiscard]] SurfacePoint surface_point(const RayHit& hit, Vec3 direction) const noexcept;
+
+    SceneDesc desc_;
+    std::map<float, std::unique_ptr<const SpecularAlbedo>> albedos_;  // by index of refraction
+    std::vector<Material> materials_;
+    std::vector<PlacedMesh> placed_;
+    Bounds bounds_;
+    BoundingSphere sphere_;
+    SceneCounts counts_;
+    std::unique_ptr<const EmbreeScene> embree_;
+    std::unique_ptr<const LightSet> lights_;
+};
+
+/// What a medium leaves of light over a segment that is known to be free. `w`: unit, from a to b.
+/// The medium is what lies behind the surface at an end if the segment runs there. Should the ends
+/// disagree (open bodies, bodies in bodies), the denser one counts, in each channel: the rule must
+/// be the same in both directions.
+[[nodiscard]] Rgb medium_transmittance(const SegmentEnd& a, const SegmentEnd& b, Vec3 w,
+                                       float distance) noexcept;
+
+}  // namespace bdpt

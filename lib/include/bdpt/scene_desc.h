@@ -19,7 +19,7 @@ enum class ImageId : std::uint32_t {};
 
 /// Triangles with one material, in object space [m].
 struct MeshDesc {
-    std::string name;
+    std::string name{};
     std::vector<Vec3> positions;
     std::vector<Vec3> normals;   ///< empty: use face normals
     std::vector<Vec4> tangents;  ///< xyz and handedness (+1, -1); empty: derived from uvs[0]
@@ -44,7 +44,7 @@ struct TextureRef {
 /// glTF 2.0 metallic-roughness material with KHR_materials_{emissive_strength, ior, specular,
 /// transmission, volume}; names, defaults and ranges are those of the specification.
 struct MaterialDesc {
-    std::string name;
+    std::string name{};
     Vec4 base_color{1.0f};  ///< [0, 1]
     float metallic = 1.0f;
     float roughness = 1.0f;  ///< perceptual; GGX alpha is its square; 0 is a perfect mirror
@@ -71,20 +71,20 @@ struct MaterialDesc {
 
 /// A mesh placed in the world. Meshes are shared: many instances cost one BVH.
 struct InstanceDesc {
-    std::string name;
+    std::string name{};
     MeshId mesh{};
     MaterialId material{};
     Mat4 world_from_object{1.0f};  ///< affine, invertible; a negative determinant is fine
 };
 
 struct PointLightDesc {
-    std::string name;
+    std::string name{};
     Vec3 position{0.0f};
     Rgb intensity{1.0f};  ///< [cd]
 };
 
 struct SpotLightDesc {
-    std::string name;
+    std::string name{};
     Vec3 position{0.0f};
     Vec3 direction{0.0f, 0.0f, -1.0f};
     Rgb intensity{1.0f};                  ///< [cd] within the inner cone
@@ -93,7 +93,7 @@ struct SpotLightDesc {
 };
 
 struct DirectionalLightDesc {
-    std::string name;
+    std::string name{};
     Vec3 direction{0.0f, 0.0f, -1.0f};  ///< the way the light travels
     Rgb illuminance{1.0f};              ///< [lx] on a surface that faces the light
 };
@@ -120,7 +120,7 @@ struct SceneDesc {
 
 /// A pinhole camera with the glTF axes: it looks down -z, +y is up.
 struct CameraDesc {
-    std::string name;
+    std::string name{};
     Mat4 world_from_camera{1.0f};     ///< its scale is ignored
     float vertical_fov = 0.7853982f;  ///< [rad], in (0, pi)
     /// Width over height that the scene's author had in mind, if any. The film's own wins.

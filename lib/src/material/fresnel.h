@@ -10,15 +10,18 @@ namespace bdpt {
 /// the indices. It is the same for light from either side.
 [[nodiscard]] inline float fresnel_dielectric(float cos_outer, float ior)
 {
-    const float sin2 = std::max(0.0f, 1.0f - cos_outer * cos_outer);
-    const float cos_inner = std::sqrt(std::max(0.0f, 1.0f - sin2 / (ior * ior)));
-    const float s_sum = cos_outer + ior * cos_inner;
-    const float p_sum = ior * cos_outer + cos_inner;
-    if (p_sum <= 0.0f) {
+    // With q = n cos_inner, q^2 = n^2 - 1 + cos_outer^2, which keeps its digits at grazing angles.
+    const float n2 = ior * ior;
+    const float q = std::sqrt((ior - 1.0f) * (ior + 1.0f) + cos_outer * cos_outer);
+    const float s_sum = cos_outer + q;
+    const float p_sum = n2 * cos_outer + q;
+    const float both = s_sum * p_sum;
+    if (both <= 0.0f) {
         return 0.0f;  // at grazing incidence on no boundary at all (ior 1)
     }
-    const float s = (cos_outer - ior * cos_inner) / s_sum;
-    const float p = (ior * cos_outer - cos_inner) / p_sum;
+    const float inverse = 1.0f / both;  // one division serves both polarisations
+    const float s = (cos_outer - q) * p_sum * inverse;
+    const float p = (n2 * cos_outer - q) * s_sum * inverse;
     return 0.5f * (s * s + p * p);
 }
 

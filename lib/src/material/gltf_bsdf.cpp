@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
 namespace bdpt {
@@ -22,6 +23,12 @@ constexpr float total_reflection = -1.0f;
 /// Rough refraction into an index this close to the outer one has no half vector.
 constexpr float least_refraction = 1.001f;
 
+/// Nothing scatters closer to the surface: the products of two cosines would vanish.
+[[nodiscard]] bool grazes(Vec3 w)
+{
+    return std::abs(w.z) < 1e-15f;
+}
+
 [[nodiscard]] Vec3 mirrored(Vec3 w)
 {
     return {w.x, w.y, -w.z};
@@ -31,9 +38,9 @@ constexpr float least_refraction = 1.001f;
 /// side over that on the other.
 [[nodiscard]] Vec3 refracted(Vec3 wo, Vec3 h, float cos_microfacet, float eta)
 {
-    const float sin2 = eta * eta * std::max(0.0f, 1.0f - cos_microfacet * cos_microfacet);
-    const float cos_far = std::sqrt(std::max(0.0f, 1.0f - sin2));
-    return normalize((eta * cos_microfacet - cos_far) * h - eta * wo);
+    const float scaled = eta * cos_microfacet;
+    const float cos2_far = (1.0f - eta) * (1.0f + eta) + scaled * scaled;
+    return normalize((scaled - std::sqrt(std::max(0.0f, cos2_far))) * h - eta * wo);
 }
 
 }  // namespace
@@ -43,7 +50,7 @@ GltfBsdf::GltfBsdf(const GltfParameters& parameters, const SpecularAlbedo& albed
       f90_(std::clamp(parameters.specular, 0.0f, 1.0f)),
       metallic_(std::clamp(parameters.metallic, 0.0f, 1.0f)),
       ior_(albedo.ior()),
-      roughness_(std::clamp(parameters.roughness, 0.0f, 1.0f)),
+      roughness_(SpecularAlbedo::at_roughness(parameters.roughness)),
       solid_(parameters.body == Body::solid),
       albedo_(&albedo)
 {
@@ -52,8 +59,8 @@ GltfBsdf::GltfBsdf(const GltfParameters& parameters, const SpecularAlbedo& albed
     const float base_max = max_component(base_color_);
     transmission_ = dielectric * transmission;
     f0_ = clamp(albedo.normal_reflectance() * parameters.specular_color, 0.0f, 1.0f) * f90_;
-    f0_max_ = max_component(f0_);
-    alpha_ = roughness_ * roughness_;
+    const float roughness = std::clamp(parameters.roughness, 0.0f, 1.0f);
+    alpha_ = roughness * roughness;
     if (solid_ && alpha_ >= smooth_alpha && ior_ < least_refraction) {
         // Equal indices: a dielectric boundary cannot be seen, however rough; where it is mixed
         // with metal, a refraction too weak to be noticed keeps the metal's roughness.
@@ -62,7 +69,7 @@ GltfBsdf::GltfBsdf(const GltfParameters& parameters, const SpecularAlbedo& albed
     }
     const SpecularAlbedo::Split average = albedo.average(roughness_);
     constexpr float least_loss = 1e-6f;  // a base below a perfect mirror gets no light at all
-    const float reaches_base = 1.0f - (f0_max_ * average.f0 + f90_ * average.f90);
+    const float reaches_base = 1.0f - (max_component(f0_) * average.f0 + f90_ * average.f90);
     const float diffuse = dielectric * (1.0f - transmission);
     diffuse_ = base_color_ * (diffuse * inv_pi / std::max(reaches_base, least_loss));
     diffuse_weight_ = diffuse * base_max;
@@ -82,7 +89,7 @@ GltfBsdf::Side GltfBsdf::side_of(float z) const noexcept
         return {0.0f, 1.0f};
     }
     const SpecularAlbedo::Split split = albedo_->directional(std::abs(z), roughness_);
-    const float reflected = f0_max_ * split.f0 + f90_ * split.f90;
+    const float reflected = max_component(f0_) * split.f0 + f90_ * split.f90;
     const float rest = std::max(0.0f, 1.0f - reflected);
     const float specular =
         (1.0f - metallic_) * reflected + transmission_weight_ * rest + metal_weight_;
@@ -97,7 +104,8 @@ float GltfBsdf::cos_outer_of(float cos_microfacet, float z) const noexcept
     if (!inside(z)) {
         return cos_microfacet;
     }
-    const float cos2 = 1.0f - ior_ * ior_ * (1.0f - cos_microfacet * cos_microfacet);
+    const float scaled = ior_ * cos_microfacet;
+    const float cos2 = scaled * scaled - (ior_ - 1.0f) * (ior_ + 1.0f);
     return cos2 > 0.0f ? std::sqrt(cos2) : total_reflection;
 }
 
@@ -151,7 +159,7 @@ BsdfEval GltfBsdf::eval_microfacets(Vec3 wo, Vec3 wi, TransportMode mode) const 
 
 BsdfEval GltfBsdf::eval(Vec3 wo, Vec3 wi, TransportMode mode) const noexcept
 {
-    if (wo.z == 0.0f || wi.z == 0.0f) {
+    if (grazes(wo) || grazes(wi)) {
         return {};
     }
     return eval_from(side_of(wo.z), wo, wi, mode);
@@ -167,7 +175,7 @@ BsdfEval GltfBsdf::eval_from(const Side& from, Vec3 wo, Vec3 wi, TransportMode m
         sum.pdf_rev.value *= to.specular_choice;
     }
     const bool same_side = (wo.z > 0.0f) == (wi.z > 0.0f);
-    if (same_side && diffuse_weight_ > 0.0f && !inside(wo.z)) {
+    if (same_side && diffuse_weight_ > 0.0f) {
         const float cos_o = std::abs(wo.z);
         const float cos_i = std::abs(wi.z);
         sum.f_cos += diffuse_ * (from.base_transmitted * to.base_transmitted * cos_i);
@@ -221,7 +229,7 @@ std::optional<BsdfSample> GltfBsdf::sample_smooth(Vec3 wo, float u_share, float 
 std::optional<BsdfSample> GltfBsdf::sample(Vec3 wo, float u_lobe, Vec2 u,
                                            TransportMode mode) const noexcept
 {
-    if (wo.z == 0.0f) {
+    if (grazes(wo)) {
         return std::nullopt;
     }
     const Side from = side_of(wo.z);
@@ -237,14 +245,15 @@ std::optional<BsdfSample> GltfBsdf::sample(Vec3 wo, float u_lobe, Vec2 u,
         const Vec3 above = square_to_cosine_hemisphere(u);
         wi = wo.z > 0.0f ? above : mirrored(above);
     }
-    if (!wi || wi->z == 0.0f) {
+    if (!wi || grazes(*wi)) {
         return std::nullopt;
     }
     const BsdfEval value = eval_from(from, wo, *wi, mode);
-    if (!(value.pdf_fwd.value > 0.0f)) {
+    if (!(value.pdf_fwd.value >= std::numeric_limits<float>::min())) {
         return std::nullopt;
     }
-    return BsdfSample{*wi, value.f_cos / value.pdf_fwd.value, value.pdf_fwd, value.pdf_rev, false};
+    return BsdfSample{*wi, value.f_cos * (1.0f / value.pdf_fwd.value), value.pdf_fwd, value.pdf_rev,
+                      false};
 }
 
 }  // namespace bdpt

@@ -93,9 +93,8 @@ private:
     float transmission_ = 0.0f;  ///< of the dielectric part
     float ior_ = 1.0f;           ///< of the inside of a solid body
     float alpha_ = 0.0f;
-    float roughness_ = 0.0f;
+    SpecularAlbedo::Roughness roughness_;
     // The largest components of the lobes' albedos, for choosing among them.
-    float f0_max_ = 0.0f;
     float diffuse_weight_ = 0.0f;
     float transmission_weight_ = 0.0f;
     float metal_weight_ = 0.0f;

@@ -21,12 +21,18 @@ namespace {
     return Texture(*ref, images[static_cast<std::size_t>(ref->image)], encoding);
 }
 
+[[nodiscard]] Body body_of(const MaterialDesc& desc)
+{
+    const bool solid = desc.thickness > 0.0f && desc.transmission > 0.0f;
+    return solid ? Body::solid : Body::thin_walled;
+}
+
 /// The coefficient that leaves the attenuation colour after the attenuation distance.
 [[nodiscard]] Rgb absorption_of(const MaterialDesc& desc)
 {
     constexpr float least_color = 1e-20f;     // black keeps a finite coefficient
     constexpr float most_absorption = 1e30f;  // [1/m]
-    if (std::isinf(desc.attenuation_distance)) {
+    if (body_of(desc) != Body::solid || std::isinf(desc.attenuation_distance)) {
         return Rgb{0.0f};
     }
     Rgb absorption{0.0f};
@@ -66,7 +72,7 @@ Material::Material(const MaterialDesc& desc, std::span<const TexelImage> images,
                desc.specular,
                desc.specular_color,
                desc.transmission,
-               desc.thickness > 0.0f && desc.transmission > 0.0f ? Body::solid : Body::thin_walled},
+               body_of(desc)},
       emission_(desc.emission),
       mean_emission_(desc.emission),
       absorption_(absorption_of(desc)),

@@ -43,8 +43,7 @@ public:
         return surface_.body == Body::solid;
     }
     /// Of the inside of a solid transmitter [1/m] (Beer-Lambert; KHR_materials_volume); zero for
-    /// all others. A colour of
-    /// zero absorbs like 1e-20.
+    /// all others. A colour of zero absorbs like 1e-20.
     [[nodiscard]] Rgb absorption() const noexcept { return absorption_; }
     /// Set of texture coordinates of the normal map, if there is one: it needs a tangent.
     [[nodiscard]] std::optional<int> normal_uv_set() const noexcept

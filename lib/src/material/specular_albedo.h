@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace bdpt {
 
@@ -18,7 +19,7 @@ public:
         float f90 = 0.0f;
     };
 
-    /// Integrates the tables, which takes some milliseconds. `ior` >= 1.
+    /// Integrates the tables, which takes some milliseconds. `ior` is clamped to [1, 1e6].
     explicit SpecularAlbedo(float ior);
 
     [[nodiscard]] float ior() const noexcept { return ior_; }
@@ -32,22 +33,66 @@ public:
         return std::clamp((fresnel_dielectric(cos_outer, ior_) - r0_) * inv_range_, 0.0f, 1.0f);
     }
 
-    /// Of light from a direction with this cosine in [0, 1], for perceptual roughness in [0, 1].
-    [[nodiscard]] Split directional(float cosine, float roughness) const noexcept;
+    /// Where a roughness lies in the tables.
+    struct Roughness {
+        int row = 0;
+        float fraction = 0.0f;
+    };
+
+    /// Of a perceptual roughness in [0, 1].
+    [[nodiscard]] static Roughness at_roughness(float roughness)
+    {
+        const Position p = position(roughness, roughness_nodes);
+        return {p.node, p.fraction};
+    }
+
+    /// Of light from a direction with this cosine in [0, 1].
+    [[nodiscard]] Split directional(float cosine, Roughness roughness) const noexcept
+    {
+        const Position p = position(std::sqrt(cosine), cosine_nodes);
+        const Split* lower = table_.data() + roughness.row * cosine_nodes + p.node;
+        const Split* upper = lower + cosine_nodes;
+        return mix(mix(lower[0], lower[1], p.fraction), mix(upper[0], upper[1], p.fraction),
+                   roughness.fraction);
+    }
+
     /// The cosine-weighted average of `directional` over the hemisphere.
-    [[nodiscard]] Split average(float roughness) const noexcept;
+    [[nodiscard]] Split average(Roughness roughness) const noexcept
+    {
+        const Split* row = average_.data() + roughness.row;
+        return mix(row[0], row[1], roughness.fraction);
+    }
 
 private:
     static constexpr int cosine_nodes = 64;
     static constexpr int roughness_nodes = 32;
-    using Row = std::array<Split, cosine_nodes>;
+
+    /// Where a value in [0, 1] lies among evenly spaced nodes.
+    struct Position {
+        int node;
+        float fraction;
+    };
+
+    [[nodiscard]] static Position position(float value, int nodes)
+    {
+        const float scaled = std::clamp(value, 0.0f, 1.0f) * static_cast<float>(nodes - 1);
+        const int node = std::min(static_cast<int>(scaled), nodes - 2);
+        return {node, scaled - static_cast<float>(node)};
+    }
+
+    [[nodiscard]] static Split mix(Split a, Split b, float t)
+    {
+        return {a.f0 + t * (b.f0 - a.f0), a.f90 + t * (b.f90 - a.f90)};
+    }
 
     [[nodiscard]] Split integrate(float cosine, float roughness) const;
+    [[nodiscard]] Split average_of_row(int row) const;
 
     float ior_;
     float r0_;
-    float inv_range_;                         ///< 1 / (1 - r0)
-    std::array<Row, roughness_nodes> table_;  ///< nodes at even roughness and even sqrt(cosine)
+    float inv_range_;  ///< 1 / (1 - r0)
+    /// Rows of even roughness, in them nodes of even sqrt(cosine).
+    std::array<Split, roughness_nodes * cosine_nodes> table_;
     std::array<Split, roughness_nodes> average_;
 };
 

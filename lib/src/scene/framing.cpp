@@ -153,11 +153,14 @@ FramedView frame_scene(const Scene& scene, float aspect)
     }
     view.lamp_position = lamp_in(world, room);
 
-    const Surroundings& middle = *std::max_element(
-        room.begin(), room.end(),
-        [](const Surroundings& a, const Surroundings& b) { return a.shell < b.shell; });
-    const Vec3 opening = middle.escape_direction;
-    const bool open_at_a_side = middle.escaped >= open_share && glm::length(opening) >= open_side &&
+    float escaped = 0.0f;  // mean over the room
+    Vec3 opening(0.0f);    // mean of the free directions
+    for (const Surroundings& place : room) {
+        escaped += place.escaped / static_cast<float>(room.size());
+        opening += place.escape_direction * (place.escaped / static_cast<float>(room.size()));
+    }
+    opening /= std::max(escaped, 1e-6f);
+    const bool open_at_a_side = escaped >= open_share && glm::length(opening) >= open_side &&
                                 std::abs(opening.y) < 0.5f * glm::length(opening);
     if (open_at_a_side) {
         // A box without its front wall: look in from there, straight if it is nearly straight.

@@ -1,0 +1,145 @@
+#include "arguments.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <vector>
+
+namespace bdpt::app {
+namespace {
+
+/// All of `text` as one number.
+template <typename Number>
+std::optional<Number> parse_number(std::string_view text)
+{
+    Number value{};
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    if (error != std::errc{} || stop != end || text.empty()) {
+        return std::nullopt;
+    }
+    return value;
+}
+
+/// Insertions, deletions and replacements that turn `a` into `b` [Levenshtein 1966].
+std::size_t edit_distance(std::string_view a, std::string_view b)
+{
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0u : 1u);
+            diagonal = row[j];
+            row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
+        }
+    }
+    return row.back();
+}
+
+}  // namespace
+
+std::optional<Size> parse_size(std::string_view text)
+{
+    constexpr int largest = 65535;
+    const std::size_t cross = text.find('x');
+    if (cross == std::string_view::npos) {
+        return std::nullopt;
+    }
+    const auto width = parse_number<int>(text.substr(0, cross));
+    const auto height = parse_number<int>(text.substr(cross + 1));
+    if (!width || !height || *width < 1 || *height < 1 || *width > largest || *height > largest) {
+        return std::nullopt;
+    }
+    return Size{*width, *height};
+}
+
+std::optional<double> parse_duration(std::string_view text)
+{
+    double unit = 1.0;
+    if (!text.empty()) {
+        const char last = text.back();
+        unit = last == 'm' ? 60.0 : last == 'h' ? 3600.0 : 1.0;
+        text.remove_suffix(last == 's' || last == 'm' || last == 'h' ? 1 : 0);
+    }
+    const auto count = parse_number<double>(text);
+    if (!count || !std::isfinite(*count) || *count <= 0.0) {
+        return std::nullopt;
+    }
+    return *count * unit;
+}
+
+std::optional<Vec3> parse_vec3(std::string_view text)
+{
+    Vec3 result(0.0f);
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::size_t comma = text.find(',');
+        if ((comma == std::string_view::npos) != (axis == 2)) {
+            return std::nullopt;
+        }
+        const auto value = parse_number<float>(text.substr(0, comma));
+        if (!value || !std::isfinite(*value)) {
+            return std::nullopt;
+        }
+        result[axis] = *value;
+        text.remove_prefix(axis == 2 ? text.size() : comma + 1);
+    }
+    return result;
+}
+
+std::optional<std::size_t> parse_index(std::string_view text)
+{
+    return parse_number<std::size_t>(text);
+}
+
+std::optional<std::string> closest(std::string_view text, std::span<const std::string> words)
+{
+    // Half a word of typing errors is another word.
+    std::size_t best = text.size() / 2;
+    std::optional<std::string> result;
+    for (const std::string& word : words) {
+        const std::size_t distance = edit_distance(text, word);
+        if (distance < best) {
+            best = distance;
+            result = word;
+        }
+    }
+    return result;
+}
+
+std::string one_line(std::string_view text)
+{
+    // The JSON library knows UTF-8; its text is safe to print when it is read back.
+    using nlohmann::json;
+    const std::string utf8 =
+        json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace))
+            .get<std::string>();
+    std::string result;
+    for (const char c : utf8) {
+        const bool control = static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+        result += control ? ' ' : c;
+    }
+    return result;
+}
+
+std::string clock_time(double seconds)
+{
+    // A week and more is shown as that; also keeps infinity out of the conversion.
+    constexpr double longest = 7.0 * 24.0 * 3600.0;
+    const auto total = static_cast<std::int64_t>(std::clamp(seconds, 0.0, longest) + 0.5);
+    const std::int64_t hours = total / 3600;
+    const std::int64_t minutes = total / 60 % 60;
+    if (hours > 0) {
+        return fmt::format("{}:{:02}:{:02}", hours, minutes, total % 60);
+    }
+    return fmt::format("{}:{:02}", minutes, total % 60);
+}
+
+}  // namespace bdpt::app

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <bdpt/types.h>
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace bdpt::app {
+
+/// A picture's size [pixels].
+struct Size {
+    int width = 0;
+    int height = 0;
+};
+
+/// "1280x720"; both at least 1 and at most 65535.
+[[nodiscard]] std::optional<Size> parse_size(std::string_view text);
+
+/// "90", "90s", "2m" or "1.5h", as seconds; more than 0.
+[[nodiscard]] std::optional<double> parse_duration(std::string_view text);
+
+/// "x,y,z", all finite.
+[[nodiscard]] std::optional<Vec3> parse_vec3(std::string_view text);
+
+/// Only digits: an index.
+[[nodiscard]] std::optional<std::size_t> parse_index(std::string_view text);
+
+/// The word that `text` was probably meant to be; none when all are far from it.
+[[nodiscard]] std::optional<std::string> closest(std::string_view text,
+                                                 std::span<const std::string> words);
+
+/// `text` without line breaks and with what is not UTF-8 replaced.
+[[nodiscard]] std::string one_line(std::string_view text);
+
+/// Seconds as "1:07" or "2:03:09".
+[[nodiscard]] std::string clock_time(double seconds);
+
+}  // namespace bdpt::app

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <bdpt/error.h>
+#include <bdpt/render.h>
+
+#include <chrono>
+#include <cstdint>
+#include <limits>
+#include <mutex>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace bdpt::app {
+
+enum class Verbosity : std::uint8_t { normal, quiet };
+enum class Format : std::uint8_t {
+    text,  ///< lines for people on stderr
+    json,  ///< one JSON object a line on stdout, for programs
+};
+
+/// When a render ends; what comes first counts.
+struct Goal {
+    std::optional<std::int64_t> samples;  ///< per pixel
+    double seconds = std::numeric_limits<double>::infinity();
+};
+
+/// Seconds that are left until `goal`, judged by `progress`; none when nothing is done yet.
+[[nodiscard]] std::optional<double> time_left(const Progress& progress, const Goal& goal);
+
+/// Tells the user what happens. Results of `info` do not come through here. Safe from any thread.
+class Console {
+public:
+    Console(Format format, Verbosity verbosity);
+    ~Console();
+    Console(const Console&) = delete;
+    Console& operator=(const Console&) = delete;
+
+    /// `fields` is a JSON object; "event" is added. Does nothing when the format is text.
+    void event(std::string_view name, const nlohmann::ordered_json& fields);
+    /// A line for people; nothing when the format is JSON.
+    void note(std::string_view message);
+    void warning(std::string_view message);
+    /// Shows how far a render is; as often as suits the reader, however often it is called.
+    void progress(const Progress& progress, const Goal& goal);
+    /// Ends a progress line, so that whatever prints next starts on its own.
+    void end_progress();
+
+private:
+    void print_line(std::string_view prefix, std::string_view message);
+    void erase_progress();
+    [[nodiscard]] bool is_due(const Progress& progress);
+
+    Format format_;
+    Verbosity verbosity_;
+    bool terminal_;  // stderr is one, and can redraw a line
+    bool color_;
+    std::mutex mutex_;
+    std::size_t drawn_ = 0;  // characters of the progress line on the screen
+    double last_shown_ = -std::numeric_limits<double>::infinity();  // [s] of the render
+};
+
+/// The one line on stderr for a failure and, in JSON, an event. Throws nothing.
+void report_error(Format format, int exit_code, std::string_view message) noexcept;
+
+}  // namespace bdpt::app

@@ -1,0 +1,59 @@
+#include "default_lights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+namespace bdpt::app {
+
+bool has_light(const SceneDesc& desc)
+{
+    return !desc.lights.empty() ||
+           std::any_of(desc.instances.begin(), desc.instances.end(),
+                       [&desc](const InstanceDesc& instance) {
+                           const auto index = static_cast<std::size_t>(instance.material);
+                           return index < desc.materials.size() &&
+                                  desc.materials[index].emission != Rgb(0.0f);
+                       });
+}
+
+EnvironmentLightDesc default_environment()
+{
+    // Rows are 5.6 degrees high: the gradient shows no steps between interpolated texels.
+    constexpr int height = 32;
+    constexpr int width = 2;
+    constexpr float ground = 0.5f;
+    // The mean over the upper half of 1 + 2 sin(elevation) is 2, so that of all directions is 1
+    // when the sky starts at 0.75 over the horizon: (0.5 + 0.75 * 2) / 2.
+    constexpr float horizon = 0.75f;
+
+    EnvironmentLightDesc result;
+    result.radiance.width = width;
+    result.radiance.height = height;
+    for (int row = 0; row < height; ++row) {
+        const float elevation =
+            std::numbers::pi_v<float> * (0.5f - (static_cast<float>(row) + 0.5f) / height);
+        const float radiance =
+            elevation > 0.0f ? horizon * (1.0f + 2.0f * std::sin(elevation)) : ground;
+        result.radiance.pixels.insert(result.radiance.pixels.end(), width, Rgb(radiance));
+    }
+    return result;
+}
+
+PointLightDesc default_lamp(const FramedView& view)
+{
+    // Keeps the lamp lit when the camera stands in it.
+    constexpr float shortest = 1e-3f;
+    const Vec3 eye(view.camera.world_from_camera[3]);
+    const float distance = std::max(glm::distance(eye, view.lamp_position), shortest);
+    PointLightDesc result;
+    result.name = "default lamp";
+    result.position = view.lamp_position;
+    // A white diffuse surface has the radiance I / (pi d^2).
+    result.intensity = Rgb(std::numbers::pi_v<float> * distance * distance);
+    return result;
+}
+
+}  // namespace bdpt::app

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+namespace bdpt::app {
+
+/// Prints options as "--name VALUE   what it does" in at most 100 columns.
+class HelpFormatter : public CLI::Formatter {
+public:
+    HelpFormatter();
+    std::string make_option_opts(const CLI::Option* option) const override;
+    std::string make_option_desc(const CLI::Option* option) const override;
+};
+
+}  // namespace bdpt::app

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <signal.h>
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <stop_token>
+#include <thread>
+#include <vector>
+
+namespace bdpt::app {
+
+/// Turns SIGINT and SIGTERM into a polite request while it lives: the first one asks for a stop
+/// once `allow_stop()` was called; any other removes `temporaries` and ends the process with 128 +
+/// the signal's number. Make it before any other thread, which then inherits the blocked signals.
+class Interrupt {
+public:
+    /// `on_stop` is called on another thread when a stop is requested.
+    Interrupt(std::vector<std::filesystem::path> temporaries, std::function<void()> on_stop);
+    ~Interrupt();
+    Interrupt(const Interrupt&) = delete;
+    Interrupt& operator=(const Interrupt&) = delete;
+
+    /// From now on there is something worth finishing.
+    void allow_stop() { stop_allowed_ = true; }
+    [[nodiscard]] std::stop_token stop_token() const { return stop_.get_token(); }
+    /// The signal that requested the stop.
+    [[nodiscard]] std::optional<int> signal() const;
+
+private:
+    void watch(const std::stop_token& finished);
+    void handle(int signal_number);
+
+    std::vector<std::filesystem::path> temporaries_;
+    std::function<void()> on_stop_;
+    sigset_t signals_{};
+    sigset_t previous_{};
+    std::stop_source stop_;
+    std::atomic<bool> stop_allowed_{false};
+    std::atomic<int> signal_{0};
+    std::jthread watcher_;  // last: it uses all of the above
+};
+
+/// "SIGINT" or "SIGTERM".
+[[nodiscard]] const char* signal_name(int signal_number);
+
+}  // namespace bdpt::app

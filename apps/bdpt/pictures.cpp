@@ -1,0 +1,81 @@
+#include "pictures.h"
+
+#include <bdpt/error.h>
+#include <bdpt/io/output_file.h>
+#include <bdpt/io/png.h>
+#include <bdpt/io/tone_map.h>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+#include <system_error>
+
+namespace bdpt::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+enum class FileType { exr, png };
+
+std::optional<FileType> type_of(const fs::path& file)
+{
+    std::string extension = file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (extension == ".exr") {
+        return FileType::exr;
+    }
+    return extension == ".png" ? std::optional(FileType::png) : std::nullopt;
+}
+
+}  // namespace
+
+void check_outputs(std::span<const fs::path> outputs, std::span<const fs::path> inputs)
+{
+    for (const fs::path& output : outputs) {
+        if (!type_of(output)) {
+            throw Error(ErrorCode::usage,
+                        fmt::format("{}: unknown type of output file: name it .exr or .png",
+                                    output.string()));
+        }
+        for (const fs::path& input : inputs) {
+            std::error_code missing;
+            if (fs::equivalent(input, output, missing)) {
+                throw Error(
+                    ErrorCode::usage,
+                    fmt::format("{}: is an input and cannot be the output too", output.string()));
+            }
+        }
+        io::check_writable(output);
+    }
+}
+
+std::vector<fs::path> temporary_paths(std::span<const fs::path> outputs)
+{
+    std::vector<fs::path> result;
+    for (const fs::path& output : outputs) {
+        result.push_back(io::OutputFile::temporary_path(output));
+    }
+    return result;
+}
+
+PictureReport write_pictures(std::span<const fs::path> outputs, const Image& image,
+                             const PictureOptions& options)
+{
+    PictureReport report;
+    for (const fs::path& output : outputs) {
+        if (type_of(output) == FileType::exr) {
+            report.clamped_pixels = io::write_exr(output, image, options.exr).clamped_pixels;
+            continue;
+        }
+        if (!report.exposure) {
+            report.exposure = options.exposure.value_or(io::automatic_exposure(image));
+        }
+        io::write_png(output, io::tone_map(image, *report.exposure),
+                      {.exposure = *report.exposure, .metadata = options.exr.metadata});
+    }
+    return report;
+}
+
+}  // namespace bdpt::app

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <bdpt/image.h>
+#include <bdpt/io/exr.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace bdpt::app {
+
+/// Refuses, before anything is rendered, what could not be written afterwards: throws `Error`
+/// (usage) for a file type that we do not write and for a file that is also in `inputs`, (output)
+/// for a place where nothing can be written.
+void check_outputs(std::span<const std::filesystem::path> outputs,
+                   std::span<const std::filesystem::path> inputs);
+
+/// Where the outputs grow; to be removed when the process ends in the middle.
+[[nodiscard]] std::vector<std::filesystem::path> temporary_paths(
+    std::span<const std::filesystem::path> outputs);
+
+struct PictureOptions {
+    io::ExrOptions exr;
+    std::optional<float> exposure;  ///< [EV] of PNG files; none: automatic
+};
+
+struct PictureReport {
+    std::size_t clamped_pixels = 0;  ///< in an EXR file of halves
+    std::optional<float> exposure;   ///< [EV] of the PNG files, if there were any
+};
+
+/// Writes all `outputs`, each as its extension says. Throws `Error` (output).
+PictureReport write_pictures(std::span<const std::filesystem::path> outputs, const Image& image,
+                             const PictureOptions& options);
+
+}  // namespace bdpt::app

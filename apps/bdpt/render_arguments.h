@@ -1,0 +1,70 @@
+#pragma once
+
+#include <bdpt/io/exr.h>
+#include <bdpt/render_options.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "arguments.h"
+#include "console.h"
+#include "view.h"
+
+namespace CLI {
+class App;
+}
+
+namespace bdpt::app {
+
+/// What the words after `bdpt render` say, as they were given.
+struct RenderWords {
+    std::string file;
+    std::vector<std::string> outputs;
+    std::optional<std::int64_t> samples;
+    std::optional<std::string> time;
+    std::optional<std::string> size;
+    std::string integrator = "bdpt";
+    std::string heuristic = "power";
+    int max_depth = RenderOptions{}.max_depth;
+    std::optional<std::string> camera;
+    std::optional<std::string> look_at;
+    std::optional<std::string> from;
+    std::optional<double> fov;  // [deg]
+    std::optional<std::string> scene;
+    std::optional<std::string> environment;
+    std::optional<double> exposure;  // [EV]
+    int threads = 0;
+    std::string seed = "0";
+    bool half = false;
+    bool single = false;
+    bool quiet = false;
+    bool json = false;
+};
+
+/// The same, understood and checked.
+struct RenderArguments {
+    std::filesystem::path file;
+    std::vector<std::filesystem::path> outputs;
+    Goal goal;
+    std::optional<Size> size;
+    RenderOptions options;              ///< without size and sample range
+    std::optional<std::string> camera;  ///< name, index or "auto"
+    ViewOverrides view;
+    std::optional<std::string> scene;        ///< name or index
+    std::optional<std::string> environment;  ///< file, "none" or "default"
+    std::optional<float> exposure;           ///< [EV]
+    io::ExrChannelType channel_type = io::ExrChannelType::single_float;
+    Format format = Format::text;
+    Verbosity verbosity = Verbosity::normal;
+};
+
+/// Describes the options of `bdpt render` to the parser, which will store into `words`.
+void add_render_options(CLI::App& command, RenderWords& words);
+
+/// Throws `Error` (usage) that names the option and the value.
+[[nodiscard]] RenderArguments understand(const RenderWords& words);
+
+}  // namespace bdpt::app

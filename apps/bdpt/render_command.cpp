@@ -1,0 +1,192 @@
+#include "render_command.h"
+
+#include <bdpt/render.h>
+#include <fmt/core.h>
+
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "console.h"
+#include "interrupt.h"
+#include "pictures.h"
+#include "stage.h"
+#include "version.h"
+
+namespace bdpt::app {
+namespace {
+
+using nlohmann::ordered_json;
+
+const char* name_of(IntegratorKind kind)
+{
+    constexpr std::array names{"bdpt", "pt", "mis"};
+    return names[static_cast<std::size_t>(kind)];
+}
+
+const char* name_of(Heuristic heuristic)
+{
+    return heuristic == Heuristic::balance ? "balance" : "power";
+}
+
+/// All that the picture depends on.
+ordered_json settings_of(const RenderArguments& arguments, const Stage& stage)
+{
+    const RenderOptions& options = arguments.options;
+    ordered_json settings{{"width", stage.size.width},
+                          {"height", stage.size.height},
+                          {"integrator", name_of(options.integrator)},
+                          {"heuristic", name_of(options.heuristic)},
+                          {"max_depth", options.max_depth},
+                          {"seed", options.seed},
+                          {"camera", stage.camera.name},
+                          {"vertical_fov_degrees", static_cast<double>(stage.camera.vertical_fov) *
+                                                       180.0 / std::numbers::pi},
+                          {"environment", stage.environment_name}};
+    if (arguments.scene) {
+        settings["scene"] = *arguments.scene;
+    }
+    if (arguments.goal.samples) {
+        settings["spp"] = *arguments.goal.samples;
+    }
+    if (std::isfinite(arguments.goal.seconds)) {
+        settings["time_limit_seconds"] = arguments.goal.seconds;
+    }
+    return settings;
+}
+
+void announce(Console& console, const RenderArguments& arguments, const Stage& stage,
+              const ordered_json& settings)
+{
+    const SceneCounts counts = stage.scene.counts();
+    console.event("start", {{"version", version},
+                            {"file", arguments.file.string()},
+                            {"triangles", counts.instanced_triangles},
+                            {"lights", counts.lights},
+                            {"settings", settings}});
+    console.note(fmt::format("{}: {} triangles, {} lights; {}x{}, {}, camera {}",
+                             arguments.file.string(), counts.instanced_triangles, counts.lights,
+                             stage.size.width, stage.size.height,
+                             name_of(arguments.options.integrator), stage.camera.name));
+}
+
+RenderResult render_stage(const RenderArguments& arguments, const Stage& stage, Console& console,
+                          const std::stop_token& stop)
+{
+    // With --time alone, more samples than anyone has time for.
+    constexpr std::int64_t no_limit = std::int64_t{1} << 31;
+    RenderOptions options = arguments.options;
+    options.width = stage.size.width;
+    options.height = stage.size.height;
+    options.samples = {0, arguments.goal.samples.value_or(no_limit)};
+
+    RenderControl control;
+    control.stop = stop;
+    control.time_limit = arguments.goal.seconds;
+    control.on_progress = [&](const Progress& progress) {
+        console.progress(progress, arguments.goal);
+    };
+    RenderResult result = render(stage.scene, stage.camera, options, control);
+    console.end_progress();
+    return result;
+}
+
+void warn_of_defects(Console& console, const FilmDefects& defects)
+{
+    if (defects.invalid > 0) {
+        const FilmDefects::Place place = defects.first_invalid.value_or(FilmDefects::Place{});
+        console.warning(
+            fmt::format("{} contributions were NaN, infinite or negative and were dropped; the "
+                        "first at pixel ({}, {}), sample {}",
+                        defects.invalid, place.x, place.y, place.sample_index));
+    }
+    if (defects.saturated > 0) {
+        console.warning(fmt::format("{} contributions were above {:.3g} nit and count as that",
+                                    defects.saturated, ExactSum::max_value));
+    }
+}
+
+PictureOptions picture_options(const RenderArguments& arguments, const Stage& stage,
+                               const RenderResult& result, const ordered_json& settings)
+{
+    io::PictureMetadata metadata;
+    metadata.version = version;
+    metadata.scene = one_line(arguments.file.string());
+    metadata.settings = settings.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+    metadata.integrator = name_of(arguments.options.integrator);
+    metadata.seed = arguments.options.seed;
+    metadata.samples_per_pixel = result.film.sample_count();
+    metadata.render_seconds = result.seconds;
+    metadata.camera = stage.camera;
+    metadata.created = std::chrono::system_clock::now();
+    return {.exr = {arguments.channel_type, std::move(metadata)}, .exposure = arguments.exposure};
+}
+
+void report_done(Console& console, const RenderArguments& arguments, const RenderResult& result,
+                 const PictureReport& pictures, std::optional<int> signal)
+{
+    ordered_json outputs = ordered_json::array();
+    for (const std::filesystem::path& output : arguments.outputs) {
+        outputs.push_back(output.string());
+        console.note(fmt::format("wrote {}: {} spp in {:.1f} s", output.string(),
+                                 result.film.sample_count(), result.seconds));
+    }
+    ordered_json fields{{"samples", result.film.sample_count()},
+                        {"seconds", result.seconds},
+                        {"outputs", std::move(outputs)}};
+    fields["exposure"] = pictures.exposure ? ordered_json(*pictures.exposure) : ordered_json();
+    fields["stopped_by"] = signal ? ordered_json(signal_name(*signal)) : ordered_json();
+    console.event("done", fields);
+}
+
+}  // namespace
+
+int run_render(const RenderArguments& arguments)
+{
+    std::vector<std::filesystem::path> inputs{arguments.file};
+    if (arguments.environment) {
+        inputs.emplace_back(*arguments.environment);
+    }
+    check_outputs(arguments.outputs, inputs);
+
+    Console console(arguments.format, arguments.verbosity);
+    Interrupt interrupt(temporary_paths(arguments.outputs), [&console] {
+        console.note("stopping after the pass in flight; interrupt again to end at once");
+    });
+
+    const Stage stage = prepare_stage(arguments);
+    const ordered_json settings = settings_of(arguments, stage);
+    interrupt.allow_stop();
+    announce(console, arguments, stage, settings);
+    for (const std::string& warning : stage.warnings) {
+        console.warning(warning);
+    }
+    const RenderResult result = render_stage(arguments, stage, console, interrupt.stop_token());
+    warn_of_defects(console, result.film.defects());
+
+    const PictureReport pictures =
+        write_pictures(arguments.outputs, result.film.develop(),
+                       picture_options(arguments, stage, result, settings));
+    if (pictures.clamped_pixels > 0) {
+        console.warning(
+            fmt::format("{} pixels were beyond 65504 and are stored as that; --float "
+                        "keeps them",
+                        pictures.clamped_pixels));
+    }
+    const std::optional<int> signal = interrupt.signal();
+    if (signal) {
+        console.note(fmt::format("stopped by {} after {} samples per pixel", signal_name(*signal),
+                                 result.film.sample_count()));
+    }
+    report_done(console, arguments, result, pictures, signal);
+    return signal ? 128 + *signal : 0;
+}
+
+}  // namespace bdpt::app

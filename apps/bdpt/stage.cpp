@@ -1,0 +1,160 @@
+#include "stage.h"
+
+#include <bdpt/error.h>
+#include <bdpt/framing.h>
+#include <bdpt/io/environment.h>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "default_lights.h"
+#include "view.h"
+
+namespace bdpt::app {
+namespace {
+
+std::size_t count_triangles(const SceneDesc& desc)
+{
+    std::size_t count = 0;
+    for (const InstanceDesc& instance : desc.instances) {
+        const auto mesh = static_cast<std::size_t>(instance.mesh);
+        count += mesh < desc.meshes.size() ? desc.meshes[mesh].triangles.size() : 0;
+    }
+    return count;
+}
+
+/// Where light from infinity comes from, once all is decided.
+enum class Sky { none, fallback, chosen };
+
+struct LitScene {
+    SceneDesc desc;
+    Sky sky = Sky::none;
+    std::string environment_name = "none";
+    std::vector<std::string> warnings;
+};
+
+/// Adds the environment that was asked for or, where all is dark, the default one.
+LitScene add_environment(SceneDesc desc, const RenderArguments& arguments)
+{
+    LitScene lit{std::move(desc), Sky::none, "none", {}};
+    const std::string file = arguments.file.string();
+    const std::string choice = arguments.environment.value_or("");
+    if (choice == "none") {
+        if (!has_light(lit.desc)) {
+            lit.warnings.push_back(fmt::format("{}: no light: the picture will be black", file));
+        }
+    } else if (choice == "default") {
+        lit.sky = has_light(lit.desc) ? Sky::chosen : Sky::fallback;
+        lit.environment_name = choice;
+        lit.desc.lights.push_back(default_environment());
+    } else if (!choice.empty()) {
+        io::LoadedEnvironment loaded = io::load_environment(choice);
+        for (const std::string& warning : loaded.warnings) {
+            lit.warnings.push_back(fmt::format("{}: {}", choice, warning));
+        }
+        lit.sky = Sky::chosen;
+        lit.environment_name = choice;
+        lit.desc.lights.push_back(std::move(loaded.light));
+    } else if (!has_light(lit.desc)) {
+        lit.warnings.push_back(fmt::format(
+            "{}: no light: lit by the default environment, a soft sky (--env chooses another)",
+            file));
+        lit.sky = Sky::fallback;
+        lit.environment_name = "default";
+        lit.desc.lights.push_back(default_environment());
+    }
+    return lit;
+}
+
+struct BuiltScene {
+    Scene scene;
+    std::optional<FramedView> framed;  ///< if it was needed to build the scene
+};
+
+/// Builds the scene; a second time, with a lamp, when only the default sky lights a closed room.
+BuiltScene build(LitScene& lit, const std::string& file, float aspect)
+{
+    if (lit.sky != Sky::fallback) {
+        return {Scene(std::move(lit.desc)), std::nullopt};
+    }
+    Scene scene(lit.desc);
+    const FramedView framed = frame_scene(scene, aspect);
+    if (!framed.enclosed) {
+        return {std::move(scene), framed};
+    }
+    lit.warnings.push_back(fmt::format(
+        "{}: a closed room without light: a lamp was added at {:.3g},{:.3g},{:.3g} (--env none "
+        "takes it away)",
+        file, framed.lamp_position.x, framed.lamp_position.y, framed.lamp_position.z));
+    lit.desc.lights.emplace_back(default_lamp(framed));
+    return {Scene(std::move(lit.desc)), framed};
+}
+
+CameraDesc frame(const BuiltScene& built, float aspect)
+{
+    CameraDesc camera =
+        built.framed ? built.framed->camera : frame_scene(built.scene, aspect).camera;
+    camera.name = "auto";
+    return camera;
+}
+
+Vec3 center(const Bounds& bounds)
+{
+    return 0.5f * (bounds.min + bounds.max);
+}
+
+/// The camera of the file to look through; none: the scene is framed.
+std::optional<CameraDesc> camera_in_file(const std::vector<CameraDesc>& cameras,
+                                         const RenderArguments& arguments)
+{
+    const bool chosen = arguments.camera.has_value();
+    if (arguments.camera == "auto" || (!chosen && cameras.empty())) {
+        return std::nullopt;
+    }
+    const std::string choice = arguments.camera.value_or("0");
+    CameraDesc camera = select_camera(cameras, choice, arguments.file.string());
+    camera.name = camera.name.empty() ? choice : camera.name;
+    return camera;
+}
+
+}  // namespace
+
+Stage prepare_stage(const RenderArguments& arguments)
+{
+    const std::string file = arguments.file.string();
+    io::GltfOptions options;
+    options.scene = arguments.scene;
+    io::LoadedScene loaded = io::load_gltf(arguments.file, options);
+
+    std::vector<std::string> warnings;
+    for (const std::string& warning : loaded.warnings) {
+        warnings.push_back(fmt::format("{}: {}", file, warning));
+    }
+    if (count_triangles(loaded.scene) == 0) {
+        throw Error(ErrorCode::invalid_input,
+                    fmt::format("{}: the scene is empty: it has no triangles", file));
+    }
+    const std::optional<CameraDesc> from_file = camera_in_file(loaded.cameras, arguments);
+    const Size size =
+        arguments.size.value_or(default_size(from_file ? from_file->aspect_ratio : std::nullopt));
+    const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
+
+    LitScene lit = add_environment(std::move(loaded.scene), arguments);
+    BuiltScene built = build(lit, file, aspect);
+    warnings.insert(warnings.end(), lit.warnings.begin(), lit.warnings.end());
+    if (!from_file && !arguments.camera && !arguments.view.from) {
+        warnings.push_back(
+            fmt::format("{}: no camera: the whole scene is framed (--from, --look-at and --fov "
+                        "choose another view)",
+                        file));
+    }
+    CameraDesc camera =
+        from_file ? apply(arguments.view, *from_file, std::nullopt)
+                  : apply(arguments.view, frame(built, aspect), center(built.scene.bounds()));
+    return {std::move(built.scene), std::move(camera), lit.environment_name, size,
+            std::move(warnings)};
+}
+
+}  // namespace bdpt::app

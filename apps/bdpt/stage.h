@@ -1,0 +1,27 @@
+#pragma once
+
+#include <bdpt/io/gltf.h>
+#include <bdpt/scene.h>
+
+#include <string>
+#include <vector>
+
+#include "arguments.h"
+#include "render_arguments.h"
+
+namespace bdpt::app {
+
+/// A scene with light and a camera: ready to render.
+struct Stage {
+    Scene scene;
+    CameraDesc camera;             ///< named by its name or index, or "auto"
+    std::string environment_name;  ///< for people: its file, "default" or "none"
+    Size size;
+    std::vector<std::string> warnings;  ///< one line each
+};
+
+/// Loads the file, and fills in what it lacks by the rules that `bdpt render --help` states. Throws
+/// `Error`.
+[[nodiscard]] Stage prepare_stage(const RenderArguments& arguments);
+
+}  // namespace bdpt::app

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <bdpt/io/read_limits.h>
+#include <bdpt/scene_desc.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace bdpt::io {
+
+struct LoadedEnvironment {
+    EnvironmentLightDesc light;
+    std::vector<std::string> warnings;  ///< one line each, without the file's name
+};
+
+/// Reads an equirectangular picture in OpenEXR or Radiance HDR format; which of the two it is, its
+/// first bytes say. Pixels are taken as linear Rec. 709 [nit]; negative, infinite and NaN ones
+/// become 0, with a warning.
+///
+/// Throws `Error`, whose message starts with the file's path: not_found (missing or unreadable),
+/// invalid_input (broken, or over a limit), unsupported (neither format).
+[[nodiscard]] LoadedEnvironment load_environment(const std::filesystem::path& file,
+                                                 const ReadLimits& limits = {});
+
+}  // namespace bdpt::io

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <bdpt/io/read_limits.h>
+#include <bdpt/scene_desc.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace bdpt::io {
+
+struct GltfOptions {
+    /// Name or index of the scene; none: the file's default scene, else its first.
+    std::optional<std::string> scene;
+    ReadLimits limits;
+};
+
+/// What we make of a glTF extension.
+enum class ExtensionStatus : std::uint8_t {
+    supported,
+    ignored,  ///< known, and the picture is right or close without it; `note` says what is lost
+    unknown,
+};
+
+[[nodiscard]] std::string_view to_string(ExtensionStatus status);
+
+/// One entry of a file's `extensionsUsed`.
+struct ExtensionUse {
+    std::string name;
+    ExtensionStatus status = ExtensionStatus::unknown;
+    bool required = false;
+    std::string note;  ///< empty, or what is lost, in a few words
+};
+
+/// What a file says and holds, for reports. Counts are those of the whole file.
+struct GltfFacts {
+    std::string version;  ///< of glTF
+    std::string generator;
+    std::string copyright;
+    std::vector<std::string> scene_names;  ///< one for each scene; may be empty strings
+    std::optional<std::size_t> scene;      ///< index of the loaded scene; none: the file has none
+    std::size_t nodes = 0;
+    std::size_t meshes = 0;
+    std::size_t primitives = 0;
+    std::size_t materials = 0;
+    std::size_t textures = 0;
+    std::size_t images = 0;
+    std::size_t lights = 0;  ///< of KHR_lights_punctual
+    std::size_t cameras = 0;
+    std::size_t skins = 0;
+    std::size_t animations = 0;
+    std::vector<ExtensionUse> extensions;
+};
+
+struct LoadedScene {
+    SceneDesc scene;                    ///< without an environment; glTF has none
+    std::vector<CameraDesc> cameras;    ///< those of the scene's nodes, in the order of the nodes
+    std::vector<std::string> warnings;  ///< one line each, without the file's name
+    GltfFacts facts;
+};
+
+/// Reads a .gltf or .glb file [glTF 2.0] with all that it refers to; which of the two it is, its
+/// first bytes say. A scene without meshes loads with zero instances.
+///
+/// Throws `Error`, whose message starts with the file's path and names the place as a JSON pointer:
+/// not_found (a file that is missing or unreadable; no such scene), invalid_input (broken, unsafe
+/// or ambiguous, or over a limit), unsupported (a required extension, or a glTF version, that we do
+/// not have). What is merely not conforming becomes a warning.
+[[nodiscard]] LoadedScene load_gltf(const std::filesystem::path& file,
+                                    const GltfOptions& options = {});
+
+}  // namespace bdpt::io

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+
+namespace bdpt::io {
+
+/// A file that appears under its name only when it is whole. Until then its bytes are in
+/// `temporary_path()`, in the same folder; without a commit nothing is left of it.
+class OutputFile {
+public:
+    /// Where `file` grows: `NAME.tmp-PID` beside it. A symbolic link is followed first.
+    [[nodiscard]] static std::filesystem::path temporary_path(const std::filesystem::path& file);
+
+    /// Throws `Error` (output) when the folder is missing or cannot be written, or when `file`
+    /// exists and is a folder or protected.
+    explicit OutputFile(const std::filesystem::path& file);
+    ~OutputFile();
+    OutputFile(const OutputFile&) = delete;
+    OutputFile& operator=(const OutputFile&) = delete;
+
+    /// Writes at `position()` and moves it on. Throws `Error` (output).
+    void write(std::span<const char> bytes);
+    [[nodiscard]] std::uint64_t position() const { return position_; }
+    void seek(std::uint64_t position) { position_ = position; }
+
+    /// Brings the bytes to the disk and gives the file its name, in place of one that had it.
+    /// Throws `Error` (output), also when an earlier write failed.
+    void commit();
+
+private:
+    std::filesystem::path name_;  // as the caller knows it, for messages
+    std::filesystem::path target_;
+    std::filesystem::path temporary_;
+    int descriptor_ = -1;
+    std::uint64_t position_ = 0;
+    int first_error_ = 0;  // errno of the first write that failed
+};
+
+/// Throws `Error` (output) when `file` could not be written now. Leaves nothing behind.
+void check_writable(const std::filesystem::path& file);
+
+}  // namespace bdpt::io

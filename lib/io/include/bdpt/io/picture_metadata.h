@@ -1,0 +1,34 @@
+#pragma once
+
+#include <bdpt/scene_desc.h>
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace bdpt::io {
+
+/// How a picture came about; written into its file.
+struct PictureMetadata {
+    std::string version;     ///< of bdpt, e.g. "0.1.0"
+    std::string scene;       ///< the file that was rendered; UTF-8
+    std::string settings;    ///< all options as one JSON object
+    std::string integrator;  ///< "bdpt", "pt" or "mis"
+    std::uint64_t seed = 0;
+    std::int64_t samples_per_pixel = 0;
+    double render_seconds = 0.0;
+    CameraDesc camera;
+    std::chrono::system_clock::time_point created{};
+};
+
+/// The text entries that all formats share: "bdpt.version", "bdpt.scene", "bdpt.settings",
+/// "bdpt.integrator" and "bdpt.seed".
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> text_entries(
+    const PictureMetadata& metadata);
+
+/// "bdpt VERSION".
+[[nodiscard]] std::string software_name(const PictureMetadata& metadata);
+
+}  // namespace bdpt::io

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <bdpt/io/picture_metadata.h>
+#include <bdpt/io/tone_map.h>
+
+#include <filesystem>
+
+namespace bdpt::io {
+
+struct PngOptions {
+    float exposure = 0.0f;  ///< [EV] that the picture was made with; for the record
+    PictureMetadata metadata;
+};
+
+/// Writes an 8-bit RGB PNG with an sRGB chunk and the metadata as text, atomically. Throws `Error`
+/// (output).
+void write_png(const std::filesystem::path& file, const DisplayImage& image,
+               const PngOptions& options);
+
+}  // namespace bdpt::io

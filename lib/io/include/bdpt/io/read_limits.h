@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace bdpt::io {
+
+/// What a file may ask of us. A file beyond a limit is refused (`ErrorCode::invalid_input`) before
+/// the memory or the time is spent. The defaults let every sensible scene pass.
+struct ReadLimits {
+    std::uint64_t file_bytes = std::uint64_t{4} << 30;    ///< of one file
+    std::uint64_t buffer_bytes = std::uint64_t{8} << 30;  ///< of all glTF buffers together
+    std::uint64_t json_bytes = std::uint64_t{1} << 30;    ///< of the JSON text, data URIs included
+    std::size_t json_depth = 64;                          ///< nested objects and arrays
+    std::size_t json_values = 50'000'000;  ///< objects, arrays, strings, numbers, ...
+    std::size_t nodes = 1'000'000;
+    std::size_t node_depth = 512;
+    std::size_t instances = 10'000'000;
+    std::uint64_t triangles = 500'000'000;                 ///< of all meshes, each mesh once
+    int image_side = 16384;                                ///< [pixels]
+    std::uint64_t image_bytes = std::uint64_t{2} << 30;    ///< of one picture, decoded
+    std::uint64_t texture_bytes = std::uint64_t{8} << 30;  ///< of all pictures together, decoded
+    /// Decoded over encoded size of a picture. Pictures of less than 64 MiB are not asked.
+    std::uint64_t compression_ratio = 1000;
+};
+
+}  // namespace bdpt::io

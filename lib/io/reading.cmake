@@ -1,0 +1,68 @@
+# Reading: glTF scenes, textures, environment maps.
+include(GNUInstallDirs)
+
+target_sources(bdpt_io PRIVATE
+  # files, JSON
+  src/file/json_parser.cpp
+  src/file/json_place.cpp
+  src/file/read_file.cpp
+  src/file/uri.cpp
+  src/file/warnings.cpp
+  # pictures
+  src/image/environment.cpp
+  src/image/exr_reader.cpp
+  src/image/oiio_library.cpp
+  src/image/texels.cpp
+  # glTF: checks before tinygltf
+  src/gltf/extensions.cpp
+  src/gltf/glb.cpp
+  src/gltf/layout.cpp
+  src/gltf/node_graph.cpp
+  src/gltf/prepass.cpp
+  src/gltf/schema.cpp
+  # glTF: structs by tinygltf
+  src/gltf/model.cpp
+  src/gltf/tinygltf.cpp
+  # glTF: structs to SceneDesc
+  src/gltf/accessor.cpp
+  src/gltf/attributes.cpp
+  src/gltf/camera.cpp
+  src/gltf/facts.cpp
+  src/gltf/gltf.cpp
+  src/gltf/image_table.cpp
+  src/gltf/light.cpp
+  src/gltf/material.cpp
+  src/gltf/mesh.cpp
+  src/gltf/placement.cpp
+  src/gltf/scene_builder.cpp
+  src/gltf/select_scene.cpp
+  src/gltf/texture.cpp
+  src/gltf/transform.cpp
+)
+target_include_directories(bdpt_io SYSTEM PRIVATE ${BDPT_TINYGLTF_INCLUDE_DIR})
+target_link_libraries(bdpt_io PRIVATE
+  OpenEXR::OpenEXR Imath::Imath nlohmann_json::nlohmann_json fmt::fmt ${CMAKE_DL_LIBS})
+
+# tinygltf gets checked JSON and buffers from memory; it opens no files and decodes no pictures.
+target_compile_definitions(bdpt_io PRIVATE
+  TINYGLTF_NO_STB_IMAGE TINYGLTF_NO_STB_IMAGE_WRITE TINYGLTF_NO_EXTERNAL_IMAGE TINYGLTF_NO_FS
+  TINYGLTF_NO_INCLUDE_JSON)
+# What sees tinygltf is hidden, so that it cannot clash with another copy in the user's program. The
+# implementation's warnings are not ours to mend.
+set_source_files_properties(
+  src/gltf/accessor.cpp src/gltf/camera.cpp src/gltf/image_table.cpp src/gltf/light.cpp
+  src/gltf/material.cpp src/gltf/mesh.cpp src/gltf/model.cpp src/gltf/scene_builder.cpp
+  src/gltf/texture.cpp src/gltf/transform.cpp
+  PROPERTIES COMPILE_OPTIONS "-fvisibility=hidden")
+set_source_files_properties(src/gltf/tinygltf.cpp PROPERTIES
+  COMPILE_OPTIONS "-fvisibility=hidden;-w")
+
+# OpenImageIO lives in a module that is loaded with the first picture (src/image/oiio_library.h).
+add_library(bdpt_oiio MODULE src/oiio_module/oiio_module.cpp)
+bdpt_compile_options(bdpt_oiio)
+set_target_properties(bdpt_oiio PROPERTIES CXX_VISIBILITY_PRESET hidden)
+target_include_directories(bdpt_oiio PRIVATE src)
+target_link_libraries(bdpt_oiio PRIVATE OpenImageIO::OpenImageIO)
+add_dependencies(bdpt_io bdpt_oiio)
+set_source_files_properties(src/image/oiio_library.cpp PROPERTIES COMPILE_DEFINITIONS
+  "BDPT_OIIO_BUILD_FILE=\"$<TARGET_FILE:bdpt_oiio>\";BDPT_INSTALL_LIBDIR=\"${CMAKE_INSTALL_LIBDIR}\"")

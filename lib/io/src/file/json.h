@@ -1,0 +1,66 @@
+#pragma once
+
+#include "file/bytes.h"
+
+#include <bdpt/error.h>
+#include <bdpt/io/read_limits.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace bdpt::io {
+
+using Json = nlohmann::json;
+
+/// Reads one JSON text. Throws `Error` (invalid_input) when it is malformed, names a key twice in
+/// one object, or is longer, deeper or richer than the limits allow.
+[[nodiscard]] Json parse_json(ByteView text, const ReadLimits& limits);
+
+/// A value in a JSON document that knows where it stands. Refers to its parent and to the document,
+/// which must outlive it.
+class JsonPlace {
+public:
+    explicit JsonPlace(const Json& root) : value_(&root) {}
+
+    [[nodiscard]] const Json& value() const { return *value_; }
+    /// The value as a JSON pointer [RFC 6901]; empty for the root.
+    [[nodiscard]] std::string pointer() const;
+
+    [[nodiscard]] bool has(std::string_view key) const;
+    /// `key` must be there.
+    [[nodiscard]] JsonPlace member(std::string_view key) const&;
+    JsonPlace member(std::string_view key) const&& = delete;  // would outlive its parent
+    /// `index` must be in range.
+    [[nodiscard]] JsonPlace element(std::size_t index) const&;
+    JsonPlace element(std::size_t index) const&& = delete;
+    /// Number of elements; 0 if this is no array.
+    [[nodiscard]] std::size_t size() const { return value_->is_array() ? value_->size() : 0; }
+
+    /// The integer, which must not be negative. Throws `Error` (invalid_input).
+    [[nodiscard]] std::uint64_t as_unsigned() const;
+    /// The integer in member `key`, or `fallback` where there is none.
+    [[nodiscard]] std::uint64_t unsigned_or(std::string_view key, std::uint64_t fallback) const;
+
+    /// Throws `Error` whose message is the pointer and `what`.
+    [[noreturn]] void fail(const std::string& what,
+                           ErrorCode code = ErrorCode::invalid_input) const;
+
+private:
+    JsonPlace(const JsonPlace* parent, std::string_view key, std::size_t index, const Json* value)
+        : parent_(parent), key_(key), index_(index), value_(value)
+    {}
+
+    const JsonPlace* parent_ = nullptr;
+    std::string_view key_;   // empty in an array
+    std::size_t index_ = 0;  // in an array
+    const Json* value_ = nullptr;
+};
+
+/// The value in a few characters, for messages.
+[[nodiscard]] std::string brief(const Json& value);
+
+}  // namespace bdpt::io

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace bdpt::io {
+
+/// Collects warnings. Those of one kind are counted and become one line with the first place.
+class Warnings {
+public:
+    /// `kind` says what is odd and what is done about it; `place` where, and which value.
+    void add(const std::string& kind, const std::string& place);
+
+    /// One line a kind, in the order of their first appearance.
+    [[nodiscard]] std::vector<std::string> lines() const;
+
+private:
+    struct Entry {
+        std::string kind;
+        std::string first_place;
+        std::size_t count = 0;
+    };
+
+    std::vector<Entry> entries_;
+    std::map<std::string, std::size_t> index_;
+};
+
+}  // namespace bdpt::io

@@ -1,0 +1,57 @@
+#include "gltf/facts.h"
+
+#include <string>
+
+namespace bdpt::io {
+
+namespace {
+
+std::string text_or_empty(const Json& object, const char* key)
+{
+    const auto found = object.find(key);
+    return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+std::size_t count(const Json& document, const char* section)
+{
+    const auto found = document.find(section);
+    return found != document.end() && found->is_array() ? found->size() : 0;
+}
+
+}  // namespace
+
+GltfFacts collect_facts(const CheckedGltf& checked)
+{
+    const Json& document = checked.document;
+    const Json& asset = document.at("asset");
+    GltfFacts facts;
+    facts.version = text_or_empty(asset, "version");
+    facts.generator = text_or_empty(asset, "generator");
+    facts.copyright = text_or_empty(asset, "copyright");
+    facts.nodes = count(document, "nodes");
+    facts.meshes = count(document, "meshes");
+    facts.materials = count(document, "materials");
+    facts.textures = count(document, "textures");
+    facts.images = count(document, "images");
+    facts.cameras = count(document, "cameras");
+    facts.skins = count(document, "skins");
+    facts.animations = count(document, "animations");
+    facts.extensions = checked.extensions;
+    if (count(document, "meshes") > 0) {
+        for (const Json& mesh : document["meshes"]) {
+            facts.primitives += mesh.at("primitives").size();
+        }
+    }
+    if (count(document, "scenes") > 0) {
+        for (const Json& scene : document["scenes"]) {
+            facts.scene_names.push_back(text_or_empty(scene, "name"));
+        }
+    }
+    const auto extensions = document.find("extensions");
+    if (extensions != document.end() && extensions->contains("KHR_lights_punctual")) {
+        facts.lights = count((*extensions)["KHR_lights_punctual"], "lights");
+    }
+    return facts;
+}
+
+}  // namespace bdpt::io

@@ -1,0 +1,48 @@
+#include <bdpt/error.h>
+#include <bdpt/io/gltf.h>
+
+#include "file/warnings.h"
+#include "gltf/facts.h"
+#include "gltf/prepass.h"
+#include "gltf/scene_builder.h"
+
+#include <exception>
+#include <new>
+#include <utility>
+
+namespace bdpt::io {
+
+namespace {
+
+LoadedScene load(const std::filesystem::path& file, const GltfOptions& options)
+{
+    Warnings warnings;
+    CheckedGltf checked = read_checked_gltf(file, options.limits, warnings);
+    GltfFacts facts = collect_facts(checked);
+    facts.scene = select_scene(checked.document, options.scene);
+    if (!facts.scene) {
+        warnings.add("the file has no scene; all its nodes are shown", "/scenes");
+    }
+    LoadedScene loaded = build_scene(std::move(checked), facts.scene, options.limits, warnings);
+    loaded.facts = std::move(facts);
+    loaded.warnings = warnings.lines();
+    return loaded;
+}
+
+}  // namespace
+
+LoadedScene load_gltf(const std::filesystem::path& file, const GltfOptions& options)
+{
+    const std::string prefix = file.string() + ": ";
+    try {
+        return load(file, options);
+    } catch (const Error& error) {
+        throw Error(error.code(), prefix + error.what());
+    } catch (const std::bad_alloc&) {
+        throw Error(ErrorCode::out_of_memory, prefix + "not enough memory");
+    } catch (const std::exception& error) {
+        throw Error(ErrorCode::internal, prefix + error.what());
+    }
+}
+
+}  // namespace bdpt::io

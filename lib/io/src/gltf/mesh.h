@@ -1,0 +1,33 @@
+#pragma once
+
+#include "file/warnings.h"
+#include "gltf/tinygltf.h"
+
+#include <bdpt/scene_desc.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace bdpt::io {
+
+/// One primitive of a glTF mesh, by indices.
+struct PrimitiveId {
+    std::size_t mesh = 0;
+    std::size_t primitive = 0;
+
+    [[nodiscard]] std::string pointer() const;
+};
+
+/// The triangles of a primitive; none if it has none, with a warning. Throws `Error`
+/// (invalid_input), for positions that are not finite and indices out of range among others.
+[[nodiscard]] std::optional<MeshDesc> read_primitive(const tinygltf::Model& model, PrimitiveId id,
+                                                     Warnings& warnings);
+
+/// Triangles from indices in the order of a strip, a fan or a list [glTF 2.0, sec. 3.7.2.1]; none
+/// for modes without triangles. `mode` is that of glTF.
+[[nodiscard]] std::vector<UVec3> to_triangles(const std::vector<std::uint32_t>& indices, int mode);
+
+}  // namespace bdpt::io

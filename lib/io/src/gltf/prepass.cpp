@@ -1,0 +1,161 @@
+#include "gltf/prepass.h"
+
+#include "file/read_file.h"
+#include "file/uri.h"
+#include "gltf/extensions.h"
+#include "gltf/glb.h"
+#include "gltf/layout.h"
+#include "gltf/node_graph.h"
+#include "gltf/schema.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+namespace bdpt::io {
+
+namespace {
+
+/// Major and minor must be what we know: 2.x, and a minimum of 2.0 at most [glTF 2.0, sec. 3.2].
+/// Comes first, as glTF 1.0 breaks about every rule of 2.0.
+void check_version(const JsonPlace& root)
+{
+    if (!root.has("asset")) {
+        return;
+    }
+    const JsonPlace asset = root.member("asset");
+    if (asset.has("version")) {
+        const JsonPlace version = asset.member("version");
+        if (version.value().is_string() &&
+            !version.value().get_ref<const std::string&>().starts_with("2.")) {
+            version.fail("glTF " + brief(version.value()) + "; only 2.x is supported",
+                         ErrorCode::unsupported);
+        }
+    }
+    if (asset.has("minVersion")) {
+        const JsonPlace minimum = asset.member("minVersion");
+        if (minimum.value() != "2.0") {
+            minimum.fail("requires glTF " + brief(minimum.value()) + "; 2.0 is supported",
+                         ErrorCode::unsupported);
+        }
+    }
+}
+
+Bytes read_buffer(const JsonPlace& buffer, const std::filesystem::path& folder,
+                  const ReadLimits& limits)
+{
+    const JsonPlace place = buffer.member("uri");
+    const auto& uri = place.value().get_ref<const std::string&>();
+    try {
+        if (is_data_uri(uri)) {
+            return decode_data_uri(uri, limits.file_bytes);
+        }
+        const std::filesystem::path file = resolve_uri(folder, uri);
+        try {
+            return read_file(file, limits.file_bytes);
+        } catch (const Error& error) {
+            throw Error(error.code(), quote(uri) + ": " + error.what());
+        }
+    } catch (const Error& error) {
+        place.fail(error.what(), error.code());
+    }
+}
+
+/// Buffer 0 of a binary file is its BIN chunk, unless it has a URI [glTF 2.0, sec. 4.4.3.3].
+std::vector<Bytes> read_buffers(const JsonPlace& root, std::optional<Bytes> bin,
+                                const std::filesystem::path& folder, const ReadLimits& limits,
+                                Warnings& warnings)
+{
+    std::vector<Bytes> buffers;
+    const std::size_t count = root.has("buffers") ? root.member("buffers").size() : 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const JsonPlace all = root.member("buffers");
+        const JsonPlace buffer = all.element(i);
+        const bool in_bin = i == 0 && bin && !buffer.has("uri");
+        if (!in_bin && !buffer.has("uri")) {
+            buffer.fail(i == 0 ? "no \"uri\", and there is no BIN chunk" : "no \"uri\"");
+        }
+        Bytes bytes = in_bin ? std::move(*bin) : read_buffer(buffer, folder, limits);
+        const std::uint64_t length = buffer.member("byteLength").as_unsigned();
+        if (bytes.size() < length) {
+            buffer.member("byteLength")
+                .fail(fmt::format("{} bytes, but there are {}", length, bytes.size()));
+        }
+        // The BIN chunk may have up to three bytes of padding.
+        if (bytes.size() > length + (in_bin ? 3 : 0)) {
+            warnings.add("the buffer holds more bytes than it says; they are ignored",
+                         fmt::format("{}: {}", buffer.member("byteLength").pointer(), length));
+        }
+        buffers.push_back(std::move(bytes));
+    }
+    return buffers;
+}
+
+/// All images' URIs, also of those that no material uses: a file that points outside of its folder
+/// is refused as a whole.
+void check_image_uris(const JsonPlace& root, const std::filesystem::path& folder)
+{
+    if (!root.has("images")) {
+        return;
+    }
+    const JsonPlace images = root.member("images");
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        const JsonPlace image = images.element(i);
+        if (image.has("uri") && image.has("bufferView")) {
+            image.fail("both \"uri\" and \"bufferView\"");
+        }
+        if (!image.has("uri")) {
+            continue;
+        }
+        const JsonPlace place = image.member("uri");
+        const auto& uri = place.value().get_ref<const std::string&>();
+        if (is_data_uri(uri)) {
+            continue;
+        }
+        try {
+            static_cast<void>(resolve_uri(folder, uri));
+        } catch (const Error& error) {
+            place.fail(error.what(), error.code());
+        }
+    }
+}
+
+}  // namespace
+
+CheckedGltf read_checked_gltf(const std::filesystem::path& file, const ReadLimits& limits,
+                              Warnings& warnings)
+{
+    Bytes bytes = read_file(file, limits.file_bytes);
+    CheckedGltf result;
+    result.folder = file.parent_path();
+    std::optional<Bytes> bin;
+    if (is_glb(bytes)) {
+        const GlbChunks chunks = find_glb_chunks(bytes, warnings);
+        result.document =
+            parse_json(ByteView(bytes).subspan(chunks.json.offset, chunks.json.size), limits);
+        if (chunks.bin) {
+            // In place: a scene's vertices should not be in memory twice.
+            bytes.resize(chunks.bin->offset + chunks.bin->size);
+            bytes.erase(bytes.begin(),
+                        bytes.begin() + static_cast<std::ptrdiff_t>(chunks.bin->offset));
+            bin = std::move(bytes);
+        }
+    } else {
+        result.document = parse_json(bytes, limits);
+    }
+    const JsonPlace root(result.document);
+    if (!root.value().is_object()) {
+        root.fail("a glTF document must be a JSON object, but is " + brief(root.value()));
+    }
+    check_version(root);
+    result.extensions = check_extensions(root, warnings);
+    check_schema(root);
+    check_layout(root, limits, warnings);
+    check_node_graph(root, limits);
+    check_image_uris(root, result.folder);
+    result.buffers = read_buffers(root, std::move(bin), result.folder, limits, warnings);
+    return result;
+}
+
+}  // namespace bdpt::io

@@ -1,0 +1,57 @@
+#pragma once
+
+#include "file/warnings.h"
+#include "gltf/image_table.h"
+#include "gltf/tinygltf.h"
+
+#include <bdpt/scene_desc.h>
+
+#include <optional>
+#include <string>
+
+namespace bdpt::io {
+
+/// A reference from a material to a texture, wherever it stands in the material.
+struct TextureInfo {
+    int index = -1;  ///< -1: no texture
+    int tex_coord = 0;
+    const tinygltf::Value* transform = nullptr;  ///< KHR_texture_transform, if any
+};
+
+/// The reference `key` in an extension of a material.
+[[nodiscard]] TextureInfo texture_info(const tinygltf::Value& extension, const std::string& key);
+
+/// The same from one of tinygltf's structs (TextureInfo, NormalTextureInfo).
+template <typename Info>
+[[nodiscard]] TextureInfo texture_info(const Info& info)
+{
+    const auto transform = info.extensions.find("KHR_texture_transform");
+    return {info.index, info.texCoord,
+            transform == info.extensions.end() ? nullptr : &transform->second};
+}
+
+/// Number `key` in an extension object, or `fallback`.
+[[nodiscard]] double number_or(const tinygltf::Value& object, const std::string& key,
+                               double fallback);
+
+/// Resolves references to textures and has their pictures decoded.
+class TextureResolver {
+public:
+    TextureResolver(const tinygltf::Model& model, ImageTable& images, Warnings& warnings)
+        : model_(model), images_(images), warnings_(warnings)
+    {}
+
+    /// None where there is no texture, or, with a warning, none that can be used. `place` is the
+    /// JSON pointer of the reference.
+    [[nodiscard]] std::optional<TextureRef> resolve(const TextureInfo& info,
+                                                    const std::string& place);
+
+private:
+    [[nodiscard]] Wrap wrap(int value, int sampler, const char* name);
+
+    const tinygltf::Model& model_;
+    ImageTable& images_;
+    Warnings& warnings_;
+};
+
+}  // namespace bdpt::io

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "file/warnings.h"
+#include "gltf/tinygltf.h"
+
+#include <bdpt/types.h>
+
+#include <glm/mat4x4.hpp>
+
+#include <cstddef>
+
+namespace bdpt::io {
+
+/// The node's own transform, from its matrix or its translation, rotation and scale [glTF 2.0,
+/// sec. 3.5.3]. Affine; in double, so that deep hierarchies lose nothing.
+[[nodiscard]] glm::dmat4 local_transform(const tinygltf::Model& model, std::size_t node,
+                                         Warnings& warnings);
+
+/// A direction [not zero] of the node's space in world space, of unit length; (0, 0, -1) where the
+/// transform leaves none.
+[[nodiscard]] Vec3 transform_direction(const glm::dmat4& world_from_node,
+                                       const glm::dvec3& direction);
+
+}  // namespace bdpt::io

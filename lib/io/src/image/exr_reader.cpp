@@ -1,0 +1,236 @@
+#include "image/exr_reader.h"
+
+#include "image/oiio_library.h"
+
+#include <bdpt/error.h>
+
+#include <ImathBox.h>
+#include <ImfArray.h>
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfIO.h>
+#include <ImfInputFile.h>
+#include <ImfPartType.h>
+#include <ImfRgbaFile.h>
+#include <ImfVersion.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <exception>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+namespace bdpt::io {
+
+namespace {
+
+/// A file in memory.
+class MemoryStream : public Imf::IStream {
+public:
+    explicit MemoryStream(ByteView bytes) : Imf::IStream("picture"), bytes_(bytes) {}
+
+    bool read(char target[], int count) override
+    {
+        const auto wanted = static_cast<std::size_t>(count);
+        if (wanted > bytes_.size() - position_) {
+            throw std::runtime_error("the file is truncated");
+        }
+        std::memcpy(target, bytes_.data() + position_, wanted);
+        position_ += wanted;
+        return position_ < bytes_.size();
+    }
+
+    std::uint64_t tellg() override { return position_; }
+
+    void seekg(std::uint64_t position) override
+    {
+        if (position > bytes_.size()) {
+            throw std::runtime_error("the file is truncated");
+        }
+        position_ = static_cast<std::size_t>(position);
+    }
+
+private:
+    ByteView bytes_;
+    std::size_t position_ = 0;
+};
+
+/// Names of the channels of one layer that together are colours.
+struct ColorChannels {
+    std::string prefix;      // of the layer, with a dot, or empty
+    bool luminance = false;  // Y instead of R, G, B
+    bool chroma = false;     // RY and BY beside Y
+};
+
+std::optional<ColorChannels> find_colors(const Imf::ChannelList& channels)
+{
+    const auto has = [&channels](const std::string& name) {
+        return channels.findChannel(name.c_str()) != nullptr;
+    };
+    // Every channel's prefix is a candidate; the empty one, if any, comes first.
+    std::vector<std::string> prefixes{""};
+    for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
+        const std::string name = channel.name();
+        const std::size_t dot = name.rfind('.');
+        if (dot != std::string::npos) {
+            prefixes.push_back(name.substr(0, dot + 1));
+        }
+    }
+    for (const std::string& prefix : prefixes) {
+        if (has(prefix + "R") && has(prefix + "G") && has(prefix + "B")) {
+            return ColorChannels{prefix, false, false};
+        }
+    }
+    for (const std::string& prefix : prefixes) {
+        if (has(prefix + "Y")) {
+            return ColorChannels{prefix, true, has(prefix + "RY") && has(prefix + "BY")};
+        }
+    }
+    return std::nullopt;
+}
+
+struct Window {
+    int width = 0;
+    int height = 0;
+};
+
+Window checked_size(const Imath::Box2i& box, std::size_t encoded, const ReadLimits& limits)
+{
+    const std::int64_t width = std::int64_t{box.max.x} - box.min.x + 1;
+    const std::int64_t height = std::int64_t{box.max.y} - box.min.y + 1;
+    const std::int64_t most = limits.image_side;
+    if (width < 1 || height < 1 || width > most || height > most) {
+        throw Error(
+            ErrorCode::invalid_input,
+            fmt::format("picture of {} x {} pixels; 1 to {} a side are read", width, height, most));
+    }
+    const Window window{static_cast<int>(width), static_cast<int>(height)};
+    check_picture_size(window.width, window.height, sizeof(Rgb), encoded, limits);
+    return window;
+}
+
+/// Reads R, G, B or Y in single precision, whatever their type in the file.
+std::vector<Rgb> read_channels(Imf::InputFile& input, const ColorChannels& colors,
+                               const Imath::Box2i& box, const Window& window)
+{
+    std::vector<Rgb> pixels(
+        static_cast<std::size_t>(window.width) * static_cast<std::size_t>(window.height),
+        Rgb(0.0f));
+    const std::array<std::string, 3> names = colors.luminance
+                                                 ? std::array<std::string, 3>{"Y", "", ""}
+                                                 : std::array<std::string, 3>{"R", "G", "B"};
+    Imf::FrameBuffer buffer;
+    const std::size_t row = sizeof(Rgb) * static_cast<std::size_t>(window.width);
+    for (std::size_t c = 0; c < names.size() && !names[c].empty(); ++c) {
+        auto* const base = reinterpret_cast<char*>(&pixels[0][static_cast<int>(c)]);
+        buffer.insert((colors.prefix + names[c]).c_str(),
+                      Imf::Slice::Make(Imf::FLOAT, base, box, sizeof(Rgb), row));
+    }
+    input.setFrameBuffer(buffer);
+    input.readPixels(box.min.y, box.max.y);
+    if (colors.luminance) {
+        for (Rgb& pixel : pixels) {
+            pixel = Rgb(pixel[0]);
+        }
+    }
+    return pixels;
+}
+
+/// Luminance with subsampled chroma: OpenEXR itself rebuilds the colours, in half precision.
+std::vector<Rgb> read_chroma(ByteView file, const std::string& prefix, const Imath::Box2i& box,
+                             const Window& window)
+{
+    MemoryStream stream(file);
+    const std::string layer = prefix.empty() ? prefix : prefix.substr(0, prefix.size() - 1);
+    Imf::RgbaInputFile input(stream, layer, 0);
+    Imf::Array2D<Imf::Rgba> rgba(window.height, window.width);
+    const std::ptrdiff_t origin =
+        std::ptrdiff_t{box.min.x} + std::ptrdiff_t{box.min.y} * std::ptrdiff_t{window.width};
+    input.setFrameBuffer(&rgba[0][0] - origin, 1, static_cast<std::size_t>(window.width));
+    input.readPixels(box.min.y, box.max.y);
+    std::vector<Rgb> pixels;
+    pixels.reserve(static_cast<std::size_t>(window.width) *
+                   static_cast<std::size_t>(window.height));
+    for (int y = 0; y < window.height; ++y) {
+        for (int x = 0; x < window.width; ++x) {
+            const Imf::Rgba& pixel = rgba[y][x];
+            pixels.emplace_back(pixel.r, pixel.g, pixel.b);
+        }
+    }
+    return pixels;
+}
+
+/// Puts the data window where it belongs in the display window.
+Image place(const std::vector<Rgb>& pixels, const Imath::Box2i& data, const Imath::Box2i& display,
+            const Window& data_size, const Window& size)
+{
+    Image image{size.width, size.height, {}};
+    image.pixels.resize(
+        static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height), Rgb(0.0f));
+    const int left = std::max(data.min.x, display.min.x);
+    const int right = std::min(data.max.x, display.max.x);
+    for (int y = std::max(data.min.y, display.min.y); y <= std::min(data.max.y, display.max.y);
+         ++y) {
+        const auto from = static_cast<std::ptrdiff_t>(y - data.min.y) * data_size.width;
+        const auto to = static_cast<std::ptrdiff_t>(y - display.min.y) * size.width;
+        if (left <= right) {
+            std::copy(pixels.begin() + from + (left - data.min.x),
+                      pixels.begin() + from + (right - data.min.x) + 1,
+                      image.pixels.begin() + to + (left - display.min.x));
+        }
+    }
+    return image;
+}
+
+Image read(ByteView file, const ReadLimits& limits, Warnings& warnings)
+{
+    MemoryStream stream(file);
+    Imf::InputFile input(stream, 0);
+    const Imf::Header& header = input.header();
+    if (header.hasType() && Imf::isDeepData(header.type())) {
+        throw Error(ErrorCode::unsupported, "deep OpenEXR files are not supported");
+    }
+    const std::optional<ColorChannels> colors = find_colors(header.channels());
+    if (!colors) {
+        throw Error(ErrorCode::unsupported, "neither R, G, B nor Y channels");
+    }
+    const Imath::Box2i data = header.dataWindow();
+    const Imath::Box2i display = header.displayWindow();
+    const Window data_size = checked_size(data, file.size(), limits);
+    const Window size = checked_size(display, file.size(), limits);
+    if (!colors->prefix.empty()) {
+        warnings.add("only one layer is read",
+                     "layer " + colors->prefix.substr(0, colors->prefix.size() - 1));
+    }
+    const std::vector<Rgb> pixels = colors->chroma
+                                        ? read_chroma(file, colors->prefix, data, data_size)
+                                        : read_channels(input, *colors, data, data_size);
+    return place(pixels, data, display, data_size, size);
+}
+
+}  // namespace
+
+bool is_exr(ByteView file)
+{
+    return file.size() >= 4 && Imf::isImfMagic(reinterpret_cast<const char*>(file.data()));
+}
+
+Image read_exr(ByteView file, const ReadLimits& limits, Warnings& warnings)
+{
+    try {
+        return read(file, limits, warnings);
+    } catch (const Error&) {
+        throw;
+    } catch (const std::exception& error) {
+        std::string what = error.what();
+        std::replace(what.begin(), what.end(), '\n', ' ');
+        throw Error(ErrorCode::invalid_input, "OpenEXR: " + what);
+    }
+}
+
+}  // namespace bdpt::io

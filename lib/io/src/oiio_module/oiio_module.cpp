@@ -1,0 +1,119 @@
+#include "image/oiio_interface.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cstring>
+#include <exception>
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace {
+
+void report(const std::string& text, char* message, std::size_t size)
+{
+    if (size == 0) {
+        return;
+    }
+    const std::size_t length = std::min(text.size(), size - 1);
+    std::memcpy(message, text.data(), length);
+    message[length] = '\0';
+    std::replace(message, message + length, '\n', ' ');
+}
+
+}  // namespace
+
+struct BdptPicture {
+    BdptPicture(const unsigned char* bytes, std::size_t size) : file(bytes, size) {}
+
+    OIIO::Filesystem::IOMemReader file;
+    std::unique_ptr<OIIO::ImageInput> input;
+};
+
+namespace {
+
+template <typename T>
+int read_pixels(BdptPicture* picture, OIIO::TypeDesc type, T* pixels, char* message,
+                std::size_t message_size)
+{
+    try {
+        const int channels = picture->input->spec().nchannels;
+        if (picture->input->read_image(0, 0, 0, channels, type, pixels)) {
+            return 1;
+        }
+        report(picture->input->geterror(), message, message_size);
+    } catch (const std::exception& error) {
+        report(error.what(), message, message_size);
+    } catch (...) {
+        report("unknown exception", message, message_size);
+    }
+    return 0;
+}
+
+}  // namespace
+
+extern "C" {
+
+__attribute__((visibility("default"))) int bdpt_oiio_version()
+{
+    return bdpt_oiio_interface_version;
+}
+
+__attribute__((visibility("default"))) BdptPicture* bdpt_oiio_open(
+    const char* format, const unsigned char* bytes, std::size_t size, BdptPictureHeader* header,
+    char* message, std::size_t message_size)
+{
+    try {
+        // Decoding is a small part of loading; a pool of threads would outlive it.
+        OIIO::attribute("threads", 1);
+        auto picture = std::make_unique<BdptPicture>(bytes, size);
+        picture->input = OIIO::ImageInput::create(format);
+        if (!picture->input) {
+            report(OIIO::geterror(), message, message_size);
+            return nullptr;
+        }
+        OIIO::ImageSpec wish;
+        wish.attribute("oiio:UnassociatedAlpha", 1);
+        OIIO::Filesystem::IOProxy* proxy = &picture->file;
+        wish.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+        OIIO::ImageSpec spec;
+        if (!picture->input->open(std::string("memory.") + format, spec, wish)) {
+            report(picture->input->geterror(), message, message_size);
+            return nullptr;
+        }
+        if (spec.depth > 1 || spec.deep) {
+            report("neither volumes nor deep pictures are read", message, message_size);
+            return nullptr;
+        }
+        *header = {spec.width, spec.height, spec.nchannels, spec.alpha_channel};
+        return picture.release();
+    } catch (const std::exception& error) {
+        report(error.what(), message, message_size);
+    } catch (...) {
+        report("unknown exception", message, message_size);
+    }
+    return nullptr;
+}
+
+__attribute__((visibility("default"))) int bdpt_oiio_read_bytes(BdptPicture* picture,
+                                                                unsigned char* pixels,
+                                                                char* message,
+                                                                std::size_t message_size)
+{
+    return read_pixels(picture, OIIO::TypeDesc::UINT8, pixels, message, message_size);
+}
+
+__attribute__((visibility("default"))) int bdpt_oiio_read_floats(BdptPicture* picture,
+                                                                 float* pixels, char* message,
+                                                                 std::size_t message_size)
+{
+    return read_pixels(picture, OIIO::TypeDesc::FLOAT, pixels, message, message_size);
+}
+
+__attribute__((visibility("default"))) void bdpt_oiio_close(BdptPicture* picture)
+{
+    const std::unique_ptr<BdptPicture> owned(picture);
+}
+}

@@ -1,0 +1,20 @@
+#include <bdpt/io/picture_metadata.h>
+
+namespace bdpt::io {
+
+std::vector<std::pair<std::string, std::string>> text_entries(const PictureMetadata& metadata)
+{
+    // The seed has 64 bits, more than the integers of the formats hold.
+    return {{"bdpt.version", metadata.version},
+            {"bdpt.scene", metadata.scene},
+            {"bdpt.settings", metadata.settings},
+            {"bdpt.integrator", metadata.integrator},
+            {"bdpt.seed", std::to_string(metadata.seed)}};
+}
+
+std::string software_name(const PictureMetadata& metadata)
+{
+    return "bdpt " + metadata.version;
+}
+
+}  // namespace bdpt::io

@@ -1,0 +1,165 @@
+"""Writes glTF 2.0 files: a list of meshes, materials, lights and nodes, with all data in one embedded buffer.
+
+The output is a pure function of the calls: every number is rounded before it is written, so that the last bits of a
+machine's sine do not show.
+"""
+
+import base64
+import json
+import math
+import struct
+
+DIGITS = 7  # decimals that are kept: 0.1 micrometre
+
+
+def rounded(value):
+    """A float, or a nested sequence of them, with DIGITS decimals and without negative zeros."""
+    if isinstance(value, (list, tuple)):
+        return [rounded(item) for item in value]
+    result = round(float(value), DIGITS) + 0.0
+    return int(result) if result == int(result) else result
+
+
+def sub(a, b):
+    return tuple(x - y for x, y in zip(a, b))
+
+
+def cross(a, b):
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def normalized(a):
+    length = math.sqrt(sum(x * x for x in a))
+    return tuple(x / length for x in a)
+
+
+def rotation_about(axis, degrees):
+    """Unit quaternion (x, y, z, w)."""
+    half = math.radians(degrees) / 2
+    x, y, z = normalized(axis)
+    return (x * math.sin(half), y * math.sin(half), z * math.sin(half), math.cos(half))
+
+
+def rotation_towards(direction, up=(0, 1, 0)):
+    """The quaternion that turns -z to `direction` and keeps +y on the side of `up`: what cameras and lights need."""
+    z = normalized(tuple(-x for x in direction))
+    x = normalized(cross(up, z))
+    y = cross(z, x)
+    m = [[x[0], y[0], z[0]], [x[1], y[1], z[1]], [x[2], y[2], z[2]]]
+    # The largest of the four squared components is divided by, so nothing cancels.
+    squares = (1 + m[0][0] - m[1][1] - m[2][2], 1 - m[0][0] + m[1][1] - m[2][2],
+               1 - m[0][0] - m[1][1] + m[2][2], 1 + m[0][0] + m[1][1] + m[2][2])
+    best = max(range(4), key=lambda i: squares[i])
+    s = math.sqrt(squares[best]) * 2
+    sums = {(0, 1): m[0][1] + m[1][0], (0, 2): m[0][2] + m[2][0], (1, 2): m[1][2] + m[2][1],
+            (0, 3): m[2][1] - m[1][2], (1, 3): m[0][2] - m[2][0], (2, 3): m[1][0] - m[0][1]}
+    return tuple(s / 4 if i == best else sums[min(i, best), max(i, best)] / s for i in range(4))
+
+
+class Gltf:
+    def __init__(self, title):
+        self.buffer = bytearray()
+        self.lights = []
+        self.extensions = set()
+        self.json = {
+            "asset": {"version": "2.0", "generator": "bdpt scenes/make_scenes.py"},
+            "scene": 0,
+            "scenes": [{"name": title, "nodes": []}],
+            "nodes": [], "cameras": [], "materials": [], "meshes": [], "accessors": [], "bufferViews": [],
+        }
+
+    def _append(self, key, item):
+        self.json[key].append(item)
+        return len(self.json[key]) - 1
+
+    def _accessor(self, data, target, description):
+        self.buffer += bytes(-len(self.buffer) % 4)
+        view = self._append("bufferViews", {"buffer": 0, "byteOffset": len(self.buffer), "byteLength": len(data),
+                                            "target": target})
+        self.buffer += data
+        return self._append("accessors", {"bufferView": view, **description})
+
+    def _vectors(self, values, bounds):
+        packed = b"".join(struct.pack("<3f", *rounded(v)) for v in values)
+        description = {"componentType": 5126, "count": len(values), "type": "VEC3"}
+        if bounds:
+            floats = list(struct.iter_unpack("<3f", packed))
+            description["min"] = [min(f[i] for f in floats) for i in range(3)]
+            description["max"] = [max(f[i] for f in floats) for i in range(3)]
+        return self._accessor(packed, 34962, description)
+
+    def shape(self, positions, triangles, normals=None):
+        """Stores geometry; what it returns may serve several meshes. Without normals the faces are flat."""
+        assert len(positions) <= 65535
+        attributes = {"POSITION": self._vectors(positions, bounds=True)}
+        if normals:
+            attributes["NORMAL"] = self._vectors([normalized(n) for n in normals], bounds=False)
+        indices = b"".join(struct.pack("<3H", *t) for t in triangles)
+        return {"attributes": attributes,
+                "indices": self._accessor(indices, 34963, {"componentType": 5123, "count": 3 * len(triangles),
+                                                           "type": "SCALAR"})}
+
+    def mesh(self, name, *parts):
+        """A mesh of (shape, material) pairs."""
+        return self._append("meshes", {"name": name, "primitives": [{**shape, "material": material}
+                                                                    for shape, material in parts]})
+
+    def material(self, name, color, metallic=0.0, roughness=1.0, emission=None, extensions=None, double_sided=False):
+        """`emission` is a radiance in nit. `extensions` maps the names of KHR_materials_* to their properties."""
+        extensions = dict(extensions or {})
+        material = {"name": name, "pbrMetallicRoughness": {"baseColorFactor": rounded((*color, 1)),
+                                                           "metallicFactor": rounded(metallic),
+                                                           "roughnessFactor": rounded(roughness)}}
+        if emission:
+            strength = max(emission)
+            material["emissiveFactor"] = rounded([e / strength for e in emission])
+            extensions["emissive_strength"] = {"emissiveStrength": rounded(strength)}
+        if extensions:
+            material["extensions"] = {"KHR_materials_" + name: value for name, value in extensions.items()}
+            self.extensions.update(material["extensions"])
+        if double_sided:
+            material["doubleSided"] = True
+        return self._append("materials", material)
+
+    def lambertian(self, name, color, **more):
+        """Without the dielectric coat of glTF materials: specularFactor 0."""
+        return self.material(name, color, extensions={"specular": {"specularFactor": 0}}, **more)
+
+    def node(self, name, translation=None, rotation=None, scale=None, parent=None, **content):
+        node = {"name": name}
+        for key, value in (("translation", translation), ("rotation", rotation), ("scale", scale)):
+            if value is not None:
+                node[key] = rounded(value)
+        node.update(content)
+        index = self._append("nodes", node)
+        if parent is None:
+            self.json["scenes"][0]["nodes"].append(index)
+        else:
+            self.json["nodes"][parent].setdefault("children", []).append(index)
+        return index
+
+    def camera(self, position, direction, vertical_fov, aspect_ratio, name="camera"):
+        """`vertical_fov` in radians."""
+        camera = self._append("cameras", {"name": name, "type": "perspective", "perspective": {
+            "yfov": rounded(vertical_fov), "aspectRatio": rounded(aspect_ratio), "znear": 0.001}})
+        return self.node(name, position, rotation_towards(direction), camera=camera)
+
+    def light(self, name, kind, intensity, color=(1, 1, 1), position=None, direction=None, **properties):
+        """Of KHR_lights_punctual; `intensity` in candela (point, spot) or lux (directional)."""
+        self.lights.append({"name": name, "type": kind, "color": rounded(color), "intensity": rounded(intensity),
+                            **properties})
+        self.extensions.add("KHR_lights_punctual")
+        rotation = rotation_towards(direction, up=(0, 0, -1)) if direction else None
+        return self.node(name, position, rotation,
+                         extensions={"KHR_lights_punctual": {"light": len(self.lights) - 1}})
+
+    def text(self):
+        """The file's text."""
+        result = {key: value for key, value in self.json.items() if value != []}
+        if self.extensions:
+            result["extensionsUsed"] = sorted(self.extensions)
+        if self.lights:
+            result["extensions"] = {"KHR_lights_punctual": {"lights": self.lights}}
+        data = base64.b64encode(bytes(self.buffer)).decode("ascii")
+        result["buffers"] = [{"byteLength": len(self.buffer), "uri": "data:application/octet-stream;base64," + data}]
+        return json.dumps(result, indent=1) + "\n"

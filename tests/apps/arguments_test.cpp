@@ -1,0 +1,84 @@
+#include "arguments.h"
+
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+
+namespace bdpt::app {
+namespace {
+
+TEST_CASE("sizes are two whole numbers and a cross")
+{
+    const auto size = parse_size("640x360");
+    REQUIRE(size);
+    CHECK(size->width == 640);
+    CHECK(size->height == 360);
+    CHECK(parse_size("65535x1"));
+    for (const char* wrong : {"", "x", "640", "640x", "x360", "640x360x2", "640 x 360", "0x1",
+                              "1x0", "-1x1", "65536x1", "1e3x10", "640X360", "99999999999x1"}) {
+        CAPTURE(wrong);
+        CHECK_FALSE(parse_size(wrong));
+    }
+}
+
+TEST_CASE("durations have a unit, seconds if none")
+{
+    CHECK(parse_duration("90") == 90.0);
+    CHECK(parse_duration("90s") == 90.0);
+    CHECK(parse_duration("2m") == 120.0);
+    CHECK(parse_duration("1.5h") == 5400.0);
+    CHECK(parse_duration("0.25s") == 0.25);
+    for (const char* wrong : {"", "s", "h", "0", "0s", "-1s", "1d", "1 s", "infs", "nan", "1ms"}) {
+        CAPTURE(wrong);
+        CHECK_FALSE(parse_duration(wrong));
+    }
+}
+
+TEST_CASE("points are three finite numbers")
+{
+    CHECK(parse_vec3("1,-2.5,3e2") == Vec3(1.0f, -2.5f, 300.0f));
+    for (const char* wrong :
+         {"", "1", "1,2", "1,2,3,4", "1,,3", "1,2,", "a,b,c", "1,2,inf", "nan,0,0", "1, 2, 3"}) {
+        CAPTURE(wrong);
+        CHECK_FALSE(parse_vec3(wrong));
+    }
+}
+
+TEST_CASE("an index is nothing but digits")
+{
+    CHECK(parse_index("0") == 0u);
+    CHECK(parse_index("12") == 12u);
+    CHECK_FALSE(parse_index(""));
+    CHECK_FALSE(parse_index("-1"));
+    CHECK_FALSE(parse_index("1a"));
+    CHECK_FALSE(parse_index("99999999999999999999999"));
+}
+
+TEST_CASE("a word that is nearly right has a suggestion")
+{
+    const std::vector<std::string> words{"--spp", "--size", "--integrator", "--look-at"};
+    CHECK(closest("--intergrator", words) == "--integrator");
+    CHECK(closest("--lookat", words) == "--look-at");
+    CHECK(closest("--szie", words) == "--size");
+    CHECK_FALSE(closest("--xylophone", words));
+}
+
+TEST_CASE("messages are one line of UTF-8 whatever goes in")
+{
+    CHECK(one_line("caf\xc3\xa9") == "caf\xc3\xa9");
+    CHECK(one_line("a\nb\tc\x1b[31m") == "a b c [31m");
+    CHECK(one_line("a\xff z") == "a\xef\xbf\xbd z");
+}
+
+TEST_CASE("times are shown as on a clock")
+{
+    CHECK(clock_time(0.2) == "0:00");
+    CHECK(clock_time(67.0) == "1:07");
+    CHECK(clock_time(59.7) == "1:00");
+    CHECK(clock_time(2 * 3600 + 3 * 60 + 9) == "2:03:09");
+    CHECK(clock_time(1e300) == "168:00:00");
+}
+
+}  // namespace
+}  // namespace bdpt::app

@@ -1,0 +1,231 @@
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "scene_files.h"
+#include "scratch_folder.h"
+#include "subprocess.h"
+
+namespace bdpt::test {
+namespace {
+
+using Words = std::vector<std::string>;
+
+/// Runs what must fail with `code`, in one line that contains `text`, without touching `folder`.
+void check_error(const ScratchFolder& folder, const Words& words, int code, const std::string& text)
+{
+    const auto before = folder.names();
+    const Outcome outcome = run(words);
+    CAPTURE(words, outcome.err, outcome.out);
+    CHECK(outcome.exit_code == code);
+    CHECK(outcome.out.empty());
+    CHECK(outcome.err.starts_with("bdpt: error: "));
+    CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+    CHECK(outcome.err.find(text) != std::string::npos);
+    CHECK(folder.names() == before);
+}
+
+TEST_CASE("wrong usage gives exit code 2 and names the option")
+{
+    const ScratchFolder folder;
+    const std::string scene = write_cube(folder, "cube", {}).string();
+    const std::string out = (folder / "out.exr").string();
+    const auto rejects = [&](const Words& more, const std::string& text) {
+        Words words{"render", scene, "-o", out};
+        words.insert(words.end(), more.begin(), more.end());
+        check_error(folder, words, 2, text);
+    };
+    check_error(folder, {}, 2, "subcommand");
+    check_error(folder, {scene, "-o", out}, 2, "unknown command \"" + scene + "\"");
+    check_error(folder, {"render", scene}, 2, "--output is required");
+    check_error(folder, {"render", "-o", out}, 2, "file is required");
+    check_error(folder, {"info"}, 2, "file is required");
+    check_error(folder, {"--frobnicate"}, 2, "unknown option --frobnicate");
+    rejects({"--frobnicate"}, "unknown option --frobnicate");
+    rejects({"--intergrator", "pt"}, "did you mean --integrator?");
+    rejects({"another.gltf"}, "unexpected argument \"another.gltf\"");
+    rejects({"--size", "0x0"}, "--size \"0x0\"");
+    rejects({"--size", "640"}, "--size \"640\"");
+    rejects({"--size", "640x480x3"}, "--size");
+    rejects({"--size", "-5x5"}, "--size");
+    rejects({"--size", "99999x1"}, "--size");
+    rejects({"--spp", "0"}, "--spp");
+    rejects({"--spp", "many"}, "--spp");
+    rejects({"--time", "0s"}, "--time \"0s\"");
+    rejects({"--time", "soon"}, "--time \"soon\"");
+    rejects({"--time", "-5s"}, "--time");
+    rejects({"--integrator", "magic"}, "--integrator");
+    rejects({"--heuristic", "magic"}, "--heuristic");
+    rejects({"--max-depth", "0"}, "--max-depth");
+    rejects({"--fov", "180"}, "--fov \"180\"");
+    rejects({"--fov", "nan"}, "--fov");
+    rejects({"--exposure", "nan"}, "--exposure");
+    rejects({"--look-at", "1,2"}, "--look-at \"1,2\"");
+    rejects({"--from", "1,2,x"}, "--from \"1,2,x\"");
+    rejects({"--from", "1,2,nan"}, "--from");
+    rejects({"--from", "1,2,3", "--look-at", "1,2,3"}, "cannot look at where it stands");
+    rejects({"--seed", "-1"}, "--seed \"-1\"");
+    rejects({"--seed", "18446744073709551616"}, "--seed");
+    rejects({"--threads", "-1"}, "--threads");
+    rejects({"--half", "--float"}, "--half");
+    check_error(folder, {"render", scene, "-o", (folder / "out.jpg").string()}, 2,
+                "out.jpg: unknown type");
+    check_error(folder, {"render", scene, "-o", (folder / "out").string()}, 2, "unknown type");
+}
+
+TEST_CASE("an input is never overwritten by the output")
+{
+    const ScratchFolder folder;
+    const std::string scene = write_cube(folder, "cube", {}).string();
+    const std::string sky = (folder / "sky.exr").string();
+    write_text(sky, "precious");
+    check_error(folder, {"render", scene, "--env", sky, "-o", sky}, 2, "is an input");
+    CHECK(read_text(sky) == "precious");
+}
+
+TEST_CASE("a missing input gives exit code 3 and names it")
+{
+    const ScratchFolder folder;
+    const std::string out = (folder / "out.exr").string();
+    const std::string scene = write_cube(folder, "cube", {.cameras = two_cameras}).string();
+    const std::string missing = (folder / "missing.gltf").string();
+    check_error(folder, {"render", missing, "-o", out}, 3, missing);
+    check_error(folder, {"info", missing}, 3, missing);
+    check_error(folder, {"render", scene, "-o", out, "--camera", "top"}, 3,
+                "no camera \"top\"; there are 0 \"front\", 1 \"side\"");
+    check_error(folder, {"render", scene, "-o", out, "--camera", "2"}, 3, "no camera \"2\"");
+    check_error(folder, {"render", scene, "-o", out, "--scene", "attic"}, 3, "attic");
+    check_error(folder, {"render", scene, "-o", out, "--env", missing}, 3, missing);
+
+    const std::string blind = write_cube(folder, "blind", {}).string();
+    check_error(folder, {"render", blind, "-o", out, "--camera", "0"}, 3, "the scene has none");
+    std::filesystem::remove(folder / "blind.bin");
+    check_error(folder, {"render", blind, "-o", out}, 3, "blind.bin");
+}
+
+TEST_CASE("an invalid input gives exit code 4 and names it")
+{
+    const ScratchFolder folder;
+    const std::string out = (folder / "out.exr").string();
+    const std::string scene = write_cube(folder, "cube", {}).string();
+    const std::string bad = (folder / "bad.gltf").string();
+    const std::string whole = read_text(scene);
+    std::string text;
+    std::string expected = bad;
+    SECTION("nothing") {}
+    SECTION("half a file")
+    {
+        text = whole.substr(0, whole.size() / 2);
+    }
+    SECTION("broken JSON")
+    {
+        text = "{\"asset\": {\"version\": \"2.0\"},, }";
+    }
+    SECTION("half a GLB")
+    {
+        text = std::string("glTF\x02\0\0\0\x00\x10\0\0", 12) + "{}";
+    }
+    SECTION("an index out of range")
+    {
+        text = whole;
+        const std::string_view good = "\"POSITION\": 0";
+        text.replace(text.find(good), good.size(), "\"POSITION\": 9");
+    }
+    SECTION("an empty scene")
+    {
+        text = R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{}]})";
+        expected = "the scene is empty";
+    }
+    write_text(bad, text);
+    check_error(folder, {"render", bad, "-o", out}, 4, expected);
+}
+
+TEST_CASE("an unsupported required extension gives exit code 5 and names it")
+{
+    const ScratchFolder folder;
+    const std::string scene =
+        write_cube(folder, "cube", {.more = R"("extensionsUsed": ["ACME_magic"],
+                               "extensionsRequired": ["ACME_magic"],)"})
+            .string();
+    check_error(folder, {"render", scene, "-o", (folder / "out.exr").string()}, 5, "ACME_magic");
+}
+
+TEST_CASE("an output that cannot be written gives exit code 6 before anything is rendered")
+{
+    const ScratchFolder folder;
+    const std::string scene = write_cube(folder, "cube", {}).string();
+    // These would take years to render.
+    const Words base{"render", scene, "--spp", "2000000000", "-o"};
+    const auto rejects = [&](const std::string& out) {
+        Words words = base;
+        words.push_back(out);
+        check_error(folder, words, 6, out + ": cannot write");
+    };
+    rejects((folder / "missing/out.exr").string());
+    rejects("/proc/out.png");
+    std::filesystem::create_directory(folder / "folder.exr");
+    rejects((folder / "folder.exr").string());
+
+    SECTION("also when it is only the second one")
+    {
+        check_error(folder,
+                    {"render", scene, "--spp", "2000000000", "-o", (folder / "good.exr").string(),
+                     "-o", (folder / "missing/out.png").string()},
+                    6, "missing/out.png");
+    }
+}
+
+TEST_CASE("a disk that fills up gives exit code 6 and leaves nothing")
+{
+    const ScratchFolder folder;
+    const std::string scene = write_cube(folder, "cube", {}).string();
+    const auto before = folder.names();
+    const Outcome outcome =
+        run(Launch{.arguments = {"render", scene, "--spp", "1", "--size", "64x36", "--quiet", "-o",
+                                 (folder / "out.exr").string()},
+                   .file_size = 2000});
+    CAPTURE(outcome.err);
+    CHECK(outcome.exit_code == 6);
+    CHECK(outcome.err.find("File too large") != std::string::npos);
+    CHECK(folder.names() == before);
+}
+
+TEST_CASE("too little memory gives exit code 7")
+{
+#ifdef BDPT_SANITIZED
+    WARN("skipped: sanitizers need the address space");
+#else
+    const ScratchFolder folder;
+    const std::string scene = write_cube(folder, "cube", {}).string();
+    const auto before = folder.names();
+    const Outcome outcome =
+        run(Launch{.arguments = {"render", scene, "--size", "20000x20000", "--quiet", "--spp", "1",
+                                 "-o", (folder / "out.exr").string()},
+                   .address_space = rlim_t{4} << 30});
+    CAPTURE(outcome.err);
+    CHECK(outcome.exit_code == 7);
+    CHECK(outcome.err == "bdpt: error: out of memory\n");
+    CHECK(folder.names() == before);
+#endif
+}
+
+TEST_CASE("with --json an error is an event too")
+{
+    const ScratchFolder folder;
+    const std::string missing = (folder / "missing.gltf").string();
+    const auto check = [](const Outcome& outcome, int code) {
+        CAPTURE(outcome.out, outcome.err);
+        CHECK(outcome.exit_code == code);
+        const auto event = nlohmann::json::parse(outcome.out);
+        CHECK(event["event"] == "error");
+        CHECK(event["code"] == code);
+        CHECK(outcome.err == "bdpt: error: " + event["message"].get<std::string>() + "\n");
+    };
+    check(run({"render", missing, "--json", "-o", (folder / "out.exr").string()}), 3);
+    check(run({"render", missing, "--json", "--wrong"}), 2);
+}
+
+}  // namespace
+}  // namespace bdpt::test

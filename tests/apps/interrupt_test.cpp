@@ -1,0 +1,71 @@
+#include <signal.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "picture_files.h"
+#include "scene_files.h"
+#include "scratch_folder.h"
+#include "subprocess.h"
+
+namespace bdpt::test {
+namespace {
+
+/// A render that nobody waits for.
+std::vector<std::string> endless(const ScratchFolder& folder, const std::string& size)
+{
+    return {"render", write_cube(folder, "cube", {}).string(),
+            "--spp",  "2000000000",
+            "--size", size,
+            "-o",     (folder / "out.exr").string()};
+}
+
+TEST_CASE("a signal finishes the pass, writes the picture and sets the exit code")
+{
+    const int signal_number = GENERATE(SIGINT, SIGTERM);
+    const ScratchFolder folder;
+    std::vector<std::string> words = endless(folder, "32x18");
+    words.emplace_back("--json");
+    Subprocess command(Launch{.arguments = words});
+    command.wait_for("\"progress\"");
+    command.send(signal_number);
+    const Outcome outcome = command.finish();
+
+    CAPTURE(outcome.out, outcome.err);
+    CHECK(outcome.exit_code == 128 + signal_number);
+    const std::size_t last_line = outcome.out.rfind('\n', outcome.out.size() - 2) + 1;
+    const auto done = nlohmann::json::parse(outcome.out.substr(last_line));
+    CHECK(done["event"] == "done");
+    CHECK(done["stopped_by"] == (signal_number == SIGINT ? "SIGINT" : "SIGTERM"));
+    CHECK(folder.names() == std::set<std::string>{"cube.bin", "cube.gltf", "out.exr"});
+
+    const ExrFile picture = read_exr(folder / "out.exr");
+    CHECK(picture.image.width == 32);
+    CHECK(picture.image.at(16, 9).g > 0.0f);
+    const int samples = picture.integer("bdpt.spp");
+    CHECK(samples > 0);
+    CHECK(done["samples"] == samples);
+}
+
+TEST_CASE("a second signal ends the render at once, with nothing half-written")
+{
+    const ScratchFolder folder;
+    // One pass of this takes seconds.
+    std::vector<std::string> words = endless(folder, "4000x4000");
+    words.insert(words.end(), {"--threads", "1"});
+    Subprocess command(Launch{.arguments = words});
+    command.wait_for("camera auto");
+    command.send(SIGINT);
+    command.wait_for("stopping after the pass in flight");
+    command.send(SIGTERM);
+    const Outcome outcome = command.finish();
+    CAPTURE(outcome.out, outcome.err);
+    CHECK(outcome.exit_code == 128 + SIGTERM);
+    CHECK(folder.names() == std::set<std::string>{"cube.bin", "cube.gltf"});
+}
+
+}  // namespace
+}  // namespace bdpt::test

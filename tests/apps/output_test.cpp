@@ -1,0 +1,126 @@
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "picture_files.h"
+#include "scene_files.h"
+#include "scratch_folder.h"
+#include "subprocess.h"
+
+namespace bdpt::test {
+namespace {
+
+TEST_CASE("help and version are worth reading and no errors")
+{
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"--help"}, {"render", "--help"}, {"info", "--help"}}) {
+        const Outcome outcome = run(words);
+        CHECK(outcome.exit_code == 0);
+        CHECK(outcome.err.empty());
+        CHECK(outcome.out.find("Examples:") != std::string::npos);
+    }
+    const std::string help = run({"render", "--help"}).out;
+    for (const char* word :
+         {"--output",    "--spp",      "--time",     "--size", "--integrator", "--heuristic",
+          "--max-depth", "--camera",   "--look-at",  "--from", "--fov",        "--scene",
+          "--env",       "--exposure", "--threads",  "--seed", "--half",       "--float",
+          "--quiet",     "--json",     "Exit codes", "143"}) {
+        CAPTURE(word);
+        CHECK(help.find(word) != std::string::npos);
+    }
+    const Outcome version = run({"--version"});
+    CHECK(version.exit_code == 0);
+    CHECK(version.out == std::string("bdpt ") + BDPT_VERSION + "\n");
+}
+
+TEST_CASE("all outputs are written, with their size and how they were made")
+{
+    const ScratchFolder folder;
+    const std::string scene = write_cube(folder, "cube", {}).string();
+    const Outcome outcome =
+        run({"render", scene, "-o", (folder / "a.exr").string(), "-o", (folder / "b.PNG").string(),
+             "--spp", "5", "--size", "40x20", "--seed", "12345678901234567890", "--integrator",
+             "mis", "--heuristic", "balance"});
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.exit_code == 0);
+    CHECK(folder.names() == std::set<std::string>{"a.exr", "b.PNG", "cube.bin", "cube.gltf"});
+
+    const ExrFile exr = read_exr(folder / "a.exr");
+    CHECK(exr.image.width == 40);
+    CHECK(exr.image.height == 20);
+    CHECK(exr.header.channels().findChannel("R")->type == Imf::FLOAT);
+    CHECK(exr.text("software") == std::string("bdpt ") + BDPT_VERSION);
+    CHECK(exr.text("bdpt.scene") == scene);
+    CHECK(exr.text("bdpt.seed") == "12345678901234567890");
+    CHECK(exr.text("bdpt.integrator") == "mis");
+    CHECK(exr.integer("bdpt.spp") == 5);
+    CHECK(exr.number("bdpt.renderTimeSeconds") > 0.0f);
+    CHECK(Imf::hasWorldToNDC(exr.header));
+    const auto settings = nlohmann::json::parse(exr.text("bdpt.settings"));
+    CHECK(settings["heuristic"] == "balance");
+    CHECK(settings["spp"] == 5);
+    CHECK(settings["environment"] == "default");
+
+    PngFile png = read_png(folder / "b.PNG");
+    CHECK(png.width == 40);
+    CHECK(png.height == 20);
+    CHECK(png.has_srgb_chunk);
+    CHECK(png.text["bdpt.settings"] == exr.text("bdpt.settings"));
+    CHECK(*std::max_element(png.rgb.begin(), png.rgb.end()) > 100);
+}
+
+TEST_CASE("an output replaces an older file")
+{
+    const ScratchFolder folder;
+    const std::string scene = write_cube(folder, "cube", {}).string();
+    write_text(folder / "a.exr", "an older file");
+    const Outcome outcome =
+        run({"render", scene, "-o", (folder / "a.exr").string(), "--spp", "1", "--size", "8x8"});
+    CHECK(outcome.exit_code == 0);
+    CHECK(read_exr(folder / "a.exr").image.width == 8);
+}
+
+TEST_CASE("--half stores halves and tells what they could not hold")
+{
+    const ScratchFolder folder;
+    const std::string scene =
+        write_cube(folder, "lamp",
+                   {.material = R"({"emissiveFactor": [1, 1, 1], "extensions":
+                        {"KHR_materials_emissive_strength": {"emissiveStrength": 1e6}}})",
+                    .cameras = two_cameras,
+                    .more = R"("extensionsUsed": ["KHR_materials_emissive_strength"],)"})
+            .string();
+    const Outcome outcome = run({"render", scene, "-o", (folder / "a.exr").string(), "--spp", "1",
+                                 "--size", "8x4", "--half"});
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.exit_code == 0);
+    const ExrFile exr = read_exr(folder / "a.exr");
+    CHECK(exr.header.channels().findChannel("R")->type == Imf::HALF);
+    CHECK(exr.image.at(4, 2).g == 65504.0f);
+    CHECK(outcome.err.find("beyond 65504") != std::string::npos);
+}
+
+TEST_CASE("--exposure fixes the brightness of PNG files")
+{
+    const ScratchFolder folder;
+    const std::string scene =
+        write_cube(folder, "cube", {.material = emissive_material, .cameras = two_cameras})
+            .string();
+    const auto brightest = [&](const std::string& exposure) {
+        const Outcome outcome = run({"render", scene, "-o", (folder / "a.png").string(), "--spp",
+                                     "1", "--size", "8x4", "--exposure", exposure});
+        REQUIRE(outcome.exit_code == 0);
+        const PngFile png = read_png(folder / "a.png");
+        return int{*std::max_element(png.rgb.begin(), png.rgb.end())};
+    };
+    CHECK(brightest("-3") > 0);
+    CHECK(brightest("-3") < brightest("-1"));
+    CHECK(brightest("10") == 255);
+    CHECK(brightest("-40") == 0);
+}
+
+}  // namespace
+}  // namespace bdpt::test

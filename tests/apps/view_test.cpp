@@ -1,0 +1,183 @@
+#include "view.h"
+
+#include <bdpt/error.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "catch.hpp"
+#include "default_lights.h"
+
+namespace bdpt::app {
+namespace {
+
+std::vector<CameraDesc> cameras()
+{
+    std::vector<CameraDesc> result;
+    for (std::string name : {"main", "2", "side"}) {
+        result.emplace_back().name = std::move(name);
+    }
+    return result;
+}
+
+TEST_CASE("a camera is selected by name, then by index")
+{
+    const std::vector<CameraDesc> list = cameras();
+    CHECK(&select_camera(list, "side", "a.gltf") == &list[2]);
+    CHECK(&select_camera(list, "0", "a.gltf") == &list[0]);
+    CHECK(&select_camera(list, "2", "a.gltf") == &list[1]);
+    for (const char* wrong : {"3", "top", "", "-1"}) {
+        CAPTURE(wrong);
+        CHECK_THROWS_AS(select_camera(list, wrong, "a.gltf"), Error);
+    }
+    try {
+        (void)select_camera(list, "top", "a.gltf");
+    } catch (const Error& error) {
+        CHECK(error.code() == ErrorCode::not_found);
+        CHECK(std::string(error.what()) ==
+              "a.gltf: no camera \"top\"; there are 0 \"main\", 1 \"2\", 2 \"side\"");
+    }
+}
+
+/// Where `camera` looks.
+Vec3 forward(const CameraDesc& camera)
+{
+    return -Vec3(camera.world_from_camera[2]);
+}
+
+void check_direction(Vec3 is, Vec3 should)
+{
+    CAPTURE(is.x, is.y, is.z, should.x, should.y, should.z);
+    CHECK(glm::distance(is, should) < 1e-5f);
+}
+
+TEST_CASE("a view is changed by what was given, and only by that")
+{
+    CameraDesc camera;
+    camera.world_from_camera[3] = Vec4(0.0f, 1.0f, 4.0f, 1.0f);
+    camera.vertical_fov = 0.5f;
+
+    SECTION("nothing")
+    {
+        const CameraDesc same = apply({}, camera, Vec3(0.0f));
+        CHECK(same.world_from_camera == camera.world_from_camera);
+        CHECK(same.vertical_fov == 0.5f);
+    }
+    SECTION("the field of view")
+    {
+        const CameraDesc wide = apply({.vertical_fov = 1.0f}, camera, Vec3(0.0f));
+        CHECK(wide.world_from_camera == camera.world_from_camera);
+        CHECK(wide.vertical_fov == 1.0f);
+    }
+    SECTION("the target")
+    {
+        const CameraDesc turned = apply({.look_at = Vec3(4.0f, 1.0f, 4.0f)}, camera, std::nullopt);
+        CHECK(turned.world_from_camera[3] == camera.world_from_camera[3]);
+        check_direction(forward(turned), Vec3(1.0f, 0.0f, 0.0f));
+        check_direction(Vec3(turned.world_from_camera[1]), Vec3(0.0f, 1.0f, 0.0f));
+    }
+    SECTION("the place of a camera of the file: its direction stays")
+    {
+        const CameraDesc moved = apply({.from = Vec3(7.0f)}, camera, std::nullopt);
+        CHECK(Vec3(moved.world_from_camera[3]) == Vec3(7.0f));
+        check_direction(forward(moved), Vec3(0.0f, 0.0f, -1.0f));
+    }
+    SECTION("the place of an automatic camera: it turns to the target")
+    {
+        const CameraDesc moved = apply({.from = Vec3(9.0f, 0.0f, 0.0f)}, camera, Vec3(0.0f));
+        check_direction(forward(moved), Vec3(-1.0f, 0.0f, 0.0f));
+    }
+    SECTION("straight down")
+    {
+        const CameraDesc down =
+            apply({.from = Vec3(0.0f, 5.0f, 0.0f), .look_at = Vec3(0.0f)}, camera, std::nullopt);
+        check_direction(forward(down), Vec3(0.0f, -1.0f, 0.0f));
+        check_direction(Vec3(down.world_from_camera[1]), Vec3(0.0f, 0.0f, -1.0f));
+        CHECK(glm::determinant(Mat3(down.world_from_camera)) == Approx(1.0f));
+    }
+    SECTION("a camera cannot look at itself")
+    {
+        CHECK_THROWS_AS(apply({.look_at = Vec3(0.0f, 1.0f, 4.0f)}, camera, std::nullopt), Error);
+    }
+}
+
+TEST_CASE("the default size is the largest in 1280 x 720 with the camera's aspect ratio")
+{
+    const auto check = [](std::optional<float> aspect, int width, int height) {
+        const Size size = default_size(aspect);
+        CAPTURE(aspect.value_or(0.0f));
+        CHECK(size.width == width);
+        CHECK(size.height == height);
+    };
+    check(std::nullopt, 1280, 720);
+    check(16.0f / 9.0f, 1280, 720);
+    check(1.0f, 720, 720);
+    check(1.5f, 1080, 720);
+    check(2.0f, 1280, 640);
+    check(0.5f, 360, 720);
+    check(1e30f, 1280, 1);
+    check(1e-30f, 1, 720);
+    check(0.0f, 1280, 720);
+    check(-1.0f, 1280, 720);
+}
+
+TEST_CASE("the default environment is grey, brighter above, and 1 nit on average")
+{
+    const Image sky = default_environment().radiance;
+    REQUIRE(sky.height > 1);
+    double sum = 0.0;
+    double weights = 0.0;
+    for (int y = 0; y < sky.height; ++y) {
+        const double polar = std::numbers::pi * (y + 0.5) / sky.height;
+        for (int x = 0; x < sky.width; ++x) {
+            const Rgb value = sky.at(x, y);
+            CHECK(value.r == value.g);
+            CHECK(value.g == value.b);
+            CHECK(value.r > 0.0f);
+            sum += std::sin(polar) * static_cast<double>(value.g);
+            weights += std::sin(polar);
+            CHECK((y == 0 || value.g <= sky.at(x, y - 1).g));
+        }
+    }
+    CHECK(sum / weights == Approx(1.0).epsilon(0.01));
+    CHECK(sky.at(0, 0).g > 2.0f * sky.at(0, sky.height - 1).g);
+}
+
+TEST_CASE("the default lamp gives 1 nit at the camera's distance, whatever the scale")
+{
+    const float scale = GENERATE(1e-3f, 1.0f, 1e3f);
+    FramedView view;
+    view.camera.world_from_camera[3] = Vec4(0.0f, 0.0f, scale * 3.0f, 1.0f);
+    view.lamp_position = Vec3(0.0f, scale * 4.0f, 0.0f);
+    const PointLightDesc lamp = default_lamp(view);
+    CHECK(lamp.position == view.lamp_position);
+    const float distance = scale * 5.0f;
+    CHECK(lamp.intensity.g / (distance * distance) == Approx(std::numbers::pi));
+}
+
+TEST_CASE("light is found where it is")
+{
+    SceneDesc desc;
+    desc.materials.resize(2);
+    desc.materials[1].emission = Rgb(0.0f, 0.0f, 2.0f);
+    desc.instances.resize(1);
+    CHECK_FALSE(has_light(desc));
+    SECTION("in a material that is used")
+    {
+        desc.instances[0].material = MaterialId{1};
+        CHECK(has_light(desc));
+    }
+    SECTION("in a lamp")
+    {
+        desc.lights.emplace_back(PointLightDesc{});
+        CHECK(has_light(desc));
+    }
+}
+
+}  // namespace
+}  // namespace bdpt::app

@@ -1,0 +1,47 @@
+#!/usr/bin/env python3
+"""Fails when a document points to a file that is not there, or docs/gltf.md states other extensions than the reader
+knows: check_docs.py ROOT."""
+
+import pathlib
+import re
+import sys
+
+
+def broken_links(root):
+    """Relative links in all documents that lead nowhere; `count` of links that were followed."""
+    errors, count = [], 0
+    documents = [*root.glob("*.md"), *(root / "docs").rglob("*.md"), *(root / "scenes").glob("*.md")]
+    for document in sorted(documents):
+        text = re.sub(r"^ {4}.*$", "", document.read_text(encoding="utf-8"), flags=re.M)  # not in code
+        for target in re.findall(r"\]\(([^)#\s]+)", text):
+            if re.match(r"[a-z]+:", target):
+                continue
+            count += 1
+            if not (document.parent / target).exists():
+                errors.append(f"{document.relative_to(root)}: no such file: {target}")
+    return errors, count
+
+
+def extension_differences(root):
+    """Rows of the table in docs/gltf.md against the table in the code."""
+    code = (root / "lib/io/src/gltf/extensions.cpp").read_text(encoding="utf-8")
+    known = set(re.findall(r'ExtensionSupport\{"(\w+)",\s*(\w+),\s*"([^"]*)"\}', code))
+    text = (root / "docs/gltf.md").read_text(encoding="utf-8")
+    stated = set(re.findall(r"^\| `(\w+)` \| (supported|ignored) \| (.*?) ?\|$", text, flags=re.M))
+    errors = ["lib/io/src/gltf/extensions.cpp: no table found"] if not known else []
+    errors += [f"docs/gltf.md: lacks the row {row}" for row in sorted(known - stated)]
+    errors += [f"docs/gltf.md: the reader does not have the row {row}" for row in sorted(stated - known)]
+    return errors, len(known)
+
+
+def main():
+    root = pathlib.Path(sys.argv[1]).resolve()
+    link_errors, links = broken_links(root)
+    extension_errors, extensions = extension_differences(root)
+    errors = link_errors + extension_errors
+    print("\n".join(errors) or f"{links} links and {extensions} extensions are right")
+    sys.exit(bool(errors))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,124 @@
+#!/usr/bin/env python3
+"""Fails when the source tree breaks the rules of docs/architecture.md: check_layers.py ROOT.
+
+A folder of lib/src includes only folders of a lower layer, public headers need nothing but GLM and the standard
+library, each third-party library stays where it belongs, no file is longer than 400 lines, and every source file is
+listed in a CMakeLists.txt or in a .cmake file beside one.
+"""
+
+import pathlib
+import re
+import sys
+
+LAYERS = {"math": 1, "geometry": 2, "material": 2, "light": 3, "camera": 3, "scene": 4, "path": 5, "integrator": 6,
+          "render": 7}
+MAX_LINES = 400
+AREAS = ("lib", "apps", "tests", "benchmarks")
+
+# Area of the tree (the longest prefix counts) -> third-party and system headers that it may include.
+POSIX = r"(sys/|dlfcn\.h|fcntl\.h|signal\.h|unistd\.h|termios\.h)"
+INTRINSICS = r"[a-z]mmintrin\.h"
+FILE_LIBRARIES = r"(OpenEXR/|Imath/|Imf|Imath|Iex|tiny_gltf\.h|nlohmann/|fmt/|png\.h|zlib\.h)"
+ALLOWED = {
+    "lib/include": [r"glm/"],
+    "lib/src": [r"glm/"],
+    "lib/src/geometry": [r"glm/", r"embree[34]/", INTRINSICS],
+    "lib/src/scene": [r"glm/", r"(oneapi/)?tbb/"],
+    "lib/src/render": [r"glm/", r"(oneapi/)?tbb/", INTRINSICS],
+    "lib/io/include": [r"glm/"],
+    "lib/io/src": [r"glm/", FILE_LIBRARIES, POSIX],
+    "lib/io/src/oiio_module": [r"OpenImageIO/"],
+    "apps": [r"glm/", r"CLI/", r"nlohmann/", r"fmt/", POSIX],
+    "tests": [r"glm/", r"catch2/", r"embree[34]/", r"(oneapi/)?tbb/", FILE_LIBRARIES, POSIX, INTRINSICS],
+    "benchmarks": [r"glm/", r"benchmark/", r"embree[34]/", r"(oneapi/)?tbb/", POSIX, INTRINSICS],
+}
+# Area -> what it may include of our own by <bdpt/...>.
+OWN = {
+    "lib/include": r"bdpt/[a-z0-9_]+\.h",
+    "lib/src": r"bdpt/[a-z0-9_]+\.h",
+    "lib/io": r"bdpt/(io/)?[a-z0-9_]+\.h",
+    "apps": r"bdpt/(io/)?[a-z0-9_]+\.h",
+    "tests": r"bdpt/(io/)?[a-z0-9_]+\.h",
+    "benchmarks": r"bdpt/(io/)?[a-z0-9_]+\.h",
+}
+STANDARD = re.compile(r"[a-z_]+")  # <vector>; the C headers with .h are not ours to use
+INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"]+)"|<([^>]+)>)', re.MULTILINE)
+
+
+def of_area(table, path):
+    """The entry of the longest prefix of `path`, or None."""
+    prefixes = [key for key in table if path == key or path.startswith(key + "/")]
+    return table[max(prefixes, key=len)] if prefixes else None
+
+
+def angle_error(path, header):
+    """What is wrong with `#include <header>` in the file `path`, or None."""
+    if header.startswith("bdpt/"):
+        pattern = of_area(OWN, path)
+        return None if pattern and re.fullmatch(pattern, header) else f"may not include <{header}>"
+    if STANDARD.fullmatch(header):
+        return None
+    if any(re.match(pattern, header) for pattern in of_area(ALLOWED, path) or []):
+        return None
+    return f"may not include <{header}>"
+
+
+def quoted_error(path, header):
+    """What is wrong with `#include "header"` in the file `path`, or None."""
+    if path.startswith(("lib/include/", "lib/io/include/")):
+        return f'is public: "{header}" must be a <bdpt/...> header'
+    folder = header.split("/")[0]
+    if not path.startswith("lib/src/"):
+        internal = folder in LAYERS and "/" in header and not path.startswith(("tests/", "benchmarks/"))
+        return f'reaches into lib/src: "{header}"' if internal else None
+    layer = path.split("/")[2]
+    if layer not in LAYERS:
+        return f"is in the unknown layer {layer}"
+    if folder not in LAYERS or "/" not in header:
+        return f'"{header}" does not name its layer'
+    if folder != layer and LAYERS[folder] >= LAYERS[layer]:
+        return f'{layer} (layer {LAYERS[layer]}) may not include "{header}" (layer {LAYERS[folder]})'
+    return None
+
+
+def listed_sources(root):
+    """All .cpp files that the CMake scripts of the tree name, outside of comments."""
+    listed = set()
+    for area in AREAS:
+        for script in [*(root / area).rglob("CMakeLists.txt"), *(root / area).rglob("*.cmake")]:
+            text = re.sub(r"#.*", "", script.read_text(encoding="utf-8"))
+            listed.update((script.parent / name).resolve() for name in re.findall(r"[\w./-]+\.cpp", text))
+    return listed
+
+
+def check(root):
+    """All findings, one line each; the last error is that of a tree without sources."""
+    errors, count = [], 0
+    listed = listed_sources(root)
+    files = [f for area in AREAS for f in sorted((root / area).rglob("*")) if f.suffix in (".h", ".hpp", ".cpp")]
+    for file in files:
+        path = file.relative_to(root).as_posix()
+        text = file.read_text(encoding="utf-8")
+        count += 1
+        lines = text.count("\n")
+        if lines > MAX_LINES:
+            errors.append(f"{path}: {lines} lines, {MAX_LINES} at most")
+        for quoted, angle in INCLUDE.findall(text):
+            error = quoted_error(path, quoted) if quoted else angle_error(path, angle)
+            if error:
+                errors.append(f"{path}: {error}")
+        if file.suffix == ".cpp" and file not in listed:
+            errors.append(f"{path}: is in no list of CMake")
+    if count == 0:
+        errors.append(f"{root}: no source files")
+    return errors, count
+
+
+def main():
+    errors, count = check(pathlib.Path(sys.argv[1]).resolve())
+    print("\n".join(errors) or f"{count} files keep the rules")
+    sys.exit(bool(errors))
+
+
+if __name__ == "__main__":
+    main()

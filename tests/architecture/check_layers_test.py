@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+"""Plants violations in a small tree and expects check_layers to find each, and nothing in the sound tree."""
+
+import pathlib
+import sys
+import tempfile
+import unittest
+
+sys.dont_write_bytecode = True
+import check_layers
+
+SOUND = {
+    "lib/CMakeLists.txt": "add_library(bdpt\n  # src/math/forgotten.cpp\n  src/math/warp.cpp\n  src/path/walk.cpp\n"
+                          "  src/geometry/ray.cpp\n  src/render/render.cpp)\n",
+    "lib/include/bdpt/types.h": "#pragma once\n#include <glm/vec3.hpp>\n#include <vector>\n",
+    "lib/include/bdpt/scene.h": "#pragma once\n#include <bdpt/types.h>\n",
+    "lib/src/math/warp.h": "#pragma once\n#include <bdpt/types.h>\n",
+    "lib/src/math/warp.cpp": '#include "math/warp.h"\n#include <cmath>\n',
+    "lib/src/material/bsdf.h": '#pragma once\n#include "math/warp.h"\n',
+    "lib/src/geometry/ray.h": "#pragma once\n",
+    "lib/src/geometry/ray.cpp": '#include "geometry/ray.h"\n#include <embree3/rtcore.h>\n#include <xmmintrin.h>\n',
+    "lib/src/path/walk.h": "#pragma once\n",
+    "lib/src/path/walk.cpp": '#include "path/walk.h"\n#include "geometry/ray.h"\n#include "material/bsdf.h"\n',
+    "lib/src/render/render.cpp": '#include "path/walk.h"\n#include <tbb/parallel_for.h>\n',
+    "lib/io/CMakeLists.txt": "add_library(bdpt_io)\ninclude(reading.cmake)\n",
+    "lib/io/reading.cmake": "target_sources(bdpt_io PRIVATE src/exr.cpp src/gltf/read.cpp\n  "
+                           "src/oiio_module/module.cpp)\n",
+    "lib/io/src/oiio_module/module.cpp": "#include <OpenImageIO/imageio.h>\n",
+    "lib/io/include/bdpt/io/exr.h": "#pragma once\n#include <bdpt/types.h>\n#include <filesystem>\n",
+    "lib/io/src/exr.cpp": "#include <bdpt/io/exr.h>\n#include <OpenEXR/ImfArray.h>\n#include <unistd.h>\n",
+    "lib/io/src/gltf/read.cpp": '#include "gltf/read.h"\n#include <tiny_gltf.h>\n#include <nlohmann/json.hpp>\n',
+    "lib/io/src/gltf/read.h": "#pragma once\n",
+    "apps/bdpt/CMakeLists.txt": "add_executable(bdpt_cli main.cpp)\n",
+    "apps/bdpt/main.cpp": '#include "render.h"\n#include <bdpt/io/exr.h>\n#include <CLI/CLI.hpp>\n#include <csignal>\n',
+    "apps/bdpt/render.h": "#pragma once\n",
+    "tests/unit/CMakeLists.txt": "bdpt_add_tests(unit ../support/means.cpp math/warp_test.cpp)\n",
+    "tests/support/means.cpp": '#include "catch.hpp"\n',
+    "tests/unit/math/warp_test.cpp": '#include "math/warp.h"\n#include "catch.hpp"\n',
+    "tests/support/catch.hpp": "#include <catch2/catch.hpp>\n",
+}
+
+# Name -> (file, its text or a line that is added to it, a part of the finding)
+VIOLATIONS = {
+    "lower layer includes higher": ("lib/src/math/warp.h", '#include "path/walk.h"', "math (layer 1) may not include"),
+    "layers of one height": ("lib/src/material/bsdf.h", '#include "geometry/ray.h"', "material (layer 2) may not"),
+    "include without layer": ("lib/src/math/warp.h", '#include "warp_detail.h"', "does not name its layer"),
+    "unusual spacing": ("lib/src/math/warp.h", '  #  include  "render/render.h"', "math (layer 1) may not include"),
+    "unknown layer": ("lib/src/util/misc.h", '#include "math/warp.h"', "unknown layer util"),
+    "core includes io": ("lib/src/render/render.cpp", "#include <bdpt/io/exr.h>", "may not include <bdpt/io/exr.h>"),
+    "public header includes internal": ("lib/include/bdpt/scene.h", '#include "math/warp.h"', "is public"),
+    "public header includes embree": ("lib/include/bdpt/scene.h", "#include <embree3/rtcore.h>", "<embree3/rtcore.h>"),
+    "public header includes tbb": ("lib/include/bdpt/scene.h", "#include <tbb/task_arena.h>", "<tbb/task_arena.h>"),
+    "public header includes io": ("lib/include/bdpt/scene.h", "#include <bdpt/io/exr.h>", "<bdpt/io/exr.h>"),
+    "public io header includes OpenEXR": ("lib/io/include/bdpt/io/exr.h", "#include <OpenEXR/ImfArray.h>", "OpenEXR"),
+    "embree beyond geometry": ("lib/src/path/walk.h", "#include <embree4/rtcore.h>", "<embree4/rtcore.h>"),
+    "tbb beyond render and scene": ("lib/src/path/walk.h", "#include <oneapi/tbb/blocked_range.h>", "<oneapi/tbb/"),
+    "OpenImageIO beyond its module": ("lib/io/src/exr.cpp", "#include <OpenImageIO/imageio.h>", "<OpenImageIO/"),
+    "OpenImageIO in the core": ("lib/src/material/bsdf.h", "#include <OpenImageIO/imageio.h>", "<OpenImageIO/"),
+    "JSON in the core": ("lib/src/path/walk.h", "#include <nlohmann/json.hpp>", "<nlohmann/json.hpp>"),
+    "CLI11 in io": ("lib/io/src/exr.cpp", "#include <CLI/CLI.hpp>", "<CLI/CLI.hpp>"),
+    "Catch2 beyond tests": ("apps/bdpt/main.cpp", "#include <catch2/catch.hpp>", "<catch2/catch.hpp>"),
+    "OpenEXR in apps": ("apps/bdpt/main.cpp", "#include <OpenEXR/ImfArray.h>", "<OpenEXR/ImfArray.h>"),
+    "io reaches into the core": ("lib/io/src/exr.cpp", '#include "camera/film.h"', "reaches into lib/src"),
+    "app reaches into the core": ("apps/bdpt/main.cpp", '#include "path/walk.h"', "reaches into lib/src"),
+    "C header": ("lib/src/math/warp.h", "#include <math.h>", "may not include <math.h>"),
+    "file too long": ("lib/src/path/walk.h", "\n" * 400, "401 lines, 400 at most"),
+    "source not listed": ("lib/src/math/forgotten.cpp", '#include "math/warp.h"', "is in no list of CMake"),
+    "source listed in part": ("apps/bdpt/ain.cpp", "", "is in no list of CMake"),
+    "test not listed": ("tests/unit/math/frame_test.cpp", '#include "catch.hpp"', "is in no list of CMake"),
+}
+
+
+class CheckLayers(unittest.TestCase):
+    def findings(self, extra=None):
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder).resolve()
+            for path, text in SOUND.items():
+                (root / path).parent.mkdir(parents=True, exist_ok=True)
+                (root / path).write_text(text, encoding="utf-8")
+            if extra:
+                path, line, _ = extra
+                (root / path).parent.mkdir(parents=True, exist_ok=True)
+                with open(root / path, "a", encoding="utf-8") as file:
+                    file.write(line + ("" if line.endswith("\n") else "\n"))
+            return check_layers.check(root)[0]
+
+    def test_sound_tree_has_no_findings(self):
+        self.assertEqual(self.findings(), [])
+
+    def test_each_violation_is_the_only_finding(self):
+        for name, violation in VIOLATIONS.items():
+            with self.subTest(name):
+                found = self.findings(violation)
+                self.assertEqual(len(found), 1, found)
+                self.assertTrue(found[0].startswith(violation[0] + ": "), found)
+                self.assertIn(violation[2], found[0])
+
+    def test_empty_tree_is_an_error(self):
+        with tempfile.TemporaryDirectory() as folder:
+            errors, count = check_layers.check(pathlib.Path(folder))
+        self.assertEqual(count, 0)
+        self.assertEqual(len(errors), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()

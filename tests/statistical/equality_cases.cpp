@@ -1,0 +1,225 @@
+#include "equality_cases.h"
+
+#include "scene_builder.h"
+
+#include <utility>
+
+namespace bdpt::test {
+namespace {
+
+const Rgb white(0.7f);
+const Rgb red(0.6f, 0.1f, 0.1f);
+const Rgb green(0.15f, 0.5f, 0.15f);
+
+SceneBuilder room(const MaterialDesc& floor = lambertian(white),
+                  const MaterialDesc& walls = lambertian({0.7f, 0.5f, 0.3f}))
+{
+    SceneBuilder builder;
+    builder.walls(floor, walls);
+    return builder;
+}
+
+SceneBuilder lit_room(const MaterialDesc& floor = lambertian(white))
+{
+    SceneBuilder builder = room(floor);
+    builder.ceiling(lambertian(white)).lamp(0.98f, 0.85f, Rgb(4.0f, 3.5f, 3.0f));
+    return builder;
+}
+
+EqualityCase in_room(std::string name, SceneBuilder builder)
+{
+    return {.name = std::move(name), .scene = std::move(builder.desc), .camera = room_camera()};
+}
+
+Image gradient_sky()
+{
+    Image sky{.width = 16, .height = 8, .pixels = {}};
+    for (int y = 0; y < sky.height; ++y) {
+        for (int x = 0; x < sky.width; ++x) {
+            const float sun = x == 5 && y == 1 ? 12.0f : 0.0f;
+            sky.pixels.emplace_back(1.5f - 0.15f * static_cast<float>(y) + sun,
+                                    0.5f + 0.05f * static_cast<float>(x) + sun, 1.0f + sun);
+        }
+    }
+    return sky;
+}
+
+/// A coarse sphere whose smooth normals differ a lot from its facets.
+EqualityCase shading_normals()
+{
+    SceneBuilder builder = lit_room();
+    builder.sphere({-0.4f, -0.5f, 0.0f}, 0.45f, lambertian(white), 8);
+    builder.sphere({0.5f, -0.5f, 0.1f}, 0.45f, plastic(red, 0.4f), 6);
+    return in_room("shading normals", std::move(builder));
+}
+
+/// Shared geometry, turned, stretched and mirrored, with a mirrored one-sided emitter.
+EqualityCase mirrored_instances()
+{
+    SceneBuilder builder = room();
+    const MeshId ball = builder.sphere_mesh(24);
+    const auto at = [](float x, float y, float z) {
+        return glm::translate(Mat4(1.0f), Vec3(x, y, z));
+    };
+    builder.place(ball, lambertian(red),
+                  glm::scale(at(-0.6f, -0.6f, 0.0f), Vec3(-0.3f, 0.4f, 0.3f)));
+    builder.place(ball, plastic(green, 0.3f),
+                  glm::rotate(glm::scale(at(0.5f, -0.5f, -0.2f), Vec3(0.3f, 0.5f, 0.2f)), 0.6f,
+                              Vec3(0.0f, 0.0f, 1.0f)));
+    builder.place(ball, glass(0.0f), glm::scale(at(0.0f, 0.1f, 0.3f), Vec3(0.25f, -0.25f, 0.25f)));
+    MeshDesc plate;
+    plate.positions = {{-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1}};
+    plate.triangles = {{0, 1, 2}, {0, 2, 3}};  // the front looks down
+    const MeshId mesh = builder.add_mesh(std::move(plate));
+    builder.place(mesh, emitter(Rgb(3.0f)),
+                  glm::scale(at(0.0f, 0.9f, -0.4f), Vec3(0.6f, 1.0f, 0.4f)));
+    builder.place(mesh, emitter({3.0f, 2.0f, 1.0f}),
+                  glm::scale(at(0.0f, 0.9f, 0.5f), Vec3(-0.6f, 1.0f, 0.4f)));
+    return in_room("instances with negative scale", std::move(builder));
+}
+
+/// All texture slots at once, with a transform, vertex colours and a normal map.
+EqualityCase textures()
+{
+    SceneBuilder builder = lit_room();
+    TexelImage pattern{.width = 4, .height = 4, .rgba = {}};
+    for (int i = 0; i < 16; ++i) {
+        const auto value = static_cast<std::uint8_t>(i % 3 == 0 ? 230 : 90 + 8 * i);
+        const auto inverse = static_cast<std::uint8_t>(255 - value);
+        pattern.rgba.insert(pattern.rgba.end(), {value, inverse, 128, 255});
+    }
+    builder.desc.images.push_back(pattern);
+    TexelImage bumps{
+        .width = 2,
+        .height = 2,
+        .rgba = {150, 128, 250, 255, 128, 150, 250, 255, 106, 128, 250, 255, 128, 106, 250, 255}};
+    builder.desc.images.push_back(bumps);
+    MaterialDesc material = plastic(white, 0.8f);
+    material.base_color_texture =
+        TextureRef{.image = ImageId{0}, .rotation = 0.3f, .scale = {3, 2}};
+    material.metallic = 0.5f;
+    material.metallic_roughness_texture = TextureRef{.image = ImageId{0}, .scale = {2, 2}};
+    material.normal_texture = TextureRef{.image = ImageId{1}, .scale = {4, 4}};
+    builder.sphere({0.0f, -0.4f, 0.0f}, 0.55f, material);
+    MaterialDesc screen = emitter(Rgb(2.0f));
+    screen.emission_texture = TextureRef{.image = ImageId{0}, .wrap_u = Wrap::mirrored_repeat};
+    builder.quad({-0.5f, 0.2f, -0.95f}, {0.5f, 0.2f, -0.95f}, {0.5f, 0.8f, -0.95f},
+                 {-0.5f, 0.8f, -0.95f}, screen);
+    auto& colors = builder.desc.meshes.front().colors;
+    colors = {{1, 1, 1, 1}, {1, 0.2f, 0.2f, 1}, {0.2f, 1, 0.2f, 1}, {0.2f, 0.2f, 1, 1}};
+    return in_room("textures, normal map, vertex colours", std::move(builder));
+}
+
+/// The same room at another size and place: offsets and densities must follow.
+EqualityCase scaled(std::string name, float scale, Vec3 shift)
+{
+    SceneBuilder builder = lit_room();
+    builder.sphere({-0.4f, -0.5f, 0.0f}, 0.4f, glass(0.0f));
+    builder.sphere({0.5f, -0.6f, 0.2f}, 0.4f, lambertian(red));
+    EqualityCase result = in_room(std::move(name), std::move(builder));
+    const Mat4 transform = glm::scale(glm::translate(Mat4(1.0f), shift), Vec3(scale));
+    for (InstanceDesc& instance : result.scene.instances) {
+        instance.world_from_object = transform * instance.world_from_object;
+    }
+    result.camera.world_from_camera = transform * result.camera.world_from_camera;
+    return result;
+}
+
+void add_lights(std::vector<EqualityCase>& cases)
+{
+    cases.push_back(in_room("area light", lit_room()));
+    SceneBuilder hidden = room();
+    hidden.ceiling(lambertian(white));
+    hidden.quad({-0.8f, 0.3f, 0.6f}, {0.8f, 0.3f, 0.6f}, {0.8f, 0.3f, -0.6f}, {-0.8f, 0.3f, -0.6f},
+                emitter(Rgb(6.0f)));
+    cases.push_back(in_room("hidden light", std::move(hidden)));
+
+    SceneBuilder two_sided = room();
+    MaterialDesc both = emitter(Rgb(3.0f, 2.0f, 1.0f));
+    both.double_sided = true;
+    two_sided.ceiling(lambertian(white));
+    two_sided.quad({-0.5f, -0.3f, 0.1f}, {0.5f, -0.3f, 0.1f}, {0.5f, 0.4f, -0.3f},
+                   {-0.5f, 0.4f, -0.3f}, both);
+    cases.push_back(in_room("two-sided emitter", std::move(two_sided)));
+
+    SceneBuilder point = room();
+    point.sphere({0.4f, -0.6f, 0.0f}, 0.4f, plastic(red, 0.5f)).ceiling(lambertian(white));
+    point.light(PointLightDesc{.position = {-0.3f, 0.5f, 0.3f}, .intensity = Rgb(2.0f)});
+    cases.push_back(in_room("point light", std::move(point)));
+
+    SceneBuilder spot = room();
+    spot.sphere({0.4f, -0.6f, 0.0f}, 0.4f, lambertian(red)).ceiling(lambertian(white));
+    spot.light(SpotLightDesc{.position = {-0.5f, 0.8f, 0.3f},
+                             .direction = {0.4f, -1.0f, -0.2f},
+                             .intensity = Rgb(4.0f),
+                             .inner_cone_angle = 0.2f,
+                             .outer_cone_angle = 0.8f});
+    cases.push_back(in_room("spot light", std::move(spot)));
+
+    SceneBuilder sun = room();
+    sun.sphere({0.4f, -0.6f, 0.0f}, 0.4f, lambertian(red));
+    sun.light(DirectionalLightDesc{.direction = {0.3f, -1.0f, -0.4f}, .illuminance = Rgb(3.0f)});
+    cases.push_back(in_room("sun", std::move(sun)));
+
+    SceneBuilder constant = room();
+    constant.sphere({0.4f, -0.6f, 0.0f}, 0.4f, glass(0.0f));
+    constant.light(EnvironmentLightDesc{.radiance = {.width = 1, .height = 1, .pixels = {Rgb(1)}}});
+    cases.push_back(in_room("constant environment", std::move(constant)));
+
+    SceneBuilder sky = room();
+    sky.sphere({0.4f, -0.6f, 0.0f}, 0.4f, metal(white, 0.3f));
+    sky.light(EnvironmentLightDesc{
+        .radiance = gradient_sky(),
+        .world_from_environment = Mat3(glm::rotate(Mat4(1.0f), 0.5f, Vec3(0.6f, 0.8f, 0.0f)))});
+    cases.push_back(in_room("environment picture", std::move(sky)));
+
+    SceneBuilder mixed = room();
+    mixed.lamp(0.9f, 0.4f, Rgb(3.0f));
+    mixed.light(PointLightDesc{.position = {0.5f, 0.2f, 0.5f}, .intensity = {0.5f, 0.1f, 0.1f}});
+    mixed.light(DirectionalLightDesc{.direction = {-0.2f, -1.0f, -0.3f}, .illuminance = Rgb(0.5f)});
+    mixed.light(EnvironmentLightDesc{.radiance = gradient_sky()});
+    cases.push_back(in_room("all kinds of light", std::move(mixed)));
+}
+
+void add_materials(std::vector<EqualityCase>& cases)
+{
+    const auto with_ball = [&](std::string name, const MaterialDesc& material) {
+        SceneBuilder builder = lit_room();
+        builder.sphere({0.0f, -0.4f, 0.0f}, 0.55f, material);
+        cases.push_back(in_room(std::move(name), std::move(builder)));
+    };
+    with_ball("plastic", plastic(red, 0.3f));
+    with_ball("smooth plastic", plastic(red, 0.0f));
+    with_ball("rough metal", metal({0.9f, 0.7f, 0.4f}, 0.4f));
+    with_ball("mirror", metal(Rgb(0.95f), 0.0f));
+    with_ball("thin glass", thin_glass(0.0f));
+    with_ball("rough thin glass", thin_glass(0.5f));
+    with_ball("rough glass", glass(0.4f));
+    MaterialDesc tinted = glass(0.0f);
+    tinted.attenuation_color = {0.9f, 0.4f, 0.2f};
+    tinted.attenuation_distance = 0.5f;
+    with_ball("tinted glass", tinted);
+    MaterialDesc half = glass(0.3f);
+    half.base_color = {0.5f, 0.8f, 0.6f, 1.0f};
+    half.transmission = 0.5f;
+    half.ior = 1.33f;
+    with_ball("half transmission", half);
+    cases.push_back(in_room("glossy floor", lit_room(plastic(white, 0.15f))));
+}
+
+}  // namespace
+
+std::vector<EqualityCase> equality_cases()
+{
+    std::vector<EqualityCase> cases;
+    add_lights(cases);
+    add_materials(cases);
+    cases.push_back(shading_normals());
+    cases.push_back(mirrored_instances());
+    cases.push_back(textures());
+    cases.push_back(scaled("millimetres", 1e-3f, Vec3(0.0f)));
+    cases.push_back(scaled("kilometres, far from the origin", 1e3f, {3e3f, -2e3f, 5e3f}));
+    return cases;
+}
+
+}  // namespace bdpt::test

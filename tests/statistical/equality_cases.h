@@ -1,0 +1,23 @@
+#pragma once
+
+#include <bdpt/scene_desc.h>
+
+#include <string>
+#include <vector>
+
+namespace bdpt::test {
+
+/// A scene in which some integrators can make exactly the same paths.
+struct EqualityCase {
+    std::string name;
+    SceneDesc scene;
+    CameraDesc camera;
+    int max_depth = 4;
+    /// `pt` and `mis` see delta lights through light sampling alone, so they miss what those cast
+    /// through mirrors and glass: such scenes have other lights only.
+    double detectable_bias = 0.025;
+};
+
+[[nodiscard]] std::vector<EqualityCase> equality_cases();
+
+}  // namespace bdpt::test

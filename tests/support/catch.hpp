@@ -1,0 +1,9 @@
+#pragma once
+
+// One name for Catch2 2.13 and 3.x.
+#if __has_include(<catch2/catch_all.hpp>)
+#include <catch2/catch_all.hpp>
+using Catch::Approx;
+#else
+#include <catch2/catch.hpp>
+#endif

@@ -1,0 +1,141 @@
+#include "geometry/embree_scene.h"
+
+#include "catch.hpp"
+#include "geometry/rounding.h"
+#include "scene_builder.h"
+#include "statistics.h"
+
+#include <glm/geometric.hpp>
+
+#include <vector>
+
+namespace bdpt {
+namespace {
+
+using test::SceneBuilder;
+
+struct Traced {
+    explicit Traced(SceneDesc d) : desc(std::move(d))
+    {
+        for (const InstanceDesc& instance : desc.instances) {
+            placed.emplace_back(desc.meshes[static_cast<std::size_t>(instance.mesh)],
+                                instance.world_from_object);
+        }
+        embree = std::make_unique<EmbreeScene>(desc.instances, placed, desc.meshes.size());
+    }
+
+    SceneDesc desc;
+    std::vector<PlacedMesh> placed;
+    std::unique_ptr<EmbreeScene> embree;
+};
+
+MeshDesc triangle()
+{
+    MeshDesc mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh.triangles = {{0, 1, 2}};  // the front looks along +z
+    return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("a hit names instance, triangle and barycentrics, also for shared meshes", "[geometry]")
+{
+    for (const bool shared : {false, true}) {
+        SceneBuilder builder;
+        const MeshId mesh = builder.add_mesh(triangle());
+        const auto at = [](float x) { return glm::translate(Mat4(1.0f), Vec3(x, 0.0f, 0.0f)); };
+        builder.place(mesh, test::lambertian(Rgb(0.5f)), at(0.0f));
+        const MeshId second = shared ? mesh : builder.add_mesh(triangle());
+        builder.place(second, test::lambertian(Rgb(0.5f)), at(5.0f));
+        const Traced scene(std::move(builder.desc));
+        const auto hit = scene.embree->intersect(
+            {.origin = {5.25f, 0.5f, 3.0f}, .direction = {0.0f, 0.0f, -1.0f}});
+        REQUIRE(hit.has_value());
+        CHECK(hit->instance == 1);
+        CHECK(hit->triangle == 0);
+        CHECK(hit->barycentrics.x == Approx(0.25f));
+        CHECK(hit->barycentrics.y == Approx(0.5f));
+        CHECK(normalize(hit->normal).z == Approx(1.0f));
+        const Vec3 p = scene.placed[1].point(0, hit->barycentrics).p;
+        CHECK(p.x == Approx(5.25f));
+        CHECK(p.y == Approx(0.5f));
+        CHECK_FALSE(scene.embree->intersect(
+            {.origin = {3.0f, 0.5f, 3.0f}, .direction = {0.0f, 0.0f, -1.0f}}));
+    }
+}
+
+TEST_CASE("a mirrored instance keeps its front", "[geometry]")
+{
+    // Front normals map like normals do: mirroring along z turns the front around, along x does
+    // not.
+    for (const bool shared : {false, true}) {
+        for (const Vec3 scale : {Vec3(-2, 1, 1), Vec3(1, 1, -1), Vec3(-1, -1, -1), Vec3(1, 3, 1)}) {
+            SceneBuilder builder;
+            const MeshId mesh = builder.add_mesh(triangle());
+            builder.place(mesh, test::lambertian(Rgb(0.5f)), glm::scale(Mat4(1.0f), scale));
+            if (shared) {
+                builder.place(mesh, test::lambertian(Rgb(0.5f)),
+                              glm::translate(Mat4(1.0f), Vec3(50.0f)));
+            }
+            const Traced scene(std::move(builder.desc));
+            const auto hit = scene.embree->intersect(
+                {.origin = Vec3(0.2f, 0.2f, 1.0f) * scale,
+                 .direction = Vec3(0.0f, 0.0f, scale.z > 0.0f ? -1.0f : 1.0f)});
+            REQUIRE(hit.has_value());
+            const float front = scale.z > 0.0f ? 1.0f : -1.0f;
+            CHECK(normalize(hit->normal).z == Approx(front));
+            CHECK(normalize(scene.placed[0].area_normal(0)).z == Approx(front));
+        }
+    }
+}
+
+TEST_CASE("rays that leave a surface neither meet it again nor skip what is near", "[geometry]")
+{
+    // From micrometres to thousands of kilometres, far from the origin, tilted, baked and
+    // instanced.
+    test::Random random(5);
+    for (const float scale : {1e-6f, 1e-3f, 1.0f, 1e3f, 1e6f}) {
+        for (const float shift : {0.0f, 3.0f, 100.0f}) {
+            for (const bool shared : {false, true}) {
+                SceneBuilder builder;
+                const MeshId mesh = builder.sphere_mesh(12);
+                const Vec3 offset = shift * scale * Vec3(1.0f, -0.7f, 0.4f);
+                const Mat4 transform =
+                    glm::rotate(glm::scale(glm::translate(Mat4(1.0f), offset), Vec3(scale)), 0.7f,
+                                Vec3(0.6f, 0.0f, 0.8f));
+                builder.place(mesh, test::lambertian(Rgb(0.5f)), transform);
+                if (shared) {
+                    builder.place(mesh, test::lambertian(Rgb(0.5f)),
+                                  glm::translate(transform, Vec3(1000.0f)));
+                }
+                const Traced scene(std::move(builder.desc));
+                int escaped_inside = 0;
+                for (int i = 0; i < 500; ++i) {
+                    const auto t = static_cast<std::uint32_t>(
+                        random.next() * static_cast<float>(scene.placed[0].triangle_count()));
+                    const Vec2 u = random.next_2d();
+                    const Vec2 b = u.x + u.y < 1.0f ? u : 1.0f - u;
+                    const BoundedPoint point = scene.placed[0].point(t, b);
+                    const Vec3 ng = normalize(scene.placed[0].area_normal(t));
+                    const Vec3 w = random.direction();
+                    const Vec3 origin = offset_origin(point.p, point.error, ng, w);
+                    const bool outwards = dot(w, ng) > 0.0f;
+                    const auto hit = scene.embree->intersect({.origin = origin, .direction = w});
+                    if (outwards) {
+                        // The ball is convex: nothing is outside but the far-away copy.
+                        CHECK((!hit || hit->instance == 1));
+                    } else if (!hit) {
+                        ++escaped_inside;
+                    }
+                    CHECK(glm::distance(origin, point.p) <
+                          1e-4f * scale * (1.0f + std::abs(shift)));
+                }
+                // Watertight from inside, but for directions that graze an edge within rounding.
+                CHECK(escaped_inside <= 2);
+            }
+        }
+    }
+}
+
+}  // namespace bdpt

@@ -1,0 +1,92 @@
+#include "geometry/placed_mesh.h"
+
+#include "catch.hpp"
+#include "scene_builder.h"
+
+#include <glm/geometric.hpp>
+
+namespace bdpt {
+namespace {
+
+/// A square in the plane z = 0 that looks along +z, with the picture upright: u to the right (+x)
+/// and v downwards (-y).
+MeshDesc upright()
+{
+    MeshDesc mesh;
+    mesh.positions = {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}};
+    mesh.uvs[0] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    return mesh;
+}
+
+/// Where the up direction of a normal map points.
+Vec3 bitangent(const PlacedMesh& mesh)
+{
+    const Vec4 t = mesh.tangent(0, {0.3f, 0.3f}, 0);
+    const Vec3 n = normalize(mesh.area_normal(0));
+    return normalize(cross(n, Vec3(t)) * t.w);
+}
+
+}  // namespace
+
+TEST_CASE("derived tangents follow u, and the bitangent points up in the picture", "[geometry]")
+{
+    const MeshDesc mesh = upright();
+    const PlacedMesh plain(mesh, Mat4(1.0f));
+    CHECK(normalize(Vec3(plain.tangent(0, {0.3f, 0.3f}, 0))).x == Approx(1.0f));
+    CHECK(bitangent(plain).y == Approx(1.0f));
+    CHECK(plain.tangent(0, {0.3f, 0.3f}, 1) == Vec4(0.0f));  // no coordinates in set 1
+
+    const PlacedMesh mirrored(mesh, glm::scale(Mat4(1.0f), Vec3(-1.0f, 1.0f, 1.0f)));
+    CHECK(normalize(Vec3(mirrored.tangent(0, {0.3f, 0.3f}, 0))).x == Approx(-1.0f));
+    CHECK(bitangent(mirrored).y == Approx(1.0f));
+
+    MeshDesc flipped = mesh;
+    for (Vec2& uv : flipped.uvs[0]) {
+        uv.x = 1.0f - uv.x;
+    }
+    const PlacedMesh mirrored_picture(flipped, Mat4(1.0f));
+    CHECK(normalize(Vec3(mirrored_picture.tangent(0, {0.3f, 0.3f}, 0))).x == Approx(-1.0f));
+    CHECK(bitangent(mirrored_picture).y == Approx(1.0f));
+}
+
+TEST_CASE("a mesh's own tangents are placed, with their handedness", "[geometry]")
+{
+    MeshDesc mesh = upright();
+    mesh.tangents.assign(4, Vec4(1.0f, 0.0f, 0.0f, 1.0f));
+    CHECK(bitangent(PlacedMesh(mesh, Mat4(1.0f))).y == Approx(1.0f));
+    const PlacedMesh mirrored(mesh, glm::scale(Mat4(1.0f), Vec3(-1.0f, 1.0f, 1.0f)));
+    CHECK(bitangent(mirrored).y == Approx(1.0f));
+}
+
+TEST_CASE("normals of stretched meshes stay at right angles to the surface", "[geometry]")
+{
+    test::SceneBuilder builder;
+    const MeshId id = builder.sphere_mesh(64);
+    const MeshDesc& mesh = builder.desc.meshes[static_cast<std::size_t>(id)];
+    for (const Vec3 scale : {Vec3(1, 4, 1), Vec3(-2, 1, 0.5f)}) {
+        const PlacedMesh placed(mesh, glm::scale(Mat4(1.0f), scale));
+        for (std::uint32_t t = 0; t < placed.triangle_count(); t += 37) {
+            const Vec2 middle(1.0f / 3.0f);
+            const Vec3 facet = normalize(placed.area_normal(t));
+            CHECK(dot(placed.shading_normal(t, middle), facet) > 0.95f);
+            CHECK(dot(facet, placed.point(t, middle).p) > 0.0f);  // outwards
+        }
+    }
+}
+
+TEST_CASE("attributes are interpolated, and absent ones have their defaults", "[geometry]")
+{
+    MeshDesc mesh = upright();
+    const PlacedMesh placed(mesh, Mat4(1.0f));
+    const auto uv = placed.uv(0, {0.5f, 0.25f});
+    CHECK(uv[0].x == Approx(0.75f));
+    CHECK(uv[0].y == Approx(0.75f));
+    CHECK(uv[1] == Vec2(0.0f));
+    CHECK(placed.color(0, {0.5f, 0.25f}) == Vec4(1.0f));
+    CHECK(placed.shading_normal(0, {0.5f, 0.25f}) == Vec3(0.0f));
+    mesh.colors = {{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 1}, {0, 0, 0, 1}};
+    CHECK(placed.color(0, {0.5f, 0.25f}).g == Approx(0.5f));
+}
+
+}  // namespace bdpt

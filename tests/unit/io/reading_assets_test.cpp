@@ -1,0 +1,134 @@
+#include "catch.hpp"
+#include "gltf_fixture.h"
+
+#include <bdpt/io/environment.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+
+using namespace bdpt;
+using namespace bdpt::io;
+
+namespace {
+
+std::optional<std::filesystem::path> assets()
+{
+    const char* folder = std::getenv("BDPT_TEST_ASSETS");
+    if (folder == nullptr || *folder == '\0') {
+        WARN("skipped: BDPT_TEST_ASSETS does not name a folder with glTF files");
+        return std::nullopt;
+    }
+    return folder;
+}
+
+struct Asset {
+    const char* file;
+    std::size_t triangles;  // each mesh once
+    std::size_t images = 0;
+    std::size_t lights = 0;
+    std::size_t cameras = 0;
+};
+
+constexpr Asset known_assets[] = {
+    {"AttenuationTest/AttenuationTest.glb", 232, 2},
+    {"BoxWithSpaces/Box With Spaces.gltf", 12, 3},
+    {"Cameras/Cameras.gltf", 2, 0, 0, 1},
+    {"CornellBox_bevy/CornellBox.glb", 36},
+    {"CornellBox_kajiya/scene.gltf", 32},
+    {"Duck/Duck.glb", 4212, 1, 0, 1},
+    {"EmissiveTriangle/triangle.glb", 1},
+    {"EnvironmentTest/EnvironmentTest.gltf", 25344, 2, 0, 1},
+    {"Garage/garage.gltf", 11358},
+    {"GodotLivingRoom/living_room.glb", 5088},
+    {"LightsPunctual_playcanvas/Lights.glb", 12, 0, 4, 1},
+    {"ManyCubes/many-cubes.gltf", 6012, 0, 0, 1},
+    {"RoughnessScale/scene.gltf", 51200, 5},
+    {"ShaderBall_nvidia/shader_ball.gltf", 9450, 0, 0, 1},
+    {"Suzi/suzi.glb", 15744},
+    {"TextureTransformTest/TextureTransformTest.gltf", 18, 5},
+    {"TransmissionRoughnessTest/TransmissionRoughnessTest.glb", 77792, 5},
+    {"TwoSidedPlane/TwoSidedPlane.gltf", 2, 3},
+    {"VertexColorTest/VertexColorTest.gltf", 36, 2},
+};
+
+}  // namespace
+
+TEST_CASE("real files load with what is in them")
+{
+    const std::optional<std::filesystem::path> folder = assets();
+    if (!folder) {
+        return;
+    }
+    for (const Asset& asset : known_assets) {
+        CAPTURE(asset.file);
+        const LoadedScene loaded = load_gltf(*folder / asset.file);
+        std::size_t triangles = 0;
+        for (const MeshDesc& mesh : loaded.scene.meshes) {
+            triangles += mesh.triangles.size();
+        }
+        CHECK(triangles == asset.triangles);
+        CHECK(loaded.scene.instances.size() >= loaded.scene.meshes.size());
+        CHECK(loaded.scene.images.size() == asset.images);
+        CHECK(loaded.scene.lights.size() == asset.lights);
+        CHECK(loaded.cameras.size() == asset.cameras);
+    }
+}
+
+TEST_CASE("real environments load")
+{
+    const std::optional<std::filesystem::path> folder = assets();
+    if (!folder) {
+        return;
+    }
+    std::size_t count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(*folder / "hdr")) {
+        if (entry.path().extension() != ".exr" && entry.path().extension() != ".hdr") {
+            continue;
+        }
+        CAPTURE(entry.path().string());
+        const Image image = load_environment(entry.path()).light.radiance;
+        CHECK(image.width == 1024);
+        CHECK(image.height == 512);
+        double sum = 0.0;
+        for (const Rgb& pixel : image.pixels) {
+            sum += static_cast<double>(pixel.r + pixel.g + pixel.b);
+        }
+        CHECK(sum > 0.0);
+        ++count;
+    }
+    CHECK(count >= 6);
+}
+
+TEST_CASE("hostile files are refused or load, but nothing else")
+{
+    const std::optional<std::filesystem::path> folder = assets();
+    if (!folder) {
+        return;
+    }
+    std::size_t count = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(*folder / "hostile")) {
+        const std::filesystem::path extension = entry.path().extension();
+        if (!entry.is_regular_file()) {
+            continue;
+        }
+        CAPTURE(entry.path().string());
+        if (extension == ".gltf" || extension == ".glb") {
+            // `internal` with a message would be an exception that nobody foresaw.
+            const Error error = load_error(entry.path());
+            CHECK((error.code() != ErrorCode::internal || std::string(error.what()).empty()));
+            CHECK(error.code() != ErrorCode::out_of_memory);
+            CHECK_FALSE(contains(error.what(), "\n"));
+            ++count;
+        } else if (extension == ".exr") {
+            try {
+                static_cast<void>(load_environment(entry.path()));
+            } catch (const Error& error) {
+                CHECK(error.code() != ErrorCode::internal);
+                CHECK(error.code() != ErrorCode::out_of_memory);
+            }
+            ++count;
+        }
+    }
+    CHECK(count > 0);
+}

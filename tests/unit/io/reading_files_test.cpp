@@ -1,0 +1,177 @@
+#include "catch.hpp"
+#include "file/uri.h"
+#include "gltf_fixture.h"
+
+#include <filesystem>
+
+using namespace bdpt;
+using namespace bdpt::io;
+using namespace std::string_literals;
+
+namespace {
+
+/// A triangle whose buffer is at a URI.
+std::string with_buffer_uri(const std::string& uri, std::size_t byte_length = 42)
+{
+    GltfFixture fixture = GltfFixture::triangle();
+    fixture.json["buffers"] = {{{"byteLength", byte_length}, {"uri", uri}}};
+    return fixture.text();
+}
+
+std::string triangle_bytes()
+{
+    return GltfFixture::triangle().bin;
+}
+
+}  // namespace
+
+TEST_CASE("buffers come from files next to the scene")
+{
+    const TempFolder folder;
+    folder.write("data/mesh 1.bin", triangle_bytes());
+    for (const char* uri :
+         {"data/mesh%201.bin", "data/mesh 1.bin", "./data/../data/mesh%201.bin"}) {
+        CAPTURE(uri);
+        const LoadedScene loaded = load_gltf(folder.write("scene.gltf", with_buffer_uri(uri)));
+        CHECK(loaded.scene.meshes.at(0).positions.at(1) == Vec3(1, 0, 0));
+        CHECK(loaded.warnings.empty());
+    }
+}
+
+TEST_CASE("scenes and buffers may have any name")
+{
+    const TempFolder folder;
+    folder.write("a b/\xc3\xa4%41.bin", triangle_bytes());
+    const auto file = folder.write("a b/sc\xc3\xa8ne #1.gltf", with_buffer_uri("%C3%A4%2541.bin"));
+    CHECK(load_gltf(file).scene.instances.size() == 1);
+}
+
+TEST_CASE("a relative path to a scene in the working folder works")
+{
+    const TempFolder folder;
+    folder.write("mesh.bin", triangle_bytes());
+    folder.write("scene.gltf", with_buffer_uri("mesh.bin"));
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path(folder.path());
+    const Error error = load_error("scene.gltf");
+    std::filesystem::current_path(before);
+    CHECK(std::string(error.what()).empty());
+}
+
+TEST_CASE("data URIs hold base64 or percent-encoded bytes")
+{
+    const TempFolder folder;
+    const std::string bytes = triangle_bytes();
+    std::string escaped = "data:,";
+    for (const char byte : bytes) {
+        constexpr const char* digits = "0123456789abcdef";
+        escaped += '%';
+        escaped += digits[static_cast<unsigned char>(byte) >> 4];
+        escaped += digits[static_cast<unsigned char>(byte) & 15];
+    }
+    for (const std::string& uri : {"data:;base64," + base64(bytes), escaped,
+                                   "DATA:application/gltf-buffer;base64," + base64(bytes)}) {
+        const auto file = folder.write("scene.gltf", with_buffer_uri(uri));
+        CHECK(load_gltf(file).scene.meshes.at(0).positions.at(2) == Vec3(0, 1, 0));
+    }
+}
+
+TEST_CASE("malformed data URIs are refused")
+{
+    const TempFolder folder;
+    const auto message = [&folder](const std::string& uri) {
+        const Error error = load_error(folder.write("scene.gltf", with_buffer_uri(uri)));
+        CHECK(error.code() == ErrorCode::invalid_input);
+        CHECK(contains(error.what(), "/buffers/0/"));
+        return std::string(error.what());
+    };
+    CHECK(contains(message("data:;base64,AA*A"), "base64 digit 2: byte 0x2a"));
+    CHECK(contains(message("data:;base64,AAAAA"), "truncated"));
+    CHECK(contains(message("data:;base64"), "without a comma"));
+    CHECK(contains(message("data:;base64,AAAA"), "/byteLength: 42 bytes, but there are 3"));
+}
+
+TEST_CASE("nothing outside of the scene's folder is read")
+{
+    const TempFolder outside;
+    const auto secret = outside.write("secret.bin", triangle_bytes());
+    const TempFolder folder;
+    std::filesystem::create_symlink(secret, folder.path() / "link.bin");
+    std::filesystem::create_directory_symlink(outside.path(), folder.path() / "linked");
+    const std::string up = "../" + outside.path().filename().string() + "/secret.bin";
+    for (const std::string& uri :
+         {up, "sub/../" + up, "%2e%2e/" + up.substr(3), secret.string(), "link.bin"s,
+          "linked/secret.bin"s, "file://" + secret.string(), "http://example.org/a.bin"s,
+          "\\\\host\\share"s, ""s, "a%00b"s}) {
+        CAPTURE(uri);
+        const Error error = load_error(folder.write("scene.gltf", with_buffer_uri(uri)));
+        CHECK(error.code() == ErrorCode::invalid_input);
+        CHECK(contains(error.what(), "/buffers/0/uri: "));
+    }
+    // Pictures too, even if no material uses them.
+    GltfFixture fixture = GltfFixture::triangle();
+    fixture.json["images"] = {{{"uri", up}}};
+    const Error error = load_error(folder.write("scene.gltf", fixture.text()));
+    CHECK(error.code() == ErrorCode::invalid_input);
+    CHECK(contains(error.what(), "/images/0/uri: "));
+    CHECK(contains(error.what(), "outside of the scene's folder"));
+}
+
+TEST_CASE("links within the scene's folder are followed")
+{
+    const TempFolder folder;
+    folder.write("real/mesh.bin", triangle_bytes());
+    std::filesystem::create_symlink("real/mesh.bin", folder.path() / "link.bin");
+    const auto file = folder.write("scene.gltf", with_buffer_uri("link.bin"));
+    CHECK(load_gltf(file).scene.instances.size() == 1);
+}
+
+TEST_CASE("missing and unreadable files are named")
+{
+    const TempFolder folder;
+    const Error missing = load_error(folder.path() / "none.gltf");
+    CHECK(missing.code() == ErrorCode::not_found);
+    CHECK(missing.what() == (folder.path() / "none.gltf").string() + ": no such file");
+
+    const Error directory = load_error(folder.path());
+    CHECK(directory.code() == ErrorCode::not_found);
+    CHECK(contains(directory.what(), "not a regular file"));
+
+    const auto file = folder.write("scene.gltf", with_buffer_uri("mesh.bin"));
+    const Error buffer = load_error(file);
+    CHECK(buffer.code() == ErrorCode::not_found);
+    CHECK(buffer.what() == file.string() + ": /buffers/0/uri: \"mesh.bin\": no such file");
+}
+
+TEST_CASE("buffers may be longer than they say, but not shorter")
+{
+    const TempFolder folder;
+    folder.write("mesh.bin", triangle_bytes());
+    const Error error = load_error(folder.write("scene.gltf", with_buffer_uri("mesh.bin", 43)));
+    CHECK(error.code() == ErrorCode::invalid_input);
+    CHECK(contains(error.what(), "/buffers/0/byteLength: 43 bytes, but there are 42"));
+
+    folder.write("mesh.bin", triangle_bytes() + "more");
+    const LoadedScene loaded =
+        load_gltf(folder.write("scene.gltf", with_buffer_uri("mesh.bin", 42)));
+    CHECK(loaded.scene.instances.size() == 1);
+    CHECK(warns(loaded.warnings, {"/buffers/0/byteLength: 42", "more bytes"}));
+}
+
+TEST_CASE("files beyond the limit are refused")
+{
+    const TempFolder folder;
+    const auto file = folder.write("scene.gltf", GltfFixture::triangle().text());
+    GltfOptions options;
+    options.limits.file_bytes = 100;
+    const Error error = load_error(file, options);
+    CHECK(error.code() == ErrorCode::invalid_input);
+    CHECK(contains(error.what(), "bytes, but the limit is 100"));
+}
+
+TEST_CASE("percent signs that encode nothing stay")
+{
+    CHECK(percent_decode("100%.png") == "100%.png");
+    CHECK(percent_decode("%4") == "%4");
+    CHECK(percent_decode("%zz%41%") == "%zzA%");
+}

@@ -1,0 +1,153 @@
+#include "catch.hpp"
+#include "gltf_fixture.h"
+#include "picture_fixture.h"
+
+#include <bdpt/scene_desc.h>
+
+#include <cstdlib>
+
+using namespace bdpt;
+using namespace bdpt::io;
+
+namespace {
+
+/// A triangle whose base colour is a picture.
+GltfFixture with_image(const nlohmann::json& image)
+{
+    GltfFixture fixture = GltfFixture::triangle();
+    fixture.json["images"] = {image};
+    fixture.json["textures"] = {{{"source", 0}}};
+    fixture.json["materials"] = {
+        {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+    fixture.json["meshes"][0]["primitives"][0]["material"] = 0;
+    return fixture;
+}
+
+nlohmann::json data_uri(const std::string& bytes)
+{
+    return {{"uri", "data:application/octet-stream;base64," + base64(bytes)}};
+}
+
+TexelImage load_picture(const std::string& bytes)
+{
+    const LoadedScene loaded = with_image(data_uri(bytes)).load();
+    CHECK(loaded.warnings.empty());
+    REQUIRE(loaded.scene.images.size() == 1);
+    return loaded.scene.images[0];
+}
+
+using Texels = std::vector<std::uint8_t>;
+
+}  // namespace
+
+TEST_CASE("PNG pictures of all kinds become 8-bit RGBA as they are stored")
+{
+    const TexelImage rgb =
+        load_picture(png(2, 2, 8, 2, {raw({255, 0, 0, 0, 255, 0}), raw({0, 0, 255, 10, 20, 30})}));
+    CHECK(rgb.width == 2);
+    CHECK(rgb.height == 2);
+    CHECK(rgb.rgba == Texels{255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 10, 20, 30, 255});
+    // Alpha is not multiplied in, not even zero.
+    CHECK(load_picture(png(2, 1, 8, 6, {raw({200, 100, 50, 128, 1, 2, 3, 0})})).rgba ==
+          Texels{200, 100, 50, 128, 1, 2, 3, 0});
+    CHECK(load_picture(png(2, 1, 8, 0, {raw({7, 250})})).rgba ==
+          Texels{7, 7, 7, 255, 250, 250, 250, 255});
+    CHECK(load_picture(png(2, 1, 8, 4, {raw({7, 99, 250, 3})})).rgba ==
+          Texels{7, 7, 7, 99, 250, 250, 250, 3});
+    // 16 bits are rounded: 0x64C0 / 65535 * 255 = 100.3, 0x6480 / 65535 * 255 = 100.1.
+    CHECK(load_picture(png(1, 1, 16, 2, {raw({255, 255, 0x64, 0xC0, 7, 7})})).rgba ==
+          Texels{255, 100, 7, 255});
+    const std::string palette =
+        png_chunk("PLTE", raw({10, 20, 30, 40, 50, 60})) + png_chunk("tRNS", raw({255, 77}));
+    CHECK(load_picture(png(2, 1, 8, 3, {raw({1, 0})}, palette)).rgba ==
+          Texels{40, 50, 60, 77, 10, 20, 30, 255});
+    // A gamma of 1 says how to show the picture, not what its values are.
+    CHECK(load_picture(png(1, 1, 8, 0, {raw({100})}, png_chunk("gAMA", raw({0, 1, 0x86, 0xA0}))))
+              .rgba == Texels{100, 100, 100, 255});
+}
+
+TEST_CASE("JPEG and WebP pictures are read")
+{
+    const TexelImage jpeg = load_picture(orange_jpeg());
+    REQUIRE(jpeg.width == 8);
+    REQUIRE(jpeg.height == 8);
+    CHECK(jpeg.rgba[0] > 250);
+    CHECK(std::abs(jpeg.rgba[1] - 128) < 4);
+    CHECK(jpeg.rgba[2] < 5);
+    CHECK(jpeg.rgba[3] == 255);
+    const TexelImage webp = load_picture(red_webp());
+    REQUIRE(webp.width == 2);
+    REQUIRE(webp.height == 2);
+    CHECK(webp.rgba[0] > 240);
+    CHECK(webp.rgba[1] < 15);
+    CHECK(webp.rgba[3] == 255);
+}
+
+TEST_CASE("the WebP picture of a texture comes before its fallback")
+{
+    GltfFixture fixture = with_image(data_uri(png(1, 1, 8, 0, {raw({1})})));
+    fixture.json["images"].push_back(data_uri(red_webp()));
+    fixture.json["textures"][0]["extensions"]["EXT_texture_webp"]["source"] = 1;
+    CHECK(fixture.load().scene.images.at(0).width == 2);
+    fixture.json["textures"][0].erase("source");
+    CHECK(fixture.load().scene.images.at(0).width == 2);
+}
+
+TEST_CASE("pictures come from files and from buffer views too")
+{
+    const std::string picture = png(1, 1, 8, 2, {raw({1, 2, 3})});
+    const TempFolder folder;
+    folder.write("maps/a picture.png", picture);
+    const auto file =
+        folder.write("scene.gltf", with_image({{"uri", "maps/a%20picture.png"}}).text());
+    CHECK(load_gltf(file).scene.images.at(0).rgba == Texels{1, 2, 3, 255});
+
+    GltfFixture fixture = with_image({{"mimeType", "image/png"}});
+    fixture.json["images"][0]["bufferView"] = fixture.add_view(picture);
+    CHECK(fixture.load().scene.images.at(0).rgba == Texels{1, 2, 3, 255});
+    const auto binary = folder.write("scene.glb", fixture.glb());
+    CHECK(load_gltf(binary).scene.images.at(0).rgba == Texels{1, 2, 3, 255});
+}
+
+TEST_CASE("a picture that cannot be read costs a warning, not the scene")
+{
+    const auto warning_of = [](const nlohmann::json& image) {
+        const LoadedScene loaded = with_image(image).load();
+        CHECK(loaded.scene.images.empty());
+        CHECK_FALSE(loaded.scene.materials.at(0).base_color_texture);
+        CHECK(loaded.scene.instances.size() == 1);
+        REQUIRE(loaded.warnings.size() == 1);
+        CHECK(contains(loaded.warnings[0], "/images/0: "));
+        return loaded.warnings[0];
+    };
+    const std::string picture = png(2, 2, 8, 2, {raw({1, 2, 3, 4, 5, 6}), raw({1, 2, 3, 4, 5, 6})});
+    static_cast<void>(warning_of(data_uri(picture.substr(0, 50))));
+    static_cast<void>(warning_of(data_uri(orange_jpeg().substr(0, 30))));
+    CHECK(contains(warning_of(data_uri("GIF89a")), "neither PNG"));
+    CHECK(contains(warning_of(data_uri("\xabKTX 20\xbb")), "KTX"));
+    CHECK(contains(warning_of(data_uri("")), "neither PNG"));
+    CHECK(contains(warning_of({{"uri", "missing.png"}}), "\"missing.png\": no such file"));
+    CHECK(contains(warning_of(nlohmann::json::object()), "neither \"uri\""));
+}
+
+TEST_CASE("pictures beyond the limits are refused before they are decoded")
+{
+    // A header that promises 900 million pixels.
+    const Error bomb = with_image(data_uri(png(30000, 30000, 8, 0, {raw({0})}))).error();
+    CHECK(bomb.code() == ErrorCode::invalid_input);
+    CHECK(contains(bomb.what(), "/images/0: picture of 30000 x 30000 pixels"));
+    const Error packed = with_image(data_uri(png(10000, 10000, 8, 2, {raw({0})}))).error();
+    CHECK(packed.code() == ErrorCode::invalid_input);
+    CHECK(contains(packed.what(), "more than 1000 times packed"));
+
+    GltfFixture fixture = with_image(data_uri(png(2, 1, 8, 0, {raw({7, 250})})));
+    GltfOptions options;
+    options.limits.image_side = 1;
+    CHECK(contains(fixture.error(options).what(), "2 x 1 pixels, but the limit is 1 a side"));
+    options = {};
+    options.limits.image_bytes = 1;
+    CHECK(contains(fixture.error(options).what(), "needs 2 B, but the limit is 1 B"));
+    options = {};
+    options.limits.texture_bytes = 7;
+    CHECK(contains(fixture.error(options).what(), "all pictures together need more than 7 B"));
+}

@@ -1,0 +1,188 @@
+#include <bdpt/io/output_file.h>
+
+#include <bdpt/error.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "catch.hpp"
+#include "scratch_folder.h"
+
+namespace bdpt::io {
+namespace {
+
+using test::ScratchFolder;
+using Names = std::set<std::string>;
+
+/// The error that writing to `file` gives; fails when there is none.
+Error error_of(const std::filesystem::path& file)
+{
+    try {
+        check_writable(file);
+    } catch (const Error& error) {
+        return error;
+    }
+    FAIL("no error for " << file);
+    return {ErrorCode::internal, ""};
+}
+
+TEST_CASE("an output file appears whole or not at all")
+{
+    const ScratchFolder folder;
+    const auto name = folder / "picture.exr";
+
+    SECTION("without a commit nothing is left")
+    {
+        {
+            OutputFile file(name);
+            file.write(std::string_view("half"));
+            CHECK(folder.names().size() == 1);
+            CHECK_FALSE(std::filesystem::exists(name));
+        }
+        CHECK(folder.names().empty());
+    }
+    SECTION("a commit gives it its name")
+    {
+        OutputFile file(name);
+        file.write(std::string_view("whole"));
+        file.commit();
+        CHECK(folder.names() == Names{"picture.exr"});
+        CHECK(test::read_text(name) == "whole");
+    }
+    SECTION("the file that was there before stays until then")
+    {
+        test::write_text(name, "old");
+        OutputFile file(name);
+        file.write(std::string_view("new"));
+        CHECK(test::read_text(name) == "old");
+        file.commit();
+        CHECK(test::read_text(name) == "new");
+    }
+}
+
+TEST_CASE("an output file can be written out of order")
+{
+    const ScratchFolder folder;
+    OutputFile file(folder / "a.png");
+    file.write(std::string_view("....data"));
+    CHECK(file.position() == 8);
+    file.seek(0);
+    file.write(std::string_view("head"));
+    CHECK(file.position() == 4);
+    file.commit();
+    CHECK(test::read_text(folder / "a.png") == "headdata");
+}
+
+TEST_CASE("the temporary file is in the same folder and names the process")
+{
+    CHECK(OutputFile::temporary_path("some/where/a.exr") ==
+          "some/where/a.exr.tmp-" + std::to_string(::getpid()));
+}
+
+TEST_CASE("a temporary file of a process that died does not block the name")
+{
+    const ScratchFolder folder;
+    test::write_text(OutputFile::temporary_path(folder / "a.exr"), "left over, and longer");
+    OutputFile file(folder / "a.exr");
+    file.write(std::string_view("new"));
+    file.commit();
+    CHECK(test::read_text(folder / "a.exr") == "new");
+    CHECK(folder.names() == Names{"a.exr"});
+}
+
+TEST_CASE("a symbolic link is followed, not replaced")
+{
+    const ScratchFolder folder;
+    std::filesystem::create_directory(folder / "real");
+    test::write_text(folder / "real/a.exr", "old");
+    std::filesystem::create_symlink(folder / "real/a.exr", folder / "link.exr");
+    OutputFile file(folder / "link.exr");
+    file.write(std::string_view("new"));
+    file.commit();
+    CHECK(std::filesystem::is_symlink(folder / "link.exr"));
+    CHECK(test::read_text(folder / "real/a.exr") == "new");
+}
+
+TEST_CASE("a place that cannot be written is an output error that names it")
+{
+    const ScratchFolder folder;
+    std::filesystem::path bad;
+    std::string reason;
+    SECTION("a missing folder")
+    {
+        bad = folder / "missing/a.exr";
+        reason = "there is no folder";
+    }
+    SECTION("a folder itself")
+    {
+        bad = folder / "a.exr";
+        std::filesystem::create_directory(bad);
+        reason = "this is a folder";
+    }
+    SECTION("below a file")
+    {
+        test::write_text(folder / "file", "");
+        bad = folder / "file/a.exr";
+        reason = "a.exr: cannot write: ";
+    }
+    SECTION("a file system that takes no files")
+    {
+        bad = "/proc/a.exr";
+        reason = "cannot write";
+    }
+    SECTION("no name")
+    {
+        bad = folder / "";
+        reason = "names no file";
+    }
+    SECTION("a name that is too long")
+    {
+        bad = folder / (std::string(300, 'a') + ".exr");
+        reason = "File name too long";
+    }
+    const Error error = error_of(bad);
+    CAPTURE(error.what());
+    CHECK(error.code() == ErrorCode::output);
+    CHECK(std::string(error.what()).starts_with(bad.string() + ": cannot write: "));
+    CHECK(std::string(error.what()).find(reason) != std::string::npos);
+}
+
+TEST_CASE("protected files and folders are respected")
+{
+    if (::geteuid() == 0) {
+        WARN("skipped: root may write everywhere");
+        return;
+    }
+    const ScratchFolder folder;
+    test::write_text(folder / "a.exr", "mine");
+    SECTION("a file")
+    {
+        REQUIRE(::chmod((folder / "a.exr").c_str(), 0444) == 0);
+        CHECK(error_of(folder / "a.exr").code() == ErrorCode::output);
+    }
+    SECTION("a folder")
+    {
+        REQUIRE(::chmod(folder.path().c_str(), 0555) == 0);
+        const ErrorCode code = error_of(folder / "b.exr").code();
+        REQUIRE(::chmod(folder.path().c_str(), 0755) == 0);
+        CHECK(code == ErrorCode::output);
+    }
+    CHECK(test::read_text(folder / "a.exr") == "mine");
+}
+
+TEST_CASE("checking a place leaves nothing behind")
+{
+    const ScratchFolder folder;
+    check_writable(folder / "a.exr");
+    CHECK(folder.names().empty());
+    test::write_text(folder / "a.exr", "old");
+    check_writable(folder / "a.exr");
+    CHECK(test::read_text(folder / "a.exr") == "old");
+}
+
+}  // namespace
+}  // namespace bdpt::io

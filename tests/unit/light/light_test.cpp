@@ -1,0 +1,199 @@
+#include "light/light.h"
+
+#include "catch.hpp"
+#include "math/elementary.h"
+#include "math/rgb.h"
+#include "scene/world.h"
+#include "scene_builder.h"
+#include "statistics.h"
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+
+namespace bdpt {
+namespace {
+
+using test::SceneBuilder;
+
+Image sky()
+{
+    Image image{.width = 8, .height = 4, .pixels = {}};
+    for (int i = 0; i < 32; ++i) {
+        image.pixels.emplace_back(i == 11 ? 40.0f : 0.2f * static_cast<float>(i % 5), 0.5f, 0.1f);
+    }
+    return image;
+}
+
+EnvironmentLight environment(Image image)
+{
+    return EnvironmentLight(
+        {.radiance = std::move(image),
+         .world_from_environment = Mat3(glm::rotate(Mat4(1.0f), 0.8f, Vec3(0.0f, 0.6f, 0.8f)))},
+        {.center = Vec3(1.0f), .radius = 3.0f});
+}
+
+}  // namespace
+
+TEST_CASE("environment: the density integrates to one and is that of the samples", "[light]")
+{
+    const EnvironmentLight light = environment(sky());
+    test::Random random(1);
+    test::Moments density;
+    test::Moments radiance;
+    for (int i = 0; i < 400000; ++i) {
+        const Vec3 w = random.direction();
+        density.add(static_cast<double>(4.0f * pi * light.pdf_incident(w).value));
+        radiance.add(static_cast<double>(4.0f * pi * luminance(light.radiance(w))));
+    }
+    CHECK(std::abs(density.mean() - 1.0) < 4.0 * density.standard_error());
+    CHECK(density.standard_error() < 0.01);
+
+    test::Moments sampled;
+    for (int i = 0; i < 20000; ++i) {
+        const auto incident = light.sample_incident(random.next_2d());
+        REQUIRE(incident.has_value());
+        REQUIRE(light.pdf_incident(incident->wi).value ==
+                Approx(incident->pdf_solid_angle.value).epsilon(2e-3));
+        sampled.add(static_cast<double>(luminance(incident->weight)));
+    }
+    const double error = std::hypot(sampled.standard_error(), radiance.standard_error());
+    CHECK(std::abs(sampled.mean() - radiance.mean()) < 4.0 * error);
+    CHECK(error < 0.01 * radiance.mean());
+}
+
+TEST_CASE("environment: light wherever it is bright can be sampled", "[light]")
+{
+    const EnvironmentLight light = environment(sky());
+    test::Random random(2);
+    for (int i = 0; i < 10000; ++i) {
+        const Vec3 w = random.direction();
+        if (luminance(light.radiance(w)) > 0.0f) {
+            REQUIRE(light.pdf_incident(w).value > 0.0f);
+        }
+    }
+}
+
+TEST_CASE("environment: directions of the picture", "[light]")
+{
+    Image image{.width = 4, .height = 2, .pixels = std::vector<Rgb>(8, Rgb(0.0f))};
+    const auto seen = [&](int texel, Vec3 direction) {
+        image.pixels.assign(8, Rgb(0.0f));
+        image.pixels[static_cast<std::size_t>(texel)] = Rgb(1.0f);
+        return EnvironmentLight({.radiance = image}, {}).radiance(normalize(direction)).r > 0.4f;
+    };
+    // Texel centres of the upper row, left to right, are at +z/-x, -x/-z, -z/+x and +x/+z.
+    CHECK(seen(0, {-1.0f, 1.0f, 1.0f}));
+    CHECK(seen(1, {-1.0f, 1.0f, -1.0f}));
+    CHECK(seen(2, {1.0f, 1.0f, -1.0f}));
+    CHECK(seen(3, {1.0f, 1.0f, 1.0f}));
+    CHECK(seen(6, {1.0f, -1.0f, -1.0f}));
+    CHECK_FALSE(seen(6, {1.0f, 1.0f, -1.0f}));
+}
+
+TEST_CASE("emission weights integrate to the power, for every kind of light", "[light]")
+{
+    SceneBuilder builder;
+    builder.quad({-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1}, test::emitter({3, 2, 1}));
+    MaterialDesc both = test::emitter(Rgb(2.0f));
+    both.double_sided = true;
+    builder.quad({-1, 2, -1}, {1, 2, -1}, {1, 2, 1}, {-1, 2, 1}, both);
+    builder.light(PointLightDesc{.intensity = Rgb(5.0f)});
+    builder.light(SpotLightDesc{.direction = {1, 2, 3},
+                                .intensity = Rgb(5.0f),
+                                .inner_cone_angle = 0.3f,
+                                .outer_cone_angle = 0.9f});
+    builder.light(DirectionalLightDesc{.direction = {1, -2, 3}, .illuminance = Rgb(2.0f)});
+    builder.light(EnvironmentLightDesc{.radiance = sky()});
+    const World world(std::move(builder.desc));
+    test::Random random(3);
+    for (std::uint32_t id = 0; id < world.lights().size(); ++id) {
+        const Light& light = world.lights()[LightId{id}];
+        test::Moments flux;
+        for (int i = 0; i < 40000; ++i) {
+            const auto emitted = light.sample_emission(random.next_2d(), random.next_2d());
+            flux.add(emitted ? static_cast<double>(luminance(emitted->weight)) : 0.0);
+            if (emitted && !light.is_infinite()) {
+                REQUIRE(light.pdf_direction(emitted->end.ng, emitted->direction).value ==
+                        Approx(emitted->pdf_direction.value).epsilon(1e-3));
+            }
+        }
+        INFO("light " << id);
+        const auto power = static_cast<double>(luminance(light.power()));
+        // The environment's power is exact for nearest texels; lookups are bilinear.
+        const double tolerance = id + 1 == world.lights().size() ? 0.15 : 1e-4;
+        CHECK(std::abs(flux.mean() - power) < 4.0 * flux.standard_error() + tolerance * power);
+        CHECK(flux.standard_error() < 0.02 * power);
+    }
+}
+
+TEST_CASE("light paths bring to a surface what next-event estimation finds there", "[light]")
+{
+    // Irradiance at a small patch: once by light sampling, once by counting emitted rays through a
+    // disk around it. The sampled densities of the two have nothing in common.
+    SceneBuilder builder;
+    builder.quad({-1, 2, -1}, {1, 2, -1}, {1, 2, 1}, {-1, 2, 1}, test::emitter(Rgb(3.0f)));
+    builder.light(SpotLightDesc{.position = {0.3f, 3.0f, 0.0f},
+                                .direction = {0, -1, 0},
+                                .intensity = Rgb(5.0f),
+                                .inner_cone_angle = 0.1f,
+                                .outer_cone_angle = 0.5f});
+    builder.light(EnvironmentLightDesc{.radiance = sky()});
+    builder.light(DirectionalLightDesc{.direction = {0.3f, -1, 0.2f}, .illuminance = Rgb(2.0f)});
+    builder.light(PointLightDesc{.position = {0.0f, 1.0f, 0.5f}, .intensity = Rgb(1.0f)});
+    // The receiver is part of the scene, for light from infinity is aimed at its bounds.
+    builder.quad({-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}, test::lambertian(Rgb(0.5f)));
+    const World world(std::move(builder.desc));
+    test::Random random(4);
+    constexpr float radius = 0.4f;
+    const Vec3 normal(0.0f, 1.0f, 0.0f);
+    for (std::uint32_t id = 0; id < world.lights().size(); ++id) {
+        const Light& light = world.lights()[LightId{id}];
+        test::Moments by_light_paths;
+        test::Moments by_light_samples;
+        for (int i = 0; i < 200000; ++i) {
+            const auto emitted = light.sample_emission(random.next_2d(), random.next_2d());
+            double flux = 0.0;
+            if (emitted && emitted->direction.y < 0.0f) {
+                const float t = -emitted->end.p.y / emitted->direction.y;
+                const Vec3 p = emitted->end.p + t * emitted->direction;
+                const bool through = t > 0.0f && p.x * p.x + p.z * p.z < radius * radius;
+                flux = through ? static_cast<double>(luminance(emitted->weight)) : 0.0;
+            }
+            by_light_paths.add(flux / static_cast<double>(pi * radius * radius));
+            const float r = radius * std::sqrt(random.next());
+            const SinCos phi = sin_cos(2.0f * pi * random.next());
+            const auto incident =
+                light.sample_incident({r * phi.cos, 0.0f, r * phi.sin}, random.next_2d());
+            const bool above = incident && incident->wi.y > 0.0f;
+            by_light_samples.add(
+                above ? static_cast<double>(luminance(incident->weight) * dot(incident->wi, normal))
+                      : 0.0);
+        }
+        INFO("light " << id);
+        const double error =
+            std::hypot(by_light_paths.standard_error(), by_light_samples.standard_error());
+        CHECK(std::abs(by_light_paths.mean() - by_light_samples.mean()) < 4.0 * error);
+        CHECK(error < 0.03 * by_light_samples.mean());
+    }
+}
+
+TEST_CASE("a spot is dark outside of its cone and full inside of the inner one", "[light]")
+{
+    const PunctualLight spot(SpotLightDesc{.direction = {0, -1, 0},
+                                           .intensity = Rgb(8.0f),
+                                           .inner_cone_angle = 0.2f,
+                                           .outer_cone_angle = 0.6f});
+    const auto intensity = [&](float angle) {
+        const auto incident =
+            spot.sample_incident({2.0f * std::sin(angle), -2.0f * std::cos(angle), 0.0f});
+        return incident ? 4.0f * incident->weight.r : 0.0f;
+    };
+    CHECK(intensity(0.0f) == Approx(8.0f));
+    CHECK(intensity(0.19f) == Approx(8.0f));
+    CHECK(intensity(0.61f) == 0.0f);
+    const float x = (std::cos(0.4f) - std::cos(0.6f)) / (std::cos(0.2f) - std::cos(0.6f));
+    CHECK(intensity(0.4f) == Approx(8.0f * x * x).epsilon(1e-3));
+}
+
+}  // namespace bdpt

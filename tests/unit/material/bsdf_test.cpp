@@ -1,0 +1,128 @@
+#include "material/bsdf.h"
+
+#include "bsdf_cases.h"
+#include "catch.hpp"
+#include "math/rgb.h"
+#include "statistics.h"
+
+#include <cmath>
+
+using namespace bdpt;
+
+namespace {
+
+Vec3 tilted_normal()
+{
+    return normalize(Vec3{0.4f, -0.2f, 1.0f});
+}
+
+/// A BSDF whose shading normal leans away from the geometric one.
+Bsdf tilted(const GltfBsdf& model)
+{
+    return {{0.0f, 0.0f, 1.0f}, Frame::from_normal(tilted_normal()), model};
+}
+
+bool agrees(Vec3 w)
+{
+    return w.z * dot(w, tilted_normal()) > 0.0f;
+}
+
+}  // namespace
+
+TEST_CASE("directions between the two normals' horizons scatter nothing")
+{
+    const SpecularAlbedo albedo(1.5f);
+    test::Random random(61);
+    for (const test::BsdfCase& bsdf_case : test::bsdf_cases()) {
+        const SpecularAlbedo own(bsdf_case.ior);
+        const Bsdf bsdf = tilted(GltfBsdf(bsdf_case.surface, own));
+        for (int i = 0; i < 3000; ++i) {
+            const Vec3 wo = random.direction();
+            const Vec3 wi = random.direction();
+            const auto mode = i % 2 == 0 ? TransportMode::radiance : TransportMode::importance;
+            const auto sampled = bsdf.sample(wo, random.next(), random.next_2d(), mode);
+            if (!agrees(wo)) {
+                CHECK(!sampled);
+            }
+            if (sampled) {
+                CHECK(agrees(sampled->wi));
+            }
+            if (!agrees(wo) || !agrees(wi)) {
+                const BsdfEval value = bsdf.eval(wo, wi, mode);
+                CHECK(is_black(value.f_cos));
+                CHECK(value.pdf_fwd.value == 0.0f);
+                CHECK(value.pdf_rev.value == 0.0f);
+            }
+        }
+    }
+}
+
+TEST_CASE("importance over tilted normals is the adjoint of radiance")
+{
+    // K*(wo, wi) / |wi.ng| = K(wi, wo) / |wo.ng|, where K holds |cos| to the shading normal: the
+    // definition of the adjoint in the measure of the true surface [Veach 1997, sec. 5.3.2].
+    for (const test::BsdfCase& bsdf_case : test::bsdf_cases()) {
+        const SpecularAlbedo albedo(bsdf_case.ior);
+        const Bsdf bsdf = tilted(GltfBsdf(bsdf_case.surface, albedo));
+        if (!bsdf.connectible() || (bsdf_case.refracts() && bsdf_case.ior == 1.0f)) {
+            continue;
+        }
+        test::Random random(67);
+        const float alpha = bsdf_case.surface.roughness * bsdf_case.surface.roughness;
+        const double tolerance = 1e-4 + 3e-6 / std::max(0.001, static_cast<double>(alpha));
+        int compared = 0;
+        for (int i = 0; i < 4000; ++i) {
+            const Vec3 wo = random.direction();
+            const auto sampled =
+                bsdf.sample(wo, random.next(), random.next_2d(), TransportMode::importance);
+            if (!sampled || sampled->delta || std::abs(wo.z) < 0.01f ||
+                std::abs(sampled->wi.z) < 0.01f) {
+                continue;
+            }
+            const Vec3 wi = sampled->wi;
+            const BsdfEval importance = bsdf.eval(wo, wi, TransportMode::importance);
+            const BsdfEval radiance = bsdf.eval(wi, wo, TransportMode::radiance);
+            CAPTURE(bsdf_case.name, wo.x, wo.y, wo.z, wi.x, wi.y, wi.z);
+            CHECK(max_component(importance.f_cos) / std::abs(wi.z) ==
+                  Approx(max_component(radiance.f_cos) / std::abs(wo.z)).epsilon(tolerance));
+            CHECK(max_component(sampled->weight) * sampled->pdf_fwd.value ==
+                  Approx(max_component(importance.f_cos)).epsilon(tolerance));
+            CHECK(importance.pdf_fwd.value == Approx(radiance.pdf_rev.value).epsilon(tolerance));
+            ++compared;
+        }
+        CAPTURE(bsdf_case.name);
+        CHECK(compared > 400);
+    }
+}
+
+TEST_CASE("the adjoint factor reaches smooth lobes too")
+{
+    const SpecularAlbedo albedo(1.5f);
+    const Bsdf bsdf =
+        tilted(GltfBsdf({.base_color = Rgb{1.0f}, .metallic = 1.0f, .roughness = 0.0f}, albedo));
+    const Vec3 ns = tilted_normal();
+    const Vec3 wo = normalize(Vec3{0.3f, 0.5f, 1.0f});
+    const auto radiance = bsdf.sample(wo, 0.5f, {}, TransportMode::radiance);
+    const auto importance = bsdf.sample(wo, 0.5f, {}, TransportMode::importance);
+    REQUIRE((radiance && importance));
+    const Vec3 wi = radiance->wi;
+    CHECK(dot(wi, ns) == Approx(dot(wo, ns)));
+    CHECK(radiance->weight.x == Approx(1.0f));
+    CHECK(importance->weight.x == Approx(dot(wo, ns) * wi.z / (wo.z * dot(wi, ns))));
+    CHECK(importance->weight.x != Approx(1.0f).epsilon(0.05));
+}
+
+TEST_CASE("equal normals leave importance and radiance equal to the bit")
+{
+    const SpecularAlbedo albedo(1.5f);
+    const GltfBsdf model({.base_color = Rgb{0.3f, 0.6f, 0.9f}, .roughness = 0.4f}, albedo);
+    const Vec3 ns = tilted_normal();
+    const Bsdf bsdf(ns, Frame::from_normal(ns), model);
+    test::Random random(71);
+    for (int i = 0; i < 1000; ++i) {
+        const Vec3 wo = random.direction();
+        const Vec3 wi = random.direction();
+        CHECK(bsdf.eval(wo, wi, TransportMode::radiance).f_cos ==
+              bsdf.eval(wo, wi, TransportMode::importance).f_cos);
+    }
+}

@@ -1,0 +1,225 @@
+#include "material/material.h"
+
+#include "catch.hpp"
+#include "math/elementary.h"
+#include "math/rgb.h"
+
+#include <cmath>
+
+using namespace bdpt;
+
+namespace {
+
+constexpr TextureRef first_image{};
+
+/// A description of a Lambertian surface: what it scatters shows the base colour.
+MaterialDesc lambert()
+{
+    MaterialDesc desc;
+    desc.metallic = 0.0f;
+    desc.specular = 0.0f;
+    return desc;
+}
+
+/// One texel.
+TexelImage texel(std::uint8_t r, std::uint8_t g, std::uint8_t b, std::uint8_t a)
+{
+    return {1, 1, {r, g, b, a}};
+}
+
+/// f_cos seen straight from above, towards `wi`.
+Rgb scattered(const Bsdf& bsdf, Vec3 wi = {0.0f, 0.0f, 1.0f}, Vec3 wo = {0.0f, 0.0f, 1.0f})
+{
+    return bsdf.eval(wo, wi, TransportMode::radiance).f_cos;
+}
+
+void check_equal(Rgb a, Rgb b)
+{
+    for (int channel = 0; channel < 3; ++channel) {
+        CHECK(a[channel] == Approx(b[channel]).epsilon(1e-4));
+    }
+}
+
+float srgb(double encoded)
+{
+    return static_cast<float>(std::pow((encoded + 0.055) / 1.055, 2.4));
+}
+
+/// What the same surface without textures would scatter.
+Rgb expected(const GltfParameters& surface, const SpecularAlbedo& albedo)
+{
+    const Vec3 up{0.0f, 0.0f, 1.0f};
+    return GltfBsdf(surface, albedo).eval(up, up, TransportMode::radiance).f_cos;
+}
+
+}  // namespace
+
+TEST_CASE("base colour is factor times vertex colour times sRGB texture")
+{
+    const SpecularAlbedo albedo(1.5f);
+    const std::vector<TexelImage> images{texel(102, 153, 204, 255)};
+    MaterialDesc desc = lambert();
+    desc.base_color = {0.5f, 0.25f, 1.0f, 1.0f};
+    desc.base_color_texture = first_image;
+    const Material material(desc, images, albedo);
+    const ShadingPoint point{.color = {1.0f, 0.5f, 0.25f, 1.0f}};
+    check_equal(scattered(material.bsdf(point)),
+                Rgb{0.5f * srgb(0.4), 0.125f * srgb(0.6), 0.25f * srgb(0.8)} * inv_pi);
+}
+
+TEST_CASE("metallic is blue and roughness green of a linear texture")
+{
+    const SpecularAlbedo albedo(1.5f);
+    const std::vector<TexelImage> images{texel(7, 204, 102, 0)};
+    MaterialDesc desc;
+    desc.base_color = {0.9f, 0.6f, 0.3f, 1.0f};
+    desc.metallic = 0.5f;
+    desc.roughness = 0.75f;
+    desc.metallic_roughness_texture = first_image;
+    const Material material(desc, images, albedo);
+    check_equal(
+        scattered(material.bsdf({})),
+        expected({.base_color = {0.9f, 0.6f, 0.3f}, .metallic = 0.2f, .roughness = 0.6f}, albedo));
+}
+
+TEST_CASE("specular is alpha of its texture, its colour is sRGB")
+{
+    const SpecularAlbedo albedo(1.5f);
+    const std::vector<TexelImage> images{texel(255, 255, 255, 51), texel(102, 153, 204, 0)};
+    MaterialDesc desc;
+    desc.metallic = 0.0f;
+    desc.roughness = 0.5f;
+    desc.specular = 0.5f;
+    desc.specular_color = {1.0f, 1.0f, 0.5f};
+    desc.specular_texture = first_image;
+    desc.specular_color_texture = TextureRef{.image = ImageId{1}};
+    const Material material(desc, images, albedo);
+    check_equal(scattered(material.bsdf({})),
+                expected({.roughness = 0.5f,
+                          .specular = 0.1f,
+                          .specular_color = {srgb(0.4), srgb(0.6), 0.5f * srgb(0.8)}},
+                         albedo));
+}
+
+TEST_CASE("transmission is red of its texture, and only thickness makes a body solid")
+{
+    const SpecularAlbedo albedo(1.5f);
+    const std::vector<TexelImage> images{texel(51, 255, 255, 255)};
+    MaterialDesc desc;
+    desc.metallic = 0.0f;
+    desc.roughness = 0.5f;
+    desc.transmission = 0.5f;
+    desc.transmission_texture = first_image;
+    const GltfParameters same{.roughness = 0.5f, .transmission = 0.1f};
+    {
+        const Material thin(desc, images, albedo);
+        CHECK(!thin.is_solid_transmitter());
+        check_equal(scattered(thin.bsdf({})), expected(same, albedo));
+        CHECK(max_component(scattered(thin.bsdf({}), {0.0f, 0.0f, -1.0f})) > 0.0f);
+    }
+    desc.thickness = 0.1f;
+    const Material solid(desc, images, albedo);
+    CHECK(solid.is_solid_transmitter());
+    const Vec3 in{0.3f, 0.0f, -std::sqrt(1.0f - 0.09f)};
+    CHECK(scattered(solid.bsdf({}), in) != scattered(Material(
+                                                         [&] {
+                                                             desc.thickness = 0.0f;
+                                                             return desc;
+                                                         }(),
+                                                         images, albedo)
+                                                         .bsdf({}),
+                                                     in));
+    desc.thickness = 1.0f;
+    desc.transmission = 0.0f;
+    CHECK(!Material(desc, images, albedo).is_solid_transmitter());
+}
+
+TEST_CASE("normal maps turn the shading normal in the tangent frame")
+{
+    const SpecularAlbedo albedo(1.5f);
+    MaterialDesc desc = lambert();
+    desc.normal_texture = first_image;
+    // x = 0.6, y = 0.2, z = 0.8 as nearly as bytes can tell
+    const std::vector<TexelImage> images{texel(204, 153, 230, 255)};
+    const Vec3 mapped = normalize(Vec3{0.6f, 0.2f, 2.0f * 230.0f / 255.0f - 1.0f});
+    const Vec3 up{0.0f, 0.0f, 1.0f};
+
+    const auto cosine = [&](const MaterialDesc& d, Vec4 tangent, Vec3 wi) {
+        const Material material(d, images, albedo);
+        CHECK(material.normal_uv_set() == 0);
+        return scattered(material.bsdf({.tangent = tangent}), wi).x * pi;
+    };
+    // f_cos of a white Lambertian is the cosine to the shading normal over pi.
+    CHECK(cosine(desc, {1, 0, 0, 1}, up) == Approx(mapped.z).epsilon(1e-4));
+    const Vec3 along_x = normalize(Vec3{1.0f, 0.0f, 1.0f});
+    const Vec3 along_y = normalize(Vec3{0.0f, 1.0f, 1.0f});
+    CHECK(cosine(desc, {1, 0, 0, 1}, along_x) == Approx(dot(mapped, along_x)).epsilon(1e-4));
+    CHECK(cosine(desc, {1, 0, 0, 1}, along_y) == Approx(dot(mapped, along_y)).epsilon(1e-4));
+    // The other handedness turns y over; a tangent along y turns the map by a right angle; its
+    // length and its part along the normal do not count.
+    CHECK(cosine(desc, {1, 0, 0, -1}, along_y) ==
+          Approx(dot(Vec3{mapped.x, -mapped.y, mapped.z}, along_y)).epsilon(1e-4));
+    CHECK(cosine(desc, {0, 5, 3, 1}, along_x) ==
+          Approx(dot(Vec3{-mapped.y, mapped.x, mapped.z}, along_x)).epsilon(1e-4));
+    // Without a tangent there is no frame for the map.
+    CHECK(cosine(desc, {0, 0, 0, 0}, up) == Approx(1.0f));
+    desc.normal_scale = 0.5f;
+    const Vec3 flatter = normalize(Vec3{0.3f, 0.1f, 2.0f * 230.0f / 255.0f - 1.0f});
+    CHECK(cosine(desc, {1, 0, 0, 1}, along_x) == Approx(dot(flatter, along_x)).epsilon(1e-4));
+}
+
+TEST_CASE("a mapped normal from below is turned up as little as possible")
+{
+    const SpecularAlbedo albedo(1.5f);
+    MaterialDesc desc = lambert();
+    desc.normal_texture = first_image;
+    const std::vector<TexelImage> images{texel(255, 128, 127, 255)};  // along +x
+    const Vec3 ng{0.0f, 0.0f, 1.0f};
+    // The interpolated normal leans to +x, so that the map leads below the surface.
+    const ShadingPoint point{
+        .ng = ng, .ns = normalize(Vec3{0.8f, 0.0f, 0.6f}), .tangent = {0.0f, 0.0f, -1.0f, 1.0f}};
+    const Bsdf bsdf = Material(desc, images, albedo).bsdf(point);
+    const Vec3 wi = normalize(Vec3{1.0f, 0.0f, 0.2f});
+    const Vec3 wo = normalize(Vec3{1.0f, 0.0f, 0.5f});
+    // (0.6, 0, -0.8) becomes (0.99995, 0, 0.01).
+    const float cosine = scattered(bsdf, wi, wo).x * pi;
+    CHECK(cosine == Approx(0.99995f * wi.x + 0.01f * wi.z).epsilon(1e-3));
+}
+
+TEST_CASE("emission is factor times sRGB texture, and its mean that of the picture")
+{
+    const SpecularAlbedo albedo(1.5f);
+    const std::vector<TexelImage> images{{2, 1, {0, 102, 255, 255, 255, 102, 0, 255}}};
+    MaterialDesc desc;
+    desc.emission = {10.0f, 20.0f, 30.0f};
+    CHECK(Material(desc, images, albedo).emission({}) == desc.emission);
+    CHECK(Material(desc, images, albedo).mean_emission() == desc.emission);
+    CHECK(!Material(desc, images, albedo).emits_from_both_sides());
+    desc.emission_texture = TextureRef{.wrap_u = Wrap::clamp_to_edge};
+    desc.double_sided = true;
+    const Material material(desc, images, albedo);
+    CHECK(material.emits_from_both_sides());
+    check_equal(material.emission({Vec2{0.25f, 0.5f}, Vec2{}}), {0.0f, 20.0f * srgb(0.4), 30.0f});
+    check_equal(material.mean_emission(), {5.0f, 20.0f * srgb(0.4), 15.0f});
+}
+
+TEST_CASE("absorption leaves the attenuation colour after the attenuation distance")
+{
+    const SpecularAlbedo albedo(1.5f);
+    MaterialDesc desc;
+    desc.transmission = 1.0f;
+    desc.thickness = 1.0f;
+    CHECK(Material(desc, {}, albedo).absorption() == Rgb{0.0f});
+    desc.attenuation_color = {0.5f, 1.0f, 0.0f};
+    CHECK(Material(desc, {}, albedo).absorption() == Rgb{0.0f});  // at infinity
+    desc.attenuation_distance = 0.25f;
+    const Rgb absorption = Material(desc, {}, albedo).absorption();
+    CHECK(absorption.x == Approx(std::log(2.0) / 0.25));
+    CHECK(absorption.y == 0.0f);
+    CHECK(absorption.z > 100.0f);
+    CHECK(std::isfinite(absorption.z));
+    desc.attenuation_distance = 1e-38f;
+    CHECK(is_finite(Material(desc, {}, albedo).absorption()));
+    desc.thickness = 0.0f;  // a thin sheet has no inside
+    CHECK(Material(desc, {}, albedo).absorption() == Rgb{0.0f});
+}

@@ -1,0 +1,94 @@
+#include "path/mis.h"
+
+#include "catch.hpp"
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace bdpt {
+namespace {
+
+/// A path with random densities, and strategies that exist or not.
+struct RandomPath {
+    std::vector<AreaPdf> from_light;
+    std::vector<AreaPdf> from_camera;
+    AreaPdf next_event;
+    std::vector<float> sample_counts;
+
+    explicit RandomPath(std::mt19937& engine)
+    {
+        std::lognormal_distribution<float> density(0.0f, 2.0f);
+        const std::size_t vertices = 2 + engine() % 9U;
+        for (std::size_t i = 0; i < vertices; ++i) {
+            from_light.push_back({density(engine)});
+            from_camera.push_back({density(engine)});
+        }
+        next_event = {density(engine)};
+        for (std::size_t s = 0; s <= vertices; ++s) {
+            constexpr float counts[] = {0.0f, 1.0f, 1.0f, 4.0f};
+            sample_counts.push_back(counts[engine() % 4U]);
+        }
+        sample_counts[engine() % sample_counts.size()] = 1.0f;
+    }
+
+    [[nodiscard]] PathDensities densities() const
+    {
+        return {from_light, from_camera, next_event, sample_counts};
+    }
+
+    /// N_s p_s from the definition.
+    [[nodiscard]] double density(std::size_t s) const
+    {
+        auto product = static_cast<double>(sample_counts[s]);
+        for (std::size_t i = 0; i < from_light.size(); ++i) {
+            const AreaPdf pdf = i >= s             ? from_camera[i]
+                                : i == 0 && s == 1 ? next_event
+                                                   : from_light[i];
+            product *= static_cast<double>(pdf.value);
+        }
+        return product;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("MIS weights equal brute force and sum to one", "[mis]")
+{
+    std::mt19937 engine(1);
+    for (int trial = 0; trial < 10000; ++trial) {
+        const RandomPath path(engine);
+        for (const auto heuristic : {Heuristic::balance, Heuristic::power}) {
+            const auto share = [&](double p) { return heuristic == Heuristic::power ? p * p : p; };
+            double total = 0.0;
+            for (std::size_t s = 0; s < path.sample_counts.size(); ++s) {
+                total += share(path.density(s));
+            }
+            double sum = 0.0;
+            for (std::size_t s = 0; s < path.sample_counts.size(); ++s) {
+                if (path.sample_counts[s] == 0.0f) {
+                    continue;
+                }
+                const float weight = mis_weight(path.densities(), static_cast<int>(s), heuristic);
+                sum += static_cast<double>(weight);
+                REQUIRE(std::abs(static_cast<double>(weight) - share(path.density(s)) / total) <
+                        1e-6);
+            }
+            REQUIRE(std::abs(sum - 1.0) < 1e-6);
+        }
+    }
+}
+
+TEST_CASE("MIS weights of long paths neither overflow nor vanish", "[mis]")
+{
+    constexpr std::size_t vertices = 60;
+    std::vector<AreaPdf> from_light(vertices, {1e6f});
+    std::vector<AreaPdf> from_camera(vertices, {1e-4f});
+    std::vector<float> counts(vertices + 1, 1.0f);
+    const PathDensities path{from_light, from_camera, {1.0f}, counts};
+    CHECK(mis_weight(path, static_cast<int>(vertices), Heuristic::power) == Approx(1.0));
+    CHECK(mis_weight(path, 5, Heuristic::power) == 0.0f);
+    CHECK(mis_weight(path, 0, Heuristic::balance) == 0.0f);
+}
+
+}  // namespace bdpt

@@ -1,0 +1,131 @@
+#include "camera/camera.h"
+#include "catch.hpp"
+#include "math/sampler.h"
+#include "path/connect.h"
+#include "path/random_walk.h"
+#include "scene_builder.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace bdpt {
+namespace {
+
+using test::SceneBuilder;
+
+/// A room with all that makes densities special: mirror, glass, gloss, two kinds of lights.
+SceneDesc room()
+{
+    SceneBuilder builder;
+    builder.walls(test::plastic(Rgb(0.7f), 0.3f), test::lambertian(Rgb(0.6f)));
+    builder.ceiling(test::lambertian(Rgb(0.7f))).lamp(0.9f, 0.5f, Rgb(5.0f));
+    builder.sphere({-0.4f, -0.6f, 0.0f}, 0.4f, test::glass(0.0f));
+    builder.sphere({0.5f, -0.6f, 0.2f}, 0.4f, test::plastic(Rgb(0.5f), 0.0f));
+    builder.light(EnvironmentLightDesc{.radiance = {.width = 1, .height = 1, .pixels = {Rgb(1)}}});
+    return std::move(builder.desc);
+}
+
+/// Sum of the weights of all strategies that can make the path that was weighed last.
+float sum_of_weights(const PathDensities& path, Heuristic heuristic)
+{
+    float sum = 0.0f;
+    for (std::size_t s = 0; s < path.sample_counts.size(); ++s) {
+        if (path.sample_counts[s] > 0.0f) {
+            sum += mis_weight(path, static_cast<int>(s), heuristic);
+        }
+    }
+    return sum;
+}
+
+}  // namespace
+
+TEST_CASE("weights of all strategies sum to one on traced paths", "[mis]")
+{
+    const World world(room());
+    constexpr int max_depth = 6;
+    constexpr int size = 16;
+    const Camera camera(test::room_camera(), size, size);
+    Subpath light_path(max_depth);
+    Subpath camera_path(max_depth + 1);
+    int paths = 0;
+    for (const auto heuristic : {Heuristic::balance, Heuristic::power}) {
+        PathWeigher weigher(world, heuristic, max_depth + 1);
+        const auto check = [&](const std::optional<Contribution>& found) {
+            if (found) {
+                ++paths;
+                REQUIRE(found->weight >= 0.0f);
+                REQUIRE(found->weight <= 1.0f);
+                REQUIRE(sum_of_weights(weigher.last_path(), heuristic) ==
+                        Approx(1.0).epsilon(1e-5));
+            }
+        };
+        for (int i = 0; i < 2000; ++i) {
+            Sampler sampler(1, i % size, i / size, i);
+            const Vec2 raster(static_cast<float>(i % size) + 0.5f,
+                              static_cast<float>(i / size % size) + 0.5f);
+            trace_camera_subpath(world, camera, raster, camera_path.capacity(), sampler,
+                                 camera_path);
+            trace_light_subpath(world, light_path.capacity(), sampler, light_path);
+            for (int t = 2; t <= camera_path.size(); ++t) {
+                check(hit_light(world, camera_path.first(t), weigher));
+                if (t <= max_depth) {
+                    check(connect_to_light(world, camera_path.first(t), sampler, weigher));
+                }
+                for (int s = 2; s <= std::min(light_path.size(), max_depth + 1 - t); ++s) {
+                    check(connect_interior(world, light_path.first(s), camera_path.first(t),
+                                           weigher));
+                }
+            }
+        }
+    }
+    CHECK(paths > 5000);
+}
+
+TEST_CASE("joining and hitting agree about the densities of the same path", "[mis]")
+{
+    // The camera walk finds the lamp: weigh that path as it was made (s = 0). Then treat its own
+    // last vertex as the light sample of next-event estimation: the densities must be the same.
+    const World world(room());
+    constexpr int max_depth = 5;
+    const Camera camera(test::room_camera(), 16, 16);
+    Subpath camera_path(max_depth + 1);
+    PathWeigher weigher(world, Heuristic::balance, max_depth + 1);
+    int compared = 0;
+    for (int i = 0; i < 3000; ++i) {
+        Sampler sampler(2, i % 16, i / 16 % 16, i);
+        const Vec2 raster(static_cast<float>(i % 16) + 0.5f,
+                          static_cast<float>(i / 16 % 16) + 0.5f);
+        trace_camera_subpath(world, camera, raster, camera_path.capacity(), sampler, camera_path);
+        for (int t = 3; t <= camera_path.size(); ++t) {
+            const auto path = camera_path.first(t);
+            const PathVertex& x0 = path.back();
+            const PathVertex& x1 = path[path.size() - 2];
+            const bool finite_light = x0.light && x0.kind == VertexKind::surface;
+            if (!finite_light || !x1.connectible || x1.scattered_delta) {
+                continue;
+            }
+            const auto hit = hit_light(world, path, weigher);
+            if (!hit) {
+                continue;
+            }
+            const PathDensities made = weigher.last_path();
+            const BsdfEval f = x1.bsdf.eval(x1.wo, -x0.wo, TransportMode::radiance);
+            // C_0 as a join would compute it equals the density that the walk stored.
+            const Vec3 along = x0.end.p - x1.end.p;
+            const float distance_squared = dot(along, along);
+            const float joined =
+                to_area(f.pdf_fwd, std::abs(dot(x0.end.ng, x0.wo)), distance_squared).value;
+            CHECK(made.from_camera[0].value == Approx(joined).epsilon(1e-3));
+            // L_2 as a join would compute it equals what the walk stored for a reversed walk.
+            const PathVertex& x2 = path[path.size() - 3];
+            const float reversed = f.pdf_rev.value * x2.area_per_solid_angle;
+            CHECK(made.from_light[2].value == Approx(reversed).epsilon(1e-3));
+            ++compared;
+        }
+    }
+    CHECK(compared > 100);
+}
+
+}  // namespace bdpt

@@ -1,0 +1,69 @@
+#include "render/check_options.h"
+
+#include <bdpt/error.h>
+
+#include "catch.hpp"
+#include "scene_builder.h"
+
+#include <functional>
+#include <limits>
+#include <string>
+
+namespace bdpt {
+namespace {
+
+std::string message_of(const std::function<void()>& action, ErrorCode expected)
+{
+    try {
+        action();
+    } catch (const Error& error) {
+        CHECK(error.code() == expected);
+        return error.what();
+    }
+    return "";
+}
+
+std::string refusal(const std::function<void(RenderOptions&)>& change)
+{
+    RenderOptions options;
+    change(options);
+    return message_of([&] { check_options(options); }, ErrorCode::usage);
+}
+
+}  // namespace
+
+TEST_CASE("options out of range are refused by name and value", "[render]")
+{
+    check_options(RenderOptions{});
+    CHECK(refusal([](auto& o) { o.width = 0; }) == "image width is 0, not in [1, 65536]");
+    CHECK(refusal([](auto& o) { o.height = -3; }) == "image height is -3, not in [1, 65536]");
+    CHECK(refusal([](auto& o) { o.max_depth = 0; }).find("max_depth") != std::string::npos);
+    CHECK(refusal([](auto& o) { o.samples = {.begin = 4, .end = 4}; }).find("samples is 0") !=
+          std::string::npos);
+    CHECK(refusal([](auto& o) { o.samples = {.begin = -1, .end = 4}; }).find("-1") !=
+          std::string::npos);
+    CHECK(refusal([](auto& o) { o.tile_size = 0; }).find("tile size is 0") != std::string::npos);
+    CHECK(refusal([](auto& o) { o.threads = -1; }).find("threads is -1") != std::string::npos);
+}
+
+TEST_CASE("cameras without a view are refused by name", "[render]")
+{
+    CameraDesc camera = test::room_camera();
+    camera.name = "eye";
+    check_camera(camera);
+    CameraDesc flat = camera;
+    flat.world_from_camera[2] = Vec4(0.0f);
+    CHECK(
+        message_of([&] { check_camera(flat); }, ErrorCode::invalid_input).find("camera \"eye\"") ==
+        0);
+    CameraDesc wide = camera;
+    wide.vertical_fov = 3.2f;
+    CHECK(message_of([&] { check_camera(wide); }, ErrorCode::invalid_input).find("3.2") !=
+          std::string::npos);
+    CameraDesc broken = camera;
+    broken.world_from_camera[3][0] = std::numeric_limits<float>::quiet_NaN();
+    CHECK(message_of([&] { check_camera(broken); }, ErrorCode::invalid_input).find("finite") !=
+          std::string::npos);
+}
+
+}  // namespace bdpt

@@ -1,0 +1,128 @@
+#include "scene/validate.h"
+
+#include <bdpt/error.h>
+
+#include "catch.hpp"
+#include "scene_builder.h"
+
+#include <functional>
+#include <limits>
+#include <string>
+
+namespace bdpt {
+namespace {
+
+constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
+
+SceneDesc good()
+{
+    test::SceneBuilder builder;
+    builder.quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, test::lambertian(Rgb(0.5f)));
+    builder.desc.meshes[0].name = "chair";
+    builder.desc.images.push_back({.width = 1, .height = 1, .rgba = {1, 2, 3, 4}});
+    builder.light(PointLightDesc{});
+    builder.light(EnvironmentLightDesc{.radiance = {.width = 1, .height = 1, .pixels = {Rgb(1)}}});
+    return std::move(builder.desc);
+}
+
+/// The message with which the scene is refused after `change`; empty when it is accepted.
+std::string refusal(const std::function<void(SceneDesc&)>& change)
+{
+    SceneDesc desc = good();
+    change(desc);
+    try {
+        validate(desc);
+    } catch (const Error& error) {
+        CHECK(error.code() == ErrorCode::invalid_input);
+        return error.what();
+    }
+    return "";
+}
+
+void check_refused(const std::string& text, const std::function<void(SceneDesc&)>& change)
+{
+    const std::string message = refusal(change);
+    INFO(message);
+    CHECK(message.find(text) != std::string::npos);
+    CHECK(message.find('\n') == std::string::npos);
+}
+
+}  // namespace
+
+TEST_CASE("a good scene is accepted and counted", "[validate]")
+{
+    CHECK(refusal([](SceneDesc&) {}).empty());
+    SceneDesc desc = good();
+    desc.meshes[0].triangles.emplace_back(1, 1, 2);
+    desc.instances.push_back(desc.instances[0]);
+    const SceneCounts counts = count(desc);
+    CHECK(counts.triangles == 3);
+    CHECK(counts.degenerate_triangles == 1);
+    CHECK(counts.instanced_triangles == 6);
+}
+
+TEST_CASE("meshes: indices, attribute counts and numbers", "[validate]")
+{
+    check_refused("mesh 0 \"chair\": triangle 1 has index 912, but there are 4 vertices",
+                  [](SceneDesc& d) { d.meshes[0].triangles[1].y = 912; });
+    check_refused("mesh 0 \"chair\": positions 2 is not finite",
+                  [](SceneDesc& d) { d.meshes[0].positions[2].y = nan_value; });
+    check_refused("3 normals, but there are 4 vertices",
+                  [](SceneDesc& d) { d.meshes[0].normals.assign(3, Vec3(1.0f)); });
+    check_refused("texture coordinates (set 1) 0 is not finite",
+                  [](SceneDesc& d) { d.meshes[0].uvs[1].assign(4, Vec2(nan_value)); });
+}
+
+TEST_CASE("instances: references and transforms", "[validate]")
+{
+    check_refused("instance 0: mesh 7, but there are 1 meshes",
+                  [](SceneDesc& d) { d.instances[0].mesh = MeshId{7}; });
+    check_refused("instance 0: material 9, but there are 1 materials",
+                  [](SceneDesc& d) { d.instances[0].material = MaterialId{9}; });
+    check_refused("instance 0: transform has no inverse",
+                  [](SceneDesc& d) { d.instances[0].world_from_object[1] = Vec4(0.0f); });
+    check_refused("instance 0: transform is not finite", [](SceneDesc& d) {
+        d.instances[0].world_from_object[3].x = std::numeric_limits<float>::infinity();
+    });
+}
+
+TEST_CASE("materials: ranges and textures", "[validate]")
+{
+    check_refused("material 0: roughness is 1.5",
+                  [](SceneDesc& d) { d.materials[0].roughness = 1.5f; });
+    check_refused("material 0: base colour is -1",
+                  [](SceneDesc& d) { d.materials[0].base_color.g = -1.0f; });
+    check_refused("material 0: emission is nan",
+                  [](SceneDesc& d) { d.materials[0].emission.b = nan_value; });
+    check_refused("material 0: index of refraction is 0.5",
+                  [](SceneDesc& d) { d.materials[0].ior = 0.5f; });
+    check_refused("attenuation distance is 0",
+                  [](SceneDesc& d) { d.materials[0].attenuation_distance = 0.0f; });
+    check_refused("material 0: image 4, but there are 1 images", [](SceneDesc& d) {
+        d.materials[0].normal_texture = TextureRef{.image = ImageId{4}};
+    });
+    check_refused("texture coordinate set 2", [](SceneDesc& d) {
+        d.materials[0].emission_texture = TextureRef{.image = ImageId{0}, .uv_set = 2};
+    });
+}
+
+TEST_CASE("lights and images", "[validate]")
+{
+    check_refused("point light 0: intensity is -2",
+                  [](SceneDesc& d) { std::get<PointLightDesc>(d.lights[0]).intensity.r = -2.0f; });
+    check_refused("directional light 2: direction is zero", [](SceneDesc& d) {
+        d.lights.emplace_back(DirectionalLightDesc{.direction = Vec3(0.0f)});
+    });
+    check_refused("spot light 2: inner cone angle 0.7", [](SceneDesc& d) {
+        d.lights.emplace_back(SpotLightDesc{.inner_cone_angle = 0.7f, .outer_cone_angle = 0.6f});
+    });
+    check_refused("environment light 1: pixel (0, 0): radiance is -1", [](SceneDesc& d) {
+        std::get<EnvironmentLightDesc>(d.lights[1]).radiance.pixels[0].r = -1.0f;
+    });
+    check_refused("there are 2 environment lights",
+                  [](SceneDesc& d) { d.lights.push_back(d.lights[1]); });
+    check_refused("image 0: 2 x 1 texels with 4 bytes",
+                  [](SceneDesc& d) { d.images[0].width = 2; });
+}
+
+}  // namespace bdpt

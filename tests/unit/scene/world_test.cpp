@@ -1,0 +1,106 @@
+#include "scene/world.h"
+
+#include "catch.hpp"
+#include "scene_builder.h"
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+
+namespace bdpt {
+namespace {
+
+using test::SceneBuilder;
+
+MaterialDesc tinted_glass()
+{
+    MaterialDesc material = test::glass(0.0f);
+    material.attenuation_color = {0.5f, 0.25f, 1.0f};
+    material.attenuation_distance = 2.0f;
+    return material;
+}
+
+}  // namespace
+
+TEST_CASE("Beer-Lambert: the attenuation colour is left after the attenuation distance", "[world]")
+{
+    SceneBuilder builder;
+    builder.sphere({0, 0, 0}, 1.0f, tinted_glass(), 128);
+    const World world(std::move(builder.desc));
+    const auto front = world.intersect({.p = {0, 0, 5}}, {0, 0, -1});
+    const auto back = world.intersect({.p = {0, 0, -5}}, {0, 0, 1});
+    REQUIRE(front.has_value());
+    REQUIRE(back.has_value());
+    const Rgb inside = world.transmittance(front->end, back->end);
+    CHECK(inside.r == Approx(0.5f).epsilon(0.01));
+    CHECK(inside.g == Approx(0.25f).epsilon(0.01));
+    CHECK(inside.b == Approx(1.0f));
+    CHECK(world.transmittance(back->end, front->end) == inside);
+    // Outside there is nothing to absorb, and the ball hides what is behind it.
+    CHECK(world.transmittance({.p = {0, 0, 5}}, front->end) == Rgb(1.0f));
+    CHECK(world.transmittance({.p = {0, 0, 5}}, back->end) == Rgb(0.0f));
+    CHECK(world.transmittance_to_infinity(front->end, {0, 0, 1}) == Rgb(1.0f));
+    CHECK(world.transmittance_to_infinity(front->end, {0, 0, -1}) == Rgb(0.0f));
+}
+
+TEST_CASE("a medium is known from either end, and the rule is symmetric", "[world]")
+{
+    const SegmentEnd glass{.p = {0, 0, 0}, .ng = {0, 0, 1}, .absorption = {1, 2, 0}};
+    const SegmentEnd opaque{.p = {0, 0, -1}, .ng = {0, 0, 1}};
+    const Vec3 down(0, 0, -1);
+    const Rgb expected(std::exp(-1.0f), std::exp(-2.0f), 1.0f);
+    const Rgb one_way = medium_transmittance(glass, opaque, down, 1.0f);
+    CHECK(one_way.r == Approx(expected.r));
+    CHECK(one_way.g == Approx(expected.g));
+    CHECK(medium_transmittance(opaque, glass, -down, 1.0f) == one_way);
+    CHECK(medium_transmittance(glass, opaque, -down, 1.0f) == Rgb(1.0f));  // leaves on the outside
+}
+
+TEST_CASE("emission is seen from the front, or from both sides", "[world]")
+{
+    for (const bool double_sided : {false, true}) {
+        SceneBuilder builder;
+        MaterialDesc material = test::emitter(Rgb(7.0f));
+        material.double_sided = double_sided;
+        builder.quad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, material);
+        const World world(std::move(builder.desc));
+        const auto front = world.intersect({.p = {0.1f, 0.2f, 3}}, {0, 0, -1});
+        const auto back = world.intersect({.p = {0.1f, 0.2f, -3}}, {0, 0, 1});
+        REQUIRE(front.has_value());
+        REQUIRE(back.has_value());
+        CHECK(front->emission == Rgb(7.0f));
+        CHECK(back->emission == (double_sided ? Rgb(7.0f) : Rgb(0.0f)));
+        CHECK(front->light.has_value());
+        CHECK(world.counts().emissive_triangles == 2);
+    }
+}
+
+TEST_CASE("lights are chosen by power, and dark ones never", "[world]")
+{
+    SceneBuilder builder;
+    builder.light(PointLightDesc{.intensity = Rgb(3.0f)});
+    builder.light(PointLightDesc{.intensity = Rgb(0.0f)});
+    builder.light(PointLightDesc{.intensity = Rgb(1.0f)});
+    const World world(std::move(builder.desc));
+    CHECK(world.lights().emission_probability(LightId{0}) == Approx(0.75f));
+    CHECK(world.lights().emission_probability(LightId{1}) == 0.0f);
+    CHECK(world.lights().receiver_probability(LightId{2}, Vec3(0.0f)) == Approx(0.25f));
+    for (int i = 0; i < 100; ++i) {
+        const auto choice =
+            world.lights().choose_for_emission({(static_cast<float>(i) + 0.5f) / 100.0f, 0.5f});
+        REQUIRE(choice.has_value());
+        CHECK(choice->id != LightId{1});
+        CHECK(choice->probability == world.lights().emission_probability(choice->id));
+    }
+}
+
+TEST_CASE("a scene without light or surfaces has none, and bounds of zero", "[world]")
+{
+    const World world(SceneDesc{});
+    CHECK_FALSE(world.lights().choose_for_emission({0.5f, 0.5f}).has_value());
+    CHECK_FALSE(world.lights().environment().has_value());
+    CHECK_FALSE(world.intersect({}, {0, 0, 1}).has_value());
+    CHECK(world.bounds().max == Vec3(0.0f));
+}
+
+}  // namespace bdpt

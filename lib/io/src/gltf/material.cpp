@@ -71,10 +71,11 @@ private:
         if (!object.Has(key)) {
             return Rgb(1.0f);
         }
-        const tinygltf::Value& values = object.Get(key);
+        const auto& values = object.Get(key).Get<tinygltf::Value::Array>();
         Rgb rgb;
         for (int c = 0; c < 3; ++c) {
-            rgb[c] = in_range(values.Get(c).GetNumberAsDouble(), 0.0, high, key);
+            rgb[c] =
+                in_range(values[static_cast<std::size_t>(c)].GetNumberAsDouble(), 0.0, high, key);
         }
         return rgb;
     }

@@ -46,6 +46,9 @@ void limit(int resource, const std::optional<rlim_t>& value)
     }
 }
 
+/// So that a command that never ends fails its test; far beyond what any test takes.
+constexpr unsigned longest_run = 300;  // [s]
+
 /// In the child.
 [[noreturn]] void become_command(const Launch& launch, const Channel& out, const Channel& err)
 {
@@ -58,6 +61,7 @@ void limit(int resource, const std::optional<rlim_t>& value)
     for (const auto& [name, value] : launch.environment) {
         ::setenv(name.c_str(), value.c_str(), 1);
     }
+    ::alarm(longest_run);
     limit(RLIMIT_AS, launch.address_space);
     limit(RLIMIT_FSIZE, launch.file_size);
 

@@ -27,12 +27,12 @@ std::string JsonPlace::pointer() const
 
 bool JsonPlace::has(std::string_view key) const
 {
-    return value_->is_object() && value_->find(std::string(key)) != value_->end();
+    return value_->is_object() && value_->find(key) != value_->end();
 }
 
 JsonPlace JsonPlace::member(std::string_view key) const&
 {
-    const auto found = value_->find(std::string(key));
+    const auto found = value_->find(key);
     return {this, found.key(), 0, &*found};
 }
 

@@ -84,7 +84,8 @@ RTCRay to_embree(const Ray& ray)
     out.dir_x = ray.direction.x;
     out.dir_y = ray.direction.y;
     out.dir_z = ray.direction.z;
-    // A surface through the exact origin counts as behind it, for it is the one that the ray leaves.
+    // A surface through the exact origin counts as behind it, for it is the one that the ray
+    // leaves.
     out.tnear = std::numeric_limits<float>::min();
     out.tfar = ray.t_max;
     out.mask = all_rays;

@@ -6,10 +6,19 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace bdpt {
 namespace {
+
+/// How often a coordinate of a point, or of an intersection test, is rounded at most.
+constexpr int rounded_operations = 12;
+
+float max_axis(Vec3 v)
+{
+    return std::max(v.x, std::max(v.y, v.z));
+}
 
 /// Transposed cofactors: the inverse transpose times the determinant, so it cannot divide by zero.
 Mat3 cofactors(const Mat3& m)
@@ -47,18 +56,21 @@ BoundedPoint PlacedMesh::point(std::uint32_t triangle, Vec2 barycentrics) const
 {
     const UVec3& i = mesh_->triangles[triangle];
     const Vec3* corner = world_positions_ != nullptr ? world_positions_ : mesh_->positions.data();
-    const float b0 = 1.0f - barycentrics.x - barycentrics.y;
-    const Vec3 q0 = b0 * corner[i.x];
-    const Vec3 q1 = barycentrics.x * corner[i.y];
-    const Vec3 q2 = barycentrics.y * corner[i.z];
-    const Vec3 p = q0 + q1 + q2;
-    const Vec3 size = abs(q0) + abs(q1) + abs(q2);
+    const Vec3 a = corner[i.x];
+    const Vec3 b = corner[i.y];
+    const Vec3 c = corner[i.z];
+    const Vec3 p =
+        (1.0f - barycentrics.x - barycentrics.y) * a + barycentrics.x * b + barycentrics.y * c;
+    // The intersection test works on the corners relative to the ray's origin and rounds in all
+    // directions, even where a coordinate of all corners is zero. So the bound takes the greatest
+    // coordinate of all, not each axis for itself.
+    const Vec3 size = max(abs(a), max(abs(b), abs(c)));
     if (world_positions_ != nullptr) {
-        return {p, rounding_bound(7) * size};
+        return {p, rounding_bound(rounded_operations) * max_axis(size)};
     }
-    // Each world coordinate is a sum of four products, of a point that already has an error.
-    const Mat3 size_matrix(abs(linear_[0]), abs(linear_[1]), abs(linear_[2]));
-    return {world_point(p), rounding_bound(12) * (size_matrix * size + abs(translation_))};
+    const Mat3 magnitudes(abs(linear_[0]), abs(linear_[1]), abs(linear_[2]));
+    const Vec3 world_size = magnitudes * size + abs(translation_);
+    return {world_point(p), rounding_bound(2 * rounded_operations) * max_axis(world_size)};
 }
 
 Vec3 PlacedMesh::area_normal(std::uint32_t triangle) const

@@ -7,10 +7,11 @@
 
 namespace bdpt {
 
-/// A point that was computed in floats, with a bound of its absolute error for each axis.
+/// A point that was computed in floats, with a bound of how far off [m] it and an intersection test
+/// of its triangle can be, in any direction.
 struct BoundedPoint {
     Vec3 p{0.0f};
-    Vec3 error{0.0f};
+    float error = 0.0f;
 };
 
 /// A mesh as one instance places it in the world. Refers to the mesh, which must outlive it.

@@ -2,7 +2,6 @@
 
 #include <bdpt/types.h>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <limits>
@@ -17,15 +16,12 @@ namespace bdpt {
 }
 
 /// Where a ray that leaves a surface in direction `w` starts: moved along the normal until it is
-/// surely on the side of `w`, whatever the rounding of `p` (bounded by `error`) and of the
-/// intersection test [Pharr et al. 2023, Physically Based Rendering, sec. 6.8]. `ng` is unit, or
+/// surely on the side of `w`, whatever the rounding of `p` and of the intersection test, both
+/// bounded by `error` [Pharr et al. 2023, Physically Based Rendering, sec. 6.8]. `ng` is unit, or
 /// zero for a point that is on no surface.
-[[nodiscard]] inline Vec3 offset_origin(Vec3 p, Vec3 error, Vec3 ng, Vec3 w)
+[[nodiscard]] inline Vec3 offset_origin(Vec3 p, float error, Vec3 ng, Vec3 w)
 {
-    // The intersection test rounds a few times more than the point did.
-    constexpr float safety = 4.0f;
-    const float distance = safety * dot(abs(ng), error);
-    return p + (dot(ng, w) < 0.0f ? -distance : distance) * ng;
+    return p + (dot(ng, w) < 0.0f ? -error : error) * ng;
 }
 
 }  // namespace bdpt

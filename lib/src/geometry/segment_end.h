@@ -7,7 +7,7 @@ namespace bdpt {
 /// One end of a segment of a path: what a ray that starts or ends there needs to know.
 struct SegmentEnd {
     Vec3 p{0.0f};
-    Vec3 error{0.0f};      ///< bound of the rounding error of p for each axis
+    float error = 0.0f;    ///< how far off p can be, and the surface that a ray meets there [m]
     Vec3 ng{0.0f};         ///< unit geometric normal on the front; zero when on no surface
     Rgb absorption{0.0f};  ///< of the medium behind the surface [1/m]
 };

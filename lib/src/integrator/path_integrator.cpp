@@ -3,6 +3,7 @@
 #include "camera/camera.h"
 #include "math/rgb.h"
 #include "math/sampler.h"
+#include "path/path_vertex.h"
 
 #include <glm/geometric.hpp>
 
@@ -59,8 +60,12 @@ Rgb PathIntegrator::estimate(Vec2 raster, Sampler& sampler) const
             break;
         }
         const Vec3 along = point->end.p - ray.origin.p;
+        const float distance_squared = dot(along, along);
+        if (distance_squared < coincident) {
+            break;
+        }
         beta *= medium_transmittance(ray.origin, point->end, ray.direction,
-                                     std::sqrt(dot(along, along)));
+                                     std::sqrt(distance_squared));
         if (point->light) {
             radiance += beta * emission(ray, *point->light, point->end, point->emission);
         }

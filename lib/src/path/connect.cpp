@@ -148,7 +148,7 @@ std::optional<Contribution> connect_interior(const World& world, std::span<const
     }
     const Vec3 to_y = y.end.p - z.end.p;
     const float distance_squared = dot(to_y, to_y);
-    if (!(distance_squared > 0.0f)) {
+    if (distance_squared < coincident) {
         return std::nullopt;
     }
     const Vec3 wi = to_y / std::sqrt(distance_squared);

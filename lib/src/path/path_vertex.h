@@ -10,6 +10,10 @@
 
 namespace bdpt {
 
+/// Squared distance [m^2] below which two vertices count as one point, where surfaces touch: no walk
+/// goes on from there, for the densities would leave the range of float.
+inline constexpr float coincident = 1e-30f;
+
 enum class VertexKind : std::uint8_t {
     camera,   ///< on the lens
     light,    ///< where a light path starts, or a point found by next-event estimation

@@ -47,11 +47,10 @@ void append_environment(const World& world, const Step& step, Subpath& path)
     vertex.pdf_fwd = {step.pdf.value};
 }
 
-void append_surface(const SurfacePoint& point, const Step& step, Subpath& path)
+void append_surface(const SurfacePoint& point, float distance_squared, const Step& step,
+                    Subpath& path)
 {
     PathVertex& previous = path[path.size() - 1];
-    const Vec3 along = point.end.p - step.origin.p;
-    const float distance_squared = dot(along, along);
     PathVertex& vertex = path.append();
     vertex.end = point.end;
     vertex.wo = -step.direction;
@@ -82,7 +81,12 @@ void walk(const World& world, Step step, TransportMode mode, SampleUse use, int 
             }
             return;
         }
-        append_surface(*hit, step, path);
+        const Vec3 along = hit->end.p - step.origin.p;
+        const float distance_squared = dot(along, along);
+        if (distance_squared < coincident) {
+            return;
+        }
+        append_surface(*hit, distance_squared, step, path);
         if (path.size() == max_vertices) {
             return;
         }

@@ -9,7 +9,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace bdpt {
@@ -20,11 +22,16 @@ constexpr float inside_fov = 1.0471976f;         // 60 degrees: rooms are small
 constexpr float outside_azimuth = 0.6108652f;    // 35 degrees from +z, the front of glTF, to +x
 constexpr float outside_elevation = 0.3490659f;  // 20 degrees
 
-/// Thresholds that tell rooms from objects, found by trying both kinds.
-constexpr float room_front = 0.6f;   // share of directions in which a room shows a front face
-constexpr float room_shell = 0.35f;  // ... that lies near the bounds: walls, not neighbours
-constexpr float open_side = 0.5f;    // how much the free directions agree: an open side
-constexpr float open_share = 0.08f;  // ... and how many there are at least
+// Thresholds that tell rooms from objects, found by trying both kinds.
+constexpr float closed_front = 0.93f;   // share of directions in which a closed room shows a front
+constexpr float closed_shell = 0.3f;    // ... that lies near the bounds: walls, not neighbours
+constexpr float closed_escape = 0.03f;  // share that leaves at most, through windows
+constexpr int closed_places = 3;        // how many places of the survey a closed room has at least
+constexpr float box_front = 0.65f;      // the same for a room without one of its walls
+constexpr float box_shell = 0.5f;
+constexpr float box_escape = 0.1f;  // mean share that leaves at least: more than windows let out
+constexpr int box_places = 30;
+constexpr float box_agreement = 0.5f;  // how much the free directions agree on the missing wall
 constexpr float enclosed_escape = 0.02f;
 
 CameraDesc look_at(Vec3 from, Vec3 to, float vertical_fov)
@@ -61,7 +68,8 @@ CameraDesc frame_from_outside(const Bounds& bounds, Vec3 towards_eye, float aspe
         distance = std::max(distance, needed);
     }
     const float size = glm::length(bounds.max - bounds.min);
-    return look_at(center + std::max(distance, 0.01f * size) * towards_eye, center, outside_fov);
+    const float least = size > 0.0f ? 0.01f * size : 1.0f;
+    return look_at(center + std::max(distance, least) * towards_eye, center, outside_fov);
 }
 
 /// Points of a grid in the bounds, with what is seen from each.
@@ -78,9 +86,36 @@ std::vector<Surroundings> survey(const World& world)
     return places;
 }
 
-bool is_in_room(const Surroundings& place)
+std::vector<Surroundings> places_with(const std::vector<Surroundings>& places, float front,
+                                      float shell, float escape)
 {
-    return place.front >= room_front && place.shell >= room_shell;
+    std::vector<Surroundings> result;
+    std::copy_if(places.begin(), places.end(), std::back_inserter(result),
+                 [&](const Surroundings& p) {
+                     return p.front >= front && p.shell >= shell && p.escaped <= escape;
+                 });
+    return result;
+}
+
+/// The level direction in which a room lacks a wall, straight if it is nearly straight.
+std::optional<Vec3> missing_wall(const std::vector<Surroundings>& room)
+{
+    Vec3 opening(0.0f);
+    float escaped = 0.0f;
+    for (const Surroundings& place : room) {
+        escaped += place.escaped;
+        opening += place.escaped * place.escape_direction;
+    }
+    if (escaped < box_escape * static_cast<float>(room.size())) {
+        return std::nullopt;
+    }
+    opening /= escaped;
+    const float agreement = glm::length(opening);
+    if (agreement < box_agreement || std::abs(opening.y) > 0.5f * agreement) {
+        return std::nullopt;
+    }
+    const Vec3 level = normalize(Vec3(opening.x, 0.0f, opening.z));
+    return std::max(std::abs(level.x), std::abs(level.z)) > 0.9f ? glm::round(level) : level;
 }
 
 /// The view among the places of a room that sees farthest without anything right before the lens.
@@ -146,34 +181,22 @@ FramedView frame_scene(const Scene& scene, float aspect)
     view.camera = frame_from_outside(bounds, three_quarters, aspect);
     view.lamp_position = Vec3(view.camera.world_from_camera[3]);
 
-    std::vector<Surroundings> room = survey(world);
-    std::erase_if(room, [](const Surroundings& place) { return !is_in_room(place); });
-    if (room.empty()) {
-        return view;
-    }
-    view.lamp_position = lamp_in(world, room);
-
-    float escaped = 0.0f;  // mean over the room
-    Vec3 opening(0.0f);    // mean of the free directions
-    for (const Surroundings& place : room) {
-        escaped += place.escaped / static_cast<float>(room.size());
-        opening += place.escape_direction * (place.escaped / static_cast<float>(room.size()));
-    }
-    opening /= std::max(escaped, 1e-6f);
-    const bool open_at_a_side = escaped >= open_share && glm::length(opening) >= open_side &&
-                                std::abs(opening.y) < 0.5f * glm::length(opening);
-    if (open_at_a_side) {
-        // A box without its front wall: look in from there, straight if it is nearly straight.
-        Vec3 towards_eye = normalize(Vec3(opening.x, 0.0f, opening.z));
-        if (std::max(std::abs(towards_eye.x), std::abs(towards_eye.z)) > 0.9f) {
-            towards_eye = glm::round(towards_eye);
+    const std::vector<Surroundings> places = survey(world);
+    const auto box = places_with(places, box_front, box_shell, 1.0f);
+    if (box.size() >= box_places) {
+        if (const auto towards_eye = missing_wall(box)) {
+            view.camera = frame_from_outside(bounds, *towards_eye, aspect);
+            view.lamp_position = lamp_in(world, box);
+            return view;
         }
-        view.camera = frame_from_outside(bounds, towards_eye, aspect);
-        return view;
     }
-    view.camera = frame_from_inside(world, room, aspect);
-    view.enclosed =
-        look_around(world, Vec3(view.camera.world_from_camera[3])).escaped < enclosed_escape;
+    const auto closed = places_with(places, closed_front, closed_shell, closed_escape);
+    if (closed.size() >= closed_places) {
+        view.camera = frame_from_inside(world, closed, aspect);
+        view.lamp_position = lamp_in(world, closed);
+        view.enclosed =
+            look_around(world, Vec3(view.camera.world_from_camera[3])).escaped < enclosed_escape;
+    }
     return view;
 }
 

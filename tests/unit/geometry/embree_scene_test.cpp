@@ -90,6 +90,30 @@ TEST_CASE("a mirrored instance keeps its front", "[geometry]")
     }
 }
 
+TEST_CASE("rays that leave a large, almost level triangle do not meet it again", "[geometry]")
+{
+    // The normal is tilted by less than a unit in the last place, so that an error bound for each
+    // axis by itself would miss how the intersection test mixes the axes.
+    test::Random random(6);
+    for (const float tilt : {0.0f, 1e-7f, 1e-3f}) {
+        SceneBuilder builder;
+        constexpr float size = 556.0f;
+        builder.quad({-size, 0, 0}, {0, 0, 0}, {0, tilt * size, -size}, {-size, tilt * size, -size},
+                     test::lambertian(Rgb(0.5f)));
+        const Traced scene(std::move(builder.desc));
+        for (unsigned i = 0; i < 20000; ++i) {
+            const std::uint32_t t = i % 2U;
+            const Vec2 u = random.next_2d();
+            const Vec2 b = u.x + u.y < 1.0f ? u : 1.0f - u;
+            const BoundedPoint point = scene.placed[0].point(t, b);
+            const Vec3 ng = normalize(scene.placed[0].area_normal(t));
+            const Vec3 w = random.direction();
+            REQUIRE_FALSE(scene.embree->intersect(
+                {.origin = offset_origin(point.p, point.error, ng, w), .direction = w}));
+        }
+    }
+}
+
 TEST_CASE("rays that leave a surface neither meet it again nor skip what is near", "[geometry]")
 {
     // From micrometres to thousands of kilometres, far from the origin, tilted, baked and

@@ -83,6 +83,7 @@ TEST_CASE("an empty scene still has a view", "[framing]")
 {
     const FramedView view = frame_scene(Scene(SceneDesc{}), 1.0f);
     CHECK_FALSE(view.enclosed);
+    CHECK(glm::length(forward(view)) == Approx(1.0f));
 }
 
 }  // namespace bdpt

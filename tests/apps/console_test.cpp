@@ -66,7 +66,7 @@ TEST_CASE("without a terminal there are neither colours nor redrawn lines")
     CHECK(outcome.err.find('\r') == std::string::npos);
 }
 
-TEST_CASE("--quiet prints nothing")
+TEST_CASE("option --quiet prints nothing")
 {
     const test::ScratchFolder folder;
     Launch launch = some_passes(folder);

@@ -83,7 +83,7 @@ TEST_CASE("an output replaces an older file")
     CHECK(read_exr(folder / "a.exr").image.width == 8);
 }
 
-TEST_CASE("--half stores halves and tells what they could not hold")
+TEST_CASE("option --half stores halves and tells what they could not hold")
 {
     const ScratchFolder folder;
     const std::string scene =
@@ -103,7 +103,7 @@ TEST_CASE("--half stores halves and tells what they could not hold")
     CHECK(outcome.err.find("beyond 65504") != std::string::npos);
 }
 
-TEST_CASE("--exposure fixes the brightness of PNG files")
+TEST_CASE("option --exposure fixes the brightness of PNG files")
 {
     const ScratchFolder folder;
     const std::string scene =

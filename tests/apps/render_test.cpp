@@ -164,7 +164,7 @@ TEST_CASE("cameras are chosen and changed")
     }
 }
 
-TEST_CASE("--env chooses the light from all around")
+TEST_CASE("option --env chooses the light from all around")
 {
     const ScratchFolder folder;
     const std::string scene =
@@ -219,7 +219,7 @@ TEST_CASE("integrators and path lengths agree on a scene of lamps only")
     }
 }
 
-TEST_CASE("--time ends a render before its samples do")
+TEST_CASE("option --time ends a render before its samples do")
 {
     const ScratchFolder folder;
     const std::string scene = write_cube(folder, "cube", {}).string();
@@ -236,7 +236,7 @@ TEST_CASE("--time ends a render before its samples do")
     CHECK(samples({"--spp", "1"}) == 1);
 }
 
-TEST_CASE("--json prints one valid event a line")
+TEST_CASE("option --json prints one valid event a line")
 {
     const ScratchFolder folder;
     const std::string scene = write_cube(folder, "cube", {}).string();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bdpt/image.h>
+#include <bdpt/pixel_rect.h>
 
 #include <array>
 #include <atomic>
@@ -53,35 +54,48 @@ struct FilmDefects {
     std::optional<Place> first_invalid;
 };
 
+enum class SplatImage : std::uint8_t { absent, present };
+
+/// What a film has room for.
+struct FilmLayout {
+    int width = 0;  ///< of the whole image [pixels]
+    int height = 0;
+    PixelRect region;  ///< the part of it that the film holds: not empty, inside
+    SplatImage splats = SplatImage::present;  ///< absent takes half the memory
+    [[nodiscard]] bool operator==(const FilmLayout&) const = default;
+};
+
 /// What a render measured: for each pixel the sum of its own camera samples and the sum of what
-/// light paths splatted on it, each in two independent halves (even and odd sample index). The
-/// pixel filter is a box one pixel wide. Pixel (0, 0) is at the top left.
+/// light paths splatted on it, each in two independent halves (even and odd sample index). All
+/// positions are those of the whole image, also when the film holds only a part of it.
 class Film {
 public:
     Film() = default;
-    /// `width`, `height` > 0. Without splats the light image takes no memory.
-    Film(int width, int height, bool splats);
+    explicit Film(const FilmLayout& layout);
     Film(Film&&) noexcept;
     Film& operator=(Film&&) noexcept;
 
-    [[nodiscard]] int width() const { return width_; }
-    [[nodiscard]] int height() const { return height_; }
+    [[nodiscard]] const FilmLayout& layout() const { return layout_; }
+    [[nodiscard]] const PixelRect& region() const { return layout_.region; }
+    /// Of what the film holds [pixels].
+    [[nodiscard]] int width() const { return region().width(); }
+    [[nodiscard]] int height() const { return region().height(); }
     /// Samples a pixel (and light paths a pixel) that the sums hold.
     [[nodiscard]] std::int64_t sample_count() const { return counts_[0] + counts_[1]; }
 
-    /// Adds one camera sample of pixel (x, y). Safe from any thread.
+    /// Adds one camera sample of pixel (x, y), which is in the region. Safe from any thread.
     void add_sample(int x, int y, std::int64_t sample_index, Rgb radiance) noexcept;
     /// Adds what a light path of sample `sample_index` brings to `raster` [pixels, origin at the
-    /// top left]; outside of the film it is ignored. Safe from any thread.
+    /// top left]; outside of the region it is ignored. Safe from any thread.
     void add_splat(Vec2 raster, std::int64_t sample_index, Rgb radiance) noexcept;
     /// States that the samples [begin, end) of every pixel have been added.
     void count_samples(std::int64_t begin, std::int64_t end);
 
-    /// Adds another film of the same size that holds other samples. Exact: the order of merging
-    /// does not matter. Throws `Error` (usage) when sizes differ.
+    /// Adds another film of the same layout that holds other samples. Exact: the order of merging
+    /// does not matter. Throws `Error` (usage) when layouts differ.
     void merge(const Film& other);
 
-    /// The estimate of radiance [nit]: the sums divided by the number of samples.
+    /// The estimate of radiance [nit] in the region: the sums divided by the number of samples.
     [[nodiscard]] Image develop() const;
     /// The estimate from one half of the samples (0: even indices, 1: odd ones).
     [[nodiscard]] Image develop_half(int half) const;
@@ -100,14 +114,14 @@ private:
     [[nodiscard]] bool accept(Rgb& value, int x, int y, std::int64_t sample_index) noexcept;
     [[nodiscard]] std::size_t index(int x, int y) const;
 
-    int width_ = 0;
-    int height_ = 0;
+    FilmLayout layout_;
     std::array<std::int64_t, 2> counts_{};
     std::array<std::vector<Pixel>, 2> samples_;  // by half
     std::array<std::vector<Pixel>, 2> splats_;   // by half; empty without splats
     std::atomic<std::uint64_t> invalid_{0};
     std::atomic<std::uint64_t> saturated_{0};
-    std::atomic<std::uint64_t> first_invalid_{~std::uint64_t{0}};  // sample index, pixel index
+    std::atomic<std::uint64_t> first_invalid_{
+        ~std::uint64_t{0}};  // sample index, pixel of the image
 };
 
 }  // namespace bdpt

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <bdpt/pixel_rect.h>
+
 #include <cstdint>
+#include <optional>
 
 namespace bdpt {
 
@@ -29,6 +32,8 @@ struct RenderOptions {
     Heuristic heuristic = Heuristic::power;
     int width = 1280;
     int height = 720;
+    /// The part of the image that is rendered; its pixels are those of the whole image, to the bit.
+    std::optional<PixelRect> crop;
     SampleRange samples;  ///< per pixel
     int max_depth = 8;    ///< longest path in edges: 1 sees lights only, 2 adds direct light
     int tile_size = 16;   ///< [pixels]; has no influence on the result

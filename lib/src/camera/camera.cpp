@@ -10,8 +10,11 @@
 namespace bdpt {
 
 Camera::Camera(const CameraDesc& desc, int width, int height)
-    : position_(desc.world_from_camera[3]),
-      film_size_(static_cast<float>(width), static_cast<float>(height))
+    : Camera(desc, width, height, {.min = Vec2(0.0f), .max = Vec2(width, height)})
+{}
+
+Camera::Camera(const CameraDesc& desc, int width, int height, const RasterBounds& visible)
+    : position_(desc.world_from_camera[3]), film_size_(width, height), visible_(visible)
 {
     // Only where the camera looks and what is up for it count; scale and shear of its node do not.
     const Vec3 back = normalize(Vec3(desc.world_from_camera[2]));
@@ -42,8 +45,8 @@ std::optional<LensSample> Camera::sample_lens(Vec3 scene_point) const
     }
     const Vec2 ndc = Vec2(local.x, -local.y) / (-local.z * half_extent_);
     const Vec2 raster = 0.5f * (ndc + 1.0f) * film_size_;
-    const bool inside =
-        raster.x >= 0.0f && raster.x < film_size_.x && raster.y >= 0.0f && raster.y < film_size_.y;
+    const bool inside = raster.x >= visible_.min.x && raster.x < visible_.max.x &&
+                        raster.y >= visible_.min.y && raster.y < visible_.max.y;
     if (!inside) {
         return std::nullopt;
     }

@@ -25,25 +25,34 @@ struct LensSample {
     SolidAnglePdf pdf_direction;  ///< of generate_ray sampling the reversed direction
 };
 
+/// Half-open rectangle of the film's plane [pixels].
+struct RasterBounds {
+    Vec2 min{0.0f};
+    Vec2 max{0.0f};
+};
+
 /// A pinhole camera. It samples the whole film uniformly, and its importance We is normalised over
 /// the film: W * H camera paths and W * H light paths are equal numbers of samples.
 class Camera {
 public:
     /// `width`, `height`: film size [pixels].
     Camera(const CameraDesc& desc, int width, int height);
+    /// Connections to the lens are wanted within `visible` only; it may reach beyond the film.
+    Camera(const CameraDesc& desc, int width, int height, const RasterBounds& visible);
 
     [[nodiscard]] Vec3 position() const { return position_; }
-    /// The ray through `raster` [pixels, origin at the top left].
+    /// The ray through `raster` [pixels, origin at the top left], which may lie beside the film.
     [[nodiscard]] CameraRay generate_ray(Vec2 raster) const;
-    /// Nothing when the point is outside of the view.
+    /// Nothing when the point is behind the lens or appears outside of the visible bounds.
     [[nodiscard]] std::optional<LensSample> sample_lens(Vec3 scene_point) const;
 
 private:
     Vec3 position_;
     Mat3 world_from_camera_;  // orthonormal
     Vec2 film_size_;          // [pixels]
-    Vec2 half_extent_;        // of the film one unit in front of the lens
-    float film_area_;         // of the whole film there
+    RasterBounds visible_;
+    Vec2 half_extent_;  // of the film one unit in front of the lens
+    float film_area_;   // of the whole film there
 };
 
 }  // namespace bdpt

@@ -18,6 +18,15 @@ std::size_t half_of(std::int64_t sample_index)
     return static_cast<std::size_t>(sample_index & 1);
 }
 
+std::string text(const FilmLayout& layout)
+{
+    const PixelRect& r = layout.region;
+    return "[" + std::to_string(r.x0) + ", " + std::to_string(r.x1) + ") x [" +
+           std::to_string(r.y0) + ", " + std::to_string(r.y1) + ") of " +
+           std::to_string(layout.width) + "x" + std::to_string(layout.height) +
+           (layout.splats == SplatImage::present ? " with splats" : " without splats");
+}
+
 }  // namespace
 
 ExactSum& ExactSum::operator=(const ExactSum& other) noexcept
@@ -83,9 +92,11 @@ void Film::Pixel::add(Rgb value) noexcept
     rgb[2].add(value.b);
 }
 
-Film::Film(int width, int height, bool splats) : width_(width), height_(height)
+Film::Film(const FilmLayout& layout) : layout_(layout)
 {
-    const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    const std::size_t pixels =
+        static_cast<std::size_t>(width()) * static_cast<std::size_t>(height());
+    const bool splats = layout.splats == SplatImage::present;
     for (std::size_t half = 0; half < 2; ++half) {
         samples_[half].resize(pixels);
         splats_[half].resize(splats ? pixels : 0);
@@ -99,8 +110,7 @@ Film::Film(Film&& other) noexcept
 
 Film& Film::operator=(Film&& other) noexcept
 {
-    width_ = std::exchange(other.width_, 0);
-    height_ = std::exchange(other.height_, 0);
+    layout_ = std::exchange(other.layout_, {});
     counts_ = std::exchange(other.counts_, {});
     samples_ = std::exchange(other.samples_, {});
     splats_ = std::exchange(other.splats_, {});
@@ -112,8 +122,8 @@ Film& Film::operator=(Film&& other) noexcept
 
 std::size_t Film::index(int x, int y) const
 {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-           static_cast<std::size_t>(x);
+    return static_cast<std::size_t>(y - region().y0) * static_cast<std::size_t>(width()) +
+           static_cast<std::size_t>(x - region().x0);
 }
 
 bool Film::accept(Rgb& value, int x, int y, std::int64_t sample_index) noexcept
@@ -122,8 +132,10 @@ bool Film::accept(Rgb& value, int x, int y, std::int64_t sample_index) noexcept
     for (int c = 0; c < 3; ++c) {
         if (!(value[c] >= 0.0f && value[c] <= std::numeric_limits<float>::max())) {
             invalid_.fetch_add(1, std::memory_order_relaxed);
-            const std::uint64_t place =
-                static_cast<std::uint64_t>(sample_index) << 32U | index(x, y);
+            const auto pixel =
+                static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(layout_.width) +
+                static_cast<std::uint64_t>(x);
+            const std::uint64_t place = static_cast<std::uint64_t>(sample_index) << 32U | pixel;
             std::uint64_t first = first_invalid_.load(std::memory_order_relaxed);
             while (place < first && !first_invalid_.compare_exchange_weak(first, place)) {
             }
@@ -149,8 +161,9 @@ void Film::add_sample(int x, int y, std::int64_t sample_index, Rgb radiance) noe
 
 void Film::add_splat(Vec2 raster, std::int64_t sample_index, Rgb radiance) noexcept
 {
-    const bool inside = raster.x >= 0.0f && raster.x < static_cast<float>(width_) &&
-                        raster.y >= 0.0f && raster.y < static_cast<float>(height_);
+    const bool inside =
+        raster.x >= static_cast<float>(region().x0) && raster.x < static_cast<float>(region().x1) &&
+        raster.y >= static_cast<float>(region().y0) && raster.y < static_cast<float>(region().y1);
     if (!inside) {
         return;
     }
@@ -170,12 +183,9 @@ void Film::count_samples(std::int64_t begin, std::int64_t end)
 
 void Film::merge(const Film& other)
 {
-    if (width_ != other.width_ || height_ != other.height_ ||
-        splats_[0].size() != other.splats_[0].size()) {
+    if (layout_ != other.layout_) {
         throw Error(ErrorCode::usage,
-                    "films to merge differ: " + std::to_string(width_) + "x" +
-                        std::to_string(height_) + " and " + std::to_string(other.width_) + "x" +
-                        std::to_string(other.height_) + ", or only one has splats");
+                    "films to merge differ: " + text(layout_) + " and " + text(other.layout_));
     }
     const auto add = [](std::vector<Pixel>& to, const std::vector<Pixel>& from) {
         for (std::size_t i = 0; i < to.size(); ++i) {
@@ -200,7 +210,7 @@ Image Film::develop(std::span<const std::size_t> halves) const
     for (const std::size_t half : halves) {
         count += counts_[half];
     }
-    Image image{width_, height_, std::vector<Rgb>(samples_[0].size(), Rgb(0.0f))};
+    Image image{width(), height(), std::vector<Rgb>(samples_[0].size(), Rgb(0.0f))};
     if (count == 0) {
         return image;
     }
@@ -232,10 +242,11 @@ FilmDefects Film::defects() const
 {
     FilmDefects defects{.invalid = invalid_, .saturated = saturated_, .first_invalid = {}};
     if (const std::uint64_t first = first_invalid_; first != ~std::uint64_t{0}) {
-        const auto pixel = static_cast<int>(first & 0xffffffffU);
+        const std::uint64_t pixel = first & 0xffffffffU;
+        const auto width = static_cast<std::uint64_t>(layout_.width);
         defects.first_invalid =
-            FilmDefects::Place{.x = pixel % width_,
-                               .y = pixel / width_,
+            FilmDefects::Place{.x = static_cast<int>(pixel % width),
+                               .y = static_cast<int>(pixel / width),
                                .sample_index = static_cast<std::int64_t>(first >> 32U)};
     }
     return defects;
@@ -243,8 +254,8 @@ FilmDefects Film::defects() const
 
 bool Film::operator==(const Film& other) const
 {
-    return width_ == other.width_ && height_ == other.height_ && counts_ == other.counts_ &&
-           samples_ == other.samples_ && splats_ == other.splats_ && invalid_ == other.invalid_ &&
+    return layout_ == other.layout_ && counts_ == other.counts_ && samples_ == other.samples_ &&
+           splats_ == other.splats_ && invalid_ == other.invalid_ &&
            saturated_ == other.saturated_ && first_invalid_ == other.first_invalid_;
 }
 

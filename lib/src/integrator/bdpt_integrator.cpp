@@ -26,20 +26,27 @@ void BdptIntegrator::render_tile(const Tile& tile, SampleRange samples, Film& fi
                 Sampler sampler(options_.seed, x, y, index);
                 sampler.start(SampleUse::film);
                 const Vec2 raster = Vec2(x, y) + sampler.next_2d();
-                film.add_sample(x, y, index, estimate(raster, index, sampler, scratch, film));
+                const bool wanted = film.region().contains(x, y);
+                // Light paths outside of a crop can splat into it.
+                const int camera_vertices = wanted ? max_vertices : 1;
+                trace_camera_subpath(world_, camera_, raster, camera_vertices, sampler,
+                                     scratch.camera_path);
+                const Rgb radiance = estimate(index, sampler, scratch, film);
+                if (wanted) {
+                    film.add_sample(x, y, index, radiance);
+                }
             }
         }
     }
 }
 
-/// Radiance of one sample of the pixel around `raster`; what belongs to other pixels goes to
+/// Radiance that the camera subpath in `scratch` finds; what belongs to other pixels goes to
 /// `film`.
-Rgb BdptIntegrator::estimate(Vec2 raster, std::int64_t sample_index, Sampler& sampler,
-                             Scratch& scratch, Film& film) const
+Rgb BdptIntegrator::estimate(std::int64_t sample_index, Sampler& sampler, Scratch& scratch,
+                             Film& film) const
 {
     Subpath& light_path = scratch.light_path;
     Subpath& camera_path = scratch.camera_path;
-    trace_camera_subpath(world_, camera_, raster, camera_path.capacity(), sampler, camera_path);
     trace_light_subpath(world_, light_path.capacity(), sampler, light_path);
 
     for (int s = 2; s <= light_path.size(); ++s) {

@@ -22,8 +22,8 @@ private:
         PathWeigher weigher;
     };
 
-    [[nodiscard]] Rgb estimate(Vec2 raster, std::int64_t sample_index, Sampler& sampler,
-                               Scratch& scratch, Film& film) const;
+    [[nodiscard]] Rgb estimate(std::int64_t sample_index, Sampler& sampler, Scratch& scratch,
+                               Film& film) const;
     [[nodiscard]] std::optional<Contribution> connect(std::span<const PathVertex> light,
                                                       std::span<const PathVertex> camera,
                                                       Sampler& sampler, Scratch& scratch) const;

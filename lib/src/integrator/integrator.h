@@ -22,8 +22,9 @@ struct Tile {
 class Integrator {
 public:
     virtual ~Integrator() = default;
-    /// Adds the samples of all pixels of `tile` to `film`, and what their light paths splat
-    /// anywhere.
+    /// Adds the samples of all pixels of `tile` that are in the film's region to `film`, and what
+    /// the light paths of all of its pixels splat anywhere. Tiles of an integrator without splats
+    /// lie inside of the region.
     virtual void render_tile(const Tile& tile, SampleRange samples, Film& film) const = 0;
     /// Does it splat on pixels that are not its own?
     [[nodiscard]] virtual bool splats() const = 0;

@@ -27,12 +27,27 @@ void check_range(const char* what, std::int64_t value, std::int64_t low, std::in
     }
 }
 
+void check_crop(const PixelRect& crop, int width, int height)
+{
+    const bool inside = crop.x0 >= 0 && crop.y0 >= 0 && crop.x1 <= width && crop.y1 <= height;
+    if (!inside || crop.x0 >= crop.x1 || crop.y0 >= crop.y1) {
+        throw Error(ErrorCode::usage,
+                    "crop " + std::to_string(crop.x0) + "," + std::to_string(crop.y0) + "," +
+                        std::to_string(crop.x1) + "," + std::to_string(crop.y1) +
+                        " is empty or not inside of the image of " + std::to_string(width) + "x" +
+                        std::to_string(height) + " pixels");
+    }
+}
+
 }  // namespace
 
 void check_options(const RenderOptions& options)
 {
     check_range("image width", options.width, 1, max_film_side);
     check_range("image height", options.height, 1, max_film_side);
+    if (options.crop) {
+        check_crop(*options.crop, options.width, options.height);
+    }
     // Sample indices have 32 bits in the film's record of defects.
     check_range("first sample", options.samples.begin, 0,
                 std::numeric_limits<std::uint32_t>::max());

@@ -29,25 +29,31 @@ double seconds_since(std::chrono::steady_clock::time_point start)
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+PixelRect whole_image(const RenderOptions& options)
+{
+    return {.x0 = 0, .y0 = 0, .x1 = options.width, .y1 = options.height};
+}
+
 void render_pass(const Integrator& integrator, const RenderOptions& options, SampleRange samples,
                  Film& film)
 {
-    const int columns = (options.width + options.tile_size - 1) / options.tile_size;
-    const int rows = (options.height + options.tile_size - 1) / options.tile_size;
+    // Each pixel of the whole image has its light path, and any of them can reach a crop.
+    const PixelRect area = integrator.splats() ? whole_image(options) : film.region();
+    const int columns = (area.width() + options.tile_size - 1) / options.tile_size;
+    const int rows = (area.height() + options.tile_size - 1) / options.tile_size;
     tbb::parallel_for(
         tbb::blocked_range2d<int>(0, rows, 1, 0, columns, 1),
         [&](const tbb::blocked_range2d<int>& range) {
             const FlushDenormals flush;
             for (int row = range.rows().begin(); row < range.rows().end(); ++row) {
                 for (int column = range.cols().begin(); column < range.cols().end(); ++column) {
-                    const int x = column * options.tile_size;
-                    const int y = row * options.tile_size;
-                    integrator.render_tile(
-                        {.x_begin = x,
-                         .x_end = std::min(x + options.tile_size, options.width),
-                         .y_begin = y,
-                         .y_end = std::min(y + options.tile_size, options.height)},
-                        samples, film);
+                    const int x = area.x0 + column * options.tile_size;
+                    const int y = area.y0 + row * options.tile_size;
+                    integrator.render_tile({.x_begin = x,
+                                            .x_end = std::min(x + options.tile_size, area.x1),
+                                            .y_begin = y,
+                                            .y_end = std::min(y + options.tile_size, area.y1)},
+                                           samples, film);
                 }
             }
         },
@@ -63,7 +69,9 @@ RenderResult render(const Scene& scene, const CameraDesc& camera_desc, const Ren
     check_options(options);
     check_camera(camera_desc);
     const auto start = std::chrono::steady_clock::now();
-    const Camera camera(camera_desc, options.width, options.height);
+    const PixelRect region = options.crop.value_or(whole_image(options));
+    const Camera camera(camera_desc, options.width, options.height,
+                        {.min = Vec2(region.x0, region.y0), .max = Vec2(region.x1, region.y1)});
     const auto integrator = make_integrator(scene.world(), camera, options);
 
     const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
@@ -74,7 +82,12 @@ RenderResult render(const Scene& scene, const CameraDesc& camera_desc, const Ren
                  tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)));
     tbb::task_arena arena(threads);
 
-    RenderResult result{.film = Film(options.width, options.height, integrator->splats()),
+    const FilmLayout layout{
+        .width = options.width,
+        .height = options.height,
+        .region = region,
+        .splats = integrator->splats() ? SplatImage::present : SplatImage::absent};
+    RenderResult result{.film = Film(layout),
                         .samples = {.begin = options.samples.begin, .end = options.samples.begin},
                         .seconds = 0.0};
     std::int64_t pass_size = 1;

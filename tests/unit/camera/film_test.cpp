@@ -31,6 +31,14 @@ ExactSum sum_of(const std::vector<float>& values)
     return sum;
 }
 
+FilmLayout layout(int width, int height, SplatImage splats = SplatImage::present)
+{
+    return {.width = width,
+            .height = height,
+            .region = {.x0 = 0, .y0 = 0, .x1 = width, .y1 = height},
+            .splats = splats};
+}
+
 }  // namespace
 
 TEST_CASE("ExactSum keeps 1e-5 of the sum from 1e-5 to fireflies of 1e12", "[film]")
@@ -108,7 +116,7 @@ TEST_CASE("ExactSum is the same for every order and any threads", "[film]")
 
 TEST_CASE("Film averages samples and adds splats over the number of light paths", "[film]")
 {
-    Film film(2, 1, true);
+    Film film(layout(2, 1));
     film.add_sample(0, 0, 0, Rgb(1.0f, 2.0f, 3.0f));
     film.add_sample(0, 0, 1, Rgb(3.0f, 2.0f, 1.0f));
     film.add_splat({1.5f, 0.5f}, 0, Rgb(8.0f));
@@ -125,7 +133,7 @@ TEST_CASE("Film averages samples and adds splats over the number of light paths"
 
 TEST_CASE("Film drops and counts NaN, infinite and negative values, and names the first", "[film]")
 {
-    Film film(4, 4, true);
+    Film film(layout(4, 4));
     film.add_sample(2, 1, 9, Rgb(std::numeric_limits<float>::quiet_NaN(), 0.0f, 0.0f));
     film.add_sample(3, 2, 5, Rgb(0.0f, -1.0f, 0.0f));
     film.add_splat({1.0f, 3.0f}, 7, Rgb(std::numeric_limits<float>::infinity()));
@@ -142,8 +150,8 @@ TEST_CASE("Film drops and counts NaN, infinite and negative values, and names th
 
 TEST_CASE("Film::merge adds samples, counts and defects; sizes must match", "[film]")
 {
-    Film a(1, 1, false);
-    Film b(1, 1, false);
+    Film a(layout(1, 1, SplatImage::absent));
+    Film b(layout(1, 1, SplatImage::absent));
     a.add_sample(0, 0, 0, Rgb(1.0f));
     b.add_sample(0, 0, 1, Rgb(3.0f));
     a.count_samples(0, 1);
@@ -151,14 +159,14 @@ TEST_CASE("Film::merge adds samples, counts and defects; sizes must match", "[fi
     a.merge(b);
     CHECK(a.sample_count() == 2);
     CHECK(a.develop().at(0, 0) == Rgb(2.0f));
-    CHECK_THROWS_AS(a.merge(Film(2, 1, false)), Error);
-    CHECK_THROWS_AS(a.merge(Film(1, 1, true)), Error);
+    CHECK_THROWS_AS(a.merge(Film(layout(2, 1, SplatImage::absent))), Error);
+    CHECK_THROWS_AS(a.merge(Film(layout(1, 1))), Error);
 }
 
 TEST_CASE("Film counts the samples of both halves for any range", "[film]")
 {
     for (const auto& [begin, end] : {std::pair{0, 5}, {5, 16}, {3, 4}, {4, 5}}) {
-        Film film(1, 1, false);
+        Film film(layout(1, 1, SplatImage::absent));
         for (int i = begin; i < end; ++i) {
             film.add_sample(0, 0, i, Rgb(1.0f));
         }
@@ -166,6 +174,29 @@ TEST_CASE("Film counts the samples of both halves for any range", "[film]")
         CHECK(film.sample_count() == end - begin);
         CHECK(film.develop().at(0, 0) == Rgb(1.0f));
     }
+}
+
+TEST_CASE("Film holds a region of the image and uses the image's positions", "[film]")
+{
+    const FilmLayout crop{.width = 8, .height = 6, .region = {.x0 = 3, .y0 = 2, .x1 = 5, .y1 = 5}};
+    Film film(crop);
+    CHECK(film.width() == 2);
+    CHECK(film.height() == 3);
+    film.add_sample(3, 2, 0, Rgb(1.0f));
+    film.add_splat({4.5f, 4.99f}, 0, Rgb(2.0f));
+    film.add_splat({2.99f, 3.0f}, 0, Rgb(100.0f));
+    film.add_splat({5.0f, 3.0f}, 0, Rgb(100.0f));
+    film.add_splat({3.0f, 1.99f}, 0, Rgb(100.0f));
+    film.add_splat({3.0f, 5.0f}, 0, Rgb(100.0f));
+    film.add_sample(4, 3, 0, Rgb(-1.0f));
+    film.count_samples(0, 1);
+    const Image image = film.develop();
+    CHECK(image.at(0, 0) == Rgb(1.0f));
+    CHECK(image.at(1, 2) == Rgb(2.0f));
+    CHECK(image.at(1, 0) + image.at(0, 1) + image.at(1, 1) + image.at(0, 2) == Rgb(0.0f));
+    CHECK(film.defects().first_invalid == FilmDefects::Place{.x = 4, .y = 3, .sample_index = 0});
+    CHECK_THROWS_AS(film.merge(Film(layout(8, 6))), Error);
+    CHECK_THROWS_AS(Film(layout(2, 3)).merge(film), Error);
 }
 
 }  // namespace bdpt

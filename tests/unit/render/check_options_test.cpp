@@ -42,6 +42,15 @@ TEST_CASE("options out of range are refused by name and value", "[render]")
           std::string::npos);
     CHECK(refusal([](auto& o) { o.samples = {.begin = -1, .end = 4}; }).find("-1") !=
           std::string::npos);
+    for (const PixelRect crop :
+         {PixelRect{-1, 0, 4, 4}, PixelRect{0, 0, 1281, 4}, PixelRect{0, 0, 4, 721},
+          PixelRect{0, -2, 4, 4}, PixelRect{7, 0, 7, 4}, PixelRect{0, 8, 4, 5}}) {
+        CHECK(refusal([&](auto& o) { o.crop = crop; }).find("crop ") == 0);
+    }
+    CHECK(refusal([](auto& o) {
+              o.crop = PixelRect{9, 8, 7, 6};
+          }) == "crop 9,8,7,6 is empty or not inside of the image of 1280x720 pixels");
+    CHECK(refusal([](auto& o) { o.crop = PixelRect{0, 0, 1280, 720}; }).empty());
     CHECK(refusal([](auto& o) { o.tile_size = 0; }).find("tile size is 0") != std::string::npos);
     CHECK(refusal([](auto& o) { o.threads = -1; }).find("threads is -1") != std::string::npos);
 }

@@ -42,6 +42,20 @@ Film film_of(const Scene& scene, const RenderOptions& options)
     return render(scene, test::room_camera(), options).film;
 }
 
+/// `part` is the region `crop` of `whole`.
+void check_region(const Image& part, const Image& whole, const PixelRect& crop)
+{
+    REQUIRE(part.width == crop.width());
+    REQUIRE(part.height == crop.height());
+    int different = 0;
+    for (int y = crop.y0; y < crop.y1; ++y) {
+        for (int x = crop.x0; x < crop.x1; ++x) {
+            different += part.at(x - crop.x0, y - crop.y0) == whole.at(x, y) ? 0 : 1;
+        }
+    }
+    CHECK(different == 0);
+}
+
 }  // namespace
 
 TEST_CASE("the same bits for any threads and tiles", "[purity]")
@@ -83,6 +97,28 @@ TEST_CASE("a range rendered in parts and merged is the whole", "[purity]")
     parts.merge(film_of(scene, o));
     CHECK(parts == whole);
     CHECK(parts.defects().invalid == 0);
+}
+
+TEST_CASE("a crop has the pixels of the whole image, to the bit", "[purity]")
+{
+    const Scene scene = room();
+    for (const auto kind : {IntegratorKind::bdpt, IntegratorKind::pt, IntegratorKind::mis}) {
+        RenderOptions o = options(kind);
+        const Film whole = film_of(scene, o);
+        for (const PixelRect crop : {PixelRect{0, 0, 37, 29}, PixelRect{5, 3, 24, 20},
+                                     PixelRect{36, 28, 37, 29}, PixelRect{0, 17, 37, 18}}) {
+            o.crop = crop;
+            o.threads = 1;
+            o.tile_size = 8;
+            const Film part = film_of(scene, o);
+            o.threads = 8;
+            o.tile_size = 16;
+            CHECK(film_of(scene, o) == part);
+            CHECK(part.sample_count() == 8);
+            check_region(part.develop(), whole.develop(), crop);
+            check_region(part.develop_half(1), whole.develop_half(1), crop);
+        }
+    }
 }
 
 TEST_CASE("a stop ends the render after a whole pass", "[render]")

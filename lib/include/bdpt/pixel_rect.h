@@ -1,0 +1,21 @@
+#pragma once
+
+namespace bdpt {
+
+/// Half-open rectangle of pixels: columns [x0, x1), rows [y0, y1). Pixel (0, 0) is at the top left.
+struct PixelRect {
+    int x0 = 0;
+    int y0 = 0;
+    int x1 = 0;
+    int y1 = 0;
+
+    [[nodiscard]] int width() const { return x1 - x0; }
+    [[nodiscard]] int height() const { return y1 - y0; }
+    [[nodiscard]] bool contains(int x, int y) const
+    {
+        return x >= x0 && x < x1 && y >= y0 && y < y1;
+    }
+    [[nodiscard]] bool operator==(const PixelRect&) const = default;
+};
+
+}  // namespace bdpt

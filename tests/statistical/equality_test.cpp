@@ -59,4 +59,26 @@ TEST_CASE("pt, mis and bdpt agree", "[equality]")
     }
 }
 
+/// Camera paths and splats see pixels through the same filter, at the border of the image too: a
+/// wide one makes most of the tiles border.
+TEST_CASE("mis and bdpt agree through every pixel filter", "[equality][filter]")
+{
+    const auto cases = equality_cases();
+    const EqualityCase& test = cases.front();
+    const Scene scene(test.scene);
+    std::uint64_t seed = 7000;
+    for (const FilterOptions filter : {FilterOptions{.kind = FilterKind::gaussian},
+                                       {.kind = FilterKind::gaussian, .radius = 8.0f},
+                                       {.kind = FilterKind::tent, .radius = 0.4f},
+                                       {.kind = FilterKind::blackman_harris, .radius = 6.0f}}) {
+        RenderOptions mis_options = options(test, IntegratorKind::mis, ++seed);
+        RenderOptions bdpt_options = options(test, IntegratorKind::bdpt, ++seed);
+        mis_options.filter = filter;
+        bdpt_options.filter = filter;
+        TileMeans mis(scene, test.camera, mis_options);
+        TileMeans bdpt(scene, test.camera, bdpt_options);
+        check_equal(test, "mis = bdpt, filtered", mis, bdpt);
+    }
+}
+
 }  // namespace bdpt::test

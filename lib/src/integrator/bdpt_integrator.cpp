@@ -6,12 +6,13 @@
 #include "scene/world.h"
 
 #include <algorithm>
+#include <cstdint>
 
 namespace bdpt {
 
 BdptIntegrator::BdptIntegrator(const World& world, const Camera& camera,
                                const RenderOptions& options)
-    : world_(world), camera_(camera), options_(options)
+    : world_(world), camera_(camera), options_(options), filter_(options.filter)
 {}
 
 void BdptIntegrator::render_tile(const Tile& tile, SampleRange samples, Film& film) const
@@ -25,7 +26,7 @@ void BdptIntegrator::render_tile(const Tile& tile, SampleRange samples, Film& fi
             for (std::int64_t index = samples.begin; index < samples.end; ++index) {
                 Sampler sampler(options_.seed, x, y, index);
                 sampler.start(SampleUse::film);
-                const Vec2 raster = Vec2(x, y) + sampler.next_2d();
+                const Vec2 raster = filter_.sample_raster(x, y, sampler.next_2d());
                 const bool wanted = film.region().contains(x, y);
                 // Light paths outside of a crop can splat into it.
                 const int camera_vertices = wanted ? max_vertices : 1;
@@ -53,8 +54,10 @@ Rgb BdptIntegrator::estimate(std::int64_t sample_index, Sampler& sampler, Scratc
         const auto splat =
             connect_to_lens(world_, camera_, light_path.first(s), camera_path[0], scratch.weigher);
         if (splat) {
-            film.add_splat(splat->raster, sample_index,
-                           splat->contribution.weight * splat->contribution.unweighted);
+            sampler.start(SampleUse::film, static_cast<std::uint32_t>(s));
+            const SplatTarget target = filter_.choose_pixel(splat->raster, sampler.next_2d());
+            const float weight = target.weight * splat->contribution.weight;
+            film.add_splat(target.raster, sample_index, weight * splat->contribution.unweighted);
         }
     }
     Rgb radiance(0.0f);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "camera/pixel_filter.h"
 #include "integrator/integrator.h"
 #include "path/connect.h"
 
@@ -31,6 +32,7 @@ private:
     const World& world_;
     const Camera& camera_;
     RenderOptions options_;
+    PixelFilter filter_;
 };
 
 }  // namespace bdpt

@@ -22,7 +22,7 @@ struct PathIntegrator::Ray {
 
 PathIntegrator::PathIntegrator(const World& world, const Camera& camera,
                                const RenderOptions& options)
-    : world_(world), camera_(camera), options_(options)
+    : world_(world), camera_(camera), options_(options), filter_(options.filter)
 {}
 
 void PathIntegrator::render_tile(const Tile& tile, SampleRange samples, Film& film) const
@@ -32,7 +32,7 @@ void PathIntegrator::render_tile(const Tile& tile, SampleRange samples, Film& fi
             for (std::int64_t index = samples.begin; index < samples.end; ++index) {
                 Sampler sampler(options_.seed, x, y, index);
                 sampler.start(SampleUse::film);
-                const Vec2 raster = Vec2(x, y) + sampler.next_2d();
+                const Vec2 raster = filter_.sample_raster(x, y, sampler.next_2d());
                 film.add_sample(x, y, index, estimate(raster, sampler));
             }
         }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "camera/pixel_filter.h"
 #include "integrator/integrator.h"
 
 #include "scene/world.h"
@@ -29,6 +30,7 @@ private:
     const World& world_;
     const Camera& camera_;
     RenderOptions options_;
+    PixelFilter filter_;
 };
 
 }  // namespace bdpt

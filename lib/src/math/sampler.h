@@ -9,7 +9,7 @@ namespace bdpt {
 /// What random numbers are for. Each use of each path vertex has dimensions of its own, so that
 /// what one part of a sample consumes cannot shift another.
 enum class SampleUse : std::uint32_t {
-    film,         ///< where in the pixel
+    film,         ///< where in the pixel; at a light vertex: which pixel its splat counts for
     camera_walk,  ///< scattering at a vertex of the camera subpath
     next_event,   ///< a light point for a vertex of the camera subpath
     light_start,  ///< light, point and direction of the light subpath

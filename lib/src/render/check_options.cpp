@@ -39,6 +39,17 @@ void check_crop(const PixelRect& crop, int width, int height)
     }
 }
 
+void check_filter(const FilterOptions& filter)
+{
+    constexpr float least = 0.01f;
+    constexpr float most = 16.0f;
+    const float radius = filter.radius.value_or(default_radius(filter.kind));
+    if (!(radius >= least && radius <= most)) {
+        throw Error(ErrorCode::usage,
+                    "filter radius is " + std::to_string(radius) + " pixels, not in [0.01, 16]");
+    }
+}
+
 }  // namespace
 
 void check_options(const RenderOptions& options)
@@ -48,6 +59,7 @@ void check_options(const RenderOptions& options)
     if (options.crop) {
         check_crop(*options.crop, options.width, options.height);
     }
+    check_filter(options.filter);
     // Sample indices have 32 bits in the film's record of defects.
     check_range("first sample", options.samples.begin, 0,
                 std::numeric_limits<std::uint32_t>::max());

@@ -2,6 +2,7 @@
 #include <bdpt/render.h>
 
 #include "camera/camera.h"
+#include "camera/pixel_filter.h"
 #include "integrator/integrator.h"
 #include "render/check_options.h"
 #include "render/flush_denormals.h"
@@ -70,8 +71,11 @@ RenderResult render(const Scene& scene, const CameraDesc& camera_desc, const Ren
     check_camera(camera_desc);
     const auto start = std::chrono::steady_clock::now();
     const PixelRect region = options.crop.value_or(whole_image(options));
-    const Camera camera(camera_desc, options.width, options.height,
-                        {.min = Vec2(region.x0, region.y0), .max = Vec2(region.x1, region.y1)});
+    // What counts for a pixel of the region can lie beside it, even beside the image.
+    const float margin = PixelFilter(options.filter).radius() - 0.5f;
+    const Camera camera(
+        camera_desc, options.width, options.height,
+        {.min = Vec2(region.x0, region.y0) - margin, .max = Vec2(region.x1, region.y1) + margin});
     const auto integrator = make_integrator(scene.world(), camera, options);
 
     const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();

@@ -51,6 +51,9 @@ TEST_CASE("options out of range are refused by name and value", "[render]")
               o.crop = PixelRect{9, 8, 7, 6};
           }) == "crop 9,8,7,6 is empty or not inside of the image of 1280x720 pixels");
     CHECK(refusal([](auto& o) { o.crop = PixelRect{0, 0, 1280, 720}; }).empty());
+    for (const float radius : {0.0f, -1.0f, 17.0f, std::numeric_limits<float>::quiet_NaN()}) {
+        CHECK(refusal([&](auto& o) { o.filter.radius = radius; }).find("filter radius is ") == 0);
+    }
     CHECK(refusal([](auto& o) { o.tile_size = 0; }).find("tile size is 0") != std::string::npos);
     CHECK(refusal([](auto& o) { o.threads = -1; }).find("threads is -1") != std::string::npos);
 }

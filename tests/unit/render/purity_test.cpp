@@ -73,8 +73,14 @@ TEST_CASE("the same bits for any threads and tiles", "[purity]")
             o.tile_size = tile;
             CHECK(film_of(scene, o) == expected);
         }
+        o.filter.kind = FilterKind::gaussian;
+        const Film filtered = film_of(scene, o);
+        CHECK_FALSE(filtered == expected);
+        o.threads = 1;
+        o.tile_size = 5;
+        CHECK(film_of(scene, o) == filtered);
         o.seed = 12;
-        CHECK_FALSE(film_of(scene, o) == expected);
+        CHECK_FALSE(film_of(scene, o) == filtered);
     }
 }
 
@@ -88,6 +94,7 @@ TEST_CASE("a range rendered in parts and merged is the whole", "[purity]")
 {
     const Scene scene = room();
     RenderOptions o = options(IntegratorKind::bdpt);
+    o.filter.kind = GENERATE(FilterKind::box, FilterKind::blackman_harris);
     const Film whole = film_of(scene, o);
     o.samples = {.begin = 5, .end = 8};
     Film parts = film_of(scene, o);
@@ -102,8 +109,10 @@ TEST_CASE("a range rendered in parts and merged is the whole", "[purity]")
 TEST_CASE("a crop has the pixels of the whole image, to the bit", "[purity]")
 {
     const Scene scene = room();
+    const auto filter = GENERATE(FilterKind::box, FilterKind::gaussian);
     for (const auto kind : {IntegratorKind::bdpt, IntegratorKind::pt, IntegratorKind::mis}) {
         RenderOptions o = options(kind);
+        o.filter.kind = filter;
         const Film whole = film_of(scene, o);
         for (const PixelRect crop : {PixelRect{0, 0, 37, 29}, PixelRect{5, 3, 24, 20},
                                      PixelRect{36, 28, 37, 29}, PixelRect{0, 17, 37, 18}}) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bdpt/exact_sum.h>
 #include <bdpt/image.h>
 #include <bdpt/pixel_rect.h>
 
@@ -12,32 +13,6 @@
 #include <vector>
 
 namespace bdpt {
-
-/// A sum of floats that does not depend on their order: a 128-bit fixed-point number made of two
-/// atomic words, the low one with unit 2^-60. A carry out of the low word is added to the high one;
-/// both additions commute, so any interleaving of threads gives the same bits.
-class ExactSum {
-public:
-    /// Largest magnitude that is added as it is; greater ones count as this one.
-    static constexpr float max_value = 8.796093e12f;  // 2^43
-
-    ExactSum() = default;
-    ExactSum(const ExactSum& other) noexcept { *this = other; }
-    ExactSum& operator=(const ExactSum& other) noexcept;
-
-    /// `value` is finite, not negative and at most `max_value`. Safe from any thread.
-    void add(float value) noexcept;
-    /// Not safe while other threads add.
-    void add(const ExactSum& other) noexcept;
-    [[nodiscard]] double value() const noexcept;
-    [[nodiscard]] bool operator==(const ExactSum& other) const noexcept;
-
-private:
-    void add_words(std::uint64_t low, std::uint64_t high) noexcept;
-
-    std::atomic<std::uint64_t> low_{0};
-    std::atomic<std::uint64_t> high_{0};
-};
 
 /// Contributions that could not be added as they were. All zero after a sound render.
 struct FilmDefects {
@@ -99,6 +74,10 @@ public:
     [[nodiscard]] Image develop() const;
     /// The estimate from one half of the samples (0: even indices, 1: odd ones).
     [[nodiscard]] Image develop_half(int half) const;
+    /// Estimate of the variance of `develop()` [nit^2], splats included, from the difference of the
+    /// halves: unbiased but with one degree of freedom a pixel, so very noisy in a single one.
+    /// Infinite when a half is empty.
+    [[nodiscard]] Image variance() const;
     [[nodiscard]] FilmDefects defects() const;
     /// Equal to the bit: sums, counts and defects.
     [[nodiscard]] bool operator==(const Film& other) const;

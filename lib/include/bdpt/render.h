@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bdpt/aov_film.h>
 #include <bdpt/film.h>
 #include <bdpt/render_options.h>
 #include <bdpt/scene.h>
@@ -29,6 +30,7 @@ struct RenderControl {
 
 struct RenderResult {
     Film film;
+    AovFilm aovs;         ///< of the same samples; empty if none were asked for
     SampleRange samples;  ///< those that are in `film`; fewer than asked for after a stop
     double seconds = 0.0;
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bdpt/aov.h>
 #include <bdpt/filter_options.h>
 #include <bdpt/pixel_rect.h>
 
@@ -36,6 +37,7 @@ struct RenderOptions {
     /// The part of the image that is rendered; its pixels are those of the whole image, to the bit.
     std::optional<PixelRect> crop;
     FilterOptions filter;
+    AovSet aovs;
     SampleRange samples;  ///< per pixel
     int max_depth = 8;    ///< longest path in edges: 1 sees lights only, 2 adds direct light
     int tile_size = 16;   ///< [pixels]; has no influence on the result

@@ -36,6 +36,11 @@ CameraRay Camera::generate_ray(Vec2 raster) const
             .pdf_direction = {length * length * length / film_area_}};
 }
 
+float Camera::depth(Vec3 scene_point) const
+{
+    return -dot(world_from_camera_[2], scene_point - position_);
+}
+
 std::optional<LensSample> Camera::sample_lens(Vec3 scene_point) const
 {
     const Vec3 to_point = scene_point - position_;

@@ -43,6 +43,8 @@ public:
     [[nodiscard]] Vec3 position() const { return position_; }
     /// The ray through `raster` [pixels, origin at the top left], which may lie beside the film.
     [[nodiscard]] CameraRay generate_ray(Vec2 raster) const;
+    /// Distance of a point along the camera's axis [m]; positive in front.
+    [[nodiscard]] float depth(Vec3 scene_point) const;
     /// Nothing when the point is behind the lens or appears outside of the visible bounds.
     [[nodiscard]] std::optional<LensSample> sample_lens(Vec3 scene_point) const;
 

@@ -2,16 +2,12 @@
 #include <bdpt/film.h>
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
 
 namespace bdpt {
 namespace {
-
-constexpr int unit_exponent = -60;  // the low word counts multiples of 2^-60
 
 std::size_t half_of(std::int64_t sample_index)
 {
@@ -28,62 +24,6 @@ std::string text(const FilmLayout& layout)
 }
 
 }  // namespace
-
-ExactSum& ExactSum::operator=(const ExactSum& other) noexcept
-{
-    low_.store(other.low_.load(std::memory_order_relaxed), std::memory_order_relaxed);
-    high_.store(other.high_.load(std::memory_order_relaxed), std::memory_order_relaxed);
-    return *this;
-}
-
-void ExactSum::add(float value) noexcept
-{
-    const auto bits = std::bit_cast<std::uint32_t>(value);
-    const auto biased_exponent = static_cast<int>(bits >> 23U);
-    if (biased_exponent == 0) {
-        return;  // zero or denormal: far below the unit
-    }
-    const std::uint64_t mantissa = (bits & 0x7fffffU) | 0x800000U;
-    const int shift = biased_exponent - 150 - unit_exponent;
-    if (shift >= 64) {
-        add_words(0, mantissa << (shift - 64));
-    } else if (shift > 0) {
-        add_words(mantissa << shift, mantissa >> (64 - shift));
-    } else if (shift > -25) {
-        const std::uint64_t half = shift < 0 ? std::uint64_t{1} << (-shift - 1) : 0;
-        add_words((mantissa + half) >> -shift, 0);
-    }
-}
-
-void ExactSum::add(const ExactSum& other) noexcept
-{
-    add_words(other.low_.load(std::memory_order_relaxed),
-              other.high_.load(std::memory_order_relaxed));
-}
-
-void ExactSum::add_words(std::uint64_t low, std::uint64_t high) noexcept
-{
-    if (low != 0) {
-        const std::uint64_t before = low_.fetch_add(low, std::memory_order_relaxed);
-        high += before + low < before ? 1U : 0U;
-    }
-    if (high != 0) {
-        high_.fetch_add(high, std::memory_order_relaxed);
-    }
-}
-
-double ExactSum::value() const noexcept
-{
-    return std::ldexp(static_cast<double>(high_.load(std::memory_order_relaxed)),
-                      64 + unit_exponent) +
-           std::ldexp(static_cast<double>(low_.load(std::memory_order_relaxed)), unit_exponent);
-}
-
-bool ExactSum::operator==(const ExactSum& other) const noexcept
-{
-    return low_.load(std::memory_order_relaxed) == other.low_.load(std::memory_order_relaxed) &&
-           high_.load(std::memory_order_relaxed) == other.high_.load(std::memory_order_relaxed);
-}
 
 void Film::Pixel::add(Rgb value) noexcept
 {
@@ -236,6 +176,26 @@ Image Film::develop() const
 Image Film::develop_half(int half) const
 {
     return develop(std::array<std::size_t, 1>{static_cast<std::size_t>(half)});
+}
+
+Image Film::variance() const
+{
+    if (counts_[0] == 0 || counts_[1] == 0) {
+        const Rgb unknown(std::numeric_limits<float>::infinity());
+        return {width(), height(), std::vector<Rgb>(samples_[0].size(), unknown)};
+    }
+    // With a variance v a sample the halves differ by v (1/n0 + 1/n1) on average, squared, and the
+    // whole has v / (n0 + n1).
+    const auto n0 = static_cast<double>(counts_[0]);
+    const auto n1 = static_cast<double>(counts_[1]);
+    const auto factor = static_cast<float>(n0 * n1 / ((n0 + n1) * (n0 + n1)));
+    Image image = develop_half(0);
+    const Image odd = develop_half(1);
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        const Rgb difference = image.pixels[i] - odd.pixels[i];
+        image.pixels[i] = factor * difference * difference;
+    }
+    return image;
 }
 
 FilmDefects Film::defects() const

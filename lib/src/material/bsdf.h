@@ -24,6 +24,10 @@ public:
                                                    TransportMode mode) const noexcept;
     /// Has a lobe that is not delta: strategies can join here.
     [[nodiscard]] bool connectible() const noexcept { return model_.has_smooth_lobe(); }
+    /// Unit, on the front side of the surface.
+    [[nodiscard]] Vec3 shading_normal() const noexcept { return shading_.z; }
+    /// In [0, 1].
+    [[nodiscard]] Rgb base_color() const noexcept { return model_.base_color(); }
 
 private:
     Frame shading_;

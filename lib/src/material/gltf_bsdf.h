@@ -56,6 +56,7 @@ public:
     {
         return diffuse_weight_ > 0.0f || (has_specular_ && alpha_ >= smooth_alpha);
     }
+    [[nodiscard]] Rgb base_color() const noexcept { return base_color_; }
 
 private:
     /// What follows from one direction alone.

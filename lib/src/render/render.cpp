@@ -4,6 +4,7 @@
 #include "camera/camera.h"
 #include "camera/pixel_filter.h"
 #include "integrator/integrator.h"
+#include "render/aov_pass.h"
 #include "render/check_options.h"
 #include "render/flush_denormals.h"
 #include "scene/world.h"
@@ -35,11 +36,17 @@ PixelRect whole_image(const RenderOptions& options)
     return {.x0 = 0, .y0 = 0, .x1 = options.width, .y1 = options.height};
 }
 
-void render_pass(const Integrator& integrator, const RenderOptions& options, SampleRange samples,
-                 Film& film)
+/// All that works on a tile.
+struct Work {
+    const Integrator& integrator;
+    const AovPass& aov_pass;
+};
+
+void render_pass(const Work& work, const RenderOptions& options, SampleRange samples,
+                 RenderResult& result)
 {
     // Each pixel of the whole image has its light path, and any of them can reach a crop.
-    const PixelRect area = integrator.splats() ? whole_image(options) : film.region();
+    const PixelRect area = work.integrator.splats() ? whole_image(options) : result.film.region();
     const int columns = (area.width() + options.tile_size - 1) / options.tile_size;
     const int rows = (area.height() + options.tile_size - 1) / options.tile_size;
     tbb::parallel_for(
@@ -50,16 +57,19 @@ void render_pass(const Integrator& integrator, const RenderOptions& options, Sam
                 for (int column = range.cols().begin(); column < range.cols().end(); ++column) {
                     const int x = area.x0 + column * options.tile_size;
                     const int y = area.y0 + row * options.tile_size;
-                    integrator.render_tile({.x_begin = x,
-                                            .x_end = std::min(x + options.tile_size, area.x1),
-                                            .y_begin = y,
-                                            .y_end = std::min(y + options.tile_size, area.y1)},
-                                           samples, film);
+                    const Tile tile{.x_begin = x,
+                                    .x_end = std::min(x + options.tile_size, area.x1),
+                                    .y_begin = y,
+                                    .y_end = std::min(y + options.tile_size, area.y1)};
+                    work.integrator.render_tile(tile, samples, result.film);
+                    if (result.aovs.needs_hits()) {
+                        work.aov_pass.render_tile(tile, samples, result.aovs);
+                    }
                 }
             }
         },
         tbb::simple_partitioner{});
-    film.count_samples(samples.begin, samples.end);
+    result.film.count_samples(samples.begin, samples.end);
 }
 
 }  // namespace
@@ -77,6 +87,7 @@ RenderResult render(const Scene& scene, const CameraDesc& camera_desc, const Ren
         camera_desc, options.width, options.height,
         {.min = Vec2(region.x0, region.y0) - margin, .max = Vec2(region.x1, region.y1) + margin});
     const auto integrator = make_integrator(scene.world(), camera, options);
+    const AovPass aov_pass(scene.world(), camera, options);
 
     const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
     // More threads than cores are allowed only while somebody asks for them.
@@ -92,6 +103,7 @@ RenderResult render(const Scene& scene, const CameraDesc& camera_desc, const Ren
         .region = region,
         .splats = integrator->splats() ? SplatImage::present : SplatImage::absent};
     RenderResult result{.film = Film(layout),
+                        .aovs = AovFilm(region, options.aovs),
                         .samples = {.begin = options.samples.begin, .end = options.samples.begin},
                         .seconds = 0.0};
     std::int64_t pass_size = 1;
@@ -99,8 +111,9 @@ RenderResult render(const Scene& scene, const CameraDesc& camera_desc, const Ren
         const std::int64_t begin = result.samples.end;
         const std::int64_t end = std::min(begin + pass_size, options.samples.end);
         const double before = seconds_since(start);
-        arena.execute(
-            [&] { render_pass(*integrator, options, {.begin = begin, .end = end}, result.film); });
+        arena.execute([&] {
+            render_pass({*integrator, aov_pass}, options, {.begin = begin, .end = end}, result);
+        });
         result.samples.end = end;
         result.seconds = seconds_since(start);
         if (control.on_progress) {

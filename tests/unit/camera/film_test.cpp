@@ -3,33 +3,11 @@
 
 #include "catch.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <random>
-#include <thread>
-#include <vector>
 
 namespace bdpt {
 namespace {
-
-double exact_sum(const std::vector<float>& values)
-{
-    long double sum = 0.0L;
-    for (const float v : values) {
-        sum += static_cast<long double>(v);
-    }
-    return static_cast<double>(sum);
-}
-
-ExactSum sum_of(const std::vector<float>& values)
-{
-    ExactSum sum;
-    for (const float v : values) {
-        sum.add(v);
-    }
-    return sum;
-}
 
 FilmLayout layout(int width, int height, SplatImage splats = SplatImage::present)
 {
@@ -40,79 +18,6 @@ FilmLayout layout(int width, int height, SplatImage splats = SplatImage::present
 }
 
 }  // namespace
-
-TEST_CASE("ExactSum keeps 1e-5 of the sum from 1e-5 to fireflies of 1e12", "[film]")
-{
-    std::mt19937 engine(1);
-    for (const float scale : {1e-5f, 1.0f, 1e4f, 1e9f}) {
-        std::exponential_distribution<float> distribution(1.0f / scale);
-        std::vector<float> values;
-        for (int i = 0; i < 20000; ++i) {
-            values.push_back(distribution(engine));
-        }
-        CHECK(sum_of(values).value() == Approx(exact_sum(values)).epsilon(1e-6));
-        values.push_back(1e12f);
-        CHECK(sum_of(values).value() == Approx(exact_sum(values)).epsilon(1e-6));
-    }
-}
-
-TEST_CASE("ExactSum does not lose many tiny splats next to a firefly", "[film]")
-{
-    ExactSum sum;
-    constexpr float tiny = 1e-9f;
-    sum.add(1e12f);
-    for (int i = 0; i < 1000; ++i) {
-        sum.add(tiny);
-    }
-    ExactSum firefly;
-    firefly.add(1e12f);
-    ExactSum only_tiny;
-    for (int i = 0; i < 1000; ++i) {
-        only_tiny.add(tiny);
-    }
-    firefly.add(only_tiny);
-    CHECK(sum == firefly);
-    CHECK(only_tiny.value() == Approx(1000.0 * static_cast<double>(tiny)).epsilon(1e-5));
-}
-
-TEST_CASE("ExactSum holds 2^24 fireflies of 1e12", "[film]")
-{
-    ExactSum sum;
-    sum.add(1e12f);
-    const double one = sum.value();
-    for (int i = 0; i < 24; ++i) {
-        const ExactSum copy = sum;
-        sum.add(copy);  // doubles it
-    }
-    CHECK(sum.value() == std::ldexp(one, 24));
-}
-
-TEST_CASE("ExactSum is the same for every order and any threads", "[film]")
-{
-    std::mt19937 engine(7);
-    std::lognormal_distribution<float> distribution(0.0f, 6.0f);
-    std::vector<float> values;
-    for (int i = 0; i < 4000; ++i) {
-        values.push_back(std::min(distribution(engine), ExactSum::max_value));
-    }
-    const ExactSum expected = sum_of(values);
-    std::shuffle(values.begin(), values.end(), engine);
-    CHECK(sum_of(values) == expected);
-
-    ExactSum shared;
-    std::vector<std::thread> threads;
-    for (std::size_t t = 0; t < 4; ++t) {
-        threads.emplace_back([&, t] {
-            for (std::size_t i = t; i < values.size(); i += 4) {
-                shared.add(values[i]);
-            }
-        });
-    }
-    for (std::thread& thread : threads) {
-        thread.join();
-    }
-    CHECK(shared == expected);
-}
 
 TEST_CASE("Film averages samples and adds splats over the number of light paths", "[film]")
 {
@@ -161,6 +66,35 @@ TEST_CASE("Film::merge adds samples, counts and defects; sizes must match", "[fi
     CHECK(a.develop().at(0, 0) == Rgb(2.0f));
     CHECK_THROWS_AS(a.merge(Film(layout(2, 1, SplatImage::absent))), Error);
     CHECK_THROWS_AS(a.merge(Film(layout(1, 1))), Error);
+}
+
+TEST_CASE("Film estimates the variance of its estimate from the halves", "[film]")
+{
+    // Samples with variance v: the estimates from n of them vary by v / n, on average.
+    std::mt19937 engine(5);
+    std::exponential_distribution<float> sample(0.5f);  // mean 2, variance 4
+    constexpr int pixels = 40000;
+    for (const int count : {2, 3, 16}) {
+        Film film(layout(pixels, 1));
+        for (int x = 0; x < pixels; ++x) {
+            for (int i = 0; i < count; ++i) {
+                // Half of the light comes by splats.
+                film.add_sample(x, 0, i, Rgb(sample(engine)));
+                film.add_splat({static_cast<float>(x) + 0.5f, 0.5f}, i, Rgb(sample(engine)));
+            }
+        }
+        film.count_samples(0, count);
+        const Image variance = film.variance();
+        double mean = 0.0;
+        for (const Rgb& v : variance.pixels) {
+            mean += static_cast<double>(v.g) / pixels;
+        }
+        CHECK(mean == Approx(8.0 / count).epsilon(0.06));
+    }
+    Film half(layout(1, 1));
+    half.add_sample(0, 0, 0, Rgb(1.0f));
+    half.count_samples(0, 1);
+    CHECK(half.variance().at(0, 0) == Rgb(std::numeric_limits<float>::infinity()));
 }
 
 TEST_CASE("Film counts the samples of both halves for any range", "[film]")

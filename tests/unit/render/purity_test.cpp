@@ -3,7 +3,9 @@
 #include "catch.hpp"
 #include "scene_builder.h"
 
+#include <cstddef>
 #include <stdexcept>
+#include <vector>
 
 namespace bdpt {
 namespace {
@@ -54,6 +56,20 @@ void check_region(const Image& part, const Image& whole, const PixelRect& crop)
         }
     }
     CHECK(different == 0);
+}
+
+const AovSet all_aovs{Aov::albedo,       Aov::normal,   Aov::depth, Aov::position,
+                      Aov::sample_count, Aov::variance, Aov::alpha};
+
+std::vector<float> crop_of(const Layer& layer, const PixelRect& crop)
+{
+    std::vector<float> values;
+    const auto channels = static_cast<std::ptrdiff_t>(layer.channels.size());
+    for (int y = crop.y0; y < crop.y1; ++y) {
+        const auto row = layer.values.begin() + channels * layer.width * y;
+        values.insert(values.end(), row + channels * crop.x0, row + channels * crop.x1);
+    }
+    return values;
 }
 
 }  // namespace
@@ -127,6 +143,46 @@ TEST_CASE("a crop has the pixels of the whole image, to the bit", "[purity]")
             check_region(part.develop(), whole.develop(), crop);
             check_region(part.develop_half(1), whole.develop_half(1), crop);
         }
+    }
+}
+
+TEST_CASE("AOVs are pure too, in any crop, and the same for every integrator", "[purity][aov]")
+{
+    const Scene scene = room();
+    RenderOptions o = options(IntegratorKind::pt);
+    o.aovs = all_aovs;
+    o.filter.kind = FilterKind::tent;
+    o.threads = 1;
+    const RenderResult whole = render(scene, test::room_camera(), o);
+    o.threads = 8;
+    o.tile_size = 5;
+    for (const auto kind : {IntegratorKind::bdpt, IntegratorKind::mis}) {
+        o.integrator = kind;
+        CHECK(render(scene, test::room_camera(), o).aovs == whole.aovs);
+    }
+    o.integrator = IntegratorKind::pt;
+    o.samples = {.begin = 3, .end = 8};
+    RenderResult parts = render(scene, test::room_camera(), o);
+    CHECK_FALSE(parts.aovs == whole.aovs);
+    o.samples = {.begin = 0, .end = 3};
+    const RenderResult first = render(scene, test::room_camera(), o);
+    parts.film.merge(first.film);
+    parts.aovs.merge(first.aovs);
+    CHECK(parts.aovs == whole.aovs);
+    CHECK(parts.film == whole.film);
+
+    o = options(GENERATE(IntegratorKind::bdpt, IntegratorKind::pt));
+    o.aovs = all_aovs;
+    o.filter.kind = FilterKind::tent;
+    const RenderResult all = render(scene, test::room_camera(), o);
+    const std::vector<Layer> expected = all.aovs.develop(all.film);
+    o.crop = PixelRect{7, 4, 30, 9};
+    const RenderResult part = render(scene, test::room_camera(), o);
+    const std::vector<Layer> layers = part.aovs.develop(part.film);
+    REQUIRE(layers.size() == expected.size());
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+        CAPTURE(layers[i].name);
+        CHECK(layers[i].values == crop_of(expected[i], *o.crop));
     }
 }
 

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+
+namespace bdpt {
+
+/// What can be measured beside radiance (arbitrary output variables). Those of surfaces are of the
+/// first one that a camera ray meets, averaged over the same rays that the picture is made of, and
+/// do not depend on the integrator.
+enum class Aov : std::uint8_t {
+    /// Linear base colour in [0, 1]; rays that leave the scene count as black.
+    albedo,
+    /// Unit shading normal in world space, on the side of the camera; rays that leave count as 0.
+    normal,
+    /// Distance along the camera's axis [m], of rays that meet a surface; infinite without any.
+    depth,
+    /// In world space [m], of rays that meet a surface; 0 without any.
+    position,
+    /// Samples of the pixel.
+    sample_count,
+    /// Of the pixel's value [nit^2], estimated from its two half images; infinite when one is
+    /// empty.
+    variance,
+    /// Share of rays that meet a surface.
+    alpha,
+};
+
+class AovSet {
+public:
+    constexpr AovSet() = default;
+    constexpr AovSet(std::initializer_list<Aov> aovs)
+    {
+        for (const Aov aov : aovs) {
+            insert(aov);
+        }
+    }
+    constexpr void insert(Aov aov) { bits_ |= bit(aov); }
+    [[nodiscard]] constexpr bool contains(Aov aov) const { return (bits_ & bit(aov)) != 0; }
+    [[nodiscard]] constexpr bool empty() const { return bits_ == 0; }
+    [[nodiscard]] constexpr bool operator==(const AovSet&) const = default;
+
+private:
+    [[nodiscard]] static constexpr std::uint32_t bit(Aov aov)
+    {
+        return std::uint32_t{1} << static_cast<std::uint32_t>(aov);
+    }
+    std::uint32_t bits_ = 0;
+};
+
+}  // namespace bdpt

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <bdpt/aov.h>
+#include <bdpt/exact_sum.h>
+#include <bdpt/film.h>
+#include <bdpt/layer.h>
+#include <bdpt/pixel_rect.h>
+#include <bdpt/types.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace bdpt {
+
+/// The first surface that a camera ray meets.
+struct PrimaryHit {
+    Rgb albedo{0.0f};
+    Vec3 normal{0.0f};    ///< unit
+    Vec3 position{0.0f};  ///< [m]
+    float depth = 0.0f;   ///< along the camera's axis [m]
+};
+
+/// Sums of what camera rays met; exact and without order like those of `Film`.
+class AovFilm {
+public:
+    AovFilm() = default;
+    AovFilm(const PixelRect& region, AovSet aovs);
+
+    [[nodiscard]] const PixelRect& region() const { return region_; }
+    [[nodiscard]] AovSet aovs() const { return aovs_; }
+    /// Is there anything to add?
+    [[nodiscard]] bool needs_hits() const { return !hits_.empty(); }
+
+    /// Adds a ray of pixel (x, y) in the region. Safe from any thread, one thread a pixel.
+    void add(int x, int y, const PrimaryHit& hit) noexcept;
+
+    /// Adds the rays of other samples. Throws `Error` (usage) when regions or AOVs differ.
+    void merge(const AovFilm& other);
+    /// The layers that were asked for, by the names that denoisers and compositors expect: albedo
+    /// (RGB), normal (XYZ), depth (Z), position (XYZ), sampleCount (Y), variance (RGB), and A in
+    /// the main layer. `film` is that of the same samples; throws `Error` (usage) when its region
+    /// is another.
+    [[nodiscard]] std::vector<Layer> develop(const Film& film) const;
+    /// Equal to the bit.
+    [[nodiscard]] bool operator==(const AovFilm& other) const = default;
+
+private:
+    using Sum3 = std::array<ExactSum, 3>;
+
+    PixelRect region_;
+    AovSet aovs_;
+    // One element a pixel if it is asked for, else empty.
+    std::vector<Sum3> albedo_;
+    std::vector<Sum3> normal_;
+    std::vector<Sum3> position_;
+    std::vector<ExactSum> depth_;
+    std::vector<std::uint64_t> hits_;
+};
+
+}  // namespace bdpt

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+namespace bdpt {
+
+/// A sum of floats of both signs that does not depend on their order: a 128-bit fixed-point number
+/// in two's complement, made of two atomic words, the low one with unit 2^-60. A carry out of the
+/// low word is added to the high one; both additions commute and wrap around, so any interleaving
+/// of threads gives the same bits.
+class ExactSum {
+public:
+    /// Largest magnitude that may be added. The sum is right below 2^67: 2^25 times this.
+    static constexpr float max_value = 0x1p42f;
+
+    ExactSum() = default;
+    ExactSum(const ExactSum& other) noexcept { *this = other; }
+    ExactSum& operator=(const ExactSum& other) noexcept;
+
+    /// The magnitude of `value` is at most `max_value`. Safe from any thread.
+    void add(float value) noexcept;
+    /// Not safe while other threads add.
+    void add(const ExactSum& other) noexcept;
+    [[nodiscard]] double value() const noexcept;
+    [[nodiscard]] bool operator==(const ExactSum& other) const noexcept;
+
+private:
+    void add_words(std::uint64_t low, std::uint64_t high) noexcept;
+
+    std::atomic<std::uint64_t> low_{0};
+    std::atomic<std::uint64_t> high_{0};
+};
+
+}  // namespace bdpt

@@ -1,0 +1,141 @@
+#include <bdpt/aov_film.h>
+#include <bdpt/error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+namespace bdpt {
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+void add(std::array<ExactSum, 3>& sums, Vec3 value)
+{
+    for (int c = 0; c < 3; ++c) {
+        sums[static_cast<std::size_t>(c)].add(value[c]);
+    }
+}
+
+/// What a sum can take.
+Vec3 limited(Vec3 value)
+{
+    for (int c = 0; c < 3; ++c) {
+        value[c] = std::clamp(value[c], -ExactSum::max_value, ExactSum::max_value);
+    }
+    return value;
+}
+
+void merge_sums(std::vector<std::array<ExactSum, 3>>& to,
+                const std::vector<std::array<ExactSum, 3>>& from)
+{
+    for (std::size_t i = 0; i < to.size(); ++i) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            to[i][c].add(from[i][c]);
+        }
+    }
+}
+
+}  // namespace
+
+AovFilm::AovFilm(const PixelRect& region, AovSet aovs) : region_(region), aovs_(aovs)
+{
+    const std::size_t pixels =
+        static_cast<std::size_t>(region.width()) * static_cast<std::size_t>(region.height());
+    const auto room = [&](Aov aov) { return aovs.contains(aov) ? pixels : 0; };
+    albedo_.resize(room(Aov::albedo));
+    normal_.resize(room(Aov::normal));
+    position_.resize(room(Aov::position));
+    depth_.resize(room(Aov::depth));
+    hits_.resize(std::max({room(Aov::albedo), room(Aov::normal), room(Aov::position),
+                           room(Aov::depth), room(Aov::alpha)}));
+}
+
+void AovFilm::add(int x, int y, const PrimaryHit& hit) noexcept
+{
+    const std::size_t i =
+        static_cast<std::size_t>(y - region_.y0) * static_cast<std::size_t>(region_.width()) +
+        static_cast<std::size_t>(x - region_.x0);
+    if (!hits_.empty()) {
+        ++hits_[i];
+    }
+    if (!albedo_.empty()) {
+        bdpt::add(albedo_[i], hit.albedo);
+    }
+    if (!normal_.empty()) {
+        bdpt::add(normal_[i], hit.normal);
+    }
+    if (!position_.empty()) {
+        bdpt::add(position_[i], limited(hit.position));
+    }
+    if (!depth_.empty()) {
+        depth_[i].add(std::min(hit.depth, ExactSum::max_value));
+    }
+}
+
+void AovFilm::merge(const AovFilm& other)
+{
+    if (region_ != other.region_ || aovs_ != other.aovs_) {
+        throw Error(ErrorCode::usage, "AOVs to merge differ in their region or in what they hold");
+    }
+    merge_sums(albedo_, other.albedo_);
+    merge_sums(normal_, other.normal_);
+    merge_sums(position_, other.position_);
+    for (std::size_t i = 0; i < depth_.size(); ++i) {
+        depth_[i].add(other.depth_[i]);
+    }
+    for (std::size_t i = 0; i < hits_.size(); ++i) {
+        hits_[i] += other.hits_[i];
+    }
+}
+
+std::vector<Layer> AovFilm::develop(const Film& film) const
+{
+    if (film.region() != region_) {
+        throw Error(ErrorCode::usage, "the AOVs and the film are not of the same region");
+    }
+    const auto samples = static_cast<double>(film.sample_count());
+    std::vector<Layer> layers;
+    const auto layer = [&](Aov aov, const char* name, const char* channels, const auto& pixel) {
+        if (!aovs_.contains(aov)) {
+            return;
+        }
+        Layer result{.name = name,
+                     .channels = channels,
+                     .width = region_.width(),
+                     .height = region_.height(),
+                     .values = {}};
+        const std::size_t pixels =
+            static_cast<std::size_t>(result.width) * static_cast<std::size_t>(result.height);
+        result.values.reserve(pixels * result.channels.size());
+        for (std::size_t i = 0; i < pixels; ++i) {
+            for (std::size_t c = 0; c < result.channels.size(); ++c) {
+                result.values.push_back(static_cast<float>(pixel(i, c)));
+            }
+        }
+        layers.push_back(std::move(result));
+    };
+    const auto over_samples = [&](double sum) { return samples > 0.0 ? sum / samples : 0.0; };
+    const auto over_hits = [&](double sum, std::size_t i, double without) {
+        return hits_[i] > 0 ? sum / static_cast<double>(hits_[i]) : without;
+    };
+    using Index = std::size_t;
+    layer(Aov::alpha, "", "A",
+          [&](Index i, Index) { return over_samples(static_cast<double>(hits_[i])); });
+    layer(Aov::albedo, "albedo", "RGB",
+          [&](Index i, Index c) { return over_samples(albedo_[i][c].value()); });
+    layer(Aov::normal, "normal", "XYZ",
+          [&](Index i, Index c) { return over_samples(normal_[i][c].value()); });
+    layer(Aov::depth, "depth", "Z",
+          [&](Index i, Index) { return over_hits(depth_[i].value(), i, infinity); });
+    layer(Aov::position, "position", "XYZ",
+          [&](Index i, Index c) { return over_hits(position_[i][c].value(), i, 0.0); });
+    layer(Aov::sample_count, "sampleCount", "Y", [&](Index, Index) { return samples; });
+    const Image variance = aovs_.contains(Aov::variance) ? film.variance() : Image{};
+    layer(Aov::variance, "variance", "RGB",
+          [&](Index i, Index c) { return variance.pixels[i][static_cast<int>(c)]; });
+    return layers;
+}
+
+}  // namespace bdpt

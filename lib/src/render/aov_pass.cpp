@@ -1,0 +1,48 @@
+#include "render/aov_pass.h"
+
+#include "camera/camera.h"
+#include "math/sampler.h"
+#include "scene/world.h"
+
+#include <glm/geometric.hpp>
+
+namespace bdpt {
+
+AovPass::AovPass(const World& world, const Camera& camera, const RenderOptions& options)
+    : world_(world), camera_(camera), seed_(options.seed), filter_(options.filter)
+{}
+
+void AovPass::render_tile(const Tile& tile, SampleRange samples, AovFilm& film) const
+{
+    for (int y = tile.y_begin; y < tile.y_end; ++y) {
+        for (int x = tile.x_begin; x < tile.x_end; ++x) {
+            if (!film.region().contains(x, y)) {
+                continue;
+            }
+            for (std::int64_t index = samples.begin; index < samples.end; ++index) {
+                if (const auto hit = first_hit(x, y, index)) {
+                    film.add(x, y, *hit);
+                }
+            }
+        }
+    }
+}
+
+std::optional<PrimaryHit> AovPass::first_hit(int x, int y, std::int64_t sample_index) const
+{
+    // The random numbers of the integrators' camera rays.
+    Sampler sampler(seed_, x, y, sample_index);
+    sampler.start(SampleUse::film);
+    const CameraRay ray = camera_.generate_ray(filter_.sample_raster(x, y, sampler.next_2d()));
+    const auto point = world_.intersect({.p = ray.ray.origin}, ray.ray.direction);
+    if (!point) {
+        return std::nullopt;
+    }
+    const Vec3 normal = point->bsdf.shading_normal();
+    return PrimaryHit{.albedo = point->bsdf.base_color(),
+                      .normal = dot(normal, ray.ray.direction) > 0.0f ? -normal : normal,
+                      .position = point->end.p,
+                      .depth = camera_.depth(point->end.p)};
+}
+
+}  // namespace bdpt

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "camera/pixel_filter.h"
+#include "integrator/integrator.h"
+
+#include <bdpt/aov_film.h>
+
+#include <optional>
+
+namespace bdpt {
+
+/// Follows the camera rays of a render once more, to the first surface only: the same for every
+/// integrator.
+class AovPass {
+public:
+    /// The world and the camera must outlive this.
+    AovPass(const World& world, const Camera& camera, const RenderOptions& options);
+    /// Adds the samples of the pixels of `tile` that are in the film's region.
+    void render_tile(const Tile& tile, SampleRange samples, AovFilm& film) const;
+
+private:
+    [[nodiscard]] std::optional<PrimaryHit> first_hit(int x, int y,
+                                                      std::int64_t sample_index) const;
+
+    const World& world_;
+    const Camera& camera_;
+    std::uint64_t seed_;
+    PixelFilter filter_;
+};
+
+}  // namespace bdpt

@@ -1,0 +1,183 @@
+#include <bdpt/error.h>
+#include <bdpt/render.h>
+
+#include "catch.hpp"
+#include "scene_builder.h"
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+
+namespace bdpt {
+namespace {
+
+constexpr int size = 24;
+
+RenderOptions options(AovSet aovs)
+{
+    RenderOptions result;
+    result.integrator = IntegratorKind::pt;
+    result.width = size;
+    result.height = size;
+    result.samples = {.begin = 0, .end = 16};
+    result.max_depth = 1;
+    result.aovs = aovs;
+    return result;
+}
+
+/// A camera at (1, 2, 3) that looks along +x at the plane x = 5, which fills the left of the image
+/// up to its middle.
+const CameraDesc camera = test::camera_at({1.0f, 2.0f, 3.0f}, {5.0f, 2.0f, 3.0f}, 0.9f);
+
+SceneDesc half_wall(const MaterialDesc& material)
+{
+    test::SceneBuilder builder;
+    builder.quad({5, -20, 3}, {5, -20, -40}, {5, 20, -40}, {5, 20, 3}, material);
+    return builder.desc;
+}
+
+const Layer& layer(const std::vector<Layer>& layers, const std::string& name)
+{
+    for (const Layer& candidate : layers) {
+        if (candidate.name == name) {
+            return candidate;
+        }
+    }
+    throw std::runtime_error("no layer " + name);
+}
+
+float value(const Layer& layer, int x, int y, std::size_t channel)
+{
+    const std::size_t pixel = static_cast<std::size_t>(y * layer.width + x);
+    return layer.values[pixel * layer.channels.size() + channel];
+}
+
+}  // namespace
+
+TEST_CASE("AOVs of a wall are what geometry says", "[aov]")
+{
+    const Rgb color(0.25f, 0.5f, 0.75f);
+    // The wall's front may look at the camera or away.
+    SceneDesc desc = half_wall(test::lambertian(color));
+    const bool turned = GENERATE(false, true);
+    if (turned) {
+        desc.instances[0].world_from_object = glm::scale(Mat4(1.0f), Vec3(1.0f, -1.0f, 1.0f));
+    }
+    const Scene scene(desc);
+    const RenderResult result = render(scene, camera,
+                                       options({Aov::albedo, Aov::normal, Aov::depth, Aov::position,
+                                                Aov::sample_count, Aov::alpha}));
+    const std::vector<Layer> layers = result.aovs.develop(result.film);
+    REQUIRE(layers.size() == 6);
+    CHECK(layer(layers, "").channels == "A");
+    CHECK(layer(layers, "albedo").channels == "RGB");
+    CHECK(layer(layers, "normal").channels == "XYZ");
+    CHECK(layer(layers, "depth").channels == "Z");
+    CHECK(layer(layers, "position").channels == "XYZ");
+    CHECK(layer(layers, "sampleCount").channels == "Y");
+    const float pixel = 2.0f * 4.0f * std::tan(0.45f) / size;  // on the wall [m]
+    for (const int y : {0, 11, 23}) {
+        for (const int x : {0, 5, 11}) {
+            CAPTURE(x, y, turned);
+            CHECK(value(layer(layers, ""), x, y, 0) == 1.0f);
+            // Along the axis, not to the point: equal everywhere.
+            CHECK(value(layer(layers, "depth"), x, y, 0) == Approx(4.0f));
+            CHECK(value(layer(layers, "normal"), x, y, 0) == Approx(-1.0f));
+            CHECK(value(layer(layers, "normal"), x, y, 1) == Approx(0.0f).margin(1e-6));
+            const float right = (static_cast<float>(x) + 0.5f - 12.0f) * pixel;
+            const float up = (12.0f - static_cast<float>(y) - 0.5f) * pixel;
+            CHECK(value(layer(layers, "position"), x, y, 0) == Approx(5.0f));
+            CHECK(value(layer(layers, "position"), x, y, 1) == Approx(2.0f + up).margin(0.06));
+            CHECK(value(layer(layers, "position"), x, y, 2) == Approx(3.0f + right).margin(0.06));
+            for (std::size_t c = 0; c < 3; ++c) {
+                CHECK(value(layer(layers, "albedo"), x, y, c) ==
+                      Approx(color[static_cast<int>(c)]));
+            }
+            CHECK(value(layer(layers, "sampleCount"), x, y, 0) == 16.0f);
+            // The right half is empty.
+            const int far = 23 - x;
+            CHECK(value(layer(layers, ""), far, y, 0) == 0.0f);
+            CHECK(value(layer(layers, "depth"), far, y, 0) ==
+                  std::numeric_limits<float>::infinity());
+            CHECK(value(layer(layers, "normal"), far, y, 0) == 0.0f);
+            CHECK(value(layer(layers, "position"), far, y, 2) == 0.0f);
+            CHECK(value(layer(layers, "albedo"), far, y, 1) == 0.0f);
+        }
+    }
+}
+
+TEST_CASE("AOVs are of the very rays that make the picture", "[aov]")
+{
+    // Paths of one edge on a surface of one nit: the pixel is the share of rays that hit.
+    MaterialDesc lamp = test::emitter(Rgb(1.0f));
+    lamp.double_sided = true;
+    test::SceneBuilder builder;
+    builder.sphere({5.0f, 2.0f, 3.0f}, 1.3f, lamp, 16);
+    const Scene scene(builder.desc);
+    RenderOptions o = options({Aov::alpha, Aov::depth, Aov::position});
+    for (const auto kind : {IntegratorKind::pt, IntegratorKind::mis, IntegratorKind::bdpt}) {
+        for (const auto filter : {FilterKind::box, FilterKind::gaussian}) {
+            o.integrator = kind;
+            o.filter.kind = filter;
+            o.seed = 5;
+            const RenderResult result = render(scene, camera, o);
+            const std::vector<Layer> layers = result.aovs.develop(result.film);
+            const Image image = result.film.develop();
+            int partial = 0;
+            for (int y = 0; y < size; ++y) {
+                for (int x = 0; x < size; ++x) {
+                    const float alpha = value(layer(layers, ""), x, y, 0);
+                    REQUIRE(alpha == image.at(x, y).g);
+                    partial += alpha > 0.0f && alpha < 1.0f ? 1 : 0;
+                    if (alpha > 0.0f) {
+                        // Position and depth are means over the same hits.
+                        CHECK(value(layer(layers, "position"), x, y, 0) - 1.0f ==
+                              Approx(value(layer(layers, "depth"), x, y, 0)).epsilon(1e-5));
+                    }
+                }
+            }
+            CHECK(partial > 10);
+        }
+    }
+}
+
+TEST_CASE("the normal AOV is the shading normal, the albedo AOV the textured colour", "[aov]")
+{
+    test::SceneBuilder builder;
+    builder.sphere({5.0f, 2.0f, 3.0f}, 1.0f, test::lambertian(Rgb(1.0f)), 8);
+    builder.desc.images.push_back({.width = 1, .height = 1, .rgba = {188, 0, 255, 255}});
+    builder.desc.materials[0].base_color_texture = TextureRef{.image = ImageId{0}};
+    const Scene scene(builder.desc);
+    const RenderResult result =
+        render(scene, camera, options({Aov::normal, Aov::position, Aov::albedo}));
+    const std::vector<Layer> layers = result.aovs.develop(result.film);
+    for (const auto& [x, y] : {std::pair{12, 12}, {10, 13}, {13, 9}}) {
+        Vec3 normal;
+        Vec3 position;
+        for (int c = 0; c < 3; ++c) {
+            const auto channel = static_cast<std::size_t>(c);
+            normal[c] = value(layer(layers, "normal"), x, y, channel);
+            position[c] = value(layer(layers, "position"), x, y, channel);
+        }
+        // Interpolated: that of a sphere, although there are only eight facets around.
+        const Vec3 expected = glm::normalize(position - Vec3(5.0f, 2.0f, 3.0f));
+        CHECK(glm::dot(glm::normalize(normal), expected) > 0.985f);
+        CHECK(value(layer(layers, "albedo"), x, y, 0) == Approx(0.5029f).epsilon(1e-3));
+        CHECK(value(layer(layers, "albedo"), x, y, 1) == 0.0f);
+        CHECK(value(layer(layers, "albedo"), x, y, 2) == 1.0f);
+    }
+}
+
+TEST_CASE("AOVs of different regions or kinds are not merged", "[aov]")
+{
+    const PixelRect region{0, 0, 2, 2};
+    AovFilm film(region, {Aov::depth});
+    CHECK_THROWS_AS(film.merge(AovFilm(region, {Aov::normal})), Error);
+    CHECK_THROWS_AS(film.merge(AovFilm({0, 0, 2, 1}, {Aov::depth})), Error);
+    CHECK_THROWS_AS(film.develop(Film(
+                        {.width = 3, .height = 2, .region = {.x0 = 0, .y0 = 0, .x1 = 3, .y1 = 2}})),
+                    Error);
+}
+
+}  // namespace bdpt

@@ -3,6 +3,7 @@
 #include <bdpt/aov_film.h>
 #include <bdpt/film.h>
 #include <bdpt/render_options.h>
+#include <bdpt/render_stats.h>
 #include <bdpt/scene.h>
 
 #include <functional>
@@ -30,7 +31,8 @@ struct RenderControl {
 
 struct RenderResult {
     Film film;
-    AovFilm aovs;         ///< of the same samples; empty if none were asked for
+    AovFilm aovs;  ///< of the same samples; empty if none were asked for
+    RenderStats stats;
     SampleRange samples;  ///< those that are in `film`; fewer than asked for after a stop
     double seconds = 0.0;
 };

@@ -15,12 +15,13 @@ BdptIntegrator::BdptIntegrator(const World& world, const Camera& camera,
     : world_(world), camera_(camera), options_(options), filter_(options.filter)
 {}
 
-void BdptIntegrator::render_tile(const Tile& tile, SampleRange samples, Film& film) const
+RenderStats BdptIntegrator::render_tile(const Tile& tile, SampleRange samples, Film& film) const
 {
     const int max_vertices = options_.max_depth + 1;
     Scratch scratch{.light_path = Subpath(options_.max_depth),
                     .camera_path = Subpath(max_vertices),
-                    .weigher = PathWeigher(world_, options_.heuristic, max_vertices)};
+                    .weigher = PathWeigher(world_, options_.heuristic, max_vertices),
+                    .stats = {}};
     for (int y = tile.y_begin; y < tile.y_end; ++y) {
         for (int x = tile.x_begin; x < tile.x_end; ++x) {
             for (std::int64_t index = samples.begin; index < samples.end; ++index) {
@@ -32,13 +33,16 @@ void BdptIntegrator::render_tile(const Tile& tile, SampleRange samples, Film& fi
                 const int camera_vertices = wanted ? max_vertices : 1;
                 trace_camera_subpath(world_, camera_, raster, camera_vertices, sampler,
                                      scratch.camera_path);
+                scratch.stats.rays.camera += scratch.camera_path.rays();
                 const Rgb radiance = estimate(index, sampler, scratch, film);
                 if (wanted) {
+                    ++scratch.stats.paths.camera;
                     film.add_sample(x, y, index, radiance);
                 }
             }
         }
     }
+    return scratch.stats;
 }
 
 /// Radiance that the camera subpath in `scratch` finds; what belongs to other pixels goes to
@@ -49,10 +53,12 @@ Rgb BdptIntegrator::estimate(std::int64_t sample_index, Sampler& sampler, Scratc
     Subpath& light_path = scratch.light_path;
     Subpath& camera_path = scratch.camera_path;
     trace_light_subpath(world_, light_path.capacity(), sampler, light_path);
+    scratch.stats.rays.light += light_path.rays();
+    ++scratch.stats.paths.light;
 
     for (int s = 2; s <= light_path.size(); ++s) {
-        const auto splat =
-            connect_to_lens(world_, camera_, light_path.first(s), camera_path[0], scratch.weigher);
+        const auto splat = connect_to_lens(world_, camera_, light_path.first(s), camera_path[0],
+                                           scratch.weigher, scratch.stats.rays);
         if (splat) {
             sampler.start(SampleUse::film, static_cast<std::uint32_t>(s));
             const SplatTarget target = filter_.choose_pixel(splat->raster, sampler.next_2d());
@@ -81,9 +87,9 @@ std::optional<Contribution> BdptIntegrator::connect(std::span<const PathVertex> 
         case 0:
             return hit_light(world_, camera, scratch.weigher);
         case 1:
-            return connect_to_light(world_, camera, sampler, scratch.weigher);
+            return connect_to_light(world_, camera, sampler, scratch.weigher, scratch.stats.rays);
         default:
-            return connect_interior(world_, light, camera, scratch.weigher);
+            return connect_interior(world_, light, camera, scratch.weigher, scratch.stats.rays);
     }
 }
 

@@ -12,7 +12,8 @@ namespace bdpt {
 class BdptIntegrator final : public Integrator {
 public:
     BdptIntegrator(const World& world, const Camera& camera, const RenderOptions& options);
-    void render_tile(const Tile& tile, SampleRange samples, Film& film) const override;
+    [[nodiscard]] RenderStats render_tile(const Tile& tile, SampleRange samples,
+                                          Film& film) const override;
     [[nodiscard]] bool splats() const override { return true; }
 
 private:
@@ -21,6 +22,7 @@ private:
         Subpath light_path;
         Subpath camera_path;
         PathWeigher weigher;
+        RenderStats stats;
     };
 
     [[nodiscard]] Rgb estimate(std::int64_t sample_index, Sampler& sampler, Scratch& scratch,

@@ -2,6 +2,7 @@
 
 #include <bdpt/film.h>
 #include <bdpt/render_options.h>
+#include <bdpt/render_stats.h>
 
 #include <memory>
 
@@ -24,8 +25,9 @@ public:
     virtual ~Integrator() = default;
     /// Adds the samples of all pixels of `tile` that are in the film's region to `film`, and what
     /// the light paths of all of its pixels splat anywhere. Tiles of an integrator without splats
-    /// lie inside of the region.
-    virtual void render_tile(const Tile& tile, SampleRange samples, Film& film) const = 0;
+    /// lie inside of the region. Returns the work that it was.
+    [[nodiscard]] virtual RenderStats render_tile(const Tile& tile, SampleRange samples,
+                                                  Film& film) const = 0;
     /// Does it splat on pixels that are not its own?
     [[nodiscard]] virtual bool splats() const = 0;
 };

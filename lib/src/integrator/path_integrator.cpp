@@ -25,21 +25,24 @@ PathIntegrator::PathIntegrator(const World& world, const Camera& camera,
     : world_(world), camera_(camera), options_(options), filter_(options.filter)
 {}
 
-void PathIntegrator::render_tile(const Tile& tile, SampleRange samples, Film& film) const
+RenderStats PathIntegrator::render_tile(const Tile& tile, SampleRange samples, Film& film) const
 {
+    RenderStats stats;
     for (int y = tile.y_begin; y < tile.y_end; ++y) {
         for (int x = tile.x_begin; x < tile.x_end; ++x) {
             for (std::int64_t index = samples.begin; index < samples.end; ++index) {
                 Sampler sampler(options_.seed, x, y, index);
                 sampler.start(SampleUse::film);
                 const Vec2 raster = filter_.sample_raster(x, y, sampler.next_2d());
-                film.add_sample(x, y, index, estimate(raster, sampler));
+                film.add_sample(x, y, index, estimate(raster, sampler, stats.rays));
+                ++stats.paths.camera;
             }
         }
     }
+    return stats;
 }
 
-Rgb PathIntegrator::estimate(Vec2 raster, Sampler& sampler) const
+Rgb PathIntegrator::estimate(Vec2 raster, Sampler& sampler, RayCounts& rays) const
 {
     const CameraRay first = camera_.generate_ray(raster);
     Ray ray{.origin = {.p = first.ray.origin},
@@ -48,6 +51,7 @@ Rgb PathIntegrator::estimate(Vec2 raster, Sampler& sampler) const
     Rgb radiance(0.0f);
     Rgb beta(1.0f);
     for (int depth = 1; depth <= options_.max_depth; ++depth) {
+        ++rays.camera;
         const auto point = world_.intersect(ray.origin, ray.direction);
         if (!point) {
             if (const auto id = world_.lights().environment()) {
@@ -76,7 +80,7 @@ Rgb PathIntegrator::estimate(Vec2 raster, Sampler& sampler) const
         const auto vertex = static_cast<std::uint32_t>(depth + 1);
         if (point->bsdf.connectible()) {
             sampler.start(SampleUse::next_event, vertex);
-            radiance += beta * sample_light(*point, wo, sampler);
+            radiance += beta * sample_light(*point, wo, sampler, rays);
         }
         sampler.start(SampleUse::camera_walk, vertex);
         const float u_lobe = sampler.next_1d();
@@ -117,7 +121,8 @@ Rgb PathIntegrator::emission(const Ray& ray, LightId light, const SegmentEnd& hi
     return radiance * weight(used.value, pdf.value);
 }
 
-Rgb PathIntegrator::sample_light(const SurfacePoint& point, Vec3 wo, Sampler& sampler) const
+Rgb PathIntegrator::sample_light(const SurfacePoint& point, Vec3 wo, Sampler& sampler,
+                                 RayCounts& rays) const
 {
     const auto choice = world_.lights().choose_for_receiver(point.end.p, sampler.next_2d());
     if (!choice) {
@@ -136,6 +141,7 @@ Rgb PathIntegrator::sample_light(const SurfacePoint& point, Vec3 wo, Sampler& sa
     if (is_black(value)) {
         return Rgb(0.0f);
     }
+    ++rays.shadow;
     value *= light.is_infinite() ? world_.transmittance_to_infinity(point.end, incident->wi)
                                  : world_.transmittance(point.end, incident->end);
     if (light.is_delta()) {

@@ -14,16 +14,18 @@ class Sampler;
 class PathIntegrator final : public Integrator {
 public:
     PathIntegrator(const World& world, const Camera& camera, const RenderOptions& options);
-    void render_tile(const Tile& tile, SampleRange samples, Film& film) const override;
+    [[nodiscard]] RenderStats render_tile(const Tile& tile, SampleRange samples,
+                                          Film& film) const override;
     [[nodiscard]] bool splats() const override { return false; }
 
 private:
     struct Ray;
-    [[nodiscard]] Rgb estimate(Vec2 raster, Sampler& sampler) const;
+    [[nodiscard]] Rgb estimate(Vec2 raster, Sampler& sampler, RayCounts& rays) const;
     /// Radiance that the ray brings from a light it hit, weighed against light sampling.
     [[nodiscard]] Rgb emission(const Ray& ray, LightId light, const SegmentEnd& hit,
                                Rgb radiance) const;
-    [[nodiscard]] Rgb sample_light(const SurfacePoint& point, Vec3 wo, Sampler& sampler) const;
+    [[nodiscard]] Rgb sample_light(const SurfacePoint& point, Vec3 wo, Sampler& sampler,
+                                   RayCounts& rays) const;
     /// Weight of the technique with density `used` against the one with density `other`.
     [[nodiscard]] float weight(float used, float other) const;
 

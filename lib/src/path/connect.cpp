@@ -50,7 +50,8 @@ std::optional<Contribution> hit_light(const World& world, std::span<const PathVe
 }
 
 std::optional<Contribution> connect_to_light(const World& world, std::span<const PathVertex> camera,
-                                             Sampler& sampler, PathWeigher& weigher)
+                                             Sampler& sampler, PathWeigher& weigher,
+                                             RayCounts& rays)
 {
     const PathVertex& z = camera.back();
     if (z.kind != VertexKind::surface || !z.connectible) {
@@ -80,6 +81,7 @@ std::optional<Contribution> connect_to_light(const World& world, std::span<const
         x0.kind = VertexKind::light;
         x0.end = incident->end;
     }
+    ++rays.shadow;
     value *= light.is_infinite() ? world.transmittance_to_infinity(z.end, incident->wi)
                                  : world.transmittance(z.end, x0.end);
     if (is_black(value)) {
@@ -104,7 +106,7 @@ std::optional<Contribution> connect_to_light(const World& world, std::span<const
 
 std::optional<Splat> connect_to_lens(const World& world, const Camera& camera,
                                      std::span<const PathVertex> light, const PathVertex& lens,
-                                     PathWeigher& weigher)
+                                     PathWeigher& weigher, RayCounts& rays)
 {
     const PathVertex& y = light.back();
     if (!y.connectible) {
@@ -119,6 +121,7 @@ std::optional<Splat> connect_to_lens(const World& world, const Camera& camera,
     if (is_black(value)) {
         return std::nullopt;
     }
+    ++rays.shadow;
     value *= world.transmittance(y.end, lens.end);
     if (is_black(value)) {
         return std::nullopt;
@@ -139,7 +142,7 @@ std::optional<Splat> connect_to_lens(const World& world, const Camera& camera,
 
 std::optional<Contribution> connect_interior(const World& world, std::span<const PathVertex> light,
                                              std::span<const PathVertex> camera,
-                                             PathWeigher& weigher)
+                                             PathWeigher& weigher, RayCounts& rays)
 {
     const PathVertex& y = light.back();
     const PathVertex& z = camera.back();
@@ -161,6 +164,7 @@ std::optional<Contribution> connect_interior(const World& world, std::span<const
     if (is_black(value)) {
         return std::nullopt;
     }
+    ++rays.shadow;
     value *= world.transmittance(z.end, y.end);
     if (is_black(value)) {
         return std::nullopt;

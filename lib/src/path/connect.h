@@ -3,12 +3,16 @@
 #include "path/densities.h"
 #include "path/path_vertex.h"
 
+#include <bdpt/render_stats.h>
+
 #include <optional>
 
 namespace bdpt {
 
 class Camera;
 class Sampler;
+
+// The joins that test visibility count their rays in `rays`.
 
 /// What one strategy found.
 struct Contribution {
@@ -31,17 +35,19 @@ struct Splat {
 /// light.
 [[nodiscard]] std::optional<Contribution> connect_to_light(const World& world,
                                                            std::span<const PathVertex> camera,
-                                                           Sampler& sampler, PathWeigher& weigher);
+                                                           Sampler& sampler, PathWeigher& weigher,
+                                                           RayCounts& rays);
 
 /// t = 1: the last of at least two light vertices is seen through the lens.
 [[nodiscard]] std::optional<Splat> connect_to_lens(const World& world, const Camera& camera,
                                                    std::span<const PathVertex> light,
-                                                   const PathVertex& lens, PathWeigher& weigher);
+                                                   const PathVertex& lens, PathWeigher& weigher,
+                                                   RayCounts& rays);
 
 /// s >= 2, t >= 2: the last vertices of both subpaths see each other.
 [[nodiscard]] std::optional<Contribution> connect_interior(const World& world,
                                                            std::span<const PathVertex> light,
                                                            std::span<const PathVertex> camera,
-                                                           PathWeigher& weigher);
+                                                           PathWeigher& weigher, RayCounts& rays);
 
 }  // namespace bdpt

@@ -46,7 +46,14 @@ class Subpath {
 public:
     explicit Subpath(int max_vertices) : vertices_(static_cast<std::size_t>(max_vertices)) {}
 
-    void clear() { size_ = 0; }
+    void clear()
+    {
+        size_ = 0;
+        rays_ = 0;
+    }
+    void count_ray() { ++rays_; }
+    /// Rays that the walk has followed.
+    [[nodiscard]] std::uint64_t rays() const { return rays_; }
     /// A vertex with default values at the end. There must be room.
     PathVertex& append()
     {
@@ -66,6 +73,7 @@ public:
 private:
     std::vector<PathVertex> vertices_;
     std::size_t size_ = 0;
+    std::uint64_t rays_ = 0;
 };
 
 }  // namespace bdpt

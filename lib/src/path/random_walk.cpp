@@ -74,6 +74,7 @@ void walk(const World& world, Step step, TransportMode mode, SampleUse use, int 
           Sampler& sampler, Subpath& path)
 {
     while (path.size() < max_vertices) {
+        path.count_ray();
         const auto hit = world.intersect(step.origin, step.direction);
         if (!hit) {
             if (mode == TransportMode::radiance) {

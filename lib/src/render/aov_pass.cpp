@@ -9,29 +9,32 @@
 namespace bdpt {
 
 AovPass::AovPass(const World& world, const Camera& camera, const RenderOptions& options)
-    : world_(world), camera_(camera), seed_(options.seed), filter_(options.filter)
+    : world_(world), camera_(camera), options_(options), filter_(options.filter)
 {}
 
-void AovPass::render_tile(const Tile& tile, SampleRange samples, AovFilm& film) const
+RenderStats AovPass::render_tile(const Tile& tile, SampleRange samples, AovFilm& film) const
 {
+    RenderStats stats;
     for (int y = tile.y_begin; y < tile.y_end; ++y) {
         for (int x = tile.x_begin; x < tile.x_end; ++x) {
             if (!film.region().contains(x, y)) {
                 continue;
             }
             for (std::int64_t index = samples.begin; index < samples.end; ++index) {
+                ++stats.rays.aov;
                 if (const auto hit = first_hit(x, y, index)) {
                     film.add(x, y, *hit);
                 }
             }
         }
     }
+    return stats;
 }
 
 std::optional<PrimaryHit> AovPass::first_hit(int x, int y, std::int64_t sample_index) const
 {
     // The random numbers of the integrators' camera rays.
-    Sampler sampler(seed_, x, y, sample_index);
+    Sampler sampler(options_.seed, x, y, sample_index);
     sampler.start(SampleUse::film);
     const CameraRay ray = camera_.generate_ray(filter_.sample_raster(x, y, sampler.next_2d()));
     const auto point = world_.intersect({.p = ray.ray.origin}, ray.ray.direction);

@@ -15,8 +15,10 @@ class AovPass {
 public:
     /// The world and the camera must outlive this.
     AovPass(const World& world, const Camera& camera, const RenderOptions& options);
-    /// Adds the samples of the pixels of `tile` that are in the film's region.
-    void render_tile(const Tile& tile, SampleRange samples, AovFilm& film) const;
+    /// Adds the samples of the pixels of `tile` that are in the film's region. Returns the work
+    /// that it was.
+    [[nodiscard]] RenderStats render_tile(const Tile& tile, SampleRange samples,
+                                          AovFilm& film) const;
 
 private:
     [[nodiscard]] std::optional<PrimaryHit> first_hit(int x, int y,
@@ -24,7 +26,7 @@ private:
 
     const World& world_;
     const Camera& camera_;
-    std::uint64_t seed_;
+    RenderOptions options_;
     PixelFilter filter_;
 };
 

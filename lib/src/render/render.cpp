@@ -10,6 +10,7 @@
 #include "scene/world.h"
 
 #include <tbb/blocked_range2d.h>
+#include <tbb/combinable.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
@@ -49,6 +50,7 @@ void render_pass(const Work& work, const RenderOptions& options, SampleRange sam
     const PixelRect area = work.integrator.splats() ? whole_image(options) : result.film.region();
     const int columns = (area.width() + options.tile_size - 1) / options.tile_size;
     const int rows = (area.height() + options.tile_size - 1) / options.tile_size;
+    tbb::combinable<RenderStats> stats_of_threads;
     tbb::parallel_for(
         tbb::blocked_range2d<int>(0, rows, 1, 0, columns, 1),
         [&](const tbb::blocked_range2d<int>& range) {
@@ -61,14 +63,16 @@ void render_pass(const Work& work, const RenderOptions& options, SampleRange sam
                                     .x_end = std::min(x + options.tile_size, area.x1),
                                     .y_begin = y,
                                     .y_end = std::min(y + options.tile_size, area.y1)};
-                    work.integrator.render_tile(tile, samples, result.film);
+                    RenderStats& stats = stats_of_threads.local();
+                    stats += work.integrator.render_tile(tile, samples, result.film);
                     if (result.aovs.needs_hits()) {
-                        work.aov_pass.render_tile(tile, samples, result.aovs);
+                        stats += work.aov_pass.render_tile(tile, samples, result.aovs);
                     }
                 }
             }
         },
         tbb::simple_partitioner{});
+    stats_of_threads.combine_each([&](const RenderStats& stats) { result.stats += stats; });
     result.film.count_samples(samples.begin, samples.end);
 }
 
@@ -104,6 +108,7 @@ RenderResult render(const Scene& scene, const CameraDesc& camera_desc, const Ren
         .splats = integrator->splats() ? SplatImage::present : SplatImage::absent};
     RenderResult result{.film = Film(layout),
                         .aovs = AovFilm(region, options.aovs),
+                        .stats = {},
                         .samples = {.begin = options.samples.begin, .end = options.samples.begin},
                         .seconds = 0.0};
     std::int64_t pass_size = 1;

@@ -49,6 +49,7 @@ TEST_CASE("weights of all strategies sum to one on traced paths", "[mis]")
     const Camera camera(test::room_camera(), size, size);
     Subpath light_path(max_depth);
     Subpath camera_path(max_depth + 1);
+    RayCounts rays;
     int paths = 0;
     for (const auto heuristic : {Heuristic::balance, Heuristic::power}) {
         PathWeigher weigher(world, heuristic, max_depth + 1);
@@ -71,11 +72,11 @@ TEST_CASE("weights of all strategies sum to one on traced paths", "[mis]")
             for (int t = 2; t <= camera_path.size(); ++t) {
                 check(hit_light(world, camera_path.first(t), weigher));
                 if (t <= max_depth) {
-                    check(connect_to_light(world, camera_path.first(t), sampler, weigher));
+                    check(connect_to_light(world, camera_path.first(t), sampler, weigher, rays));
                 }
                 for (int s = 2; s <= std::min(light_path.size(), max_depth + 1 - t); ++s) {
                     check(connect_interior(world, light_path.first(s), camera_path.first(t),
-                                           weigher));
+                                           weigher, rays));
                 }
             }
         }

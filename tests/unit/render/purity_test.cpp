@@ -170,6 +170,8 @@ TEST_CASE("AOVs are pure too, in any crop, and the same for every integrator", "
     parts.aovs.merge(first.aovs);
     CHECK(parts.aovs == whole.aovs);
     CHECK(parts.film == whole.film);
+    parts.stats += first.stats;
+    CHECK(parts.stats == whole.stats);
 
     o = options(GENERATE(IntegratorKind::bdpt, IntegratorKind::pt));
     o.aovs = all_aovs;

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+
+namespace bdpt {
+
+/// Rays that were followed through the scene, by what for.
+struct RayCounts {
+    std::uint64_t camera = 0;  ///< of camera subpaths
+    std::uint64_t light = 0;   ///< of light subpaths
+    std::uint64_t shadow = 0;  ///< between two points, or to a light at infinity
+    std::uint64_t aov = 0;     ///< for AOVs
+
+    [[nodiscard]] std::uint64_t total() const { return camera + light + shadow + aov; }
+    [[nodiscard]] bool operator==(const RayCounts&) const = default;
+};
+
+/// Subpaths that were started.
+struct PathCounts {
+    std::uint64_t camera = 0;
+    std::uint64_t light = 0;
+    [[nodiscard]] bool operator==(const PathCounts&) const = default;
+};
+
+/// How much work a render was. Like the picture it depends on scene, camera and options only.
+struct RenderStats {
+    RayCounts rays;
+    PathCounts paths;
+
+    RenderStats& operator+=(const RenderStats& other)
+    {
+        rays.camera += other.rays.camera;
+        rays.light += other.rays.light;
+        rays.shadow += other.rays.shadow;
+        rays.aov += other.rays.aov;
+        paths.camera += other.paths.camera;
+        paths.light += other.paths.light;
+        return *this;
+    }
+    [[nodiscard]] bool operator==(const RenderStats&) const = default;
+};
+
+}  // namespace bdpt

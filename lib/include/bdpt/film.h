@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -37,7 +38,15 @@ struct FilmLayout {
     int height = 0;
     PixelRect region;  ///< the part of it that the film holds: not empty, inside
     SplatImage splats = SplatImage::present;  ///< absent takes half the memory
+    /// The greatest component [nit] that one contribution may have; greater ones are scaled down.
+    float clamp = std::numeric_limits<float>::infinity();
     [[nodiscard]] bool operator==(const FilmLayout&) const = default;
+};
+
+/// What clamping took from the estimate.
+struct ClampLoss {
+    std::uint64_t contributions = 0;  ///< that were scaled down
+    Rgb radiance{0.0f};               ///< on average over the pixels of the region [nit]
 };
 
 /// What a render measured: for each pixel the sum of its own camera samples and the sum of what
@@ -79,17 +88,27 @@ public:
     /// Infinite when a half is empty.
     [[nodiscard]] Image variance() const;
     [[nodiscard]] FilmDefects defects() const;
-    /// Equal to the bit: sums, counts and defects.
+    [[nodiscard]] ClampLoss clamp_loss() const;
+    /// Equal to the bit: sums, counts, defects and what was clamped.
     [[nodiscard]] bool operator==(const Film& other) const;
 
 private:
     struct Pixel {
         std::array<ExactSum, 3> rgb;
         void add(Rgb value) noexcept;
+        void add(const Pixel& other) noexcept;
         [[nodiscard]] bool operator==(const Pixel&) const = default;
     };
 
+    /// What clamping took from a row of pixels: far enough from what other threads add.
+    struct RowLoss {
+        Pixel light;
+        ExactSum contributions;
+        [[nodiscard]] bool operator==(const RowLoss&) const = default;
+    };
+
     [[nodiscard]] Image develop(std::span<const std::size_t> halves) const;
+    [[nodiscard]] Rgb clamp(Rgb value, int y) noexcept;
     [[nodiscard]] bool accept(Rgb& value, int x, int y, std::int64_t sample_index) noexcept;
     [[nodiscard]] std::size_t index(int x, int y) const;
 
@@ -97,6 +116,7 @@ private:
     std::array<std::int64_t, 2> counts_{};
     std::array<std::vector<Pixel>, 2> samples_;  // by half
     std::array<std::vector<Pixel>, 2> splats_;   // by half; empty without splats
+    std::vector<RowLoss> losses_;                // by row; empty without a clamp
     std::atomic<std::uint64_t> invalid_{0};
     std::atomic<std::uint64_t> saturated_{0};
     std::atomic<std::uint64_t> first_invalid_{

@@ -5,6 +5,7 @@
 #include <bdpt/pixel_rect.h>
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 namespace bdpt {
@@ -38,6 +39,10 @@ struct RenderOptions {
     std::optional<PixelRect> crop;
     FilterOptions filter;
     AovSet aovs;
+    /// The greatest component [nit] that a contribution to a pixel may have, be it a camera sample
+    /// or a splat; greater ones are scaled down. Takes fireflies away, and energy: biased. In (0,
+    /// inf]; infinite: off.
+    float clamp = std::numeric_limits<float>::infinity();
     SampleRange samples;  ///< per pixel
     int max_depth = 8;    ///< longest path in edges: 1 sees lights only, 2 adds direct light
     int tile_size = 16;   ///< [pixels]; has no influence on the result

@@ -32,6 +32,13 @@ void Film::Pixel::add(Rgb value) noexcept
     rgb[2].add(value.b);
 }
 
+void Film::Pixel::add(const Pixel& other) noexcept
+{
+    for (std::size_t c = 0; c < rgb.size(); ++c) {
+        rgb[c].add(other.rgb[c]);
+    }
+}
+
 Film::Film(const FilmLayout& layout) : layout_(layout)
 {
     const std::size_t pixels =
@@ -41,6 +48,8 @@ Film::Film(const FilmLayout& layout) : layout_(layout)
         samples_[half].resize(pixels);
         splats_[half].resize(splats ? pixels : 0);
     }
+    const bool clamps = layout.clamp != std::numeric_limits<float>::infinity();
+    losses_.resize(clamps ? static_cast<std::size_t>(height()) : 0);
 }
 
 Film::Film(Film&& other) noexcept
@@ -54,6 +63,7 @@ Film& Film::operator=(Film&& other) noexcept
     counts_ = std::exchange(other.counts_, {});
     samples_ = std::exchange(other.samples_, {});
     splats_ = std::exchange(other.splats_, {});
+    losses_ = std::exchange(other.losses_, {});
     invalid_ = other.invalid_.exchange(0);
     saturated_ = other.saturated_.exchange(0);
     first_invalid_ = other.first_invalid_.exchange(~std::uint64_t{0});
@@ -89,7 +99,22 @@ bool Film::accept(Rgb& value, int x, int y, std::int64_t sample_index) noexcept
     if (saturated) {
         saturated_.fetch_add(1, std::memory_order_relaxed);
     }
+    value = clamp(value, y);
     return true;
+}
+
+/// `value`, within the limit and with its hue.
+Rgb Film::clamp(Rgb value, int y) noexcept
+{
+    const float greatest = std::max({value.r, value.g, value.b});
+    if (!(greatest > layout_.clamp)) {
+        return value;
+    }
+    const Rgb clamped = value * (layout_.clamp / greatest);
+    RowLoss& loss = losses_[static_cast<std::size_t>(y - region().y0)];
+    loss.light.add(value - clamped);
+    loss.contributions.add(1.0f);
+    return clamped;
 }
 
 void Film::add_sample(int x, int y, std::int64_t sample_index, Rgb radiance) noexcept
@@ -129,15 +154,17 @@ void Film::merge(const Film& other)
     }
     const auto add = [](std::vector<Pixel>& to, const std::vector<Pixel>& from) {
         for (std::size_t i = 0; i < to.size(); ++i) {
-            for (std::size_t c = 0; c < 3; ++c) {
-                to[i].rgb[c].add(from[i].rgb[c]);
-            }
+            to[i].add(from[i]);
         }
     };
     for (std::size_t half = 0; half < 2; ++half) {
         add(samples_[half], other.samples_[half]);
         add(splats_[half], other.splats_[half]);
         counts_[half] += other.counts_[half];
+    }
+    for (std::size_t row = 0; row < losses_.size(); ++row) {
+        losses_[row].light.add(other.losses_[row].light);
+        losses_[row].contributions.add(other.losses_[row].contributions);
     }
     invalid_ += other.invalid_;
     saturated_ += other.saturated_;
@@ -198,6 +225,23 @@ Image Film::variance() const
     return image;
 }
 
+ClampLoss Film::clamp_loss() const
+{
+    RowLoss sum;
+    for (const RowLoss& loss : losses_) {
+        sum.light.add(loss.light);
+        sum.contributions.add(loss.contributions);
+    }
+    ClampLoss result{.contributions = static_cast<std::uint64_t>(sum.contributions.value()),
+                     .radiance = Rgb(0.0f)};
+    const double samples = static_cast<double>(sample_count()) * width() * height();
+    for (int c = 0; c < 3 && samples > 0.0; ++c) {
+        const double light = sum.light.rgb[static_cast<std::size_t>(c)].value();
+        result.radiance[c] = static_cast<float>(light / samples);
+    }
+    return result;
+}
+
 FilmDefects Film::defects() const
 {
     FilmDefects defects{.invalid = invalid_, .saturated = saturated_, .first_invalid = {}};
@@ -215,7 +259,7 @@ FilmDefects Film::defects() const
 bool Film::operator==(const Film& other) const
 {
     return layout_ == other.layout_ && counts_ == other.counts_ && samples_ == other.samples_ &&
-           splats_ == other.splats_ && invalid_ == other.invalid_ &&
+           splats_ == other.splats_ && losses_ == other.losses_ && invalid_ == other.invalid_ &&
            saturated_ == other.saturated_ && first_invalid_ == other.first_invalid_;
 }
 

@@ -60,6 +60,10 @@ void check_options(const RenderOptions& options)
         check_crop(*options.crop, options.width, options.height);
     }
     check_filter(options.filter);
+    if (!(options.clamp > 0.0f)) {
+        throw Error(ErrorCode::usage,
+                    "clamp is " + std::to_string(options.clamp) + " nit, not above 0");
+    }
     // Sample indices have 32 bits in the film's record of defects.
     check_range("first sample", options.samples.begin, 0,
                 std::numeric_limits<std::uint32_t>::max());

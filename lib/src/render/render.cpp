@@ -105,7 +105,8 @@ RenderResult render(const Scene& scene, const CameraDesc& camera_desc, const Ren
         .width = options.width,
         .height = options.height,
         .region = region,
-        .splats = integrator->splats() ? SplatImage::present : SplatImage::absent};
+        .splats = integrator->splats() ? SplatImage::present : SplatImage::absent,
+        .clamp = options.clamp};
     RenderResult result{.film = Film(layout),
                         .aovs = AovFilm(region, options.aovs),
                         .stats = {},

@@ -97,6 +97,35 @@ TEST_CASE("Film estimates the variance of its estimate from the halves", "[film]
     CHECK(half.variance().at(0, 0) == Rgb(std::numeric_limits<float>::infinity()));
 }
 
+TEST_CASE("Film clamps contributions by scale and tells what it took", "[film]")
+{
+    FilmLayout clamped = layout(2, 2);
+    clamped.clamp = 4.0f;
+    Film film(clamped);
+    film.add_sample(0, 0, 0, Rgb(4.0f, 1.0f, 0.0f));  // just within
+    film.add_sample(0, 1, 0, Rgb(2.0f, 8.0f, 6.0f));
+    film.add_splat({1.5f, 0.5f}, 1, Rgb(16.0f, 0.0f, 4.0f));
+    film.add_splat({1.5f, 0.5f}, 0, Rgb(1.0f));
+    film.count_samples(0, 2);
+    const Image image = film.develop();
+    CHECK(image.at(0, 0) == Rgb(2.0f, 0.5f, 0.0f));
+    CHECK(image.at(0, 1) == Rgb(0.5f, 2.0f, 1.5f));
+    CHECK(image.at(1, 0) == Rgb(2.5f, 0.5f, 1.0f));
+    CHECK(film.clamp_loss().contributions == 2);
+    // (1 + 12, 4, 3 + 3) over two samples of four pixels.
+    CHECK(film.clamp_loss().radiance == Rgb(13.0f, 4.0f, 6.0f) / 8.0f);
+
+    // The image and the loss together are what there is without a clamp.
+    Film other(clamped);
+    other.add_splat({0.5f, 1.5f}, 2, Rgb(12.0f));
+    other.count_samples(2, 4);
+    film.merge(other);
+    CHECK(film.clamp_loss().contributions == 3);
+    CHECK(film.clamp_loss().radiance == Rgb(13.0f + 8.0f, 4.0f + 8.0f, 6.0f + 8.0f) / 16.0f);
+    CHECK_THROWS_AS(film.merge(Film(layout(2, 2))), Error);
+    CHECK(Film(layout(2, 2)).clamp_loss().contributions == 0);
+}
+
 TEST_CASE("Film counts the samples of both halves for any range", "[film]")
 {
     for (const auto& [begin, end] : {std::pair{0, 5}, {5, 16}, {3, 4}, {4, 5}}) {

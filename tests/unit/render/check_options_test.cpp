@@ -54,6 +54,10 @@ TEST_CASE("options out of range are refused by name and value", "[render]")
     for (const float radius : {0.0f, -1.0f, 17.0f, std::numeric_limits<float>::quiet_NaN()}) {
         CHECK(refusal([&](auto& o) { o.filter.radius = radius; }).find("filter radius is ") == 0);
     }
+    for (const float clamp : {0.0f, -1.0f, std::numeric_limits<float>::quiet_NaN()}) {
+        CHECK(refusal([&](auto& o) { o.clamp = clamp; }).find("clamp is ") == 0);
+    }
+    CHECK(refusal([](auto& o) { o.clamp = 1e-9f; }).empty());
     CHECK(refusal([](auto& o) { o.tile_size = 0; }).find("tile size is 0") != std::string::npos);
     CHECK(refusal([](auto& o) { o.threads = -1; }).find("threads is -1") != std::string::npos);
 }

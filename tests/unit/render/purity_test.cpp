@@ -146,6 +146,38 @@ TEST_CASE("a crop has the pixels of the whole image, to the bit", "[purity]")
     }
 }
 
+TEST_CASE("a clamp takes what is missing, and is pure", "[purity]")
+{
+    const Scene scene = room();
+    RenderOptions o = options(GENERATE(IntegratorKind::bdpt, IntegratorKind::mis));
+    const auto mean = [](const Film& film) {
+        glm::dvec3 sum(0.0);
+        for (const Rgb& pixel : film.develop().pixels) {
+            sum += glm::dvec3(pixel) / (37.0 * 29.0);
+        }
+        return sum;
+    };
+    const glm::dvec3 whole = mean(film_of(scene, o));
+    o.clamp = 0.3f;
+    o.threads = 1;
+    const Film clamped = film_of(scene, o);
+    const glm::dvec3 rest = mean(clamped);
+    const ClampLoss loss = clamped.clamp_loss();
+    CHECK(loss.contributions > 100);
+    CHECK(static_cast<double>(loss.radiance.g) > 0.05 * whole.g);
+    for (int c = 0; c < 3; ++c) {
+        CHECK(rest[c] + static_cast<double>(loss.radiance[c]) == Approx(whole[c]).epsilon(1e-5));
+    }
+    o.threads = 8;
+    o.tile_size = 3;
+    CHECK(film_of(scene, o) == clamped);
+    o.samples = {.begin = 0, .end = 3};
+    Film parts = film_of(scene, o);
+    o.samples = {.begin = 3, .end = 8};
+    parts.merge(film_of(scene, o));
+    CHECK(parts == clamped);
+}
+
 TEST_CASE("AOVs are pure too, in any crop, and the same for every integrator", "[purity][aov]")
 {
     const Scene scene = room();

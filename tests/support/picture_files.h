@@ -58,12 +58,32 @@ struct ExrFile {
         if (exr.header().channels().findChannel(names[channel]) == nullptr) {
             throw std::runtime_error(file.string() + ": lacks a channel");
         }
-        char* base = reinterpret_cast<char*>(image.pixels.data()) + sizeof(float) * channel;
-        buffer.insert(names[channel], Imf::Slice(Imf::FLOAT, base, sizeof(Rgb), stride));
+        buffer.insert(names[channel],
+                      Imf::Slice::Make(Imf::FLOAT, &image.pixels.front().x + channel, window,
+                                       sizeof(Rgb), stride));
     }
     exr.setFrameBuffer(buffer);
     exr.readPixels(window.min.y, window.max.y);
     return result;
+}
+
+/// One channel of an EXR file, as floats.
+[[nodiscard]] inline std::vector<float> read_exr_channel(const std::filesystem::path& file,
+                                                         const char* name)
+{
+    Imf::InputFile exr(file.c_str());
+    if (exr.header().channels().findChannel(name) == nullptr) {
+        throw std::runtime_error(file.string() + ": lacks channel " + name);
+    }
+    const Imath::Box2i window = exr.header().dataWindow();
+    const auto width = static_cast<std::size_t>(window.max.x - window.min.x + 1);
+    std::vector<float> values(width * static_cast<std::size_t>(window.max.y - window.min.y + 1));
+    Imf::FrameBuffer buffer;
+    buffer.insert(name, Imf::Slice::Make(Imf::FLOAT, values.data(), window, sizeof(float),
+                                         sizeof(float) * width));
+    exr.setFrameBuffer(buffer);
+    exr.readPixels(window.min.y, window.max.y);
+    return values;
 }
 
 /// A PNG file read by libpng itself.

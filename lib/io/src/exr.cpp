@@ -10,16 +10,20 @@
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfTileDescription.h>
+#include <OpenEXR/ImfTiledOutputFile.h>
 #include <bdpt/error.h>
 #include <bdpt/io/output_file.h>
 #include <fmt/chrono.h>
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <limits>
+#include <list>
 #include <new>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "camera_matrices.h"
@@ -28,7 +32,6 @@ namespace bdpt::io {
 namespace {
 
 constexpr float largest_half = 65504.0f;
-constexpr std::array<const char*, 3> channel_names{"R", "G", "B"};
 
 /// Lets OpenEXR write into an `OutputFile`, which reports errors that it would swallow.
 class OutputStream : public Imf::OStream {
@@ -83,75 +86,137 @@ void add_metadata(Imf::Header& header, const PictureMetadata& metadata, float as
     header.insert("renderTimeSeconds", Imf::FloatAttribute(seconds));
 }
 
-Imf::Header make_header(const Image& image, const ExrOptions& options)
+/// The picture in the whole image; Imath's boxes hold their upper corner.
+Imath::Box2i data_window(const Image& image, const ExrPlacement& placement)
 {
-    Imf::Header header(image.width, image.height);
-    header.compression() = Imf::ZIP_COMPRESSION;
-    const Imf::PixelType type = options.type == ExrChannelType::half_float ? Imf::HALF : Imf::FLOAT;
-    for (const char* name : channel_names) {
-        header.channels().insert(name, Imf::Channel(type));
+    return {{placement.x, placement.y},
+            {placement.x + image.width - 1, placement.y + image.height - 1}};
+}
+
+/// One channel of a file: where its values lie in memory.
+struct Channel {
+    std::string name;
+    Imf::PixelType type;
+    const void* first;
+    std::size_t pixel_stride;  // [bytes]
+};
+
+/// What is written: the channels, and the halves that some of them point to.
+class Content {
+public:
+    explicit Content(Imf::PixelType main_type) : main_type_(main_type) {}
+
+    /// Refers to `values`: a float a pixel for each of `names`, which are letters.
+    void add(const std::string& layer, const std::string& names, const float* values,
+             std::size_t pixels)
+    {
+        const std::size_t count = names.size();
+        const bool halves = layer.empty() && main_type_ == Imf::HALF;
+        const half* converted = halves ? to_half({values, pixels * count}) : nullptr;
+        for (std::size_t c = 0; c < count; ++c) {
+            std::string name = (layer.empty() ? "" : layer + ".") + names[c];
+            if (!names_.insert(name).second) {
+                throw Error(ErrorCode::usage,
+                            fmt::format("two layers have a channel \"{}\"", name));
+            }
+            channels_.push_back(
+                halves ? Channel{std::move(name), Imf::HALF, converted + c, count * sizeof(half)}
+                       : Channel{std::move(name), Imf::FLOAT, values + c, count * sizeof(float)});
+        }
     }
-    add_metadata(header, options.metadata,
-                 static_cast<float>(image.width) / static_cast<float>(image.height));
+    [[nodiscard]] const std::vector<Channel>& channels() const { return channels_; }
+
+private:
+    const half* to_half(std::span<const float> values)
+    {
+        std::vector<half>& result = halves_.emplace_back();
+        result.reserve(values.size());
+        for (const float value : values) {
+            result.push_back(half(std::min(value, largest_half)));
+        }
+        return result.data();
+    }
+
+    Imf::PixelType main_type_;
+    std::vector<Channel> channels_;
+    std::set<std::string> names_;
+    std::list<std::vector<half>> halves_;  // a list: channels point into its elements
+};
+
+Imf::Header make_header(const Imath::Box2i& window, const ExrPlacement& placement,
+                        const Content& content, const ExrOptions& options)
+{
+    const Imath::Box2i display({0, 0}, {placement.full_width - 1, placement.full_height - 1});
+    Imf::Header header(display, window);
+    header.compression() = Imf::ZIP_COMPRESSION;
+    if (options.storage == ExrStorage::tiles) {
+        constexpr unsigned tile_size = 64;
+        header.setTileDescription(Imf::TileDescription(tile_size, tile_size, Imf::ONE_LEVEL));
+    }
+    for (const Channel& channel : content.channels()) {
+        header.channels().insert(channel.name, Imf::Channel(channel.type));
+    }
+    add_metadata(
+        header, options.metadata,
+        static_cast<float>(placement.full_width) / static_cast<float>(placement.full_height));
     return header;
 }
 
-/// OpenEXR's slices point to non-const memory, which it does not change when it writes.
-template <typename Component>
-Imf::FrameBuffer make_frame_buffer(const Component* components, Imf::PixelType type, int width)
+Imf::FrameBuffer make_frame_buffer(const Imath::Box2i& window, const Content& content)
 {
-    constexpr std::size_t pixel_size = 3 * sizeof(Component);
+    const auto width = static_cast<std::size_t>(window.max.x - window.min.x + 1);
     Imf::FrameBuffer buffer;
-    for (std::size_t channel = 0; channel < channel_names.size(); ++channel) {
-        buffer.insert(
-            channel_names[channel],
-            Imf::Slice(type, const_cast<char*>(reinterpret_cast<const char*>(components + channel)),
-                       pixel_size, pixel_size * static_cast<std::size_t>(width)));
+    for (const Channel& channel : content.channels()) {
+        buffer.insert(channel.name,
+                      Imf::Slice::Make(channel.type, channel.first, window, channel.pixel_stride,
+                                       channel.pixel_stride * width));
     }
     return buffer;
 }
 
-struct HalfPixels {
-    std::vector<half> components;
-    ExrReport report;
-};
-
-HalfPixels to_half(const Image& image)
+void write_to(OutputStream& stream, const Imf::Header& header, const Imf::FrameBuffer& buffer)
 {
-    HalfPixels result;
-    result.components.reserve(3 * image.pixels.size());
-    for (const Rgb& pixel : image.pixels) {
-        bool clamped = false;
-        for (int channel = 0; channel < 3; ++channel) {
-            const float value = pixel[channel];
-            clamped = clamped || value > largest_half;
-            result.components.push_back(value > largest_half ? half(largest_half) : half(value));
-        }
-        result.report.clamped_pixels += clamped ? 1u : 0u;
+    if (header.hasTileDescription()) {
+        Imf::TiledOutputFile exr(stream, header);
+        exr.setFrameBuffer(buffer);
+        exr.writeTiles(0, exr.numXTiles() - 1, 0, exr.numYTiles() - 1);
+        return;
     }
-    return result;
-}
-
-void write_pixels(OutputStream& stream, const Image& image, const ExrOptions& options,
-                  const Imf::FrameBuffer& buffer)
-{
-    Imf::OutputFile exr(stream, make_header(image, options));
+    Imf::OutputFile exr(stream, header);
     exr.setFrameBuffer(buffer);
-    exr.writePixels(image.height);
+    exr.writePixels(header.dataWindow().max.y - header.dataWindow().min.y + 1);
 }
 
-ExrReport write_to(OutputStream& stream, const Image& image, const ExrOptions& options)
+Content make_content(const Image& image, std::span<const Layer> layers, const ExrOptions& options)
 {
-    if (options.type == ExrChannelType::half_float) {
-        const HalfPixels pixels = to_half(image);
-        write_pixels(stream, image, options,
-                     make_frame_buffer(pixels.components.data(), Imf::HALF, image.width));
-        return pixels.report;
-    }
+    Content content(options.type == ExrChannelType::half_float ? Imf::HALF : Imf::FLOAT);
     static_assert(sizeof(Rgb) == 3 * sizeof(float));
-    write_pixels(stream, image, options,
-                 make_frame_buffer(&image.pixels.front().x, Imf::FLOAT, image.width));
-    return {};
+    content.add("", "RGB", &image.pixels.front().x, image.pixels.size());
+    for (const Layer& layer : layers) {
+        const std::size_t expected = image.pixels.size() * layer.channels.size();
+        if (layer.width != image.width || layer.height != image.height ||
+            layer.values.size() != expected) {
+            throw Error(ErrorCode::usage,
+                        fmt::format("layer \"{}\" has {}x{} pixels and {} values, the picture "
+                                    "{}x{} pixels",
+                                    layer.name, layer.width, layer.height, layer.values.size(),
+                                    image.width, image.height));
+        }
+        content.add(layer.name, layer.channels, layer.values.data(), image.pixels.size());
+    }
+    return content;
+}
+
+ExrReport make_report(const Image& image, const ExrOptions& options)
+{
+    ExrReport report;
+    if (options.type == ExrChannelType::half_float) {
+        for (const Rgb& pixel : image.pixels) {
+            const float greatest = std::max({pixel.r, pixel.g, pixel.b});
+            report.clamped_pixels += greatest > largest_half ? 1u : 0u;
+        }
+    }
+    return report;
 }
 
 }  // namespace
@@ -159,11 +224,21 @@ ExrReport write_to(OutputStream& stream, const Image& image, const ExrOptions& o
 ExrReport write_exr(const std::filesystem::path& file, const Image& image,
                     const ExrOptions& options)
 {
+    return write_exr(file, image, {}, options);
+}
+
+ExrReport write_exr(const std::filesystem::path& file, const Image& image,
+                    std::span<const Layer> layers, const ExrOptions& options)
+{
+    const Content content = make_content(image, layers, options);
+    const ExrPlacement placement = options.placement.value_or(
+        ExrPlacement{.x = 0, .y = 0, .full_width = image.width, .full_height = image.height});
+    const Imath::Box2i window = data_window(image, placement);
     OutputFile output(file);
     OutputStream stream(output, file.string());
-    ExrReport report;
     try {
-        report = write_to(stream, image, options);
+        write_to(stream, make_header(window, placement, content, options),
+                 make_frame_buffer(window, content));
     } catch (const Error&) {
         throw;
     } catch (const std::bad_alloc&) {
@@ -173,7 +248,7 @@ ExrReport write_exr(const std::filesystem::path& file, const Image& image,
                     fmt::format("{}: cannot write: {}", file.string(), failure.what()));
     }
     output.commit();
-    return report;
+    return make_report(image, options);
 }
 
 }  // namespace bdpt::io

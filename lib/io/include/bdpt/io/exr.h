@@ -2,10 +2,13 @@
 
 #include <bdpt/image.h>
 #include <bdpt/io/picture_metadata.h>
+#include <bdpt/layer.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <span>
 
 namespace bdpt::io {
 
@@ -15,9 +18,25 @@ enum class ExrChannelType : std::uint8_t {
     single_float,  ///< 32 bits: as it was computed
 };
 
+/// In which order the pixels of an EXR file are stored.
+enum class ExrStorage : std::uint8_t {
+    scanlines,
+    tiles,  ///< of 64 x 64 pixels, one level: for viewers and compositors that read parts
+};
+
+/// Where a cropped picture lies in the whole image [pixels].
+struct ExrPlacement {
+    int x = 0;
+    int y = 0;
+    int full_width = 0;
+    int full_height = 0;
+};
+
 struct ExrOptions {
-    ExrChannelType type = ExrChannelType::single_float;
+    ExrChannelType type = ExrChannelType::single_float;  ///< of the main layer; others have floats
     PictureMetadata metadata;
+    ExrStorage storage = ExrStorage::scanlines;
+    std::optional<ExrPlacement> placement{};  ///< none: the picture is the whole image
 };
 
 struct ExrReport {
@@ -25,10 +44,17 @@ struct ExrReport {
     std::size_t clamped_pixels = 0;
 };
 
-/// Writes channels R, G, B (linear Rec. 709 [nit]) with ZIP compression, atomically. Beside our own
-/// entries the header has those that other tools show: "renderTimeSeconds", "samplesPerPixel",
-/// "worldToCamera", "worldToNDC". Throws `Error` (output).
+/// Writes channels R, G, B (linear Rec. 709 [nit]) with ZIP compression, atomically. The data
+/// window is the picture, the display window the whole image. Beside our own entries the header has
+/// those that other tools show: "renderTimeSeconds", "samplesPerPixel", "worldToCamera",
+/// "worldToNDC". Throws `Error` (output).
 ExrReport write_exr(const std::filesystem::path& file, const Image& image,
                     const ExrOptions& options);
+
+/// The same with more channels: "NAME.C" for each channel C of a layer, or just "C" for those of
+/// the main layer. Throws `Error` (usage) when a layer's size is not the image's or a channel comes
+/// twice.
+ExrReport write_exr(const std::filesystem::path& file, const Image& image,
+                    std::span<const Layer> layers, const ExrOptions& options);
 
 }  // namespace bdpt::io

@@ -1,5 +1,6 @@
 #include "arguments.h"
 
+#include <bdpt/error.h>
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -84,8 +85,8 @@ std::optional<Vec3> parse_vec3(std::string_view text)
         if ((comma == std::string_view::npos) != (axis == 2)) {
             return std::nullopt;
         }
-        const auto value = parse_number<float>(text.substr(0, comma));
-        if (!value || !std::isfinite(*value)) {
+        const auto value = parse_float(text.substr(0, comma));
+        if (!value) {
             return std::nullopt;
         }
         result[axis] = *value;
@@ -94,9 +95,21 @@ std::optional<Vec3> parse_vec3(std::string_view text)
     return result;
 }
 
+std::optional<float> parse_float(std::string_view text)
+{
+    const auto value = parse_number<float>(text);
+    return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
 std::optional<std::size_t> parse_index(std::string_view text)
 {
     return parse_number<std::size_t>(text);
+}
+
+void reject(const char* option, const std::string& value, const char* expected)
+{
+    throw Error(ErrorCode::usage, fmt::format("{} \"{}\": expected {}; see \"bdpt render --help\"",
+                                              option, value, expected));
 }
 
 std::optional<std::string> closest(std::string_view text, std::span<const std::string> words)

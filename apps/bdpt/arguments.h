@@ -25,8 +25,14 @@ struct Size {
 /// "x,y,z", all finite.
 [[nodiscard]] std::optional<Vec3> parse_vec3(std::string_view text);
 
+/// A finite number.
+[[nodiscard]] std::optional<float> parse_float(std::string_view text);
+
 /// Only digits: an index.
 [[nodiscard]] std::optional<std::size_t> parse_index(std::string_view text);
+
+/// Throws the `Error` (usage) for an option whose value makes no sense.
+[[noreturn]] void reject(const char* option, const std::string& value, const char* expected);
 
 /// The word that `text` was probably meant to be; none when all are far from it.
 [[nodiscard]] std::optional<std::string> closest(std::string_view text,

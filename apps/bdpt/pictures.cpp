@@ -51,6 +51,12 @@ void check_outputs(std::span<const fs::path> outputs, std::span<const fs::path> 
     }
 }
 
+bool writes_exr(std::span<const fs::path> outputs)
+{
+    return std::any_of(outputs.begin(), outputs.end(),
+                       [](const fs::path& output) { return type_of(output) == FileType::exr; });
+}
+
 std::vector<fs::path> temporary_paths(std::span<const fs::path> outputs)
 {
     std::vector<fs::path> result;
@@ -66,7 +72,8 @@ PictureReport write_pictures(std::span<const fs::path> outputs, const Image& ima
     PictureReport report;
     for (const fs::path& output : outputs) {
         if (type_of(output) == FileType::exr) {
-            report.clamped_pixels = io::write_exr(output, image, options.exr).clamped_pixels;
+            report.clamped_pixels =
+                io::write_exr(output, image, options.layers, options.exr).clamped_pixels;
             continue;
         }
         if (!report.exposure) {

@@ -2,6 +2,7 @@
 
 #include <bdpt/image.h>
 #include <bdpt/io/exr.h>
+#include <bdpt/layer.h>
 
 #include <cstddef>
 #include <filesystem>
@@ -17,12 +18,16 @@ namespace bdpt::app {
 void check_outputs(std::span<const std::filesystem::path> outputs,
                    std::span<const std::filesystem::path> inputs);
 
+/// Is one of `outputs` an EXR file?
+[[nodiscard]] bool writes_exr(std::span<const std::filesystem::path> outputs);
+
 /// Where the outputs grow; to be removed when the process ends in the middle.
 [[nodiscard]] std::vector<std::filesystem::path> temporary_paths(
     std::span<const std::filesystem::path> outputs);
 
 struct PictureOptions {
     io::ExrOptions exr;
+    std::vector<Layer> layers;      ///< of EXR files, beside the picture
     std::optional<float> exposure;  ///< [EV] of PNG files; none: automatic
 };
 

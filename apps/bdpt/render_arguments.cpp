@@ -1,6 +1,5 @@
 #include "render_arguments.h"
 
-#include <bdpt/error.h>
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
@@ -8,6 +7,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+
+#include "pictures.h"
 
 namespace bdpt::app {
 namespace {
@@ -25,12 +26,6 @@ what is there; a second one ends at once.
 Exit codes: 0 done, 1 internal error, 2 wrong usage, 3 input not found, 4 invalid input,
 5 unsupported feature, 6 output cannot be written, 7 out of memory, 130 stopped by SIGINT,
 143 stopped by SIGTERM.)";
-
-[[noreturn]] void reject(const char* option, const std::string& value, const char* expected)
-{
-    throw Error(ErrorCode::usage, fmt::format("{} \"{}\": expected {}; see \"bdpt render --help\"",
-                                              option, value, expected));
-}
 
 IntegratorKind to_integrator(const std::string& word)
 {
@@ -202,6 +197,14 @@ void add_output(CLI::App& command, RenderWords& words)
     command.add_flag("--float", words.single, "Store .exr in 32 bits (the default)")
         ->excludes(half)
         ->group(group);
+    command
+        .add_flag("--tiled", words.tiled, "Store .exr in tiles, for programs that read parts of it")
+        ->group(group);
+    command
+        .add_option("--stats", words.stats,
+                    "Write rays, paths and where the time went to this .json file")
+        ->type_name("FILE")
+        ->group(group);
     command.add_flag("-q,--quiet", words.quiet, "Print nothing but errors")->group(group);
     command
         .add_flag("--json", words.json,
@@ -218,6 +221,7 @@ void add_render_options(CLI::App& command, RenderWords& words)
         ->type_name("FILE");
     add_output(command, words);
     add_how(command, words);
+    add_film_options(command, words.film);
     add_what(command, words);
     command.footer(footer);
 }
@@ -239,6 +243,10 @@ RenderArguments understand(const RenderWords& words)
     result.options.max_depth = words.max_depth;
     result.options.threads = words.threads;
     result.options.seed = to_seed(words.seed);
+    result.options = with_film(words.film, result.options);
+    if (!result.options.aovs.empty() && !writes_exr(result.outputs)) {
+        reject("--aov", *words.film.aovs, "an .exr file among the outputs to hold the layers");
+    }
     result.camera = words.camera;
     result.view = to_view(words);
     result.scene = words.scene;
@@ -246,6 +254,8 @@ RenderArguments understand(const RenderWords& words)
     result.exposure = to_exposure(words.exposure);
     result.channel_type =
         words.half ? io::ExrChannelType::half_float : io::ExrChannelType::single_float;
+    result.storage = words.tiled ? io::ExrStorage::tiles : io::ExrStorage::scanlines;
+    result.stats = words.stats;
     result.format = words.json ? Format::json : Format::text;
     result.verbosity = words.quiet ? Verbosity::quiet : Verbosity::normal;
     return result;

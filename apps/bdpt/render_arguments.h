@@ -11,6 +11,7 @@
 
 #include "arguments.h"
 #include "console.h"
+#include "film_arguments.h"
 #include "view.h"
 
 namespace CLI {
@@ -37,6 +38,9 @@ struct RenderWords {
     std::optional<std::string> environment;
     std::optional<double> exposure;  // [EV]
     int threads = 0;
+    FilmWords film;
+    std::optional<std::string> stats;
+    bool tiled = false;
     std::string seed = "0";
     bool half = false;
     bool single = false;
@@ -57,6 +61,8 @@ struct RenderArguments {
     std::optional<std::string> environment;  ///< file, "none" or "default"
     std::optional<float> exposure;           ///< [EV]
     io::ExrChannelType channel_type = io::ExrChannelType::single_float;
+    io::ExrStorage storage = io::ExrStorage::scanlines;
+    std::optional<std::filesystem::path> stats;  ///< where numbers about the render go
     Format format = Format::text;
     Verbosity verbosity = Verbosity::normal;
 };

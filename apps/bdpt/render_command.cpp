@@ -15,9 +15,11 @@
 #include <vector>
 
 #include "console.h"
+#include "film_arguments.h"
 #include "interrupt.h"
 #include "pictures.h"
 #include "stage.h"
+#include "stats_file.h"
 #include "version.h"
 
 namespace bdpt::app {
@@ -50,6 +52,16 @@ ordered_json settings_of(const RenderArguments& arguments, const Stage& stage)
                           {"vertical_fov_degrees", static_cast<double>(stage.camera.vertical_fov) *
                                                        180.0 / std::numbers::pi},
                           {"environment", stage.environment_name}};
+    const FilterOptions& filter = options.filter;
+    settings["filter"] = filter_name(filter.kind);
+    settings["filter_radius"] = filter.radius.value_or(default_radius(filter.kind));
+    if (options.crop) {
+        const PixelRect& crop = *options.crop;
+        settings["crop"] = {crop.x0, crop.y0, crop.x1, crop.y1};
+    }
+    if (std::isfinite(options.clamp)) {
+        settings["clamp"] = options.clamp;
+    }
     if (arguments.scene) {
         settings["scene"] = *arguments.scene;
     }
@@ -113,6 +125,23 @@ void warn_of_defects(Console& console, const FilmDefects& defects)
     }
 }
 
+void tell_of_clamp(Console& console, const Film& film, const Image& image)
+{
+    const ClampLoss loss = film.clamp_loss();
+    if (loss.contributions == 0) {
+        return;
+    }
+    const auto sum = [](Rgb c) { return static_cast<double>(c.r + c.g + c.b); };
+    double left = 0.0;
+    for (const Rgb& pixel : image.pixels) {
+        left += sum(pixel) / static_cast<double>(image.pixels.size());
+    }
+    const double taken = sum(loss.radiance);
+    console.note(fmt::format("clamping at {:g} nit took {:.2f} % of the light: {} contributions",
+                             film.layout().clamp, 100.0 * taken / (left + taken),
+                             loss.contributions));
+}
+
 PictureOptions picture_options(const RenderArguments& arguments, const Stage& stage,
                                const RenderResult& result, const ordered_json& settings)
 {
@@ -126,7 +155,14 @@ PictureOptions picture_options(const RenderArguments& arguments, const Stage& st
     metadata.render_seconds = result.seconds;
     metadata.camera = stage.camera;
     metadata.created = std::chrono::system_clock::now();
-    return {.exr = {arguments.channel_type, std::move(metadata)}, .exposure = arguments.exposure};
+    const PixelRect& region = result.film.region();
+    const io::ExrPlacement placement{.x = region.x0,
+                                     .y = region.y0,
+                                     .full_width = stage.size.width,
+                                     .full_height = stage.size.height};
+    return {.exr = {arguments.channel_type, std::move(metadata), arguments.storage, placement},
+            .layers = result.aovs.develop(result.film),
+            .exposure = arguments.exposure};
 }
 
 void report_done(Console& console, const RenderArguments& arguments, const RenderResult& result,
@@ -155,9 +191,15 @@ int run_render(const RenderArguments& arguments)
         inputs.emplace_back(*arguments.environment);
     }
     check_outputs(arguments.outputs, inputs);
+    std::vector<std::filesystem::path> written = arguments.outputs;
+    if (arguments.stats) {
+        inputs.insert(inputs.end(), arguments.outputs.begin(), arguments.outputs.end());
+        check_stats_file(*arguments.stats, inputs);
+        written.push_back(*arguments.stats);
+    }
 
     Console console(arguments.format, arguments.verbosity);
-    Interrupt interrupt(temporary_paths(arguments.outputs), [&console] {
+    Interrupt interrupt(temporary_paths(written), [&console] {
         console.note("stopping after the pass in flight; interrupt again to end at once");
     });
 
@@ -171,9 +213,12 @@ int run_render(const RenderArguments& arguments)
     const RenderResult result = render_stage(arguments, stage, console, interrupt.stop_token());
     warn_of_defects(console, result.film.defects());
 
-    const PictureReport pictures =
-        write_pictures(arguments.outputs, result.film.develop(),
-                       picture_options(arguments, stage, result, settings));
+    const auto writing_start = std::chrono::steady_clock::now();
+    const Image image = result.film.develop();
+    tell_of_clamp(console, result.film, image);
+    const PictureReport pictures = write_pictures(
+        arguments.outputs, image, picture_options(arguments, stage, result, settings));
+    const std::chrono::duration<double> writing = std::chrono::steady_clock::now() - writing_start;
     if (pictures.clamped_pixels > 0) {
         console.warning(
             fmt::format("{} pixels were beyond 65504 and are stored as that; --float "
@@ -181,6 +226,16 @@ int run_render(const RenderArguments& arguments)
                         pictures.clamped_pixels));
     }
     const std::optional<int> signal = interrupt.signal();
+    if (arguments.stats) {
+        ordered_json stats{
+            {"version", version}, {"file", arguments.file.string()}, {"settings", settings}};
+        stats.update(stats_json(result, {.load = stage.load_seconds,
+                                         .build = stage.build_seconds,
+                                         .render = result.seconds,
+                                         .write = writing.count()}));
+        stats["stopped_by"] = signal ? ordered_json(signal_name(*signal)) : ordered_json();
+        write_stats_file(*arguments.stats, stats);
+    }
     if (signal) {
         console.note(fmt::format("stopped by {} after {} samples per pixel", signal_name(*signal),
                                  result.film.sample_count()));

@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <chrono>
 #include <optional>
 #include <utility>
 
@@ -123,6 +124,7 @@ std::optional<CameraDesc> camera_in_file(const std::vector<CameraDesc>& cameras,
 
 Stage prepare_stage(const RenderArguments& arguments)
 {
+    const auto start = std::chrono::steady_clock::now();
     const std::string file = arguments.file.string();
     io::GltfOptions options;
     options.scene = arguments.scene;
@@ -142,7 +144,9 @@ Stage prepare_stage(const RenderArguments& arguments)
     const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
 
     LitScene lit = add_environment(std::move(loaded.scene), arguments);
+    const auto loading_end = std::chrono::steady_clock::now();
     BuiltScene built = build(lit, file, aspect);
+    const auto building_end = std::chrono::steady_clock::now();
     warnings.insert(warnings.end(), lit.warnings.begin(), lit.warnings.end());
     if (!from_file && !arguments.camera && !arguments.view.from) {
         warnings.push_back(
@@ -153,8 +157,16 @@ Stage prepare_stage(const RenderArguments& arguments)
     CameraDesc camera =
         from_file ? apply(arguments.view, *from_file, std::nullopt)
                   : apply(arguments.view, frame(built, aspect), center(built.scene.bounds()));
-    return {std::move(built.scene), std::move(camera), lit.environment_name, size,
-            std::move(warnings)};
+    const auto seconds = [](std::chrono::steady_clock::duration time) {
+        return std::chrono::duration<double>(time).count();
+    };
+    return {std::move(built.scene),
+            std::move(camera),
+            lit.environment_name,
+            size,
+            std::move(warnings),
+            seconds(loading_end - start),
+            seconds(building_end - loading_end)};
 }
 
 }  // namespace bdpt::app

@@ -18,6 +18,8 @@ struct Stage {
     std::string environment_name;  ///< for people: its file, "default" or "none"
     Size size;
     std::vector<std::string> warnings;  ///< one line each
+    double load_seconds = 0.0;          ///< for reading files
+    double build_seconds = 0.0;         ///< for making the scene ready
 };
 
 /// Loads the file, and fills in what it lacks by the rules that `bdpt render --help` states. Throws

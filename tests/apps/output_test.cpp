@@ -27,7 +27,8 @@ TEST_CASE("help and version are worth reading and no errors")
          {"--output",    "--spp",      "--time",     "--size", "--integrator", "--heuristic",
           "--max-depth", "--camera",   "--look-at",  "--from", "--fov",        "--scene",
           "--env",       "--exposure", "--threads",  "--seed", "--half",       "--float",
-          "--quiet",     "--json",     "Exit codes", "143"}) {
+          "--quiet",     "--json",     "--filter",   "--aov",  "--crop",       "--clamp",
+          "--stats",     "--tiled",    "Exit codes", "143"}) {
         CAPTURE(word);
         CHECK(help.find(word) != std::string::npos);
     }

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <bdpt/render.h>
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+
+namespace bdpt::app {
+
+/// Where the time of a run went [s].
+struct TimeSplit {
+    double load = 0.0;   ///< reading files
+    double build = 0.0;  ///< the scene ready for rays
+    double render = 0.0;
+    double write = 0.0;  ///< pictures
+};
+
+/// Refuses, before anything is rendered, a file that could not be written: throws `Error` (usage)
+/// when it is also one of `others`, (output) for a place where nothing can be written.
+void check_stats_file(const std::filesystem::path& file,
+                      std::span<const std::filesystem::path> others);
+
+/// The numbers of a render, for programs.
+[[nodiscard]] nlohmann::ordered_json stats_json(const RenderResult& result, const TimeSplit& time);
+
+/// Writes `stats` atomically. Throws `Error` (output).
+void write_stats_file(const std::filesystem::path& file, const nlohmann::ordered_json& stats);
+
+}  // namespace bdpt::app

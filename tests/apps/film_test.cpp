@@ -58,7 +58,7 @@ nlohmann::json settings_of(const ExrFile& file)
     return nlohmann::json::parse(file.text("bdpt.settings"));
 }
 
-TEST_CASE("--aov adds layers by their usual names")
+TEST_CASE("option --aov adds layers by their usual names")
 {
     const FilmFolder cube;
     const ExrFile plain = cube.picture({});
@@ -85,7 +85,7 @@ TEST_CASE("--aov adds layers by their usual names")
         Imf::FLOAT);
 }
 
-TEST_CASE("--crop writes the pixels of the whole picture, placed in it")
+TEST_CASE("option --crop writes the pixels of the whole picture, placed in it")
 {
     const FilmFolder cube;
     const Words filter{"--filter", "tent:2", "--aov", "depth"};
@@ -115,7 +115,7 @@ TEST_CASE("--crop writes the pixels of the whole picture, placed in it")
     CHECK(read_png(cube.folder() / "out.png").height == 6);
 }
 
-TEST_CASE("--filter chooses the pixel filter")
+TEST_CASE("option --filter chooses the pixel filter")
 {
     const FilmFolder cube;
     const ExrFile box = cube.picture({});
@@ -131,7 +131,7 @@ TEST_CASE("--filter chooses the pixel filter")
     CHECK(settings_of(wide)["filter_radius"] == 3.5);
 }
 
-TEST_CASE("--clamp limits contributions and says what it took")
+TEST_CASE("option --clamp limits contributions and says what it took")
 {
     const FilmFolder cube;
     const Words words{"--max-depth", "1", "--clamp", "0.25"};
@@ -145,7 +145,7 @@ TEST_CASE("--clamp limits contributions and says what it took")
     CHECK_FALSE(settings_of(cube.picture({})).contains("clamp"));
 }
 
-TEST_CASE("--stats writes the numbers of the render")
+TEST_CASE("option --stats writes the numbers of the render")
 {
     const FilmFolder cube;
     const std::string stats = (cube.folder() / "stats.json").string();

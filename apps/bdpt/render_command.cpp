@@ -165,6 +165,15 @@ PictureOptions picture_options(const RenderArguments& arguments, const Stage& st
             .exposure = arguments.exposure};
 }
 
+ordered_json head_of_stats(const RenderArguments& arguments, const ordered_json& settings,
+                           const std::optional<int>& signal)
+{
+    ordered_json stats{
+        {"version", version}, {"file", arguments.file.string()}, {"settings", settings}};
+    stats["stopped_by"] = signal ? ordered_json(signal_name(*signal)) : ordered_json();
+    return stats;
+}
+
 void report_done(Console& console, const RenderArguments& arguments, const RenderResult& result,
                  const PictureReport& pictures, std::optional<int> signal)
 {
@@ -227,13 +236,11 @@ int run_render(const RenderArguments& arguments)
     }
     const std::optional<int> signal = interrupt.signal();
     if (arguments.stats) {
-        ordered_json stats{
-            {"version", version}, {"file", arguments.file.string()}, {"settings", settings}};
+        ordered_json stats = head_of_stats(arguments, settings, signal);
         stats.update(stats_json(result, {.load = stage.load_seconds,
                                          .build = stage.build_seconds,
                                          .render = result.seconds,
                                          .write = writing.count()}));
-        stats["stopped_by"] = signal ? ordered_json(signal_name(*signal)) : ordered_json();
         write_stats_file(*arguments.stats, stats);
     }
     if (signal) {

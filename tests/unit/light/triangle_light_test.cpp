@@ -154,6 +154,22 @@ TEST_CASE("textured emitter: triangles are chosen by what they really emit", "[l
     CHECK(lights.emission_probability(LightId{2}) > 0.0f);
 }
 
+TEST_CASE("textured emitter: no point has a density of zero", "[light]")
+{
+    // The spot of the larger picture lies between the samples that are taken of it.
+    for (const int size : {8, 2000}) {
+        const World world(screen(spotted(size)));
+        test::Random random(24);
+        for (int i = 0; i < 20000; ++i) {
+            const Vec2 barycentrics = square_to_triangle(random.next_2d());
+            for (const std::uint32_t id : {0U, 1U}) {
+                CHECK(world.lights().emission_probability(LightId{id}) > 0.0f);
+                REQUIRE(triangle(world, id).pdf_position(barycentrics).value * area > 0.005f);
+            }
+        }
+    }
+}
+
 TEST_CASE("an even texture costs no table", "[light]")
 {
     const TexelImage even{.width = 2, .height = 2, .rgba = std::vector<std::uint8_t>(16, 200)};

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int most_cells = 32;              // a side
 constexpr float floor_of_triangle = 0.01f;  // of the texture's mean
-constexpr float floor_of_cell = 0.1f;       // of the triangle's mean
+constexpr float floor_of_cell = 0.1f;       // of the mean of the cells
 
 /// Longest edge of the triangle in texels.
 float longest_edge(const PlacedMesh& mesh, const Material& material, std::uint32_t triangle)
@@ -63,13 +63,18 @@ TriangleEmission measure_emission(const PlacedMesh& mesh, const Material& materi
     TriangleEmission result{.mean = mix(total / (cell_samples * static_cast<float>(squares.size())),
                                         material.mean_emission(), floor_of_triangle),
                             .spread = nullptr};
+    // The root of the mean square, not the mean, makes the variance least where a cell is uneven.
     std::vector<float> weights;
     weights.reserve(squares.size());
-    // The root of the mean square, not the mean, makes the variance least where a cell is uneven.
+    float sum = 0.0f;
     for (const double square : squares) {
-        const auto typical =
-            static_cast<float>(std::sqrt(square / static_cast<double>(cell_samples)));
-        weights.push_back(typical + floor_of_cell * luminance(result.mean));
+        weights.push_back(
+            static_cast<float>(std::sqrt(square / static_cast<double>(cell_samples))));
+        sum += weights.back();
+    }
+    const float least_weight = floor_of_cell * sum / static_cast<float>(weights.size());
+    for (float& weight : weights) {
+        weight += least_weight;
     }
     const auto [least, greatest] = std::minmax_element(weights.begin(), weights.end());
     constexpr float hardly_more = 1.05f;

@@ -63,7 +63,8 @@ TEST_CASE("rays find the nearest of spheres and instances", "[geometry]")
 {
     const Traced scene({{.center = {0, 0, 5}, .radius = 1.0f},
                         {.center = {0, 0, -20}, .radius = 0.5f},
-                        {.center = {0, 0, 0}, .radius = 1.5f}});
+                        {.center = {0, 0, 0}, .radius = 1.5f},
+                        {.center = {0.9f, 0.0f, -4.35f}, .radius = 0.1f}});
     const auto first = [&](float z, float direction) {
         return scene.embree->intersect(
             {.origin = {0.1f, 0.2f, z}, .direction = {0.0f, 0.0f, direction}});
@@ -75,7 +76,11 @@ TEST_CASE("rays find the nearest of spheres and instances", "[geometry]")
     CHECK(first(-2.0f, -1.0f)->sphere == no_sphere);
     CHECK(first(-2.0f, -1.0f)->instance == 0);
     CHECK(first(-10.0f, -1.0f)->sphere == 1);
-    // Whichever Embree tries first: an instance behind a sphere leaves no trace.
+    // An instance whose box is met first, but that is hit behind the ball, leaves no trace.
+    const auto before_instance =
+        scene.embree->intersect({.origin = {0.9f, 0.0f, -3.0f}, .direction = {0.0f, 0.0f, -1.0f}});
+    REQUIRE(before_instance.has_value());
+    CHECK(before_instance->sphere == 3);
     CHECK(first(-40.0f, 1.0f)->sphere == 1);
     CHECK(first(-30.0f, -1.0f)->instance == 1);
     CHECK_FALSE(first(7.0f, 1.0f).has_value());

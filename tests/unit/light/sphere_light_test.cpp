@@ -277,4 +277,25 @@ TEST_CASE("a ball never hides its own sampled points, from wherever it is lit", 
     }
 }
 
+TEST_CASE("a ball never hides its own outline from far away", "[world]")
+{
+    test::Random random(17);
+    test::SceneBuilder builder;
+    builder.light(PointLightDesc{.intensity = Rgb(1.0f), .radius = 0.1f});
+    const World world(std::move(builder.desc));
+    const Light& light = world.lights()[LightId{0}];
+    int seen = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const Vec3 receiver = (10.0f + 1000.0f * random.next()) * random.direction();
+        // The square's border is that of the cone.
+        const float near_border = 1.0f - 1e-4f * random.next();
+        const auto incident = light.sample_incident(receiver, {near_border, random.next()});
+        if (incident) {
+            ++seen;
+            REQUIRE(world.transmittance({.p = receiver}, incident->end) == Rgb(1.0f));
+        }
+    }
+    CHECK(seen > 10000);
+}
+
 }  // namespace bdpt

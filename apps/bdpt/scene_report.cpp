@@ -32,16 +32,21 @@ ordered_json to_json(Vec3 v)
 }
 
 struct LightText {
+    static std::string radius(float metres)
+    {
+        return metres > 0.0f ? fmt::format(", radius {:.4g} m", metres) : "";
+    }
     std::string operator()(const PointLightDesc& light) const
     {
-        return fmt::format("point \"{}\" at {}, {} cd", light.name, to_text(light.position),
-                           to_text(light.intensity));
+        return fmt::format("point \"{}\" at {}, {} cd{}", light.name, to_text(light.position),
+                           to_text(light.intensity), radius(light.radius));
     }
     std::string operator()(const SpotLightDesc& light) const
     {
-        return fmt::format("spot \"{}\" at {}, {} cd, cone {:.3g} to {:.3g} degrees", light.name,
+        return fmt::format("spot \"{}\" at {}, {} cd, cone {:.3g} to {:.3g} degrees{}", light.name,
                            to_text(light.position), to_text(light.intensity),
-                           degrees(light.inner_cone_angle), degrees(light.outer_cone_angle));
+                           degrees(light.inner_cone_angle), degrees(light.outer_cone_angle),
+                           radius(light.radius));
     }
     std::string operator()(const DirectionalLightDesc& light) const
     {

@@ -181,6 +181,64 @@ void add_lights(std::vector<EqualityCase>& cases)
     cases.push_back(in_room("all kinds of light", std::move(mixed)));
 }
 
+void add_sphere_lights(std::vector<EqualityCase>& cases)
+{
+    SceneBuilder ball = room();
+    ball.sphere({0.4f, -0.6f, 0.0f}, 0.4f, plastic(red, 0.5f)).ceiling(lambertian(white));
+    ball.light(PointLightDesc{
+        .position = {-0.3f, 0.4f, 0.2f}, .intensity = {2.0f, 1.8f, 1.5f}, .radius = 0.4f});
+    cases.push_back(in_room("sphere light", std::move(ball)));
+
+    // The ball pokes through the ceiling and the cone cuts what is seen of it.
+    SceneBuilder spot = room();
+    spot.sphere({0.4f, -0.6f, 0.0f}, 0.4f, lambertian(red)).ceiling(lambertian(white));
+    spot.light(SpotLightDesc{.position = {-0.4f, 0.9f, 0.1f},
+                             .direction = {0.4f, -1.0f, -0.2f},
+                             .intensity = Rgb(4.0f),
+                             .inner_cone_angle = 0.4f,
+                             .outer_cone_angle = 1.2f,
+                             .radius = 0.5f});
+    EqualityCase cut = in_room("sphere spot light", std::move(spot));
+    cut.detectable_bias = 0.04;  // few of the samples of pt leave the ball within its cone
+    cases.push_back(std::move(cut));
+
+    SceneBuilder behind_glass = room(plastic(white, 0.3f));
+    behind_glass.ceiling(lambertian(white));
+    behind_glass.light(
+        PointLightDesc{.position = {0.0f, -0.1f, 0.0f}, .intensity = Rgb(1.0f), .radius = 0.2f});
+    behind_glass.sphere({0.0f, -0.1f, 0.0f}, 0.45f, glass(0.0f));
+    cases.push_back(in_room("sphere light in a ball of glass", std::move(behind_glass)));
+
+    // Two balls and a mirror: each hides the other, and both are seen twice.
+    SceneBuilder mixed = room();
+    mixed.sphere({-0.5f, -0.6f, 0.2f}, 0.35f, metal(Rgb(0.9f), 0.0f)).lamp(0.98f, 0.4f, Rgb(2.0f));
+    mixed.light(
+        PointLightDesc{.position = {0.4f, 0.1f, 0.0f}, .intensity = Rgb(0.5f), .radius = 0.2f});
+    mixed.light(PointLightDesc{
+        .position = {0.1f, -0.3f, 0.4f}, .intensity = {0.1f, 0.5f, 0.2f}, .radius = 0.3f});
+    cases.push_back(in_room("sphere lights, lamp and mirror", std::move(mixed)));
+}
+
+/// A screen with a bright spot, a dim one, and much that is black.
+EqualityCase textured_emitter()
+{
+    SceneBuilder builder = room();
+    TexelImage spots{.width = 4, .height = 4, .rgba = std::vector<std::uint8_t>(64, 255)};
+    for (std::size_t i = 0; i < 16; ++i) {
+        const std::uint8_t value = i == 5 ? 255 : i == 10 ? 160 : i % 3 == 0 ? 90 : 0;
+        spots.rgba[4 * i] = value;
+        spots.rgba[4 * i + 1] = value / 2;
+        spots.rgba[4 * i + 2] = i == 10 ? 200 : value;
+    }
+    builder.desc.images.push_back(spots);
+    MaterialDesc screen = emitter(Rgb(12.0f));
+    screen.emission_texture = TextureRef{.image = ImageId{0}, .rotation = 0.4f, .scale = {1.3f, 1}};
+    builder.ceiling(lambertian(white)).sphere({0.3f, -0.6f, 0.2f}, 0.4f, lambertian(green));
+    builder.quad({-0.7f, -0.6f, -0.8f}, {0.7f, -0.6f, -0.8f}, {0.7f, 0.7f, -0.6f},
+                 {-0.7f, 0.7f, -0.6f}, screen);
+    return in_room("textured emitter", std::move(builder));
+}
+
 void add_materials(std::vector<EqualityCase>& cases)
 {
     const auto with_ball = [&](std::string name, const MaterialDesc& material) {
@@ -213,6 +271,8 @@ std::vector<EqualityCase> equality_cases()
 {
     std::vector<EqualityCase> cases;
     add_lights(cases);
+    add_sphere_lights(cases);
+    cases.push_back(textured_emitter());
     add_materials(cases);
     cases.push_back(shading_normals());
     cases.push_back(mirrored_instances());

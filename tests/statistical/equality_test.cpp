@@ -4,6 +4,7 @@
 #include "catch.hpp"
 #include "equal_means.h"
 #include "equality_cases.h"
+#include "scene_builder.h"
 
 #include <cstdlib>
 #include <iostream>
@@ -78,6 +79,34 @@ TEST_CASE("mis and bdpt agree through every pixel filter", "[equality][filter]")
         TileMeans mis(scene, test.camera, mis_options);
         TileMeans bdpt(scene, test.camera, bdpt_options);
         check_equal(test, "mis = bdpt, filtered", mis, bdpt);
+    }
+}
+
+TEST_CASE("a tiny sphere lights like a point", "[equality]")
+{
+    const auto scene_with = [](float radius) {
+        SceneBuilder builder;
+        builder.walls(lambertian(Rgb(0.7f)), lambertian({0.7f, 0.5f, 0.3f}));
+        builder.ceiling(lambertian(Rgb(0.7f)));
+        builder.sphere({0.4f, -0.6f, 0.0f}, 0.4f, plastic({0.6f, 0.1f, 0.1f}, 0.5f));
+        builder.light(PointLightDesc{
+            .position = {-0.3f, 0.5f, 0.3f}, .intensity = Rgb(2.0f), .radius = radius});
+        return Scene(std::move(builder.desc));
+    };
+    const Scene point = scene_with(0.0f);
+    for (const float radius : {1e-3f, 1e-6f}) {
+        const Scene ball = scene_with(radius);
+        std::uint64_t seed = 5000;
+        for (const auto kind : {IntegratorKind::mis, IntegratorKind::bdpt}) {
+            // The camera looks past the ball, which it would see as a very bright pixel.
+            EqualityCase test;
+            test.name = "tiny sphere";
+            test.max_depth = 2;
+            test.camera = camera_at({0.0f, 0.0f, 3.4f}, {0.1f, -0.5f, 0.0f}, 0.3f);
+            TileMeans expected(point, test.camera, options(test, kind, ++seed));
+            TileMeans found(ball, test.camera, options(test, kind, ++seed));
+            check_equal(test, "point = ball", expected, found);
+        }
     }
 }
 

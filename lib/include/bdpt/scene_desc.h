@@ -81,6 +81,9 @@ struct PointLightDesc {
     std::string name{};
     Vec3 position{0.0f};
     Rgb intensity{1.0f};  ///< [cd]
+    /// [m] 0: a point. Else a ball of radiance intensity / (pi radius^2), seen like any surface; it
+    /// hides what is behind it and reflects nothing.
+    float radius = 0.0f;
 };
 
 struct SpotLightDesc {
@@ -90,6 +93,8 @@ struct SpotLightDesc {
     Rgb intensity{1.0f};                  ///< [cd] within the inner cone
     float inner_cone_angle = 0.0f;        ///< [rad] from the axis
     float outer_cone_angle = 0.7853982f;  ///< [rad] from the axis, in (inner, pi/2]
+    /// [m] As for point lights; the falloff is that of the direction in which light leaves the ball.
+    float radius = 0.0f;
 };
 
 struct DirectionalLightDesc {

@@ -1,6 +1,7 @@
 #include "geometry/embree_scene.h"
 
 #include "geometry/embree.h"
+#include "geometry/embree_spheres.h"
 
 #include <bdpt/error.h>
 
@@ -89,6 +90,7 @@ RTCRay to_embree(const Ray& ray)
     out.tnear = std::numeric_limits<float>::min();
     out.tfar = ray.t_max;
     out.mask = all_rays;
+    out.id = ray.ignored_sphere;
     return out;
 }
 
@@ -103,7 +105,7 @@ struct EmbreeScene::State {
 };
 
 EmbreeScene::EmbreeScene(std::span<const InstanceDesc> instances, std::span<PlacedMesh> placed,
-                         std::size_t mesh_count)
+                         std::size_t mesh_count, std::span<const Sphere> spheres)
     : state_(std::make_unique<State>())
 {
     State& state = *state_;
@@ -157,6 +159,15 @@ EmbreeScene::EmbreeScene(std::span<const InstanceDesc> instances, std::span<Plac
         rtcCommitGeometry(geometry.get());
         rtcAttachGeometryByID(state.top.get(), geometry.get(), id);
     }
+    if (!spheres.empty()) {
+        const OwnedGeometry geometry(new_sphere_geometry(device, spheres));
+        rtcSetGeometryMask(geometry.get(), all_rays);
+        rtcCommitGeometry(geometry.get());
+        check(device, "take over the spheres");
+        // The number after those of the instances tells them apart.
+        rtcAttachGeometryByID(state.top.get(), geometry.get(),
+                              static_cast<unsigned>(instances.size()));
+    }
     rtcCommitScene(state.top.get());
     check(device, "build the BVH of the scene");
 }
@@ -177,8 +188,11 @@ std::optional<RayHit> EmbreeScene::intersect(const Ray& ray) const noexcept
     }
     const bool shared = hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
     const std::uint32_t instance = shared ? hit.instID[0] : hit.geomID;
-    const PlacedMesh& mesh = state_->placed[instance];
     const Vec3 normal(hit.Ng_x, hit.Ng_y, hit.Ng_z);
+    if (instance >= state_->placed.size()) {
+        return RayHit{.normal = normal, .sphere = hit.primID};
+    }
+    const PlacedMesh& mesh = state_->placed[instance];
     return RayHit{.instance = instance,
                   .triangle = hit.primID,
                   .barycentrics = {hit.u, hit.v},

@@ -2,6 +2,7 @@
 
 #include "geometry/placed_mesh.h"
 #include "geometry/ray.h"
+#include "geometry/sphere.h"
 
 #include <bdpt/scene_desc.h>
 
@@ -11,16 +12,16 @@
 
 namespace bdpt {
 
-/// The ray-tracing acceleration structure over all instances; the only class that calls Embree. A
-/// mesh that is used once goes into the top level in world space; one that is used more often gets
-/// a BVH of its own, shared by its instances.
+/// The ray-tracing acceleration structure over all instances and spheres; the only class that calls
+/// Embree. A mesh that is used once goes into the top level in world space; one that is used more
+/// often gets a BVH of its own, shared by its instances.
 class EmbreeScene {
 public:
     /// `placed[i]` belongs to `instances[i]`; both must outlive this object, and meshes that went
-    /// into the top level are told so (PlacedMesh::use_world_positions). Throws `Error` when Embree
-    /// fails.
+    /// into the top level are told so (PlacedMesh::use_world_positions). `spheres` must outlive it,
+    /// too. Throws `Error` when Embree fails.
     EmbreeScene(std::span<const InstanceDesc> instances, std::span<PlacedMesh> placed,
-                std::size_t mesh_count);
+                std::size_t mesh_count, std::span<const Sphere> spheres = {});
     EmbreeScene(EmbreeScene&&) noexcept;
     ~EmbreeScene();
 

@@ -1,6 +1,10 @@
 #pragma once
 
+#include "geometry/ray.h"
+
 #include <bdpt/types.h>
+
+#include <cstdint>
 
 namespace bdpt {
 
@@ -10,6 +14,7 @@ struct SegmentEnd {
     float error = 0.0f;    ///< how far off p can be, and the surface that a ray meets there [m]
     Vec3 ng{0.0f};         ///< unit geometric normal on the front; zero when on no surface
     Rgb absorption{0.0f};  ///< of the medium behind the surface [1/m]
+    std::uint32_t sphere = no_sphere;  ///< that p lies on; segments touch spheres from outside only
 };
 
 }  // namespace bdpt

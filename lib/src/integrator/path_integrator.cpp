@@ -71,7 +71,9 @@ Rgb PathIntegrator::estimate(Vec2 raster, Sampler& sampler, RayCounts& rays) con
         beta *= medium_transmittance(ray.origin, point->end, ray.direction,
                                      std::sqrt(distance_squared));
         if (point->light) {
-            radiance += beta * emission(ray, *point->light, point->end, point->emission);
+            const LightPoint hit{
+                .p = point->end.p, .ng = point->end.ng, .barycentrics = point->barycentrics};
+            radiance += beta * emission(ray, *point->light, hit, point->emission);
         }
         if (depth == options_.max_depth) {
             break;
@@ -104,7 +106,7 @@ float PathIntegrator::weight(float used, float other) const
     return 1.0f / (1.0f + (options_.heuristic == Heuristic::power ? ratio * ratio : ratio));
 }
 
-Rgb PathIntegrator::emission(const Ray& ray, LightId light, const SegmentEnd& hit,
+Rgb PathIntegrator::emission(const Ray& ray, LightId light, const LightPoint& hit,
                              Rgb radiance) const
 {
     if (!ray.competes || is_black(radiance)) {
@@ -112,7 +114,7 @@ Rgb PathIntegrator::emission(const Ray& ray, LightId light, const SegmentEnd& hi
     }
     const LightSet& lights = world_.lights();
     const float probability = lights.receiver_probability(light, ray.origin.p);
-    const AreaPdf pdf = lights[light].pdf_incident(ray.origin.p, ray.direction) * probability;
+    const AreaPdf pdf = lights[light].pdf_incident(ray.origin.p, hit) * probability;
     if (lights[light].is_infinite()) {
         return radiance * weight(ray.pdf.value, pdf.value);
     }

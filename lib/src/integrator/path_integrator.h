@@ -22,7 +22,7 @@ private:
     struct Ray;
     [[nodiscard]] Rgb estimate(Vec2 raster, Sampler& sampler, RayCounts& rays) const;
     /// Radiance that the ray brings from a light it hit, weighed against light sampling.
-    [[nodiscard]] Rgb emission(const Ray& ray, LightId light, const SegmentEnd& hit,
+    [[nodiscard]] Rgb emission(const Ray& ray, LightId light, const LightPoint& hit,
                                Rgb radiance) const;
     [[nodiscard]] Rgb sample_light(const SurfacePoint& point, Vec3 wo, Sampler& sampler,
                                    RayCounts& rays) const;

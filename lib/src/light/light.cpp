@@ -9,6 +9,9 @@ std::optional<EmissionSample> Light::sample_emission(Vec2 u_position, Vec2 u_dir
     if (const auto* light = std::get_if<TriangleLight>(&model_)) {
         return light->sample_emission(u_position, u_direction);
     }
+    if (const auto* light = std::get_if<SphereLight>(&model_)) {
+        return light->sample_emission(u_position, u_direction);
+    }
     if (const auto* light = std::get_if<PunctualLight>(&model_)) {
         return light->sample_emission(u_direction);
     }
@@ -23,6 +26,9 @@ std::optional<IncidentSample> Light::sample_incident(Vec3 receiver, Vec2 u) cons
     if (const auto* light = std::get_if<TriangleLight>(&model_)) {
         return light->sample_incident(receiver, u);
     }
+    if (const auto* light = std::get_if<SphereLight>(&model_)) {
+        return light->sample_incident(receiver, u);
+    }
     if (const auto* light = std::get_if<PunctualLight>(&model_)) {
         return light->sample_incident(receiver);
     }
@@ -32,26 +38,35 @@ std::optional<IncidentSample> Light::sample_incident(Vec3 receiver, Vec2 u) cons
     return std::get<EnvironmentLight>(model_).sample_incident(u);
 }
 
-AreaPdf Light::pdf_position(Vec3 to_light) const
+AreaPdf Light::pdf_position(const LightPoint& x0) const
 {
     if (const auto* light = std::get_if<TriangleLight>(&model_)) {
+        return light->pdf_position(x0.barycentrics);
+    }
+    if (const auto* light = std::get_if<SphereLight>(&model_)) {
         return light->pdf_position();
     }
     if (const auto* light = std::get_if<EnvironmentLight>(&model_)) {
-        return {light->pdf_incident(to_light).value};
+        return {light->pdf_incident(x0.p).value};
     }
     return {1.0f};
 }
 
-AreaPdf Light::pdf_incident(Vec3 /*receiver*/, Vec3 to_light) const
+AreaPdf Light::pdf_incident(Vec3 receiver, const LightPoint& x0) const
 {
-    return pdf_position(to_light);  // all kinds sample the same points for every receiver
+    if (const auto* light = std::get_if<SphereLight>(&model_)) {
+        return light->pdf_incident(receiver, x0.p, x0.ng);
+    }
+    return pdf_position(x0);  // the other kinds sample the same points for every receiver
 }
 
 SolidAnglePdf Light::pdf_direction(Vec3 ng, Vec3 direction) const
 {
     if (const auto* light = std::get_if<TriangleLight>(&model_)) {
         return light->pdf_direction(dot(ng, direction));
+    }
+    if (const auto* light = std::get_if<SphereLight>(&model_)) {
+        return light->pdf_direction(ng, direction);
     }
     if (const auto* light = std::get_if<PunctualLight>(&model_)) {
         return light->pdf_direction(direction);

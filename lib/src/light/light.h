@@ -4,6 +4,7 @@
 #include "light/environment_light.h"
 #include "light/light_samples.h"
 #include "light/punctual_light.h"
+#include "light/sphere_light.h"
 #include "light/triangle_light.h"
 
 #include <optional>
@@ -15,7 +16,8 @@ namespace bdpt {
 /// Any light. To add a kind, add it to `Model` and to the functions in light.cpp.
 class Light {
 public:
-    using Model = std::variant<TriangleLight, PunctualLight, DirectionalLight, EnvironmentLight>;
+    using Model =
+        std::variant<TriangleLight, SphereLight, PunctualLight, DirectionalLight, EnvironmentLight>;
 
     explicit Light(Model model) : model_(std::move(model)) {}
 
@@ -24,11 +26,12 @@ public:
     [[nodiscard]] std::optional<IncidentSample> sample_incident(Vec3 receiver, Vec2 u) const;
 
     /// Of x_0 as the start of a light path: on the surface, or for an infinite light of the
-    /// direction `to_light`; 1 for a delta light.
-    [[nodiscard]] AreaPdf pdf_position(Vec3 to_light) const;
+    /// direction; 1 for a delta light.
+    [[nodiscard]] AreaPdf pdf_position(const LightPoint& x0) const;
     /// Of x_0 by `sample_incident` from `receiver`, in the same measure.
-    [[nodiscard]] AreaPdf pdf_incident(Vec3 receiver, Vec3 to_light) const;
-    /// Of the direction of a light path that leaves a finite light; `ng`: at x_0, zero if none.
+    [[nodiscard]] AreaPdf pdf_incident(Vec3 receiver, const LightPoint& x0) const;
+    /// Of the direction of a light path that leaves a finite light at a point with the normal `ng`,
+    /// zero if none. `SphereLight` says which factor of the joint density this is.
     [[nodiscard]] SolidAnglePdf pdf_direction(Vec3 ng, Vec3 direction) const;
 
     /// No ray hits it by chance: s = 0 is impossible.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "light/light_samples.h"
+#include "light/spot_cone.h"
 
 #include <bdpt/scene_desc.h>
 
@@ -18,19 +19,14 @@ public:
     /// Directions are uniform in the cone.
     [[nodiscard]] EmissionSample sample_emission(Vec2 u) const;
     [[nodiscard]] std::optional<IncidentSample> sample_incident(Vec3 receiver) const;
-    [[nodiscard]] SolidAnglePdf pdf_direction(Vec3 direction) const;
+    [[nodiscard]] SolidAnglePdf pdf_direction(Vec3 direction) const { return cone_.pdf(direction); }
     /// Luminous flux [lm].
-    [[nodiscard]] Rgb power() const;
+    [[nodiscard]] Rgb power() const { return intensity_ * cone_.integral(); }
 
 private:
-    [[nodiscard]] float falloff(Vec3 direction) const;
-    [[nodiscard]] float solid_angle() const;
-
     Vec3 position_;
-    Vec3 axis_{0.0f, 0.0f, 1.0f};
     Rgb intensity_;  // [cd]
-    float cos_inner_ = -1.0f;
-    float one_minus_cos_outer_ = 2.0f;
+    SpotCone cone_;
 };
 
 }  // namespace bdpt

@@ -11,8 +11,11 @@
 namespace bdpt {
 
 TriangleLight::TriangleLight(const PlacedMesh& mesh, const Material& material,
-                             std::uint32_t triangle)
-    : mesh_(&mesh), material_(&material), triangle_(triangle)
+                             std::uint32_t triangle, int most_samples)
+    : mesh_(&mesh),
+      material_(&material),
+      triangle_(triangle),
+      emission_(measure_emission(mesh, material, triangle, most_samples))
 {
     const Vec3 normal = mesh.area_normal(triangle);
     area_ = 0.5f * std::sqrt(dot(normal, normal));
@@ -20,12 +23,15 @@ TriangleLight::TriangleLight(const PlacedMesh& mesh, const Material& material,
 
 TriangleLight::Point TriangleLight::point(Vec2 u) const
 {
-    const Vec2 barycentrics = square_to_triangle(u);
+    const Vec2 barycentrics =
+        square_to_triangle(emission_.spread ? emission_.spread->sample(u).point : u);
     const BoundedPoint at = mesh_->point(triangle_, barycentrics);
     return {.end = {.p = at.p,
                     .error = at.error,
                     .ng = mesh_->area_normal(triangle_) / (2.0f * area_),
                     .absorption = material_->absorption()},
+            .barycentrics = barycentrics,
+            .pdf = pdf_position(barycentrics),
             .radiance = material_->emission(mesh_->uv(triangle_, barycentrics))};
 }
 
@@ -43,12 +49,13 @@ std::optional<EmissionSample> TriangleLight::sample_emission(Vec2 u_position,
     if (local.z <= 0.0f) {
         return std::nullopt;
     }
-    // Le cos / (1/A * cos/pi): the cosine cancels.
+    // Le cos / (pdf * cos/pi): the cosine cancels.
     const float sides = two_sided ? 2.0f : 1.0f;
     return EmissionSample{.end = from.end,
+                          .barycentrics = from.barycentrics,
                           .direction = Frame::from_normal(side * from.end.ng).to_world(local),
-                          .weight = from.radiance * (pi * area_ * sides),
-                          .pdf_position = pdf_position(),
+                          .weight = from.radiance * (pi * sides / from.pdf.value),
+                          .pdf_position = from.pdf,
                           .pdf_direction = pdf_direction(side * local.z)};
 }
 
@@ -66,11 +73,19 @@ std::optional<IncidentSample> TriangleLight::sample_incident(Vec3 receiver, Vec2
     }
     const float geometry = std::abs(cosine) / distance_squared;
     return IncidentSample{.end = from.end,
+                          .barycentrics = from.barycentrics,
                           .wi = wi,
                           .distance = distance,
-                          .weight = from.radiance * (area_ * geometry),
-                          .pdf = pdf_position(),
-                          .pdf_solid_angle = {1.0f / (area_ * geometry)}};
+                          .weight = from.radiance * (geometry / from.pdf.value),
+                          .pdf = from.pdf,
+                          .pdf_solid_angle = {from.pdf.value / geometry}};
+}
+
+AreaPdf TriangleLight::pdf_position(Vec2 barycentrics) const
+{
+    const float spread =
+        emission_.spread ? emission_.spread->pdf(triangle_to_square(barycentrics)) : 1.0f;
+    return {spread / area_};
 }
 
 SolidAnglePdf TriangleLight::pdf_direction(float cosine) const
@@ -84,7 +99,7 @@ SolidAnglePdf TriangleLight::pdf_direction(float cosine) const
 Rgb TriangleLight::power() const
 {
     const float sides = material_->emits_from_both_sides() ? 2.0f : 1.0f;
-    return material_->mean_emission() * (pi * area_ * sides);
+    return emission_.mean * (pi * area_ * sides);
 }
 
 }  // namespace bdpt

@@ -35,6 +35,12 @@ public:
     [[nodiscard]] Rgb emission(const std::array<Vec2, 2>& uv) const noexcept;
     /// The average of `emission` over its texture.
     [[nodiscard]] Rgb mean_emission() const noexcept { return mean_emission_; }
+    [[nodiscard]] bool has_emission_texture() const noexcept { return emission_map_.has_value(); }
+    /// Place in the emission texture, which must be there, in texels.
+    [[nodiscard]] Vec2 emission_texel(const std::array<Vec2, 2>& uv) const noexcept
+    {
+        return emission_map_->texel_position(uv);
+    }
     [[nodiscard]] bool emits_from_both_sides() const noexcept { return double_sided_; }
 
     /// Bounds a solid body that light passes through; its inside is on the back of ng.

@@ -109,10 +109,20 @@ Vec4 Texture::texel(int x, int y) const noexcept
     return {decode_[rgba[0]], decode_[rgba[1]], decode_[rgba[2]], linear_table[rgba[3]]};
 }
 
-Vec4 Texture::lookup(const std::array<Vec2, 2>& uv) const noexcept
+Vec2 Texture::transformed(const std::array<Vec2, 2>& uv) const noexcept
 {
     const Vec2 own = uv[static_cast<std::size_t>(uv_set_)];
-    const Vec2 p = own.x * u_axis_ + own.y * v_axis_ + offset_;
+    return own.x * u_axis_ + own.y * v_axis_ + offset_;
+}
+
+Vec2 Texture::texel_position(const std::array<Vec2, 2>& uv) const noexcept
+{
+    return transformed(uv) * Vec2(image_->width, image_->height);
+}
+
+Vec4 Texture::lookup(const std::array<Vec2, 2>& uv) const noexcept
+{
+    const Vec2 p = transformed(uv);
     const Span x = span_of(p.x, image_->width, wrap_u_);
     const Span y = span_of(p.y, image_->height, wrap_v_);
     const Vec4 upper =

@@ -20,6 +20,9 @@ public:
     /// before they are mixed. A coordinate that is not finite or beyond 4e6 counts as 0.
     [[nodiscard]] Vec4 lookup(const std::array<Vec2, 2>& uv) const noexcept;
 
+    /// Where `lookup` looks, in texels of the picture repeated without end.
+    [[nodiscard]] Vec2 texel_position(const std::array<Vec2, 2>& uv) const noexcept;
+
     /// Average over the whole picture.
     [[nodiscard]] Vec4 mean() const;
 
@@ -27,6 +30,7 @@ public:
     [[nodiscard]] int uv_set() const noexcept { return uv_set_; }
 
 private:
+    [[nodiscard]] Vec2 transformed(const std::array<Vec2, 2>& uv) const noexcept;
     [[nodiscard]] Vec4 texel(int x, int y) const noexcept;
 
     const TexelImage* image_;

@@ -59,6 +59,14 @@ namespace bdpt {
     return {u.x - half, half};
 }
 
+/// The inverse of `square_to_triangle`.
+[[nodiscard]] inline Vec2 triangle_to_square(Vec2 barycentrics)
+{
+    const float sum = barycentrics.x + barycentrics.y;
+    return barycentrics.y > barycentrics.x ? Vec2{2.0f * barycentrics.x, sum}
+                                           : Vec2{sum, 2.0f * barycentrics.y};
+}
+
 [[nodiscard]] constexpr AreaPdf triangle_pdf(float area)
 {
     return {1.0f / area};

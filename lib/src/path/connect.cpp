@@ -80,6 +80,7 @@ std::optional<Contribution> connect_to_light(const World& world, std::span<const
     } else {
         x0.kind = VertexKind::light;
         x0.end = incident->end;
+        x0.barycentrics = incident->barycentrics;
     }
     ++rays.shadow;
     value *= light.is_infinite() ? world.transmittance_to_infinity(z.end, incident->wi)

@@ -23,10 +23,11 @@ LightDensities light_densities(const World& world, const PathVertex& x0, const S
     const Vec3 offset = x0.end.p - x1.p;
     const float distance_squared = dot(offset, offset);
     const Vec3 to_light = infinite ? x0.end.p : offset / std::sqrt(distance_squared);
+    const LightPoint point{.p = x0.end.p, .ng = x0.end.ng, .barycentrics = x0.barycentrics};
     const float cosine = std::abs(dot(x1.ng, to_light));
-    return {.emit = light.pdf_position(to_light) * lights.emission_probability(*x0.light),
+    return {.emit = light.pdf_position(point) * lights.emission_probability(*x0.light),
             .next_event =
-                light.pdf_incident(x1.p, to_light) * lights.receiver_probability(*x0.light, x1.p),
+                light.pdf_incident(x1.p, point) * lights.receiver_probability(*x0.light, x1.p),
             .to_next = infinite ? to_area(world.bounding_sphere().pdf_disk(), cosine)
                                 : to_area(light.pdf_direction(x0.end.ng, -to_light), cosine,
                                           distance_squared)};

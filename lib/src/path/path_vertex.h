@@ -33,6 +33,7 @@ struct PathVertex {
     /// Turns a density of directions at the next vertex into one of area here.
     float area_per_solid_angle = 1.0f;
     std::optional<LightId> light;
+    Vec2 barycentrics{0.0f};  ///< of a point on a triangle light
     VertexKind kind = VertexKind::surface;
     bool connectible = true;       ///< has a lobe that is not delta: strategies can join here
     bool scattered_delta = false;  ///< the walk left through a delta lobe

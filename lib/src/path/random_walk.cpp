@@ -58,6 +58,7 @@ void append_surface(const SurfacePoint& point, float distance_squared, const Ste
                                                    std::sqrt(distance_squared));
     vertex.emission = point.emission;
     vertex.light = point.light;
+    vertex.barycentrics = point.barycentrics;
     vertex.bsdf = point.bsdf;
     vertex.connectible = point.bsdf.connectible();
     const float cosine = std::abs(dot(point.end.ng, step.direction));
@@ -151,6 +152,7 @@ void trace_light_subpath(const World& world, int max_vertices, Sampler& sampler,
         start.end.p = -emitted->direction;
     }
     start.light = choice->id;
+    start.barycentrics = emitted->barycentrics;
     start.pdf_fwd = emitted->pdf_position * choice->probability;
 
     Step step{.direction = emitted->direction,

@@ -2,25 +2,61 @@
 
 #include "math/rgb.h"
 
+#include <algorithm>
+#include <cmath>
 #include <type_traits>
 
 namespace bdpt {
 namespace {
 
-Light make_light(const LightDesc& desc, const BoundingSphere& bounds)
+/// What `desc` is as a surface, if it has one.
+std::optional<Sphere> sphere_of(const LightDesc& desc)
 {
     return std::visit(
-        [&bounds](const auto& d) {
+        [](const auto& d) -> std::optional<Sphere> {
+            if constexpr (requires { d.radius; }) {
+                if (d.radius > 0.0f) {
+                    return Sphere{.center = d.position, .radius = d.radius};
+                }
+            }
+            return std::nullopt;
+        },
+        desc);
+}
+
+/// `sphere`: the number that the light gets if it is one.
+Light make_light(const LightDesc& desc, const BoundingSphere& bounds, std::uint32_t sphere)
+{
+    return std::visit(
+        [&bounds, sphere](const auto& d) {
             using T = std::decay_t<decltype(d)>;
             if constexpr (std::is_same_v<T, DirectionalLightDesc>) {
                 return Light(DirectionalLight(d, bounds));
             } else if constexpr (std::is_same_v<T, EnvironmentLightDesc>) {
                 return Light(EnvironmentLight(d, bounds));
+            } else if (d.radius > 0.0f) {
+                return Light(SphereLight(d, sphere));
             } else {
                 return Light(PunctualLight(d));
             }
         },
         desc);
+}
+
+/// How many samples of its emission texture a triangle may take along each side, so that all
+/// together stay in the range of a second.
+int most_emission_samples(std::span<const InstanceDesc> instances,
+                          std::span<const PlacedMesh> placed, std::span<const Material> materials)
+{
+    constexpr double budget = 0x1p24;
+    std::size_t textured = 0;
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+        const bool counts =
+            materials[static_cast<std::size_t>(instances[i].material)].has_emission_texture();
+        textured += counts ? placed[i].triangle_count() : 0U;
+    }
+    const double each = budget / static_cast<double>(std::max<std::size_t>(textured, 1));
+    return static_cast<int>(std::clamp(std::sqrt(each), 8.0, 1024.0));
 }
 
 AliasTable powers(const std::vector<Light>& lights)
@@ -35,11 +71,23 @@ AliasTable powers(const std::vector<Light>& lights)
 
 }  // namespace
 
+std::vector<Sphere> light_spheres(std::span<const LightDesc> lights)
+{
+    std::vector<Sphere> spheres;
+    for (const LightDesc& desc : lights) {
+        if (const auto sphere = sphere_of(desc)) {
+            spheres.push_back(*sphere);
+        }
+    }
+    return spheres;
+}
+
 LightSet::LightSet(std::span<const InstanceDesc> instances, std::span<const PlacedMesh> placed,
                    std::span<const Material> materials, std::span<const LightDesc> lights,
                    const BoundingSphere& bounds)
     : first_of_instance_(instances.size())
 {
+    const int most_samples = most_emission_samples(instances, placed, materials);
     for (std::size_t i = 0; i < instances.size(); ++i) {
         const Material& material = materials[static_cast<std::size_t>(instances[i].material)];
         if (is_black(material.mean_emission())) {
@@ -47,14 +95,18 @@ LightSet::LightSet(std::span<const InstanceDesc> instances, std::span<const Plac
         }
         first_of_instance_[i] = static_cast<std::uint32_t>(lights_.size());
         for (std::uint32_t t = 0; t < placed[i].triangle_count(); ++t) {
-            lights_.emplace_back(TriangleLight(placed[i], material, t));
+            lights_.emplace_back(TriangleLight(placed[i], material, t, most_samples));
         }
     }
     for (const LightDesc& desc : lights) {
+        const LightId id{static_cast<std::uint32_t>(lights_.size())};
+        lights_.push_back(make_light(desc, bounds, static_cast<std::uint32_t>(spheres_.size())));
         if (std::holds_alternative<EnvironmentLightDesc>(desc)) {
-            environment_ = LightId{static_cast<std::uint32_t>(lights_.size())};
+            environment_ = id;
         }
-        lights_.push_back(make_light(desc, bounds));
+        if (std::holds_alternative<SphereLight>(lights_.back().model())) {
+            spheres_.push_back(id);
+        }
     }
     by_power_ = powers(lights_);
 }

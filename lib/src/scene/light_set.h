@@ -11,6 +11,9 @@
 
 namespace bdpt {
 
+/// The spheres that point and spot lights with a radius are, in their order.
+[[nodiscard]] std::vector<Sphere> light_spheres(std::span<const LightDesc> lights);
+
 /// All lights of a scene and how one of them is chosen. Starting a light path and next-event
 /// estimation are two choices with two densities: the first knows no receiver, the second does.
 class LightSet {
@@ -43,10 +46,13 @@ public:
     /// The light that a triangle is, if it is one.
     [[nodiscard]] std::optional<LightId> of_triangle(std::uint32_t instance,
                                                      std::uint32_t triangle) const;
+    /// The light that sphere `sphere` of `light_spheres` is.
+    [[nodiscard]] LightId of_sphere(std::uint32_t sphere) const { return spheres_[sphere]; }
 
 private:
     std::vector<Light> lights_;
     std::vector<std::optional<std::uint32_t>> first_of_instance_;
+    std::vector<LightId> spheres_;
     std::optional<LightId> environment_;
     AliasTable by_power_;
 };

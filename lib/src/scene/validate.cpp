@@ -173,6 +173,22 @@ void check_position(const std::string& item, Vec3 position)
     }
 }
 
+void check_radius(const std::string& item, float radius, Rgb intensity)
+{
+    constexpr float least = 1e-15f;  // the area of the ball stays a normal float
+    constexpr float most = 1e15f;
+    if (radius == 0.0f) {
+        return;
+    }
+    if (!(radius >= least && radius <= most)) {
+        fail(item, ": radius is ", radius, ", neither 0 nor in [", least, ", ", most, "]");
+    }
+    const Rgb radiance = intensity / (pi * radius * radius);
+    if (!all_finite(&radiance[0], 3)) {
+        fail(item, ": radius ", radius, " is too small for the intensity");
+    }
+}
+
 struct LightCheck {
     std::size_t index;
 
@@ -181,6 +197,7 @@ struct LightCheck {
         const std::string item = label("point light", index, light.name);
         check_position(item, light.position);
         check_color(item, "intensity", light.intensity, any_positive);
+        check_radius(item, light.radius, light.intensity);
     }
 
     void operator()(const SpotLightDesc& light) const
@@ -189,6 +206,7 @@ struct LightCheck {
         check_position(item, light.position);
         check_direction(item, light.direction);
         check_color(item, "intensity", light.intensity, any_positive);
+        check_radius(item, light.radius, light.intensity);
         check_range(item, "inner cone angle", light.inner_cone_angle, 0.0f, 0.5f * pi);
         check_range(item, "outer cone angle", light.outer_cone_angle, 1e-4f, 0.5f * pi + 1e-6f);
         if (!(light.inner_cone_angle < light.outer_cone_angle)) {

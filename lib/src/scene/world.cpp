@@ -15,7 +15,7 @@
 namespace bdpt {
 namespace {
 
-Bounds bounds_of(std::span<const PlacedMesh> placed)
+Bounds bounds_of(std::span<const PlacedMesh> placed, std::span<const Sphere> spheres)
 {
     Bounds bounds{.min = Vec3(std::numeric_limits<float>::infinity()),
                   .max = Vec3(-std::numeric_limits<float>::infinity())};
@@ -27,6 +27,10 @@ Bounds bounds_of(std::span<const PlacedMesh> placed)
                 bounds.max = max(bounds.max, p);
             }
         }
+    }
+    for (const Sphere& sphere : spheres) {
+        bounds.min = min(bounds.min, sphere.center - sphere.radius);
+        bounds.max = max(bounds.max, sphere.center + sphere.radius);
     }
     return bounds.min.x <= bounds.max.x ? bounds : Bounds{};
 }
@@ -73,9 +77,11 @@ World::World(SceneDesc desc) : desc_(std::move(desc))
         placed_.emplace_back(desc_.meshes[static_cast<std::size_t>(instance.mesh)],
                              instance.world_from_object);
     }
-    bounds_ = bounds_of(placed_);
+    spheres_ = light_spheres(desc_.lights);
+    bounds_ = bounds_of(placed_, spheres_);
     sphere_ = sphere_around(bounds_);
-    embree_ = std::make_unique<const EmbreeScene>(desc_.instances, placed_, desc_.meshes.size());
+    embree_ = std::make_unique<const EmbreeScene>(desc_.instances, placed_, desc_.meshes.size(),
+                                                  spheres_);
     lights_ = std::make_unique<const LightSet>(desc_.instances, placed_, materials_, desc_.lights,
                                                sphere_);
     counts_ = count(desc_);
@@ -85,12 +91,27 @@ World::World(SceneDesc desc) : desc_(std::move(desc))
 
 std::optional<SurfacePoint> World::intersect(const SegmentEnd& from, Vec3 direction) const noexcept
 {
-    const auto hit = embree_->intersect(
-        {.origin = offset_origin(from.p, from.error, from.ng, direction), .direction = direction});
+    const auto hit =
+        embree_->intersect({.origin = offset_origin(from.p, from.error, from.ng, direction),
+                            .direction = direction,
+                            .ignored_sphere = from.sphere});
     if (!hit) {
         return std::nullopt;
     }
-    return surface_point(*hit, direction);
+    return hit->sphere == no_sphere ? surface_point(*hit, direction)
+                                    : sphere_point(*hit, direction);
+}
+
+/// Spheres are lights: they emit from their outside and reflect nothing.
+SurfacePoint World::sphere_point(const RayHit& hit, Vec3 direction) const noexcept
+{
+    const LightId id = lights_->of_sphere(hit.sphere);
+    const auto& light = std::get<SphereLight>((*lights_)[id].model());
+    const bool outside = dot(hit.normal, direction) < 0.0f;
+    return {.end = light.surface(hit.normal),
+            .bsdf = Bsdf(),
+            .emission = outside ? light.radiance(-direction) : Rgb(0.0f),
+            .light = id};
 }
 
 SurfacePoint World::surface_point(const RayHit& hit, Vec3 direction) const noexcept
@@ -120,7 +141,8 @@ SurfacePoint World::surface_point(const RayHit& hit, Vec3 direction) const noexc
         .end = {.p = point.p, .error = point.error, .ng = ng, .absorption = material.absorption()},
         .bsdf = material.bsdf(shading),
         .emission = Rgb(0.0f),
-        .light = lights_->of_triangle(hit.instance, hit.triangle)};
+        .light = lights_->of_triangle(hit.instance, hit.triangle),
+        .barycentrics = hit.barycentrics};
     if (result.light && (dot(ng, direction) < 0.0f || material.emits_from_both_sides())) {
         result.emission = material.emission(uv);
     }
@@ -135,8 +157,11 @@ Rgb World::transmittance(const SegmentEnd& a, const SegmentEnd& b) const noexcep
     const Vec3 to_b = b.p - a.p;
     const Vec3 origin = offset_origin(a.p, a.error, a.ng, to_b);
     const Vec3 target = offset_origin(b.p, b.error, b.ng, -to_b);
-    if (embree_->occluded(
-            {.origin = origin, .direction = target - origin, .t_max = short_of_end})) {
+    // Spheres only emit, so at most one end is on one, where light leaves it.
+    if (embree_->occluded({.origin = origin,
+                           .direction = target - origin,
+                           .t_max = short_of_end,
+                           .ignored_sphere = a.sphere != no_sphere ? a.sphere : b.sphere})) {
         return Rgb(0.0f);
     }
     return medium_transmittance(a, b, to_b, std::sqrt(dot(to_b, to_b)));

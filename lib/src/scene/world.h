@@ -2,6 +2,7 @@
 
 #include "geometry/embree_scene.h"
 #include "geometry/segment_end.h"
+#include "geometry/sphere.h"
 #include "material/bsdf.h"
 #include "material/material.h"
 #include "scene/light_set.h"
@@ -22,6 +23,7 @@ struct SurfacePoint {
     Bsdf bsdf;
     Rgb emission{0.0f};            ///< radiance towards where the ray came from [nit]
     std::optional<LightId> light;  ///< set when the surface emits, from whichever side
+    Vec2 barycentrics{0.0f};       ///< of triangles
 };
 
 /// The scene as rays see it: geometry, materials and lights, validated and immutable.
@@ -48,11 +50,13 @@ public:
 
 private:
     [[nodiscard]] SurfacePoint surface_point(const RayHit& hit, Vec3 direction) const noexcept;
+    [[nodiscard]] SurfacePoint sphere_point(const RayHit& hit, Vec3 direction) const noexcept;
 
     SceneDesc desc_;
     std::map<float, std::unique_ptr<const SpecularAlbedo>> albedos_;  // by index of refraction
     std::vector<Material> materials_;
     std::vector<PlacedMesh> placed_;
+    std::vector<Sphere> spheres_;
     Bounds bounds_;
     BoundingSphere sphere_;
     SceneCounts counts_;

@@ -116,6 +116,44 @@ TEST_CASE("impossible cones and intensities are brought into their ranges")
     CHECK(only_light<SpotLightDesc>(sharp).inner_cone_angle > 0.4999f);
 }
 
+TEST_CASE("extras.radius makes a ball, in the units of the node")
+{
+    const auto point = only_light<PointLightDesc>(
+        with_lights({{{"type", "point"}, {"extras", {{"radius", 0.25}}}}}).load());
+    CHECK(point.radius == Approx(1.25));
+    const auto spot = only_light<SpotLightDesc>(
+        with_lights(
+            {{{"type", "spot"}, {"spot", nlohmann::json::object()}, {"extras", {{"radius", 2}}}}})
+            .load());
+    CHECK(spot.radius == Approx(10.0));
+
+    // The mean of the axes is the geometric one; mirrors do not matter, parents count.
+    GltfFixture fixture = with_lights({{{"type", "point"}, {"extras", {{"radius", 0.5}}}}});
+    fixture.json["nodes"][0]["scale"] = {1, -2, 4};
+    fixture.json["nodes"].push_back({{"scale", {3, 3, 3}}, {"children", {0}}});
+    fixture.json["scenes"][0]["nodes"] = {1};
+    CHECK(only_light<PointLightDesc>(fixture.load()).radius == Approx(3.0));
+}
+
+TEST_CASE("a radius that is none is ignored with a warning")
+{
+    const auto loaded = [](const nlohmann::json& radius, const char* type) {
+        return with_lights({{{"type", type}, {"extras", {{"radius", radius}}}}}).load();
+    };
+    const LoadedScene negative = loaded(-0.5, "point");
+    CHECK(only_light<PointLightDesc>(negative).radius == 0.0f);
+    CHECK(warns(negative.warnings, {"lights/0/extras/radius: -0.5", "ignored"}));
+    const LoadedScene text = loaded("wide", "point");
+    CHECK(only_light<PointLightDesc>(text).radius == 0.0f);
+    CHECK(warns(text.warnings, {"lights/0/extras/radius", "not a number"}));
+    CHECK(warns(loaded(1, "directional").warnings, {"directional", "ignored"}));
+    CHECK(loaded(0, "point").warnings.empty());
+    // Other extras are nobody's business here.
+    const LoadedScene other = with_lights({{{"type", "point"}, {"extras", "anything"}}}).load();
+    CHECK(only_light<PointLightDesc>(other).radius == 0.0f);
+    CHECK(other.warnings.empty());
+}
+
 TEST_CASE("lights that are wrong are refused")
 {
     const auto message = [](const nlohmann::json& light, ErrorCode code) {

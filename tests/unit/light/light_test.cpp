@@ -103,6 +103,12 @@ TEST_CASE("emission weights integrate to the power, for every kind of light", "[
                                 .intensity = Rgb(5.0f),
                                 .inner_cone_angle = 0.3f,
                                 .outer_cone_angle = 0.9f});
+    builder.light(PointLightDesc{.intensity = Rgb(5.0f), .radius = 0.3f});
+    builder.light(SpotLightDesc{.direction = {1, 2, 3},
+                                .intensity = Rgb(5.0f),
+                                .inner_cone_angle = 0.3f,
+                                .outer_cone_angle = 0.9f,
+                                .radius = 0.7f});
     builder.light(DirectionalLightDesc{.direction = {1, -2, 3}, .illuminance = Rgb(2.0f)});
     builder.light(EnvironmentLightDesc{.radiance = sky()});
     const World world(std::move(builder.desc));
@@ -141,6 +147,15 @@ TEST_CASE("light paths bring to a surface what next-event estimation finds there
     builder.light(EnvironmentLightDesc{.radiance = sky()});
     builder.light(DirectionalLightDesc{.direction = {0.3f, -1, 0.2f}, .illuminance = Rgb(2.0f)});
     builder.light(PointLightDesc{.position = {0.0f, 1.0f, 0.5f}, .intensity = Rgb(1.0f)});
+    // Some of these receivers see the balls' lower halves only, or the edge of the cone.
+    builder.light(
+        PointLightDesc{.position = {0.0f, 0.7f, 0.2f}, .intensity = Rgb(1.0f), .radius = 0.5f});
+    builder.light(SpotLightDesc{.position = {0.5f, 1.0f, 0.0f},
+                                .direction = {-0.3f, -1, 0},
+                                .intensity = Rgb(5.0f),
+                                .inner_cone_angle = 0.1f,
+                                .outer_cone_angle = 0.5f,
+                                .radius = 0.3f});
     // The receiver is part of the scene, for light from infinity is aimed at its bounds.
     builder.quad({-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}, test::lambertian(Rgb(0.5f)));
     const World world(std::move(builder.desc));

@@ -110,6 +110,19 @@ TEST_CASE("lights and images", "[validate]")
 {
     check_refused("point light 0: intensity is -2",
                   [](SceneDesc& d) { std::get<PointLightDesc>(d.lights[0]).intensity.r = -2.0f; });
+    const auto radius = [](float value) {
+        return [value](SceneDesc& d) { std::get<PointLightDesc>(d.lights[0]).radius = value; };
+    };
+    check_refused("point light 0: radius is -1, neither 0", radius(-1.0f));
+    check_refused("point light 0: radius is nan", radius(nan_value));
+    check_refused("point light 0: radius is inf", radius(std::numeric_limits<float>::infinity()));
+    check_refused("point light 0: radius is 1e-18", radius(1e-18f));
+    check_refused("point light 0: radius 1e-12 is too small for the intensity", [](SceneDesc& d) {
+        std::get<PointLightDesc>(d.lights[0]).radius = 1e-12f;
+        std::get<PointLightDesc>(d.lights[0]).intensity = Rgb(1e20f);
+    });
+    check_refused("spot light 2: radius is -1",
+                  [](SceneDesc& d) { d.lights.emplace_back(SpotLightDesc{.radius = -1.0f}); });
     check_refused("directional light 2: direction is zero", [](SceneDesc& d) {
         d.lights.emplace_back(DirectionalLightDesc{.direction = Vec3(0.0f)});
     });

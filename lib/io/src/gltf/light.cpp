@@ -54,6 +54,32 @@ SpotLightDesc read_spot(const tinygltf::Light& light, const std::string& place, 
     return spot;
 }
 
+/// `extras.radius` in the node's units; 0 when there is none. Extras belong to whoever writes them,
+/// so a value that is no radius is no error.
+float read_radius(const tinygltf::Light& light, const std::string& place,
+                  const glm::dmat4& world_from_node, Warnings& warnings)
+{
+    if (!light.extras.IsObject() || !light.extras.Has("radius")) {
+        return 0.0f;
+    }
+    if (light.type == "directional") {
+        warnings.add("the radius of a directional light is ignored", place + "/extras/radius");
+        return 0.0f;
+    }
+    const tinygltf::Value& value = light.extras.Get("radius");
+    if (!value.IsNumber()) {
+        warnings.add("a radius that is not a number is ignored", place + "/extras/radius");
+        return 0.0f;
+    }
+    const double radius = value.GetNumberAsDouble();
+    if (!(radius >= 0.0) || !std::isfinite(radius)) {
+        warnings.add("a radius that is negative or not finite is ignored",
+                     fmt::format("{}/extras/radius: {}", place, radius));
+        return 0.0f;
+    }
+    return static_cast<float>(radius * mean_scale(world_from_node));
+}
+
 }  // namespace
 
 std::optional<LightDesc> read_light(const tinygltf::Model& model, std::size_t node,
@@ -75,8 +101,9 @@ std::optional<LightDesc> read_light(const tinygltf::Model& model, std::size_t no
         warnings.add("the range of a light is ignored: light does not end",
                      fmt::format("{}/range: {}", place, light.range));
     }
+    const float radius = read_radius(light, place, world_from_node, warnings);
     if (light.type == "point") {
-        return PointLightDesc{name, position, intensity};
+        return PointLightDesc{name, position, intensity, radius};
     }
     if (light.type == "directional") {
         return DirectionalLightDesc{name, direction, intensity};
@@ -87,6 +114,7 @@ std::optional<LightDesc> read_light(const tinygltf::Model& model, std::size_t no
         spot.position = position;
         spot.direction = direction;
         spot.intensity = intensity;
+        spot.radius = radius;
         return spot;
     }
     throw Error(ErrorCode::unsupported,

@@ -5,6 +5,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
+#include <glm/matrix.hpp>
 
 #include <cmath>
 
@@ -70,6 +71,11 @@ Vec3 transform_direction(const glm::dmat4& world_from_node, const glm::dvec3& di
         return {0.0f, 0.0f, -1.0f};
     }
     return Vec3(turned / length);
+}
+
+double mean_scale(const glm::dmat4& world_from_node)
+{
+    return std::cbrt(std::abs(glm::determinant(glm::dmat3(world_from_node))));
 }
 
 }  // namespace bdpt::io

@@ -21,4 +21,7 @@ namespace bdpt::io {
 [[nodiscard]] Vec3 transform_direction(const glm::dmat4& world_from_node,
                                        const glm::dvec3& direction);
 
+/// By how much the transform scales lengths: the geometric mean over all axes.
+[[nodiscard]] double mean_scale(const glm::dmat4& world_from_node);
+
 }  // namespace bdpt::io

@@ -1,0 +1,44 @@
+#include "geometry/sphere.h"
+
+#include "geometry/rounding.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <cmath>
+
+namespace bdpt {
+
+BoundedPoint Sphere::point(Vec3 normal) const
+{
+    const Vec3 p = center + radius * normal;
+    // The product and the sum are rounded, and so was the unit normal.
+    return {p, rounding_bound(2) * (abs(center) + abs(radius * normal)) +
+                   Vec3(rounding_bound(4) * radius)};
+}
+
+std::optional<SphereHit> intersect(const Sphere& sphere, const Ray& ray, float t_min) noexcept
+{
+    const glm::dvec3 direction(ray.direction);
+    const glm::dvec3 to_center = glm::dvec3(sphere.center) - glm::dvec3(ray.origin);
+    const auto radius = static_cast<double>(sphere.radius);
+    const double length_squared = dot(direction, direction);
+    const double nearest = dot(to_center, direction) / length_squared;
+    // From the centre to the point of the line that is nearest to it.
+    const glm::dvec3 aside = nearest * direction - to_center;
+    const double half_chord_squared = radius * radius - dot(aside, aside);
+    if (!(half_chord_squared >= 0.0)) {
+        return std::nullopt;
+    }
+    const double half = std::sqrt(half_chord_squared / length_squared);
+    const auto least = static_cast<double>(t_min);
+    const double entry = nearest - half;
+    const double t = entry > least ? entry : nearest + half;
+    if (!(t > least && t < static_cast<double>(ray.t_max))) {
+        return std::nullopt;
+    }
+    return SphereHit{.t = static_cast<float>(t),
+                     .normal = Vec3(normalize(aside + (t - nearest) * direction))};
+}
+
+}  // namespace bdpt

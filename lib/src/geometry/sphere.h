@@ -1,0 +1,32 @@
+#pragma once
+
+#include "geometry/placed_mesh.h"
+#include "geometry/ray.h"
+
+#include <bdpt/types.h>
+
+#include <optional>
+
+namespace bdpt {
+
+/// The surface of a ball. Its normals point outwards.
+struct Sphere {
+    Vec3 center{0.0f};
+    float radius = 1.0f;  ///< [m], > 0
+
+    /// The point whose unit normal is given, with a bound of how far it may lie off the surface.
+    [[nodiscard]] BoundedPoint point(Vec3 normal) const;
+};
+
+/// Where a ray met a sphere.
+struct SphereHit {
+    float t = 0.0f;     ///< in units of the ray's direction
+    Vec3 normal{0.0f};  ///< unit, outwards
+};
+
+/// The first crossing in (t_min, ray.t_max), from outside or from inside. Computed in double, so
+/// that spheres that are tiny or far away keep their outline.
+[[nodiscard]] std::optional<SphereHit> intersect(const Sphere& sphere, const Ray& ray,
+                                                 float t_min) noexcept;
+
+}  // namespace bdpt

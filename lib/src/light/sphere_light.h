@@ -1,0 +1,49 @@
+#pragma once
+
+#include "geometry/sphere.h"
+#include "light/light_samples.h"
+#include "light/spot_cone.h"
+
+#include <bdpt/scene_desc.h>
+
+#include <optional>
+
+namespace bdpt {
+
+/// A point or spot light with a radius: a black ball that emits from its outside. Its radiance is
+/// intensity / (pi r^2), so that from afar it is the point light; that of a spot falls off with the
+/// *direction* of the light, equally at all points of the ball.
+class SphereLight {
+public:
+    /// `number`: of the sphere in the scene's geometry.
+    SphereLight(const PointLightDesc& desc, std::uint32_t number);
+    SphereLight(const SpotLightDesc& desc, std::uint32_t number);
+
+    /// The point with the unit normal `ng`.
+    [[nodiscard]] SegmentEnd surface(Vec3 ng) const;
+    /// In a unit direction away from the ball [nit].
+    [[nodiscard]] Rgb radiance(Vec3 direction) const;
+
+    /// Directions are uniform in the spot's cone, and points uniform on the disk that the ball is
+    /// as seen from there: for a point light that is area times cosine.
+    [[nodiscard]] std::optional<EmissionSample> sample_emission(Vec2 u_position,
+                                                                Vec2 u_direction) const;
+    /// Directions are uniform in the cone that the ball fills; none from inside of it.
+    [[nodiscard]] std::optional<IncidentSample> sample_incident(Vec3 receiver, Vec2 u) const;
+
+    /// Uniform over the area. For a spot that is not the density of the position alone; but its
+    /// product with `pdf_direction` is that of both, and nothing else is ever used.
+    [[nodiscard]] AreaPdf pdf_position() const;
+    [[nodiscard]] AreaPdf pdf_incident(Vec3 receiver, Vec3 p, Vec3 ng) const;
+    [[nodiscard]] SolidAnglePdf pdf_direction(Vec3 ng, Vec3 direction) const;
+    /// Luminous flux [lm].
+    [[nodiscard]] Rgb power() const { return intensity_ * cone_.integral(); }
+
+private:
+    Sphere sphere_;
+    std::uint32_t number_;
+    Rgb intensity_;  // [cd]
+    SpotCone cone_;
+};
+
+}  // namespace bdpt

@@ -1,0 +1,87 @@
+#include "light/triangle_emission.h"
+
+#include "math/rgb.h"
+#include "math/warp.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace bdpt {
+namespace {
+
+constexpr int most_cells = 32;              // a side
+constexpr float floor_of_triangle = 0.01f;  // of the texture's mean
+constexpr float floor_of_cell = 0.1f;       // of the mean of the cells
+
+/// Longest edge of the triangle in texels.
+float longest_edge(const PlacedMesh& mesh, const Material& material, std::uint32_t triangle)
+{
+    const Vec2 a = material.emission_texel(mesh.uv(triangle, {0.0f, 0.0f}));
+    const Vec2 b = material.emission_texel(mesh.uv(triangle, {1.0f, 0.0f}));
+    const Vec2 c = material.emission_texel(mesh.uv(triangle, {0.0f, 1.0f}));
+    return std::sqrt(std::max({dot(b - a, b - a), dot(c - a, c - a), dot(c - b, c - b)}));
+}
+
+/// `wanted` rounded up into [least, most]; coordinates may be so large that it is not finite.
+int clamped(float wanted, int least, int most)
+{
+    return wanted < static_cast<float>(most) ? std::max(static_cast<int>(std::ceil(wanted)), least)
+                                             : most;
+}
+
+}  // namespace
+
+TriangleEmission measure_emission(const PlacedMesh& mesh, const Material& material,
+                                  std::uint32_t triangle, int most_samples)
+{
+    if (!material.has_emission_texture()) {
+        return {.mean = material.mean_emission(), .spread = nullptr};
+    }
+    const float edge = longest_edge(mesh, material, triangle);
+    const int cells = clamped(edge, 1, most_cells);
+    constexpr float samples_per_texel = 3.0f;
+    const int samples_per_cell = clamped(samples_per_texel * edge / static_cast<float>(cells), 2,
+                                         std::max(2, most_samples / cells));
+    const int samples = cells * samples_per_cell;
+
+    Rgb total(0.0f);
+    std::vector<double> squares(static_cast<std::size_t>(cells) * static_cast<std::size_t>(cells));
+    for (int y = 0; y < samples; ++y) {
+        for (int x = 0; x < samples; ++x) {
+            const Vec2 u = (Vec2(x, y) + 0.5f) / static_cast<float>(samples);
+            const int cell = y / samples_per_cell * cells + x / samples_per_cell;
+            const Rgb emitted = material.emission(mesh.uv(triangle, square_to_triangle(u)));
+            total += emitted;
+            const auto bright = static_cast<double>(luminance(emitted));
+            squares[static_cast<std::size_t>(cell)] += bright * bright;
+        }
+    }
+    const auto cell_samples = static_cast<float>(samples_per_cell * samples_per_cell);
+    TriangleEmission result{.mean = mix(total / (cell_samples * static_cast<float>(squares.size())),
+                                        material.mean_emission(), floor_of_triangle),
+                            .spread = nullptr};
+    // The root of the mean square, not the mean, makes the variance least where a cell is uneven.
+    std::vector<float> weights;
+    weights.reserve(squares.size());
+    float sum = 0.0f;
+    for (const double square : squares) {
+        weights.push_back(
+            static_cast<float>(std::sqrt(square / static_cast<double>(cell_samples))));
+        sum += weights.back();
+    }
+    const float least_weight = floor_of_cell * sum / static_cast<float>(weights.size());
+    for (float& weight : weights) {
+        weight += least_weight;
+    }
+    const auto [least, greatest] = std::minmax_element(weights.begin(), weights.end());
+    constexpr float hardly_more = 1.05f;
+    if (*greatest > hardly_more * *least) {
+        result.spread = std::make_unique<const Distribution2D>(weights, cells, cells);
+    }
+    return result;
+}
+
+}  // namespace bdpt

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "geometry/placed_mesh.h"
+#include "material/material.h"
+#include "math/distribution_2d.h"
+
+#include <memory>
+
+namespace bdpt {
+
+/// What one emissive triangle emits and where on it.
+struct TriangleEmission {
+    Rgb mean{0.0f};  ///< radiance, averaged over the triangle [nit]
+    /// By luminance over the unit square that `square_to_triangle` maps; null: evenly.
+    std::unique_ptr<const Distribution2D> spread;
+};
+
+/// Reads the emission texture on a regular grid, fine enough for its texels but of at most
+/// `most_samples` a side. What the grid may have missed keeps a small share, so that no point that
+/// emits has a density of zero.
+[[nodiscard]] TriangleEmission measure_emission(const PlacedMesh& mesh, const Material& material,
+                                                std::uint32_t triangle, int most_samples);
+
+}  // namespace bdpt

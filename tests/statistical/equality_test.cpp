@@ -5,6 +5,7 @@
 #include "equal_means.h"
 #include "equality_cases.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <iostream>
 
@@ -46,6 +47,19 @@ void check_case(const EqualityCase& test, std::uint64_t first_seed)
     check_equal(test, "mis = bdpt (balance)", mis, bdpt_balance);
 }
 
+/// The same integral by other random numbers.
+void check_samplers(const EqualityCase& test, std::uint64_t first_seed)
+{
+    const Scene scene(test.scene);
+    TileMeans reference(scene, test.camera, options(test, IntegratorKind::mis, first_seed + 1));
+    TileMeans mis(scene, test.camera, options(test, IntegratorKind::mis, first_seed + 2),
+                  SamplerKind::sobol);
+    TileMeans bdpt(scene, test.camera, options(test, IntegratorKind::bdpt, first_seed + 3),
+                   SamplerKind::sobol);
+    check_equal(test, "mis: independent = sobol", reference, mis);
+    check_equal(test, "mis: independent = bdpt: sobol", reference, bdpt);
+}
+
 }  // namespace
 
 TEST_CASE("pt, mis and bdpt agree", "[equality]")
@@ -55,6 +69,20 @@ TEST_CASE("pt, mis and bdpt agree", "[equality]")
         DYNAMIC_SECTION(cases[i].name)
         {
             check_case(cases[i], 100 * i);
+        }
+    }
+}
+
+TEST_CASE("Sobol points and independent numbers agree", "[equality]")
+{
+    const auto cases = equality_cases();
+    for (const char* name : {"area light", "all kinds of light", "half transmission"}) {
+        DYNAMIC_SECTION(name)
+        {
+            const auto test = std::find_if(cases.begin(), cases.end(),
+                                           [&](const auto& c) { return c.name == name; });
+            REQUIRE(test != cases.end());
+            check_samplers(*test, 100000);
         }
     }
 }

@@ -59,8 +59,12 @@ TEST_CASE("the same bits for any threads and tiles", "[purity]")
             o.tile_size = tile;
             CHECK(film_of(scene, o) == expected);
         }
-        o.seed = 12;
-        CHECK_FALSE(film_of(scene, o) == expected);
+        RenderOptions other = o;
+        other.seed = 12;
+        CHECK_FALSE(film_of(scene, other) == expected);
+        other = o;
+        other.sampler = SamplerKind::independent;
+        CHECK_FALSE(film_of(scene, other) == expected);
     }
 }
 
@@ -74,6 +78,7 @@ TEST_CASE("a range rendered in parts and merged is the whole", "[purity]")
 {
     const Scene scene = room();
     RenderOptions o = options(IntegratorKind::bdpt);
+    o.sampler = GENERATE(SamplerKind::sobol, SamplerKind::independent);
     const Film whole = film_of(scene, o);
     o.samples = {.begin = 5, .end = 8};
     Film parts = film_of(scene, o);

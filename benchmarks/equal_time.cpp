@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "relative_mse.h"
+
 namespace {
 
 using namespace bdpt;
@@ -24,20 +26,6 @@ struct Settings {
     int seeds = 5;
     std::int64_t reference_samples = 4096;
 };
-
-/// Mean of (x - r)^2 / (r^2 + 0.01) over pixels and channels.
-double relative_mse(const Image& image, const Image& reference)
-{
-    double sum = 0.0;
-    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-        for (int c = 0; c < 3; ++c) {
-            const double r = static_cast<double>(reference.pixels[i][c]);
-            const double difference = static_cast<double>(image.pixels[i][c]) - r;
-            sum += difference * difference / (r * r + 0.01);
-        }
-    }
-    return sum / (3.0 * static_cast<double>(image.pixels.size()));
-}
 
 double median(std::vector<double> values)
 {

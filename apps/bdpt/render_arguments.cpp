@@ -158,6 +158,13 @@ void add_how(CLI::App& command, RenderWords& words)
         ->type_name("balance|power")
         ->group(group);
     command
+        .add_option("--sampler", words.sampler,
+                    "Where random numbers come from: sobol (the default), Owen-scrambled, less "
+                    "noise; or independent. Best with a power of two as --spp")
+        ->check(CLI::IsMember({"sobol", "independent"}))
+        ->type_name("sobol|independent")
+        ->group(group);
+    command
         .add_option(
             "--max-depth", words.max_depth,
             fmt::format(
@@ -240,6 +247,8 @@ RenderArguments understand(const RenderWords& words)
     }
     result.options.integrator = to_integrator(words.integrator);
     result.options.heuristic = words.heuristic == "balance" ? Heuristic::balance : Heuristic::power;
+    result.options.sampler =
+        words.sampler == "independent" ? SamplerKind::independent : SamplerKind::sobol;
     result.options.max_depth = words.max_depth;
     result.options.threads = words.threads;
     result.options.seed = to_seed(words.seed);

@@ -29,6 +29,7 @@ struct RenderWords {
     std::optional<std::string> size;
     std::string integrator = "bdpt";
     std::string heuristic = "power";
+    std::string sampler = "sobol";
     int max_depth = RenderOptions{}.max_depth;
     std::optional<std::string> camera;
     std::optional<std::string> look_at;

@@ -38,6 +38,11 @@ const char* name_of(Heuristic heuristic)
     return heuristic == Heuristic::balance ? "balance" : "power";
 }
 
+const char* name_of(SamplerKind sampler)
+{
+    return sampler == SamplerKind::independent ? "independent" : "sobol";
+}
+
 /// All that the picture depends on.
 ordered_json settings_of(const RenderArguments& arguments, const Stage& stage)
 {
@@ -46,6 +51,7 @@ ordered_json settings_of(const RenderArguments& arguments, const Stage& stage)
                           {"height", stage.size.height},
                           {"integrator", name_of(options.integrator)},
                           {"heuristic", name_of(options.heuristic)},
+                          {"sampler", name_of(options.sampler)},
                           {"max_depth", options.max_depth},
                           {"seed", options.seed},
                           {"camera", stage.camera.name},

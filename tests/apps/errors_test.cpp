@@ -58,6 +58,7 @@ TEST_CASE("wrong usage gives exit code 2 and names the option")
     rejects({"--time", "-5s"}, "--time");
     rejects({"--integrator", "magic"}, "--integrator");
     rejects({"--heuristic", "magic"}, "--heuristic");
+    rejects({"--sampler", "magic"}, "--sampler");
     rejects({"--max-depth", "0"}, "--max-depth");
     rejects({"--fov", "180"}, "--fov \"180\"");
     rejects({"--fov", "nan"}, "--fov");

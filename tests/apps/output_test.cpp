@@ -24,7 +24,7 @@ TEST_CASE("help and version are worth reading and no errors")
     }
     const std::string help = run({"render", "--help"}).out;
     for (const char* word :
-         {"--output",    "--spp",      "--time",     "--size", "--integrator", "--heuristic",
+         {"--output",  "--sampler",    "--spp",      "--time",     "--size", "--integrator", "--heuristic",
           "--max-depth", "--camera",   "--look-at",  "--from", "--fov",        "--scene",
           "--env",       "--exposure", "--threads",  "--seed", "--half",       "--float",
           "--quiet",     "--json",     "--filter",   "--aov",  "--crop",       "--clamp",
@@ -44,7 +44,7 @@ TEST_CASE("all outputs are written, with their size and how they were made")
     const Outcome outcome =
         run({"render", scene, "-o", (folder / "a.exr").string(), "-o", (folder / "b.PNG").string(),
              "--spp", "5", "--size", "40x20", "--seed", "12345678901234567890", "--integrator",
-             "mis", "--heuristic", "balance"});
+             "mis", "--heuristic", "balance", "--sampler", "independent"});
     CAPTURE(outcome.err);
     REQUIRE(outcome.exit_code == 0);
     CHECK(folder.names() == std::set<std::string>{"a.exr", "b.PNG", "cube.bin", "cube.gltf"});
@@ -62,6 +62,7 @@ TEST_CASE("all outputs are written, with their size and how they were made")
     CHECK(Imf::hasWorldToNDC(exr.header));
     const auto settings = nlohmann::json::parse(exr.text("bdpt.settings"));
     CHECK(settings["heuristic"] == "balance");
+    CHECK(settings["sampler"] == "independent");
     CHECK(settings["spp"] == 5);
     CHECK(settings["environment"] == "default");
 

@@ -6,6 +6,7 @@
 #include "equality_cases.h"
 #include "scene_builder.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <iostream>
 
@@ -45,6 +46,19 @@ void check_case(const EqualityCase& test, std::uint64_t first_seed)
     balance.heuristic = Heuristic::balance;
     TileMeans bdpt_balance(scene, test.camera, balance);
     check_equal(test, "mis = bdpt (balance)", mis, bdpt_balance);
+}
+
+/// The same integral by other random numbers.
+void check_samplers(const EqualityCase& test, std::uint64_t first_seed)
+{
+    const Scene scene(test.scene);
+    TileMeans reference(scene, test.camera, options(test, IntegratorKind::mis, first_seed + 1));
+    TileMeans mis(scene, test.camera, options(test, IntegratorKind::mis, first_seed + 2),
+                  SamplerKind::sobol);
+    TileMeans bdpt(scene, test.camera, options(test, IntegratorKind::bdpt, first_seed + 3),
+                   SamplerKind::sobol);
+    check_equal(test, "mis: independent = sobol", reference, mis);
+    check_equal(test, "mis: independent = bdpt: sobol", reference, bdpt);
 }
 
 }  // namespace
@@ -106,6 +120,20 @@ TEST_CASE("a tiny sphere lights like a point", "[equality]")
             TileMeans expected(point, test.camera, options(test, kind, ++seed));
             TileMeans found(ball, test.camera, options(test, kind, ++seed));
             check_equal(test, "point = ball", expected, found);
+        }
+    }
+}
+
+TEST_CASE("Sobol points and independent numbers agree", "[equality]")
+{
+    const auto cases = equality_cases();
+    for (const char* name : {"area light", "all kinds of light", "half transmission"}) {
+        DYNAMIC_SECTION(name)
+        {
+            const auto test = std::find_if(cases.begin(), cases.end(),
+                                           [&](const auto& c) { return c.name == name; });
+            REQUIRE(test != cases.end());
+            check_samplers(*test, 100000);
         }
     }
 }

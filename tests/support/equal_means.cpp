@@ -83,18 +83,31 @@ std::string MeanComparison::text() const
     return out.str();
 }
 
-TileMeans::TileMeans(const Scene& scene, const CameraDesc& camera, RenderOptions options)
+TileMeans::TileMeans(const Scene& scene, const CameraDesc& camera, RenderOptions options,
+                     SamplerKind sampler)
     : scene_(scene), camera_(camera), options_(options)
 {
+    options_.sampler = sampler;
     options_.width = side;
     options_.height = side;
+}
+
+RenderOptions TileMeans::options_of_batch(int batch) const
+{
+    RenderOptions options = options_;
+    if (options_.sampler == SamplerKind::sobol) {
+        options.samples = {.begin = 0, .end = 8};
+        options.seed = options_.seed << 32U | static_cast<std::uint32_t>(batch);
+    } else {
+        options.samples = {.begin = batch, .end = batch + 1};
+    }
+    return options;
 }
 
 void TileMeans::refine(int batches)
 {
     for (int batch = 0; batch < batches; ++batch, ++batches_) {
-        options_.samples = {.begin = batches_, .end = batches_ + 1};
-        const Image image = render(scene_, camera_, options_).film.develop();
+        const Image image = render(scene_, camera_, options_of_batch(batches_)).film.develop();
         std::array<double, cells> sums{};
         for (int y = 0; y < side; ++y) {
             for (int x = 0; x < side; ++x) {

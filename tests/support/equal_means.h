@@ -18,7 +18,7 @@ struct Sharpness {
     /// The smallest relative bias of a tile that must be found with 90 % chance. A comparison that
     /// is too noisy for that fails.
     double detectable_bias = 0.025;
-    /// Batches of one sample a pixel that are rendered at most to get there.
+    /// Batches that are rendered at most to get there.
     int max_batches = 8192;
 };
 
@@ -35,15 +35,19 @@ struct MeanComparison {
     [[nodiscard]] std::string text() const;
 };
 
-/// Tile means of a renderer, from independent batches: averages of the three channels over a grid of
-/// tiles that covers a film of `side` x `side` pixels.
+/// Tile means of a renderer, from independent batches: averages of the three channels over a grid
+/// of tiles that covers a film of `side` x `side` pixels. A batch is one independent sample a
+/// pixel; or, with the Sobol sampler, whose samples of one pixel depend on each other, eight with a
+/// seed of their own.
 class TileMeans {
 public:
     static constexpr int grid = 2;
     static constexpr int side = 32;
     static constexpr std::size_t cells = grid * grid;
 
-    TileMeans(const Scene& scene, const CameraDesc& camera, RenderOptions options);
+    /// `sampler` takes the place of that in `options`. Seeds are less than 2^32.
+    TileMeans(const Scene& scene, const CameraDesc& camera, RenderOptions options,
+              SamplerKind sampler = SamplerKind::independent);
 
     /// Renders `batches` more batches.
     void refine(int batches);
@@ -51,6 +55,8 @@ public:
     [[nodiscard]] int batches() const { return batches_; }
 
 private:
+    [[nodiscard]] RenderOptions options_of_batch(int batch) const;
+
     const Scene& scene_;
     CameraDesc camera_;
     RenderOptions options_;

@@ -23,6 +23,14 @@ enum class Heuristic : std::uint8_t {
     power,  ///< beta = 2
 };
 
+/// Where random numbers come from.
+enum class SamplerKind : std::uint8_t {
+    /// Owen-scrambled Sobol points: the samples of a pixel spread evenly, with less noise. Best
+    /// with twice a power of two of them, one power for each half of the film.
+    sobol,
+    independent,  ///< every number by itself
+};
+
 /// Half-open range of sample indices. Every index is a fixed set of random numbers, so disjoint
 /// ranges may be rendered apart and their films merged.
 struct SampleRange {
@@ -33,6 +41,7 @@ struct SampleRange {
 struct RenderOptions {
     IntegratorKind integrator = IntegratorKind::bdpt;
     Heuristic heuristic = Heuristic::power;
+    SamplerKind sampler = SamplerKind::sobol;
     int width = 1280;
     int height = 720;
     /// The part of the image that is rendered; its pixels are those of the whole image, to the bit.

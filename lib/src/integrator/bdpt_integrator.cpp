@@ -25,7 +25,7 @@ RenderStats BdptIntegrator::render_tile(const Tile& tile, SampleRange samples, F
     for (int y = tile.y_begin; y < tile.y_end; ++y) {
         for (int x = tile.x_begin; x < tile.x_end; ++x) {
             for (std::int64_t index = samples.begin; index < samples.end; ++index) {
-                Sampler sampler(options_.seed, x, y, index);
+                Sampler sampler(options_.sampler, options_.seed, x, y, index);
                 sampler.start(SampleUse::film);
                 const Vec2 raster = filter_.sample_raster(x, y, sampler.next_2d());
                 const bool wanted = film.region().contains(x, y);

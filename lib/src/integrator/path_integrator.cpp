@@ -31,7 +31,7 @@ RenderStats PathIntegrator::render_tile(const Tile& tile, SampleRange samples, F
     for (int y = tile.y_begin; y < tile.y_end; ++y) {
         for (int x = tile.x_begin; x < tile.x_end; ++x) {
             for (std::int64_t index = samples.begin; index < samples.end; ++index) {
-                Sampler sampler(options_.seed, x, y, index);
+                Sampler sampler(options_.sampler, options_.seed, x, y, index);
                 sampler.start(SampleUse::film);
                 const Vec2 raster = filter_.sample_raster(x, y, sampler.next_2d());
                 film.add_sample(x, y, index, estimate(raster, sampler, stats.rays));
@@ -85,9 +85,9 @@ Rgb PathIntegrator::estimate(Vec2 raster, Sampler& sampler, RayCounts& rays) con
             radiance += beta * sample_light(*point, wo, sampler, rays);
         }
         sampler.start(SampleUse::camera_walk, vertex);
-        const float u_lobe = sampler.next_1d();
+        const Vec2 u_direction = sampler.next_2d();
         const auto scattered =
-            point->bsdf.sample(wo, u_lobe, sampler.next_2d(), TransportMode::radiance);
+            point->bsdf.sample(wo, sampler.next_1d(), u_direction, TransportMode::radiance);
         if (!scattered || is_black(scattered->weight)) {
             break;
         }
@@ -126,7 +126,8 @@ Rgb PathIntegrator::emission(const Ray& ray, LightId light, const LightPoint& hi
 Rgb PathIntegrator::sample_light(const SurfacePoint& point, Vec3 wo, Sampler& sampler,
                                  RayCounts& rays) const
 {
-    const auto choice = world_.lights().choose_for_receiver(point.end.p, sampler.next_2d());
+    const Vec2 u_position = sampler.next_2d();
+    const auto choice = world_.lights().choose_for_receiver(point.end.p, sampler.next_fine());
     if (!choice) {
         return Rgb(0.0f);
     }
@@ -134,7 +135,7 @@ Rgb PathIntegrator::sample_light(const SurfacePoint& point, Vec3 wo, Sampler& sa
     if (options_.integrator == IntegratorKind::pt && !light.is_delta()) {
         return Rgb(0.0f);
     }
-    const auto incident = light.sample_incident(point.end.p, sampler.next_2d());
+    const auto incident = light.sample_incident(point.end.p, u_position);
     if (!incident) {
         return Rgb(0.0f);
     }

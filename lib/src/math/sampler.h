@@ -1,7 +1,10 @@
 #pragma once
 
+#include <bdpt/render_options.h>
 #include <bdpt/types.h>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace bdpt {
@@ -16,35 +19,51 @@ enum class SampleUse : std::uint32_t {
     light_walk,   ///< scattering at a vertex of the light subpath
 };
 
-/// Random numbers of one pixel sample, a pure function of (seed, pixel, sample index, dimension):
-/// equal arguments give equal sequences on every machine and thread.
+/// Random numbers of one pixel sample, a pure function of (kind, seed, pixel, sample index, use,
+/// vertex): equal arguments give equal sequences on every machine and thread. All are multiples of
+/// 2^-24 in [0, 1).
+///
+/// They come in sets of four, each set scrambled and put in order by itself ("padding"). What a
+/// use asks for first it gets from the two best distributed dimensions of its set, so ask for the
+/// pair that matters most before anything else. Whoever asks for more than a set has left goes on
+/// with the first dimensions of another.
+///
+/// With `SamplerKind::sobol` the samples of even index are one sequence and those of odd index
+/// another, independent of it, as the two halves of the film must be.
 class Sampler {
 public:
-    Sampler(std::uint64_t seed, int x, int y, std::int64_t sample_index)
-        : key_(mix(mix(mix(seed + golden) ^
-                       (static_cast<std::uint64_t>(static_cast<std::uint32_t>(y)) << 32U |
-                        static_cast<std::uint32_t>(x))) +
-                   static_cast<std::uint64_t>(sample_index) * golden))
-    {}
+    Sampler(SamplerKind kind, std::uint64_t seed, int x, int y, std::int64_t sample_index);
 
     /// Continues with the dimensions of a use at a vertex.
     void start(SampleUse use, std::uint32_t vertex = 0)
     {
-        dimension_ = (vertex * uses + static_cast<std::uint32_t>(use)) * dimensions_per_use;
+        next_set_ = (std::uint64_t{vertex} * uses + static_cast<std::uint64_t>(use)) * sets_per_use;
+        next_ = set_size;
     }
 
-    /// Uniform in [0, 1).
-    [[nodiscard]] float next_1d() { return to_float(bits() >> 32U); }
+    [[nodiscard]] float next_1d() { return set_[reserve(1)]; }
 
     [[nodiscard]] Vec2 next_2d()
     {
-        const std::uint64_t both = bits();
-        return {to_float(both >> 32U), to_float(both & 0xffffffffU)};
+        const std::size_t first = reserve(2);
+        return {set_[first], set_[first + 1]};
+    }
+
+    /// A single dimension with 48 bits, as `fine_uniform` takes it: the upper 24 in x, the lower,
+    /// which are pure noise, in y.
+    [[nodiscard]] Vec2 next_fine()
+    {
+        const std::size_t at = reserve(1);
+        const std::uint64_t lower = bits(next_set_ - 1, fine_hashes + at);
+        return {set_[at], to_float(static_cast<std::uint32_t>(lower >> 32U))};
     }
 
 private:
-    static constexpr std::uint32_t uses = 8;
-    static constexpr std::uint32_t dimensions_per_use = 4;
+    static constexpr std::size_t set_size = 4;
+    static constexpr std::uint64_t uses = 8;
+    static constexpr std::uint64_t sets_per_use = 64;
+    static constexpr std::uint64_t hashes_per_set = 8;
+    static constexpr std::uint64_t fine_hashes = 4;  ///< the first of those for `next_fine`
     static constexpr std::uint64_t golden = 0x9e3779b97f4a7c15U;  // 2^64 / golden ratio
 
     /// Finaliser of SplitMix64 [Steele et al. 2014, "Fast Splittable Pseudorandom Number
@@ -56,16 +75,38 @@ private:
         return z ^ (z >> 31U);
     }
 
-    /// The upper 24 of 32 bits: all floats of that spacing in [0, 1).
-    [[nodiscard]] static constexpr float to_float(std::uint64_t bits32)
+    /// The upper 24 bits: all floats of that spacing in [0, 1).
+    [[nodiscard]] static constexpr float to_float(std::uint32_t bits)
     {
-        return static_cast<float>(bits32 >> 8U) * 0x1p-24f;
+        return static_cast<float>(static_cast<std::int32_t>(bits >> 8U)) * 0x1p-24f;
     }
 
-    [[nodiscard]] std::uint64_t bits() { return mix(key_ + golden * ++dimension_); }
+    /// One of the `hashes_per_set` random words of a set.
+    [[nodiscard]] std::uint64_t bits(std::uint64_t set, std::uint64_t number) const
+    {
+        return mix(key_ + golden * (set * hashes_per_set + number));
+    }
+
+    /// Where in the set `count` unused dimensions begin.
+    [[nodiscard]] std::size_t reserve(std::size_t count)
+    {
+        if (next_ + count > set_size) {
+            fill();
+        }
+        const std::size_t first = next_;
+        next_ += count;
+        return first;
+    }
+
+    /// Draws the next set.
+    void fill();
 
     std::uint64_t key_;
-    std::uint32_t dimension_ = 0;
+    std::uint64_t next_set_ = 0;  ///< the set in use is the one before
+    std::size_t next_ = set_size;
+    std::uint32_t reversed_index_ = 0;  ///< of the point in its sequence
+    SamplerKind kind_;
+    std::array<float, set_size> set_{};
 };
 
 }  // namespace bdpt

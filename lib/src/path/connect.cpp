@@ -58,12 +58,13 @@ std::optional<Contribution> connect_to_light(const World& world, std::span<const
         return std::nullopt;
     }
     sampler.start(SampleUse::next_event, static_cast<std::uint32_t>(camera.size()));
-    const auto choice = world.lights().choose_for_receiver(z.end.p, sampler.next_2d());
+    const Vec2 u_position = sampler.next_2d();
+    const auto choice = world.lights().choose_for_receiver(z.end.p, sampler.next_fine());
     if (!choice) {
         return std::nullopt;
     }
     const Light& light = world.lights()[choice->id];
-    const auto incident = light.sample_incident(z.end.p, sampler.next_2d());
+    const auto incident = light.sample_incident(z.end.p, u_position);
     if (!incident) {
         return std::nullopt;
     }

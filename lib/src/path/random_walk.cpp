@@ -94,8 +94,8 @@ void walk(const World& world, Step step, TransportMode mode, SampleUse use, int 
         }
         PathVertex& vertex = path[path.size() - 1];
         sampler.start(use, static_cast<std::uint32_t>(path.size()));
-        const float u_lobe = sampler.next_1d();
-        const auto scattered = vertex.bsdf.sample(vertex.wo, u_lobe, sampler.next_2d(), mode);
+        const Vec2 u_direction = sampler.next_2d();
+        const auto scattered = vertex.bsdf.sample(vertex.wo, sampler.next_1d(), u_direction, mode);
         if (!scattered || is_black(scattered->weight)) {
             return;
         }
@@ -134,12 +134,12 @@ void trace_light_subpath(const World& world, int max_vertices, Sampler& sampler,
 {
     path.clear();
     sampler.start(SampleUse::light_start);
-    const auto choice = world.lights().choose_for_emission(sampler.next_2d());
+    const Vec2 u_position = sampler.next_2d();
+    const auto choice = world.lights().choose_for_emission(sampler.next_fine());
     if (!choice || max_vertices < 1) {
         return;
     }
     const Light& light = world.lights()[choice->id];
-    const Vec2 u_position = sampler.next_2d();
     const auto emitted = light.sample_emission(u_position, sampler.next_2d());
     if (!emitted || is_black(emitted->weight)) {
         return;

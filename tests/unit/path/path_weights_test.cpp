@@ -63,7 +63,7 @@ TEST_CASE("weights of all strategies sum to one on traced paths", "[mis]")
             }
         };
         for (int i = 0; i < 2000; ++i) {
-            Sampler sampler(1, i % size, i / size, i);
+            Sampler sampler(SamplerKind::sobol, 1, i % size, i / size, i);
             const Vec2 raster(static_cast<float>(i % size) + 0.5f,
                               static_cast<float>(i / size % size) + 0.5f);
             trace_camera_subpath(world, camera, raster, camera_path.capacity(), sampler,
@@ -95,7 +95,7 @@ TEST_CASE("joining and hitting agree about the densities of the same path", "[mi
     PathWeigher weigher(world, Heuristic::balance, max_depth + 1);
     int compared = 0;
     for (int i = 0; i < 3000; ++i) {
-        Sampler sampler(2, i % 16, i / 16 % 16, i);
+        Sampler sampler(SamplerKind::sobol, 2, i % 16, i / 16 % 16, i);
         const Vec2 raster(static_cast<float>(i % 16) + 0.5f,
                           static_cast<float>(i / 16 % 16) + 0.5f);
         trace_camera_subpath(world, camera, raster, camera_path.capacity(), sampler, camera_path);

@@ -89,6 +89,12 @@ TEST_CASE("the same bits for any threads and tiles", "[purity]")
             o.tile_size = tile;
             CHECK(film_of(scene, o) == expected);
         }
+        RenderOptions other = o;
+        other.seed = 12;
+        CHECK_FALSE(film_of(scene, other) == expected);
+        other = o;
+        other.sampler = SamplerKind::independent;
+        CHECK_FALSE(film_of(scene, other) == expected);
         o.filter.kind = FilterKind::gaussian;
         const Film filtered = film_of(scene, o);
         CHECK_FALSE(filtered == expected);
@@ -110,6 +116,7 @@ TEST_CASE("a range rendered in parts and merged is the whole", "[purity]")
 {
     const Scene scene = room();
     RenderOptions o = options(IntegratorKind::bdpt);
+    o.sampler = GENERATE(SamplerKind::sobol, SamplerKind::independent);
     o.filter.kind = GENERATE(FilterKind::box, FilterKind::blackman_harris);
     const Film whole = film_of(scene, o);
     o.samples = {.begin = 5, .end = 8};

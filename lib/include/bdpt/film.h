@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bdpt/export.h>
 #include <bdpt/image.h>
 
 #include <array>
@@ -15,7 +16,7 @@ namespace bdpt {
 /// A sum of floats that does not depend on their order: a 128-bit fixed-point number made of two
 /// atomic words, the low one with unit 2^-60. A carry out of the low word is added to the high one;
 /// both additions commute, so any interleaving of threads gives the same bits.
-class ExactSum {
+class BDPT_EXPORT ExactSum {
 public:
     /// Largest magnitude that is added as it is; greater ones count as this one.
     static constexpr float max_value = 8.796093e12f;  // 2^43
@@ -56,7 +57,7 @@ struct FilmDefects {
 /// What a render measured: for each pixel the sum of its own camera samples and the sum of what
 /// light paths splatted on it, each in two independent halves (even and odd sample index). The
 /// pixel filter is a box one pixel wide. Pixel (0, 0) is at the top left.
-class Film {
+class BDPT_EXPORT Film {
 public:
     Film() = default;
     /// `width`, `height` > 0. Without splats the light image takes no memory.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bdpt/export.h>
 #include <bdpt/film.h>
 #include <bdpt/render_options.h>
 #include <bdpt/scene.h>
@@ -36,7 +37,8 @@ struct RenderResult {
 /// Blocks until all samples are done, `control.stop` is requested or the time is up; at least one
 /// pass is always done. The result depends on scene, camera and options only, to the bit: not on
 /// threads, tiles or time. Throws `Error` (usage) for options out of range.
-[[nodiscard]] RenderResult render(const Scene& scene, const CameraDesc& camera,
-                                  const RenderOptions& options, const RenderControl& control = {});
+[[nodiscard]] BDPT_EXPORT RenderResult render(const Scene& scene, const CameraDesc& camera,
+                                              const RenderOptions& options,
+                                              const RenderControl& control = {});
 
 }  // namespace bdpt

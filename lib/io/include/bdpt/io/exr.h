@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bdpt/export.h>
 #include <bdpt/image.h>
 #include <bdpt/io/picture_metadata.h>
 
@@ -28,7 +29,7 @@ struct ExrReport {
 /// Writes channels R, G, B (linear Rec. 709 [nit]) with ZIP compression, atomically. Beside our own
 /// entries the header has those that other tools show: "renderTimeSeconds", "samplesPerPixel",
 /// "worldToCamera", "worldToNDC". Throws `Error` (output).
-ExrReport write_exr(const std::filesystem::path& file, const Image& image,
-                    const ExrOptions& options);
+BDPT_EXPORT ExrReport write_exr(const std::filesystem::path& file, const Image& image,
+                                const ExrOptions& options);
 
 }  // namespace bdpt::io

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bdpt/export.h>
 #include <bdpt/io/read_limits.h>
 #include <bdpt/scene_desc.h>
 
@@ -26,7 +27,7 @@ enum class ExtensionStatus : std::uint8_t {
     unknown,
 };
 
-[[nodiscard]] std::string_view to_string(ExtensionStatus status);
+[[nodiscard]] BDPT_EXPORT std::string_view to_string(ExtensionStatus status);
 
 /// One entry of a file's `extensionsUsed`.
 struct ExtensionUse {
@@ -70,7 +71,7 @@ struct LoadedScene {
 /// not_found (a file that is missing or unreadable; no such scene), invalid_input (broken, unsafe
 /// or ambiguous, or over a limit), unsupported (a required extension, or a glTF version, that we do
 /// not have). What is merely not conforming becomes a warning.
-[[nodiscard]] LoadedScene load_gltf(const std::filesystem::path& file,
-                                    const GltfOptions& options = {});
+[[nodiscard]] BDPT_EXPORT LoadedScene load_gltf(const std::filesystem::path& file,
+                                                const GltfOptions& options = {});
 
 }  // namespace bdpt::io

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bdpt/export.h>
 #include <bdpt/io/picture_metadata.h>
 #include <bdpt/io/tone_map.h>
 
@@ -14,7 +15,7 @@ struct PngOptions {
 
 /// Writes an 8-bit RGB PNG with an sRGB chunk and the metadata as text, atomically. Throws `Error`
 /// (output).
-void write_png(const std::filesystem::path& file, const DisplayImage& image,
-               const PngOptions& options);
+BDPT_EXPORT void write_png(const std::filesystem::path& file, const DisplayImage& image,
+                           const PngOptions& options);
 
 }  // namespace bdpt::io

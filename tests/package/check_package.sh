@@ -65,21 +65,35 @@ use_find_package() {
   "$WORK/find_package/read_sky" "$sky"
 }
 
-use_pkg_config() {
+# compile PROGRAM SOURCE PACKAGE: as one does by hand. What is hidden in the program must not hide what
+# the library throws.
+compile() {
   local words=(--cflags --libs)
   [[ $SHARED == 1 ]] || words+=(--static)
+  # Flags are words.
+  # shellcheck disable=SC2046,SC2086
+  $LAUNCHER "$CXX" -std=c++20 -O1 -fvisibility=hidden $FLAGS "$2" -o "$1" \
+    $("$PKG_CONFIG" "${words[@]}" "$3")
+}
+
+use_pkg_config() {
   export PKG_CONFIG_PATH=$prefix/$LIBDIR/pkgconfig LD_LIBRARY_PATH=$prefix/$LIBDIR
   [[ $("$PKG_CONFIG" --modversion bdpt) == "$VERSION" ]] || fail "bdpt.pc: not version $VERSION"
+  rm -rf "$WORK/pkg-config"
   mkdir -p "$WORK/pkg-config"
-  # Flags are words. What is hidden here must not hide what the library throws.
-  # shellcheck disable=SC2046,SC2086
-  $LAUNCHER "$CXX" -std=c++20 -O1 -fvisibility=hidden $FLAGS "$consumer/render_box.cpp" \
-    -o "$WORK/pkg-config/render_box" $("$PKG_CONFIG" "${words[@]}" bdpt)
-  # shellcheck disable=SC2046,SC2086
-  $LAUNCHER "$CXX" -std=c++20 -O1 -fvisibility=hidden $FLAGS "$consumer/read_sky.cpp" \
-    -o "$WORK/pkg-config/read_sky" $("$PKG_CONFIG" "${words[@]}" bdpt_io)
-  expect_version "$WORK/pkg-config/render_box"
-  "$WORK/pkg-config/read_sky" "$sky"
+  cd "$WORK/pkg-config"
+  compile render_box "$consumer/render_box.cpp" bdpt
+  expect_version ./render_box
+  compile read_sky "$consumer/read_sky.cpp" bdpt_io
+  ./read_sky "$sky"
+
+  # The program in the README, with fewer pixels.
+  awk '/^```cpp$/ {inside = 1; next} /^```$/ {inside = 0} inside' "$SOURCE/README.md" \
+    | sed 's/512/16/g; s/{0, 64}/{0, 1}/' >readme.cpp
+  compile readme readme.cpp bdpt_io
+  ln -s "$SOURCE/scenes" scenes
+  ./readme
+  [[ -s out.exr ]] || fail "the program in the README wrote no picture"
 }
 
 # Builds the core alone, as quickly as compilers can. What was built before is kept. The libraries for

@@ -29,8 +29,8 @@ struct SceneCounts {
 /// between threads.
 class BDPT_EXPORT Scene {
 public:
-    /// Throws `Error` (invalid_input) when an index, a transform or a value in `desc` is invalid;
-    /// the message names the item and the value.
+    /// Throws `Error`: invalid_input when an index, a transform or a value in `desc` is invalid,
+    /// and the message names the item and the value; out_of_memory or internal when Embree fails.
     explicit Scene(SceneDesc desc);
     Scene(Scene&&) noexcept;
     Scene& operator=(Scene&&) noexcept;

@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "camera_matrices.h"
+#include "check_pixels.h"
 
 namespace bdpt::io {
 namespace {
@@ -159,6 +160,7 @@ ExrReport write_to(OutputStream& stream, const Image& image, const ExrOptions& o
 ExrReport write_exr(const std::filesystem::path& file, const Image& image,
                     const ExrOptions& options)
 {
+    check_pixels(file, image.width, image.height, image.pixels.size());
     OutputFile output(file);
     OutputStream stream(output, file.string());
     ExrReport report;

@@ -10,6 +10,7 @@
 
 namespace bdpt::io {
 
+/// What `load_environment` read.
 struct LoadedEnvironment {
     EnvironmentLightDesc light;
     std::vector<std::string> warnings;  ///< one line each, without the file's name

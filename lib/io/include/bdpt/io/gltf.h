@@ -14,6 +14,7 @@
 
 namespace bdpt::io {
 
+/// What to load of a file, and how much at most.
 struct GltfOptions {
     /// Name or index of the scene; none: the file's default scene, else its first.
     std::optional<std::string> scene;
@@ -27,6 +28,7 @@ enum class ExtensionStatus : std::uint8_t {
     unknown,
 };
 
+/// "supported", "ignored" or "unknown".
 [[nodiscard]] BDPT_EXPORT std::string_view to_string(ExtensionStatus status);
 
 /// One entry of a file's `extensionsUsed`.
@@ -57,6 +59,7 @@ struct GltfFacts {
     std::vector<ExtensionUse> extensions;
 };
 
+/// What `load_gltf` read.
 struct LoadedScene {
     SceneDesc scene;                    ///< without an environment; glTF has none
     std::vector<CameraDesc> cameras;    ///< those of the scene's nodes, in the order of the nodes

@@ -66,18 +66,18 @@ use_find_package() {
 }
 
 # compile PROGRAM SOURCE PACKAGE: as one does by hand. What is hidden in the program must not hide what
-# the library throws.
+# the library throws. Of the libraries a program loads those that it calls; they find the others.
 compile() {
   local words=(--cflags --libs)
   [[ $SHARED == 1 ]] || words+=(--static)
   # Flags are words.
   # shellcheck disable=SC2046,SC2086
   $LAUNCHER "$CXX" -std=c++20 -O1 -fvisibility=hidden $FLAGS "$2" -o "$1" \
-    $("$PKG_CONFIG" "${words[@]}" "$3")
+    -Wl,--as-needed -Wl,-rpath,"$prefix/$LIBDIR" $("$PKG_CONFIG" "${words[@]}" "$3")
 }
 
 use_pkg_config() {
-  export PKG_CONFIG_PATH=$prefix/$LIBDIR/pkgconfig LD_LIBRARY_PATH=$prefix/$LIBDIR
+  export PKG_CONFIG_PATH=$prefix/$LIBDIR/pkgconfig
   [[ $("$PKG_CONFIG" --modversion bdpt) == "$VERSION" ]] || fail "bdpt.pc: not version $VERSION"
   rm -rf "$WORK/pkg-config"
   mkdir -p "$WORK/pkg-config"

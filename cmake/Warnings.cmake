@@ -1,8 +1,10 @@
-# bdpt_compile_options(TARGET): the language level, the warnings and the arithmetic that all our code
-# is built with.
+# bdpt_compile_options(TARGET): the language level, the warnings, the arithmetic and the visibility
+# that all our code is built with.
 function(bdpt_compile_options target)
   target_compile_features(${target} PUBLIC cxx_std_20)
-  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
+  # Shared libraries export what is marked BDPT_EXPORT and nothing else.
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF
+                        CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
   target_compile_options(${target} PRIVATE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wnon-virtual-dtor
     -Wold-style-cast -Woverloaded-virtual -Wimplicit-fallthrough
@@ -10,7 +12,9 @@ function(bdpt_compile_options target)
     # A product and a sum are rounded apart on every CPU, so that pictures are equal to the bit.
     -ffp-contract=off
     # No errno and no trapping: sqrt and comparisons become single instructions. Values stay IEEE.
-    -fno-math-errno -fno-trapping-math)
+    -fno-math-errno -fno-trapping-math
+    # Nobody replaces our functions at load time, so exported ones may be inlined too.
+    -fno-semantic-interposition)
   if(BDPT_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
   endif()

@@ -1,4 +1,5 @@
 #include <bdpt/error.h>
+#include <bdpt/version.h>
 #include <fmt/core.h>
 #include <signal.h>
 
@@ -18,7 +19,6 @@
 #include "info_command.h"
 #include "render_arguments.h"
 #include "render_command.h"
-#include "version.h"
 
 namespace bdpt::app {
 namespace {
@@ -41,7 +41,7 @@ struct CommandLine {
 
 void describe(CommandLine& line)
 {
-    line.app.set_version_flag("--version", fmt::format("bdpt {}", version));
+    line.app.set_version_flag("--version", "bdpt " BDPT_VERSION);
     line.app.require_subcommand(1);
     line.app.footer(footer);
     line.app.formatter(std::make_shared<HelpFormatter>());

@@ -1,6 +1,7 @@
 #include "render_command.h"
 
 #include <bdpt/render.h>
+#include <bdpt/version.h>
 #include <fmt/core.h>
 
 #include <array>
@@ -84,7 +85,7 @@ void announce(Console& console, const RenderArguments& arguments, const Stage& s
               const ordered_json& settings)
 {
     const SceneCounts counts = stage.scene.counts();
-    console.event("start", {{"version", version},
+    console.event("start", {{"version", BDPT_VERSION},
                             {"file", arguments.file.string()},
                             {"triangles", counts.instanced_triangles},
                             {"lights", counts.lights},
@@ -152,7 +153,7 @@ PictureOptions picture_options(const RenderArguments& arguments, const Stage& st
                                const RenderResult& result, const ordered_json& settings)
 {
     io::PictureMetadata metadata;
-    metadata.version = version;
+    metadata.version = BDPT_VERSION;
     metadata.scene = one_line(arguments.file.string());
     metadata.settings = settings.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
     metadata.integrator = name_of(arguments.options.integrator);

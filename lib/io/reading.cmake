@@ -1,6 +1,4 @@
 # Reading: glTF scenes, textures, environment maps.
-include(GNUInstallDirs)
-
 target_sources(bdpt_io PRIVATE
   # files, JSON
   src/file/json_parser.cpp
@@ -41,28 +39,30 @@ target_sources(bdpt_io PRIVATE
 )
 target_include_directories(bdpt_io SYSTEM PRIVATE ${BDPT_TINYGLTF_INCLUDE_DIR})
 target_link_libraries(bdpt_io PRIVATE
-  OpenEXR::OpenEXR Imath::Imath nlohmann_json::nlohmann_json fmt::fmt ${CMAKE_DL_LIBS})
+  OpenEXR::OpenEXR Imath::Imath $<BUILD_INTERFACE:nlohmann_json::nlohmann_json> fmt::fmt
+  ${CMAKE_DL_LIBS})
 
 # tinygltf gets checked JSON and buffers from memory; it opens no files and decodes no pictures.
 target_compile_definitions(bdpt_io PRIVATE
   TINYGLTF_NO_STB_IMAGE TINYGLTF_NO_STB_IMAGE_WRITE TINYGLTF_NO_EXTERNAL_IMAGE TINYGLTF_NO_FS
   TINYGLTF_NO_INCLUDE_JSON)
-# What sees tinygltf is hidden, so that it cannot clash with another copy in the user's program. The
-# implementation's warnings are not ours to mend.
-set_source_files_properties(
-  src/gltf/accessor.cpp src/gltf/camera.cpp src/gltf/image_table.cpp src/gltf/light.cpp
-  src/gltf/material.cpp src/gltf/mesh.cpp src/gltf/model.cpp src/gltf/scene_builder.cpp
-  src/gltf/texture.cpp src/gltf/transform.cpp
-  PROPERTIES COMPILE_OPTIONS "-fvisibility=hidden")
-set_source_files_properties(src/gltf/tinygltf.cpp PROPERTIES
-  COMPILE_OPTIONS "-fvisibility=hidden;-w")
+# The implementation's warnings are not ours to mend.
+set_source_files_properties(src/gltf/tinygltf.cpp PROPERTIES COMPILE_OPTIONS "-w")
 
 # OpenImageIO lives in a module that is loaded with the first picture (src/image/oiio_library.h).
 add_library(bdpt_oiio MODULE src/oiio_module/oiio_module.cpp)
 bdpt_compile_options(bdpt_oiio)
-set_target_properties(bdpt_oiio PROPERTIES CXX_VISIBILITY_PRESET hidden)
 target_include_directories(bdpt_oiio PRIVATE src)
 target_link_libraries(bdpt_oiio PRIVATE OpenImageIO::OpenImageIO)
 add_dependencies(bdpt_io bdpt_oiio)
-set_source_files_properties(src/image/oiio_library.cpp PROPERTIES COMPILE_DEFINITIONS
-  "BDPT_OIIO_BUILD_FILE=\"$<TARGET_FILE:bdpt_oiio>\";BDPT_INSTALL_LIBDIR=\"${CMAKE_INSTALL_LIBDIR}\"")
+# Where it is looked for, relative to what holds the code: beside it in the build tree and in bdpt/
+# when installed. A static library ends up in a program that may lie anywhere.
+set(folders [["."]] [["bdpt"]])
+if(NOT BUILD_SHARED_LIBS)
+  file(RELATIVE_PATH from_bindir "${CMAKE_INSTALL_FULL_BINDIR}" "${CMAKE_INSTALL_FULL_LIBDIR}")
+  list(APPEND folders "\"${from_bindir}/bdpt\"" "\"${CMAKE_INSTALL_FULL_LIBDIR}/bdpt\""
+       "\"$<TARGET_FILE_DIR:bdpt_oiio>\"")
+endif()
+list(JOIN folders "," folders)
+set_source_files_properties(src/image/oiio_library.cpp PROPERTIES
+  COMPILE_DEFINITIONS "BDPT_OIIO_FOLDERS=${folders}")

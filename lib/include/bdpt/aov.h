@@ -1,5 +1,7 @@
 #pragma once
 
+#include <bdpt/export.h>
+
 #include <cstdint>
 #include <initializer_list>
 
@@ -26,7 +28,7 @@ enum class Aov : std::uint8_t {
     alpha,
 };
 
-class AovSet {
+class BDPT_EXPORT AovSet {
 public:
     constexpr AovSet() = default;
     constexpr AovSet(std::initializer_list<Aov> aovs)

@@ -2,6 +2,7 @@
 
 #include <bdpt/aov.h>
 #include <bdpt/exact_sum.h>
+#include <bdpt/export.h>
 #include <bdpt/film.h>
 #include <bdpt/layer.h>
 #include <bdpt/pixel_rect.h>
@@ -23,7 +24,7 @@ struct PrimaryHit {
 };
 
 /// Sums of what camera rays met; exact and without order like those of `Film`.
-class AovFilm {
+class BDPT_EXPORT AovFilm {
 public:
     AovFilm() = default;
     AovFilm(const PixelRect& region, AovSet aovs);

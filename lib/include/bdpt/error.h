@@ -1,5 +1,7 @@
 #pragma once
 
+#include <bdpt/export.h>
+
 #include <stdexcept>
 #include <string>
 
@@ -18,7 +20,7 @@ enum class ErrorCode {
 
 /// Thrown for bad input or a failing dependency. Never thrown while rays are traced. The message is
 /// one line that names the item and the value.
-class Error : public std::runtime_error {
+class BDPT_EXPORT Error : public std::runtime_error {
 public:
     Error(ErrorCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
 

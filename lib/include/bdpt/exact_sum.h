@@ -1,5 +1,7 @@
 #pragma once
 
+#include <bdpt/export.h>
+
 #include <atomic>
 #include <cstdint>
 
@@ -9,7 +11,7 @@ namespace bdpt {
 /// in two's complement, made of two atomic words, the low one with unit 2^-60. A carry out of the
 /// low word is added to the high one; both additions commute and wrap around, so any interleaving
 /// of threads gives the same bits.
-class ExactSum {
+class BDPT_EXPORT ExactSum {
 public:
     /// Largest magnitude that may be added. The sum is right below 2^67: 2^25 times this.
     static constexpr float max_value = 0x1p42f;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bdpt/exact_sum.h>
+#include <bdpt/export.h>
 #include <bdpt/image.h>
 #include <bdpt/pixel_rect.h>
 
@@ -52,7 +53,7 @@ struct ClampLoss {
 /// What a render measured: for each pixel the sum of its own camera samples and the sum of what
 /// light paths splatted on it, each in two independent halves (even and odd sample index). All
 /// positions are those of the whole image, also when the film holds only a part of it.
-class Film {
+class BDPT_EXPORT Film {
 public:
     Film() = default;
     explicit Film(const FilmLayout& layout);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bdpt/export.h>
 #include <bdpt/scene.h>
 
 namespace bdpt {
@@ -15,7 +16,7 @@ struct FramedView {
 };
 
 /// Frames a whole scene: from outside, three quarters and slightly above, if it is an object; from
-/// inside if it is a room. Deterministic. `aspect` is width over height.
-[[nodiscard]] FramedView frame_scene(const Scene& scene, float aspect);
+/// inside if it is a room. Deterministic. `aspect` is width over height, above 0.
+[[nodiscard]] BDPT_EXPORT FramedView frame_scene(const Scene& scene, float aspect);
 
 }  // namespace bdpt

@@ -14,6 +14,7 @@ struct Image {
     int height = 0;
     std::vector<Rgb> pixels;  ///< width * height
 
+    /// `x` in [0, width), `y` in [0, height).
     [[nodiscard]] const Rgb& at(int x, int y) const
     {
         return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +

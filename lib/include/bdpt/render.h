@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bdpt/aov_film.h>
+#include <bdpt/export.h>
 #include <bdpt/film.h>
 #include <bdpt/render_options.h>
 #include <bdpt/render_stats.h>
@@ -12,10 +13,11 @@
 
 namespace bdpt {
 
+/// How far a render is; what `RenderControl::on_progress` is told.
 struct Progress {
     std::int64_t samples_done = 0;   ///< per pixel
     std::int64_t samples_total = 0;  ///< per pixel
-    double seconds = 0.0;
+    double seconds = 0.0;            ///< [s] since render() was called
 };
 
 /// How a caller watches and stops a render. Everything is optional.
@@ -29,6 +31,7 @@ struct RenderControl {
     double time_limit = std::numeric_limits<double>::infinity();
 };
 
+/// What render() gives back.
 struct RenderResult {
     Film film;
     AovFilm aovs;  ///< of the same samples; empty if none were asked for
@@ -39,8 +42,10 @@ struct RenderResult {
 
 /// Blocks until all samples are done, `control.stop` is requested or the time is up; at least one
 /// pass is always done. The result depends on scene, camera and options only, to the bit: not on
-/// threads, tiles or time. Throws `Error` (usage) for options out of range.
-[[nodiscard]] RenderResult render(const Scene& scene, const CameraDesc& camera,
-                                  const RenderOptions& options, const RenderControl& control = {});
+/// threads, tiles or time. May be called from several threads at once, for the same scene too.
+/// Throws `Error`: usage for options out of range, invalid_input for a camera that is not usable.
+[[nodiscard]] BDPT_EXPORT RenderResult render(const Scene& scene, const CameraDesc& camera,
+                                              const RenderOptions& options,
+                                              const RenderControl& control = {});
 
 }  // namespace bdpt

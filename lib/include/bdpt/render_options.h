@@ -38,6 +38,8 @@ struct SampleRange {
     std::int64_t end = 64;
 };
 
+/// What to render but for scene and camera. Ranges: width, height and tile_size [1, 65536],
+/// max_depth [1, 4096], threads [0, 4096], samples within [0, 2^32 - 1] and not empty.
 struct RenderOptions {
     IntegratorKind integrator = IntegratorKind::bdpt;
     Heuristic heuristic = Heuristic::power;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bdpt/export.h>
 #include <bdpt/scene_desc.h>
 
 #include <cstddef>
@@ -26,10 +27,10 @@ struct SceneCounts {
 
 /// A scene that is ready to trace: validated, its Embree BVH built, immutable and safe to share
 /// between threads.
-class Scene {
+class BDPT_EXPORT Scene {
 public:
-    /// Throws `Error` (invalid_input) when an index, a transform or a value in `desc` is invalid;
-    /// the message names the item and the value.
+    /// Throws `Error`: invalid_input when an index, a transform or a value in `desc` is invalid,
+    /// and the message names the item and the value; out_of_memory or internal when Embree fails.
     explicit Scene(SceneDesc desc);
     Scene(Scene&&) noexcept;
     Scene& operator=(Scene&&) noexcept;

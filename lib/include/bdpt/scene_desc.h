@@ -13,6 +13,7 @@
 
 namespace bdpt {
 
+/// Indices into the vectors of `SceneDesc`; as types, so that one cannot stand for another.
 enum class MeshId : std::uint32_t {};
 enum class MaterialId : std::uint32_t {};
 enum class ImageId : std::uint32_t {};
@@ -28,6 +29,7 @@ struct MeshDesc {
     std::vector<UVec3> triangles;  ///< counter-clockwise from the front
 };
 
+/// What a texture shows outside of [0, 1]; names as in glTF 2.0.
 enum class Wrap : std::uint8_t { repeat, mirrored_repeat, clamp_to_edge };
 
 /// A picture used by a material slot, with the transform of KHR_texture_transform.
@@ -42,23 +44,24 @@ struct TextureRef {
 };
 
 /// glTF 2.0 metallic-roughness material with KHR_materials_{emissive_strength, ior, specular,
-/// transmission, volume}; names, defaults and ranges are those of the specification.
+/// transmission, volume}; names, defaults and ranges are those of the specification
+/// [glTF 2.0, sec. 3.9; KHR extensions of these names].
 struct MaterialDesc {
     std::string name{};
-    Vec4 base_color{1.0f};  ///< [0, 1]
-    float metallic = 1.0f;
-    float roughness = 1.0f;  ///< perceptual; GGX alpha is its square; 0 is a perfect mirror
-    Rgb emission{0.0f};      ///< radiance [nit]
-    float normal_scale = 1.0f;
+    Vec4 base_color{1.0f};      ///< [0, 1]
+    float metallic = 1.0f;      ///< [0, 1]
+    float roughness = 1.0f;     ///< [0, 1], perceptual; GGX alpha is its square; 0: a mirror
+    Rgb emission{0.0f};         ///< radiance [nit], >= 0
+    float normal_scale = 1.0f;  ///< times x and y of normal_texture
     bool double_sided = false;  ///< emits from both sides; scattering is two-sided in any case
 
-    float ior = 1.5f;       ///< >= 1
-    float specular = 1.0f;  ///< [0, 1]; 0 takes the dielectric reflection away
-    Rgb specular_color{1.0f};
+    float ior = 1.5f;           ///< >= 1
+    float specular = 1.0f;      ///< [0, 1]; 0 takes the dielectric reflection away
+    Rgb specular_color{1.0f};   ///< >= 0, times the reflectance at normal incidence
     float transmission = 0.0f;  ///< [0, 1]
     float thickness = 0.0f;     ///< > 0: the mesh bounds a solid body; 0: a thin sheet
-    float attenuation_distance = std::numeric_limits<float>::infinity();  ///< [m]
-    Rgb attenuation_color{1.0f};  ///< what is left of white light after that distance
+    float attenuation_distance = std::numeric_limits<float>::infinity();  ///< [m], > 0
+    Rgb attenuation_color{1.0f};  ///< [0, 1], what is left of white after that distance
 
     std::optional<TextureRef> base_color_texture;          ///< sRGB, times base_color
     std::optional<TextureRef> metallic_roughness_texture;  ///< linear; G roughness, B metallic
@@ -69,7 +72,7 @@ struct MaterialDesc {
     std::optional<TextureRef> transmission_texture;        ///< linear; R
 };
 
-/// A mesh placed in the world. Meshes are shared: many instances cost one BVH.
+/// A mesh placed in the world [m]. Meshes are shared: many instances cost one BVH.
 struct InstanceDesc {
     std::string name{};
     MeshId mesh{};
@@ -77,6 +80,7 @@ struct InstanceDesc {
     Mat4 world_from_object{1.0f};  ///< affine, invertible; a negative determinant is fine
 };
 
+/// Shines alike in all directions; intensity over distance squared [KHR_lights_punctual].
 struct PointLightDesc {
     std::string name{};
     Vec3 position{0.0f};
@@ -86,20 +90,23 @@ struct PointLightDesc {
     float radius = 0.0f;
 };
 
+/// A point light in a cone, smooth from the inner to the outer angle [KHR_lights_punctual].
 struct SpotLightDesc {
     std::string name{};
     Vec3 position{0.0f};
-    Vec3 direction{0.0f, 0.0f, -1.0f};
+    Vec3 direction{0.0f, 0.0f, -1.0f};    ///< the axis; of any length but 0
     Rgb intensity{1.0f};                  ///< [cd] within the inner cone
     float inner_cone_angle = 0.0f;        ///< [rad] from the axis
     float outer_cone_angle = 0.7853982f;  ///< [rad] from the axis, in (inner, pi/2]
-    /// [m] As for point lights; the falloff is that of the direction in which light leaves the ball.
+    /// [m] As for point lights; the falloff is that of the direction in which light leaves the
+    /// ball.
     float radius = 0.0f;
 };
 
+/// Light from infinity out of one direction, like the sun's [KHR_lights_punctual].
 struct DirectionalLightDesc {
     std::string name{};
-    Vec3 direction{0.0f, 0.0f, -1.0f};  ///< the way the light travels
+    Vec3 direction{0.0f, 0.0f, -1.0f};  ///< the way the light travels; of any length but 0
     Rgb illuminance{1.0f};              ///< [lx] on a surface that faces the light
 };
 

@@ -27,6 +27,7 @@
 #include <vector>
 
 #include "camera_matrices.h"
+#include "check_pixels.h"
 
 namespace bdpt::io {
 namespace {
@@ -230,6 +231,7 @@ ExrReport write_exr(const std::filesystem::path& file, const Image& image,
 ExrReport write_exr(const std::filesystem::path& file, const Image& image,
                     std::span<const Layer> layers, const ExrOptions& options)
 {
+    check_pixels(file, image.width, image.height, image.pixels.size());
     const Content content = make_content(image, layers, options);
     const ExrPlacement placement = options.placement.value_or(
         ExrPlacement{.x = 0, .y = 0, .full_width = image.width, .full_height = image.height});

@@ -14,6 +14,8 @@
 #include <utility>
 #include <vector>
 
+#include "check_pixels.h"
+
 namespace bdpt::io {
 namespace {
 
@@ -111,6 +113,9 @@ bool encode(png_structp png, png_infop info, const DisplayImage& image,
 void write_png(const std::filesystem::path& file, const DisplayImage& image,
                const PngOptions& options)
 {
+    // Part of a pixel is as wrong as one too many.
+    const std::size_t pixels = image.rgb.size() % 3 == 0 ? image.rgb.size() / 3 : 0;
+    check_pixels(file, image.width, image.height, pixels);
     Text text = all_text(options);
     const std::vector<png_text> entries = to_png_text(text);
     Sink sink;

@@ -69,6 +69,31 @@ TEST_CASE("an EXR file of floats holds the pixels to the bit")
     CHECK(folder.names() == std::set<std::string>{"a.exr"});
 }
 
+TEST_CASE("pictures whose pixels do not fit their size are refused")
+{
+    const ScratchFolder folder;
+    const auto [width, height, pixels] = GENERATE(
+        table<int, int, int>({{0, 0, 0}, {2, 2, 0}, {2, 2, 3}, {2, 2, 5}, {-2, -2, 4}, {0, 3, 0}}));
+    CAPTURE(width, height, pixels);
+    const auto count = static_cast<std::size_t>(pixels);
+    const auto refuses = [](const auto& write) {
+        try {
+            write();
+        } catch (const Error& error) {
+            return error.code() == ErrorCode::usage;
+        }
+        return false;
+    };
+    const Image image{width, height, std::vector<Rgb>(count)};
+    DisplayImage display{width, height, std::vector<std::uint8_t>(3 * count)};
+    CHECK(refuses([&] { write_exr(folder / "a.exr", image, {}); }));
+    CHECK(refuses([&] { write_exr(folder / "a.exr", image, {ExrChannelType::half_float, {}}); }));
+    CHECK(refuses([&] { write_png(folder / "a.png", display, {}); }));
+    display = {1, 1, std::vector<std::uint8_t>(4)};
+    CHECK(refuses([&] { write_png(folder / "a.png", display, {}); }));
+    CHECK(folder.names().empty());
+}
+
 TEST_CASE("an EXR file of halves clamps what they cannot hold, and counts it")
 {
     const ScratchFolder folder;

@@ -40,10 +40,11 @@ std::filesystem::path own_folder()
 std::vector<std::filesystem::path> candidates()
 {
     const std::filesystem::path here = own_folder();
-    return {here / module_name, here / "bdpt" / module_name,
-            here / ".." / BDPT_INSTALL_LIBDIR / "bdpt" / module_name,
-            here / ".." / "lib" / "bdpt" / module_name,
-            std::filesystem::path(BDPT_OIIO_BUILD_FILE)};
+    std::vector<std::filesystem::path> files;
+    for (const char* folder : {BDPT_OIIO_FOLDERS}) {
+        files.push_back(here / folder / module_name);  // `folder` alone where it is absolute
+    }
+    return files;
 }
 
 void* load_module()

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bdpt/export.h>
 #include <bdpt/io/read_limits.h>
 #include <bdpt/scene_desc.h>
 
@@ -9,6 +10,7 @@
 
 namespace bdpt::io {
 
+/// What `load_environment` read.
 struct LoadedEnvironment {
     EnvironmentLightDesc light;
     std::vector<std::string> warnings;  ///< one line each, without the file's name
@@ -20,7 +22,7 @@ struct LoadedEnvironment {
 ///
 /// Throws `Error`, whose message starts with the file's path: not_found (missing or unreadable),
 /// invalid_input (broken, or over a limit), unsupported (neither format).
-[[nodiscard]] LoadedEnvironment load_environment(const std::filesystem::path& file,
-                                                 const ReadLimits& limits = {});
+[[nodiscard]] BDPT_EXPORT LoadedEnvironment load_environment(const std::filesystem::path& file,
+                                                             const ReadLimits& limits = {});
 
 }  // namespace bdpt::io

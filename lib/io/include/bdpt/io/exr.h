@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bdpt/export.h>
 #include <bdpt/image.h>
 #include <bdpt/io/picture_metadata.h>
 #include <bdpt/layer.h>
@@ -39,6 +40,7 @@ struct ExrOptions {
     std::optional<ExrPlacement> placement{};  ///< none: the picture is the whole image
 };
 
+/// What could not be written as it was.
 struct ExrReport {
     /// Pixels with a channel beyond what a half holds; it was stored as 65504.
     std::size_t clamped_pixels = 0;
@@ -48,13 +50,13 @@ struct ExrReport {
 /// window is the picture, the display window the whole image. Beside our own entries the header has
 /// those that other tools show: "renderTimeSeconds", "samplesPerPixel", "worldToCamera",
 /// "worldToNDC". Throws `Error` (output).
-ExrReport write_exr(const std::filesystem::path& file, const Image& image,
-                    const ExrOptions& options);
+BDPT_EXPORT ExrReport write_exr(const std::filesystem::path& file, const Image& image,
+                                const ExrOptions& options);
 
 /// The same with more channels: "NAME.C" for each channel C of a layer, or just "C" for those of
 /// the main layer. Throws `Error` (usage) when a layer's size is not the image's or a channel comes
 /// twice.
-ExrReport write_exr(const std::filesystem::path& file, const Image& image,
-                    std::span<const Layer> layers, const ExrOptions& options);
+BDPT_EXPORT ExrReport write_exr(const std::filesystem::path& file, const Image& image,
+                                std::span<const Layer> layers, const ExrOptions& options);
 
 }  // namespace bdpt::io

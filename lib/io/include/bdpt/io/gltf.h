@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bdpt/export.h>
 #include <bdpt/io/read_limits.h>
 #include <bdpt/scene_desc.h>
 
@@ -13,6 +14,7 @@
 
 namespace bdpt::io {
 
+/// What to load of a file, and how much at most.
 struct GltfOptions {
     /// Name or index of the scene; none: the file's default scene, else its first.
     std::optional<std::string> scene;
@@ -26,7 +28,8 @@ enum class ExtensionStatus : std::uint8_t {
     unknown,
 };
 
-[[nodiscard]] std::string_view to_string(ExtensionStatus status);
+/// "supported", "ignored" or "unknown".
+[[nodiscard]] BDPT_EXPORT std::string_view to_string(ExtensionStatus status);
 
 /// One entry of a file's `extensionsUsed`.
 struct ExtensionUse {
@@ -56,6 +59,7 @@ struct GltfFacts {
     std::vector<ExtensionUse> extensions;
 };
 
+/// What `load_gltf` read.
 struct LoadedScene {
     SceneDesc scene;                    ///< without an environment; glTF has none
     std::vector<CameraDesc> cameras;    ///< those of the scene's nodes, in the order of the nodes
@@ -70,7 +74,7 @@ struct LoadedScene {
 /// not_found (a file that is missing or unreadable; no such scene), invalid_input (broken, unsafe
 /// or ambiguous, or over a limit), unsupported (a required extension, or a glTF version, that we do
 /// not have). What is merely not conforming becomes a warning.
-[[nodiscard]] LoadedScene load_gltf(const std::filesystem::path& file,
-                                    const GltfOptions& options = {});
+[[nodiscard]] BDPT_EXPORT LoadedScene load_gltf(const std::filesystem::path& file,
+                                                const GltfOptions& options = {});
 
 }  // namespace bdpt::io

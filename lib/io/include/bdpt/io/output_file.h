@@ -1,5 +1,7 @@
 #pragma once
 
+#include <bdpt/export.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -8,7 +10,7 @@ namespace bdpt::io {
 
 /// A file that appears under its name only when it is whole. Until then its bytes are in
 /// `temporary_path()`, in the same folder; without a commit nothing is left of it.
-class OutputFile {
+class BDPT_EXPORT OutputFile {
 public:
     /// Where `file` grows: `NAME.tmp-PID` beside it. A symbolic link is followed first.
     [[nodiscard]] static std::filesystem::path temporary_path(const std::filesystem::path& file);
@@ -39,6 +41,6 @@ private:
 };
 
 /// Throws `Error` (output) when `file` could not be written now. Leaves nothing behind.
-void check_writable(const std::filesystem::path& file);
+BDPT_EXPORT void check_writable(const std::filesystem::path& file);
 
 }  // namespace bdpt::io

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bdpt/export.h>
 #include <bdpt/scene_desc.h>
 
 #include <chrono>
@@ -25,10 +26,10 @@ struct PictureMetadata {
 
 /// The text entries that all formats share: "bdpt.version", "bdpt.scene", "bdpt.settings",
 /// "bdpt.integrator" and "bdpt.seed".
-[[nodiscard]] std::vector<std::pair<std::string, std::string>> text_entries(
+[[nodiscard]] BDPT_EXPORT std::vector<std::pair<std::string, std::string>> text_entries(
     const PictureMetadata& metadata);
 
 /// "bdpt VERSION".
-[[nodiscard]] std::string software_name(const PictureMetadata& metadata);
+[[nodiscard]] BDPT_EXPORT std::string software_name(const PictureMetadata& metadata);
 
 }  // namespace bdpt::io

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bdpt/export.h>
 #include <bdpt/io/picture_metadata.h>
 #include <bdpt/io/tone_map.h>
 
@@ -7,14 +8,16 @@
 
 namespace bdpt::io {
 
+/// What goes into the file beside the picture.
 struct PngOptions {
     float exposure = 0.0f;  ///< [EV] that the picture was made with; for the record
     PictureMetadata metadata;
 };
 
-/// Writes an 8-bit RGB PNG with an sRGB chunk and the metadata as text, atomically. Throws `Error`
-/// (output).
-void write_png(const std::filesystem::path& file, const DisplayImage& image,
-               const PngOptions& options);
+/// Writes an 8-bit RGB PNG with an sRGB chunk and the metadata as text, atomically. Throws `Error`:
+/// usage for an image without pixels or with too few or too many, output when the file cannot be
+/// written.
+BDPT_EXPORT void write_png(const std::filesystem::path& file, const DisplayImage& image,
+                           const PngOptions& options);
 
 }  // namespace bdpt::io

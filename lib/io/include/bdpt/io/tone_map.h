@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bdpt/export.h>
 #include <bdpt/image.h>
 
 #include <cstdint>
@@ -19,17 +20,17 @@ struct DisplayImage {
 /// for Photographic Tone Reproduction]. Black, NaN and infinite pixels do not count, nor do the
 /// brightest and darkest hundredth. Scaling all pixels by k lowers it by log2(k). 0 for a black
 /// picture.
-[[nodiscard]] float automatic_exposure(const Image& image);
+[[nodiscard]] BDPT_EXPORT float automatic_exposure(const Image& image);
 
 /// From scene-linear to display-linear [0, 1]: a filmic curve [Narkowicz 2016, ACES Filmic Tone
 /// Mapping Curve] on the largest component; hues stay, and bright ones fade to white. NaN and
 /// negative components count as 0.
-[[nodiscard]] Rgb filmic(Rgb scene_linear);
+[[nodiscard]] BDPT_EXPORT Rgb filmic(Rgb scene_linear);
 
 /// `linear` in [0, 1], else it is clamped; NaN gives 0. Rounds to the nearest.
-[[nodiscard]] std::uint8_t encode_srgb(float linear);
+[[nodiscard]] BDPT_EXPORT std::uint8_t encode_srgb(float linear);
 
 /// Multiplies each pixel by 2^exposure [EV], then applies `filmic` and `encode_srgb`.
-[[nodiscard]] DisplayImage tone_map(const Image& image, float exposure);
+[[nodiscard]] BDPT_EXPORT DisplayImage tone_map(const Image& image, float exposure);
 
 }  // namespace bdpt::io

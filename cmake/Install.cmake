@@ -1,0 +1,57 @@
+# Installation: libraries, headers, the command, and what CMake and pkg-config need to find them. All
+# of it may be moved to another place afterwards; every path inside is relative.
+include(CMakePackageConfigHelpers)
+
+set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/bdpt")
+set(libraries bdpt)
+if(BDPT_BUILD_IO)
+  list(APPEND libraries bdpt_io)
+endif()
+
+# Before 1.0 every minor version may break what was compiled with another.
+set_target_properties(${libraries} PROPERTIES VERSION ${PROJECT_VERSION}
+                      SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+
+# bdpt_install_library(TARGET EXPORT_NAME EXPORT): a library and its entry in the CMake package.
+function(bdpt_install_library target export_name export)
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${export_name})
+  install(TARGETS ${target} EXPORT ${export}
+    RUNTIME COMPONENT bdpt_runtime
+    LIBRARY COMPONENT bdpt_runtime NAMELINK_COMPONENT bdpt_development
+    ARCHIVE COMPONENT bdpt_development
+    INCLUDES DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+  install(EXPORT ${export} NAMESPACE bdpt:: DESTINATION "${package_dir}"
+          COMPONENT bdpt_development)
+endfunction()
+
+bdpt_install_library(bdpt bdpt bdptCoreTargets)
+install(DIRECTORY lib/include/ "${PROJECT_BINARY_DIR}/lib/include/"
+        DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT bdpt_development
+        FILES_MATCHING PATTERN "*.h")
+
+if(BDPT_BUILD_IO)
+  bdpt_install_library(bdpt_io io bdptIoTargets)
+  set_property(TARGET bdpt_io APPEND PROPERTY INSTALL_RPATH "$ORIGIN")
+  install(DIRECTORY lib/io/include/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
+          COMPONENT bdpt_development FILES_MATCHING PATTERN "*.h")
+  # bdpt_io looks for it there: lib/io/src/image/oiio_library.cpp
+  install(TARGETS bdpt_oiio LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/bdpt"
+          COMPONENT bdpt_runtime)
+endif()
+
+if(BDPT_BUILD_APPS)
+  file(RELATIVE_PATH to_libdir "${CMAKE_INSTALL_FULL_BINDIR}" "${CMAKE_INSTALL_FULL_LIBDIR}")
+  set_property(TARGET bdpt_app APPEND PROPERTY INSTALL_RPATH "$ORIGIN/${to_libdir}")
+  install(TARGETS bdpt_app RUNTIME COMPONENT bdpt_runtime)
+endif()
+
+configure_package_config_file(cmake/bdptConfig.cmake.in cmake/bdptConfig.cmake
+  INSTALL_DESTINATION "${package_dir}")
+write_basic_package_version_file("${CMAKE_CURRENT_BINARY_DIR}/cmake/bdptConfigVersion.cmake"
+  COMPATIBILITY SameMinorVersion)
+install(FILES "${CMAKE_CURRENT_BINARY_DIR}/cmake/bdptConfig.cmake"
+              "${CMAKE_CURRENT_BINARY_DIR}/cmake/bdptConfigVersion.cmake"
+        DESTINATION "${package_dir}" COMPONENT bdpt_development)
+
+include(cmake/PkgConfig.cmake)
+install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT bdpt_runtime)

@@ -1,0 +1,118 @@
+#!/usr/bin/env bash
+# One task of the package tests, in folder $WORK: check_package.sh TASK. CMakeLists.txt sets the rest
+# of the environment.
+set -euo pipefail
+
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+consumer=$here/consumer
+prefix=$WORK/moved
+sky=$WORK/sky.hdr
+unset CMAKE_PREFIX_PATH LD_LIBRARY_PATH PKG_CONFIG_PATH bdpt_DIR bdpt_ROOT
+export ASAN_OPTIONS=detect_leaks=0  # those of OpenImageIO are not our subject
+
+fail() {
+  printf 'failed: %s\n' "$*" >&2
+  exit 1
+}
+
+# build_consumer FOLDER CMAKE-OPTIONS...
+build_consumer() {
+  local folder=$1
+  shift
+  "$CMAKE" -S "$consumer" -B "$folder" -G "$GENERATOR" -DCMAKE_CXX_COMPILER="$CXX" \
+    -DCMAKE_CXX_COMPILER_LAUNCHER="$LAUNCHER" -DBDPT_WANTED_VERSION="$VERSION" "$@"
+  "$CMAKE" --build "$folder" --parallel 2
+}
+
+# expect_version PROGRAM: runs it; its first line must be our version.
+expect_version() {
+  local said
+  said=$("$@")
+  printf '%s\n' "$said"
+  [[ ${said%%$'\n'*} == "bdpt $VERSION" ]] || fail "$1 is not version $VERSION"
+}
+
+install_and_move() {
+  rm -rf "$WORK/installed" "$prefix"
+  mkdir -p "$WORK"
+  "$CMAKE" --install "$BUILD" --config "$CONFIG" --prefix "$WORK/installed" >"$WORK/install.log"
+  # A package that knows where it was first is found out.
+  mv "$WORK/installed" "$prefix"
+  # One pixel of (1, 1, 1); only OpenImageIO reads this format.
+  printf '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x80\x80\x81' >"$sky"
+  ! grep -rIl -e "$BUILD" -e "$SOURCE" -e "$WORK" "$prefix" || fail "these files name the build"
+}
+
+run_command() {
+  expect_version "$prefix/bin/bdpt" --version
+  rm -f "$WORK"/loaded.* "$WORK/out.png"
+  LD_DEBUG=files LD_DEBUG_OUTPUT=$WORK/loaded "$prefix/bin/bdpt" render \
+    "$SOURCE/scenes/furnace.gltf" --env "$sky" -o "$WORK/out.png" --size 16x16 --spp 1 --quiet
+  [[ -s $WORK/out.png ]] || fail "no picture"
+  local loaded
+  loaded=$(sed -n 's/.*calling init: \(.*libbdpt.*\)/\1/p' "$WORK"/loaded.*)
+  printf '%s\n' "$loaded"
+  grep -q libbdpt_oiio <<<"$loaded" || fail "the module of OpenImageIO was not loaded"
+  ! grep -v "^$prefix/bin/\.\./\|^$prefix/$LIBDIR/" <<<"$loaded" || fail "not from $prefix"
+}
+
+use_find_package() {
+  rm -rf "$WORK/find_package"
+  build_consumer "$WORK/find_package" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release \
+    -DCMAKE_CXX_FLAGS="$FLAGS"
+  grep "^bdpt_DIR:PATH=$prefix/" "$WORK/find_package/CMakeCache.txt" || fail "not from $prefix"
+  expect_version "$WORK/find_package/render_box"
+  "$WORK/find_package/read_sky" "$sky"
+}
+
+# compile PROGRAM SOURCE PACKAGE: as one does by hand. What is hidden in the program must not hide what
+# the library throws. Of the libraries a program loads those that it calls; they find the others.
+compile() {
+  local words=(--cflags --libs)
+  [[ $SHARED == 1 ]] || words+=(--static)
+  # Flags are words.
+  # shellcheck disable=SC2046,SC2086
+  $LAUNCHER "$CXX" -std=c++20 -O1 -fvisibility=hidden $FLAGS "$2" -o "$1" \
+    -Wl,--as-needed -Wl,-rpath,"$prefix/$LIBDIR" $("$PKG_CONFIG" "${words[@]}" "$3")
+}
+
+use_pkg_config() {
+  export PKG_CONFIG_PATH=$prefix/$LIBDIR/pkgconfig
+  [[ $("$PKG_CONFIG" --modversion bdpt) == "$VERSION" ]] || fail "bdpt.pc: not version $VERSION"
+  rm -rf "$WORK/pkg-config"
+  mkdir -p "$WORK/pkg-config"
+  cd "$WORK/pkg-config"
+  compile render_box "$consumer/render_box.cpp" bdpt
+  expect_version ./render_box
+  compile read_sky "$consumer/read_sky.cpp" bdpt_io
+  ./read_sky "$sky"
+
+  # The program in the README, with fewer pixels.
+  awk '/^```cpp$/ {inside = 1; next} /^```$/ {inside = 0} inside' "$SOURCE/README.md" \
+    | sed 's/512/16/g; s/{0, 64}/{0, 1}/' >readme.cpp
+  compile readme readme.cpp bdpt_io
+  ln -s "$SOURCE/scenes" scenes
+  ./readme
+  [[ -s out.exr ]] || fail "the program in the README wrote no picture"
+}
+
+# Builds the core alone, as quickly as compilers can. What was built before is kept. The libraries for
+# files, the command and the tests must not even be looked for.
+use_add_subdirectory() {
+  local unneeded=() package
+  for package in OpenImageIO OpenEXR Imath PNG nlohmann_json fmt CLI11 Catch2 Python3 benchmark; do
+    unneeded+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON")
+  done
+  build_consumer "$WORK/add_subdirectory" -DBDPT_SOURCE="$SOURCE" -DCMAKE_BUILD_TYPE= \
+    -DCMAKE_CXX_FLAGS=-O0 "${unneeded[@]}"
+  expect_version "$WORK/add_subdirectory/render_box"
+}
+
+case $1 in
+  install) install_and_move ;;
+  command) run_command ;;
+  find_package) use_find_package ;;
+  pkg-config) use_pkg_config ;;
+  add_subdirectory) use_add_subdirectory ;;
+  *) fail "unknown task $1" ;;
+esac

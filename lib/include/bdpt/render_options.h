@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <vector>
 
 namespace bdpt {
 
@@ -15,12 +16,24 @@ enum class IntegratorKind : std::uint8_t {
     bdpt,  ///< bidirectional path tracing, all strategies weighted [Veach 1997, ch. 10]
     pt,    ///< BSDF sampling only; delta lights, which no BSDF sample can hit, by light sampling
     mis,   ///< light and BSDF sampling, weighted [Veach 1997, ch. 9]
+    nee,   ///< light sampling; BSDF hits count only where no light sample can reach
+    lt,    ///< light tracing: light paths seen through the lens (t <= 1)
 };
 
 /// How the strategies that can make the same path share it [Veach 1997, sec. 9.2].
 enum class Heuristic : std::uint8_t {
     balance,
-    power,  ///< beta = 2
+    power,    ///< beta = 2
+    cutoff,   ///< balance among those with at least a tenth of the greatest density
+    maximum,  ///< the one with the greatest density takes all
+    uniform,  ///< equal shares for all that can make the path; for tests
+};
+
+/// The strategy that samples s vertices of a path from the light and t from the camera.
+struct Strategy {
+    int s = 0;
+    int t = 0;
+    [[nodiscard]] bool operator==(const Strategy&) const = default;
 };
 
 /// Where random numbers come from.
@@ -56,8 +69,18 @@ struct RenderOptions {
     float clamp = std::numeric_limits<float>::infinity();
     SampleRange samples;  ///< per pixel
     int max_depth = 8;    ///< longest path in edges: 1 sees lights only, 2 adds direct light
-    int tile_size = 16;   ///< [pixels]; has no influence on the result
-    int threads = 0;      ///< 0: one for each hardware thread; has no influence on the result
+    int min_depth = 1;    ///< shortest path in edges that is measured
+    /// Longest subpaths in edges, for bdpt and lt; strategies with longer ones are left out.
+    int max_camera_depth = std::numeric_limits<int>::max();
+    int max_light_depth = std::numeric_limits<int>::max();
+    /// Light paths that bdpt and lt trace for each camera path, each joined to it.
+    int light_paths = 1;
+    /// Strategies that bdpt and lt leave out; the others share what they can make.
+    std::vector<Strategy> disabled{};
+    /// Edges of a subpath after which Russian roulette may end it.
+    int rr_start = std::numeric_limits<int>::max();
+    int tile_size = 16;  ///< [pixels]; has no influence on the result
+    int threads = 0;     ///< 0: one for each hardware thread; has no influence on the result
     std::uint64_t seed = 0;
 };
 

@@ -130,13 +130,19 @@ struct SceneDesc {
     std::vector<LightDesc> lights;  ///< at most one environment
 };
 
-/// A pinhole camera with the glTF axes: it looks down -z, +y is up.
+enum class Projection : std::uint8_t { perspective, orthographic };
+
+/// A camera with the glTF axes: it looks down -z, +y is up.
 struct CameraDesc {
     std::string name{};
-    Mat4 world_from_camera{1.0f};     ///< its scale is ignored
-    float vertical_fov = 0.7853982f;  ///< [rad], in (0, pi)
+    Mat4 world_from_camera{1.0f};  ///< its scale is ignored
+    Projection projection = Projection::perspective;
+    float vertical_fov = 0.7853982f;  ///< perspective: [rad], in (0, pi)
+    float vertical_extent = 2.0f;     ///< orthographic: height of the view [m], > 0
+    float lens_radius = 0.0f;         ///< perspective: of a thin lens [m], >= 0; 0 is a pinhole
+    float focus_distance = 1.0f;      ///< of the plane that a thin lens shows sharp [m], > 0
     /// Width over height that the scene's author had in mind, if any. The film's own wins.
-    std::optional<float> aspect_ratio;
+    std::optional<float> aspect_ratio{};
 };
 
 }  // namespace bdpt

@@ -1,6 +1,7 @@
 #include "camera/camera.h"
 
 #include "math/elementary.h"
+#include "math/warp.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -14,7 +15,12 @@ Camera::Camera(const CameraDesc& desc, int width, int height)
 {}
 
 Camera::Camera(const CameraDesc& desc, int width, int height, const RasterBounds& visible)
-    : position_(desc.world_from_camera[3]), film_size_(width, height), visible_(visible)
+    : position_(desc.world_from_camera[3]),
+      film_size_(width, height),
+      visible_(visible),
+      perspective_(desc.projection == Projection::perspective),
+      lens_radius_(perspective_ ? desc.lens_radius : 0.0f),
+      focus_distance_(lens_radius_ > 0.0f ? desc.focus_distance : 1.0f)
 {
     // Only where the camera looks and what is up for it count; scale and shear of its node do not.
     const Vec3 back = normalize(Vec3(desc.world_from_camera[2]));
@@ -22,18 +28,68 @@ Camera::Camera(const CameraDesc& desc, int width, int height, const RasterBounds
     world_from_camera_ = Mat3(right, cross(back, right), back);
 
     const SinCos half = sin_cos(0.5f * desc.vertical_fov);
-    half_extent_.y = half.sin / half.cos;
+    half_extent_.y = perspective_ ? half.sin / half.cos : 0.5f * desc.vertical_extent;
     half_extent_.x = half_extent_.y * film_size_.x / film_size_.y;
     film_area_ = 4.0f * half_extent_.x * half_extent_.y;
+    if (has_finite_lens()) {
+        pdf_lens_ = {1.0f / (pi * lens_radius_ * lens_radius_)};
+    }
 }
 
-CameraRay Camera::generate_ray(Vec2 raster) const
+Vec3 Camera::to_local(Vec3 world_vector) const
+{
+    return transpose(world_from_camera_) * world_vector;
+}
+
+bool Camera::is_visible(Vec2 raster) const
+{
+    return raster.x >= visible_.min.x && raster.x < visible_.max.x && raster.y >= visible_.min.y &&
+           raster.y < visible_.max.y;
+}
+
+Vec3 Camera::lens_point(Vec2 u_lens) const
+{
+    return has_finite_lens() ? Vec3(lens_radius_ * square_to_disk(u_lens), 0.0f) : Vec3(0.0f);
+}
+
+SegmentEnd Camera::lens_end(Vec3 local_point) const
+{
+    return {.p = position_ + world_from_camera_ * local_point,
+            .ng = has_finite_lens() ? -world_from_camera_[2] : Vec3(0.0f)};
+}
+
+SolidAnglePdf Camera::pdf_of(float inv_cos) const
+{
+    // For each point of the lens the film is seen as the plane of focus: A cos^-3 in its units.
+    return {inv_cos * inv_cos * inv_cos / film_area_};
+}
+
+Vec2 Camera::raster_of(Vec3 lens, Vec3 d) const
+{
+    const Vec3 in_focus = lens + d * (focus_distance_ / -d.z);
+    const Vec2 ndc = Vec2(in_focus.x, -in_focus.y) / (focus_distance_ * half_extent_);
+    return 0.5f * (ndc + 1.0f) * film_size_;
+}
+
+CameraRay Camera::generate_ray(Vec2 raster, Vec2 u_lens) const
 {
     const Vec2 ndc = 2.0f * raster / film_size_ - 1.0f;
-    const Vec3 local(ndc.x * half_extent_.x, -ndc.y * half_extent_.y, -1.0f);
-    const float length = std::sqrt(dot(local, local));  // one over the cosine at the lens
-    return {.ray = {.origin = position_, .direction = world_from_camera_ * (local / length)},
-            .pdf_direction = {length * length * length / film_area_}};
+    const Vec2 on_film(ndc.x * half_extent_.x, -ndc.y * half_extent_.y);
+    if (!perspective_) {
+        return {.lens = lens_end({on_film, 0.0f}),
+                .direction = -world_from_camera_[2],
+                .pdf_lens = pdf_lens_,
+                .pdf_direction = {},
+                .pdf_plane = PlanarPdf{1.0f / film_area_}};
+    }
+    const Vec3 lens = lens_point(u_lens);
+    const Vec3 local = Vec3(on_film, -1.0f) * focus_distance_ - lens;
+    const float length = std::sqrt(dot(local, local));
+    return {.lens = lens_end(lens),
+            .direction = world_from_camera_ * (local / length),
+            .pdf_lens = pdf_lens_,
+            .pdf_direction = pdf_of(length / focus_distance_),
+            .pdf_plane = std::nullopt};
 }
 
 float Camera::depth(Vec3 scene_point) const
@@ -41,30 +97,71 @@ float Camera::depth(Vec3 scene_point) const
     return -dot(world_from_camera_[2], scene_point - position_);
 }
 
-std::optional<LensSample> Camera::sample_lens(Vec3 scene_point) const
+std::optional<LensSample> Camera::sample_lens(Vec3 scene_point, Vec2 u_lens) const
 {
-    const Vec3 to_point = scene_point - position_;
-    const Vec3 local = transpose(world_from_camera_) * to_point;
+    const Vec3 local = to_local(scene_point - position_);
     if (!(local.z < 0.0f)) {
         return std::nullopt;
     }
-    const Vec2 ndc = Vec2(local.x, -local.y) / (-local.z * half_extent_);
-    const Vec2 raster = 0.5f * (ndc + 1.0f) * film_size_;
-    const bool inside = raster.x >= visible_.min.x && raster.x < visible_.max.x &&
-                        raster.y >= visible_.min.y && raster.y < visible_.max.y;
-    if (!inside) {
+    if (!perspective_) {
+        const Vec2 ndc = Vec2(local.x, -local.y) / half_extent_;
+        const Vec2 raster = 0.5f * (ndc + 1.0f) * film_size_;
+        if (!is_visible(raster)) {
+            return std::nullopt;
+        }
+        const PlanarPdf pdf_plane{1.0f / film_area_};
+        return LensSample{.lens = lens_end({local.x, local.y, 0.0f}),
+                          .wi = world_from_camera_[2],
+                          .distance = -local.z,
+                          .raster = raster,
+                          .weight = pdf_plane.value,
+                          .pdf_lens = pdf_lens_,
+                          .pdf_direction = {},
+                          .pdf_plane = pdf_plane};
+    }
+    const Vec3 lens = lens_point(u_lens);
+    const Vec3 d = local - lens;
+    const Vec2 raster = raster_of(lens, d);
+    if (!is_visible(raster)) {
         return std::nullopt;
     }
-    const float distance = std::sqrt(dot(to_point, to_point));
-    const float inv_cos = distance / -local.z;
-    const float pdf_direction = inv_cos * inv_cos * inv_cos / film_area_;
-    // We = 1 / (A cos^4) [Pharr et al. 2016, sec. 16.1.1], so We cos is the density of direction.
-    return LensSample{.p = position_,
-                      .wi = -to_point / distance,
+    const float distance = std::sqrt(dot(d, d));
+    const SolidAnglePdf pdf_direction = pdf_of(distance / -d.z);
+    // We = 1 / (A pi r^2 cos^4) [Pharr et al. 2016, sec. 16.1.1], so We cos is the density of
+    // direction times that of the lens point.
+    return LensSample{.lens = lens_end(lens),
+                      .wi = world_from_camera_ * (-d / distance),
                       .distance = distance,
                       .raster = raster,
-                      .weight = pdf_direction / (distance * distance),
-                      .pdf_direction = {pdf_direction}};
+                      .weight = pdf_direction.value / (distance * distance),
+                      .pdf_lens = pdf_lens_,
+                      .pdf_direction = pdf_direction,
+                      .pdf_plane = std::nullopt};
+}
+
+std::optional<LensHit> Camera::hit_lens(Vec3 origin, Vec3 direction) const
+{
+    const Vec3 d = to_local(direction);
+    const Vec3 from = to_local(origin - position_);
+    if (!has_finite_lens() || !(d.z > 0.0f) || !(from.z < 0.0f)) {
+        return std::nullopt;
+    }
+    const float distance = -from.z / d.z;
+    const Vec3 lens(Vec2(from) + distance * Vec2(d), 0.0f);
+    if (dot(lens, lens) > lens_radius_ * lens_radius_) {
+        return std::nullopt;
+    }
+    const Vec2 raster = raster_of(lens, -d);
+    if (!is_visible(raster)) {
+        return std::nullopt;
+    }
+    const SolidAnglePdf pdf_direction = pdf_of(1.0f / d.z);
+    return LensHit{.lens = lens_end(lens),
+                   .distance = distance,
+                   .raster = raster,
+                   .importance = pdf_direction.value * pdf_lens_.value / d.z,
+                   .pdf_lens = pdf_lens_,
+                   .pdf_direction = pdf_direction};
 }
 
 }  // namespace bdpt

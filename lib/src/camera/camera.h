@@ -1,6 +1,6 @@
 #pragma once
 
-#include "geometry/ray.h"
+#include "geometry/segment_end.h"
 #include "math/pdf.h"
 
 #include <bdpt/scene_desc.h>
@@ -11,18 +11,35 @@ namespace bdpt {
 
 /// A primary ray. Importance over density is one: a camera subpath starts with beta = 1.
 struct CameraRay {
-    Ray ray;  ///< unit direction
-    SolidAnglePdf pdf_direction;
+    SegmentEnd lens;              ///< where it starts; ng is set if light can hit the lens
+    Vec3 direction{0.0f};         ///< unit
+    AreaPdf pdf_lens;             ///< of the point on the lens; 1 for a pinhole and parallel rays
+    SolidAnglePdf pdf_direction;  ///< perspective
+    std::optional<PlanarPdf>
+        pdf_plane;  ///< orthographic: of the ray's place, the direction is fixed
 };
 
-/// A connection from a scene point to the lens: the strategies with t = 1.
+/// A connection from a scene point to the lens: the strategies with t = 1. The densities are those
+/// of generate_ray making the reversed ray.
 struct LensSample {
-    Vec3 p{0.0f};   ///< point on the lens
-    Vec3 wi{0.0f};  ///< unit, from the scene point towards p
+    SegmentEnd lens;
+    Vec3 wi{0.0f};  ///< unit, from the scene point towards the lens
     float distance = 0.0f;
-    Vec2 raster{0.0f};            ///< where the scene point appears on the film [pixels]
-    float weight = 0.0f;          ///< We |cos at lens| / (distance^2 pdf of p)
-    SolidAnglePdf pdf_direction;  ///< of generate_ray sampling the reversed direction
+    Vec2 raster{0.0f};    ///< where the scene point appears on the film [pixels]
+    float weight = 0.0f;  ///< We |cos at lens| / (distance^2 pdf_lens); orthographic: We
+    AreaPdf pdf_lens;
+    SolidAnglePdf pdf_direction;
+    std::optional<PlanarPdf> pdf_plane;
+};
+
+/// A light path that met the lens by chance: the strategies with t = 0.
+struct LensHit {
+    SegmentEnd lens;
+    float distance = 0.0f;
+    Vec2 raster{0.0f};
+    float importance = 0.0f;  ///< We
+    AreaPdf pdf_lens;
+    SolidAnglePdf pdf_direction;
 };
 
 /// Half-open rectangle of the film's plane [pixels].
@@ -31,8 +48,9 @@ struct RasterBounds {
     Vec2 max{0.0f};
 };
 
-/// A pinhole camera. It samples the whole film uniformly, and its importance We is normalised over
-/// the film: W * H camera paths and W * H light paths are equal numbers of samples.
+/// A pinhole, thin-lens or orthographic camera. It samples the whole film uniformly, and its
+/// importance We is normalised over the film: W * H camera paths and W * H light paths are equal
+/// numbers of samples.
 class Camera {
 public:
     /// `width`, `height`: film size [pixels].
@@ -40,21 +58,41 @@ public:
     /// Connections to the lens are wanted within `visible` only; it may reach beyond the film.
     Camera(const CameraDesc& desc, int width, int height, const RasterBounds& visible);
 
-    [[nodiscard]] Vec3 position() const { return position_; }
+    [[nodiscard]] bool is_perspective() const { return perspective_; }
+    /// Can light hit the lens by chance?
+    [[nodiscard]] bool has_finite_lens() const { return lens_radius_ > 0.0f; }
+
     /// The ray through `raster` [pixels, origin at the top left], which may lie beside the film.
-    [[nodiscard]] CameraRay generate_ray(Vec2 raster) const;
+    /// `u_lens` chooses the point of a finite lens.
+    [[nodiscard]] CameraRay generate_ray(Vec2 raster, Vec2 u_lens) const;
     /// Distance of a point along the camera's axis [m]; positive in front.
     [[nodiscard]] float depth(Vec3 scene_point) const;
     /// Nothing when the point is behind the lens or appears outside of the visible bounds.
-    [[nodiscard]] std::optional<LensSample> sample_lens(Vec3 scene_point) const;
+    [[nodiscard]] std::optional<LensSample> sample_lens(Vec3 scene_point, Vec2 u_lens) const;
+    /// Does a ray with unit `direction` cross a finite lens from the front?
+    [[nodiscard]] std::optional<LensHit> hit_lens(Vec3 origin, Vec3 direction) const;
 
 private:
+    [[nodiscard]] Vec3 to_local(Vec3 world_vector) const;
+    [[nodiscard]] bool is_visible(Vec2 raster) const;
+    [[nodiscard]] Vec3 lens_point(Vec2 u_lens) const;  // local
+    [[nodiscard]] SegmentEnd lens_end(Vec3 local_point) const;
+    /// Of a direction at the lens by its length per unit along the axis (1 / cos).
+    [[nodiscard]] SolidAnglePdf pdf_of(float inv_cos) const;
+    /// Where the ray from a lens point in the local direction `d` meets the film [pixels].
+    [[nodiscard]] Vec2 raster_of(Vec3 lens, Vec3 d) const;
+
     Vec3 position_;
     Mat3 world_from_camera_;  // orthonormal
     Vec2 film_size_;          // [pixels]
     RasterBounds visible_;
-    Vec2 half_extent_;  // of the film one unit in front of the lens
-    float film_area_;   // of the whole film there
+    bool perspective_;
+    Vec2
+        half_extent_;  // of the film: one unit in front of the lens; orthographic: in the world [m]
+    float film_area_;  // of the whole film there
+    float lens_radius_;
+    float focus_distance_;
+    AreaPdf pdf_lens_{1.0f};
 };
 
 }  // namespace bdpt

@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace bdpt {
@@ -13,8 +14,8 @@ BoundedPoint Sphere::point(Vec3 normal) const
 {
     const Vec3 p = center + radius * normal;
     // The product and the sum are rounded, and so was the unit normal.
-    return {p, rounding_bound(2) * (abs(center) + abs(radius * normal)) +
-                   Vec3(rounding_bound(4) * radius)};
+    const Vec3 far = abs(center) + Vec3(radius);
+    return {p, rounding_bound(8) * std::max(far.x, std::max(far.y, far.z))};
 }
 
 std::optional<SphereHit> intersect(const Sphere& sphere, const Ray& ray, float t_min) noexcept

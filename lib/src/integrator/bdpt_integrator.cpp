@@ -10,31 +10,64 @@
 
 namespace bdpt {
 
+namespace {
+
+/// Light paths of one sample after the first have random numbers of their own.
+Sampler light_sampler(const RenderOptions& options, const Sampler& first, int x, int y,
+                      std::int64_t index, int light_path)
+{
+    constexpr std::uint64_t odd = 0xd1342543de82ef95U;  // spreads consecutive seeds
+    const auto number = static_cast<std::uint64_t>(light_path);
+    return light_path == 0 ? first
+                           : Sampler(options.sampler, options.seed + number * odd, x, y, index);
+}
+
+}  // namespace
+
 BdptIntegrator::BdptIntegrator(const World& world, const Camera& camera,
                                const RenderOptions& options)
-    : world_(world), camera_(camera), options_(options), filter_(options.filter)
+    : world_(world),
+      camera_(camera),
+      options_(options),
+      filter_(options.filter),
+      strategies_(options)
 {}
 
 RenderStats BdptIntegrator::render_tile(const Tile& tile, SampleRange samples, Film& film) const
 {
-    const int max_vertices = options_.max_depth + 1;
-    Scratch scratch{.light_path = Subpath(options_.max_depth),
-                    .camera_path = Subpath(max_vertices),
-                    .weigher = PathWeigher(world_, options_.heuristic, max_vertices),
+    Scratch scratch{.light_path = Subpath(strategies_.light_vertices()),
+                    .camera_path = Subpath(strategies_.camera_vertices()),
+                    .weigher = PathWeigher(world_, camera_, strategies_, options_.heuristic,
+                                           options_.max_depth + 1),
                     .stats = {}};
+    const WalkLimits light_limits{.max_vertices = strategies_.light_vertices(),
+                                  .rr_start = options_.rr_start};
     for (int y = tile.y_begin; y < tile.y_end; ++y) {
         for (int x = tile.x_begin; x < tile.x_end; ++x) {
             for (std::int64_t index = samples.begin; index < samples.end; ++index) {
                 Sampler sampler(options_.sampler, options_.seed, x, y, index);
+                Sample sample{.index = index, .sampler = sampler, .film = film};
                 sampler.start(SampleUse::film);
                 const Vec2 raster = filter_.sample_raster(x, y, sampler.next_2d());
-                const bool wanted = film.region().contains(x, y);
                 // Light paths outside of a crop can splat into it.
-                const int camera_vertices = wanted ? max_vertices : 1;
-                trace_camera_subpath(world_, camera_, raster, camera_vertices, sampler,
-                                     scratch.camera_path);
+                const bool wanted = film.region().contains(x, y);
+                const int camera_vertices = wanted ? strategies_.camera_vertices() : 1;
+                trace_camera_subpath(
+                    world_, camera_, raster,
+                    {.max_vertices = camera_vertices, .rr_start = options_.rr_start}, sampler,
+                    scratch.camera_path);
                 scratch.stats.rays.camera += scratch.camera_path.rays();
-                const Rgb radiance = estimate(index, sampler, scratch, film);
+                Rgb radiance = wanted ? estimate_camera_path(sample, scratch) : Rgb(0.0f);
+                splat_light(sample, scratch);
+                for (int i = 0; i < options_.light_paths; ++i) {
+                    Sampler own = light_sampler(options_, sampler, x, y, index, i);
+                    Sample light_sample{.index = index, .sampler = own, .film = film};
+                    trace_light_subpath(world_, camera_, light_limits, own, scratch.light_path);
+                    scratch.stats.rays.light += scratch.light_path.rays();
+                    ++scratch.stats.paths.light;
+                    splat_light_path(light_sample, scratch);
+                    radiance += join_paths(scratch);
+                }
                 if (wanted) {
                     ++scratch.stats.paths.camera;
                     film.add_sample(x, y, index, radiance);
@@ -45,52 +78,93 @@ RenderStats BdptIntegrator::render_tile(const Tile& tile, SampleRange samples, F
     return scratch.stats;
 }
 
-/// Radiance that the camera subpath in `scratch` finds; what belongs to other pixels goes to
-/// `film`.
-Rgb BdptIntegrator::estimate(std::int64_t sample_index, Sampler& sampler, Scratch& scratch,
-                             Film& film) const
+Rgb BdptIntegrator::estimate_camera_path(Sample& sample, Scratch& scratch) const
 {
-    Subpath& light_path = scratch.light_path;
-    Subpath& camera_path = scratch.camera_path;
-    trace_light_subpath(world_, light_path.capacity(), sampler, light_path);
-    scratch.stats.rays.light += light_path.rays();
-    ++scratch.stats.paths.light;
-
-    for (int s = 2; s <= light_path.size(); ++s) {
-        const auto splat = connect_to_lens(world_, camera_, light_path.first(s), camera_path[0],
-                                           scratch.weigher, scratch.stats.rays);
-        if (splat) {
-            sampler.start(SampleUse::film, static_cast<std::uint32_t>(s));
-            const SplatTarget target = filter_.choose_pixel(splat->raster, sampler.next_2d());
-            const float weight = target.weight * splat->contribution.weight;
-            film.add_splat(target.raster, sample_index, weight * splat->contribution.unweighted);
+    Rgb radiance(0.0f);
+    const auto add = [&](const std::optional<Contribution>& found) {
+        if (found) {
+            radiance += found->weight * found->unweighted;
+        }
+    };
+    for (int t = 2; t <= scratch.camera_path.size(); ++t) {
+        const auto camera = scratch.camera_path.first(t);
+        if (strategies_.uses(0, t)) {
+            add(hit_light(world_, camera, scratch.weigher));
+        }
+        if (t <= options_.max_depth && strategies_.uses(1, t)) {
+            add(connect_to_light(world_, camera, sample.sampler, scratch.weigher,
+                                 scratch.stats.rays));
         }
     }
+    return radiance;
+}
+
+Rgb BdptIntegrator::join_paths(Scratch& scratch) const
+{
     Rgb radiance(0.0f);
-    for (int t = 2; t <= camera_path.size(); ++t) {
-        const int longest_s = std::min(std::max(light_path.size(), 1), options_.max_depth + 1 - t);
-        for (int s = 0; s <= longest_s; ++s) {
-            const auto found = connect(light_path.first(s), camera_path.first(t), sampler, scratch);
+    for (int t = 2; t <= scratch.camera_path.size(); ++t) {
+        const int longest_s = std::min(scratch.light_path.size(), options_.max_depth + 1 - t);
+        for (int s = 2; s <= longest_s; ++s) {
+            if (!strategies_.uses(s, t)) {
+                continue;
+            }
+            const auto found =
+                connect_interior(world_, scratch.light_path.first(s), scratch.camera_path.first(t),
+                                 scratch.weigher, scratch.stats.rays);
             if (found) {
-                radiance += found->weight * found->unweighted;
+                radiance += found->weight / strategies_.count(s, t) * found->unweighted;
             }
         }
     }
     return radiance;
 }
 
-std::optional<Contribution> BdptIntegrator::connect(std::span<const PathVertex> light,
-                                                    std::span<const PathVertex> camera,
-                                                    Sampler& sampler, Scratch& scratch) const
+void BdptIntegrator::splat_light_path(Sample& sample, Scratch& scratch) const
 {
-    switch (light.size()) {
-        case 0:
-            return hit_light(world_, camera, scratch.weigher);
-        case 1:
-            return connect_to_light(world_, camera, sampler, scratch.weigher, scratch.stats.rays);
-        default:
-            return connect_interior(world_, light, camera, scratch.weigher, scratch.stats.rays);
+    Subpath& path = scratch.light_path;
+    const int longest_s = std::min(path.size(), options_.max_depth);
+    for (int s = 2; s <= longest_s; ++s) {
+        if (!strategies_.uses(s, 1)) {
+            continue;
+        }
+        const auto splat = connect_to_lens(world_, camera_, path.first(s), sample.sampler,
+                                           scratch.weigher, scratch.stats.rays);
+        if (splat) {
+            add_splat(*splat, strategies_.count(s, 1), static_cast<std::uint32_t>(2 * s), sample);
+        }
     }
+    for (const LensCrossing& crossing : path.crossings()) {
+        const int s = crossing.light_vertices + 1;
+        if (s > options_.max_depth + 1 || !strategies_.uses(s, 0)) {
+            continue;
+        }
+        if (const auto splat = hit_lens(world_, path, crossing, scratch.weigher)) {
+            add_splat(*splat, strategies_.count(s, 0), static_cast<std::uint32_t>(2 * s + 1),
+                      sample);
+        }
+    }
+}
+
+void BdptIntegrator::splat_light(Sample& sample, Scratch& scratch) const
+{
+    if (!strategies_.uses(1, 1) || !camera_.is_perspective()) {
+        return;
+    }
+    const auto splat =
+        connect_light_to_lens(world_, camera_, sample.sampler, scratch.weigher, scratch.stats.rays);
+    if (splat) {
+        add_splat(*splat, strategies_.count(1, 1), 1, sample);
+    }
+}
+
+/// `dimension` tells the splats of one light path apart.
+void BdptIntegrator::add_splat(const Splat& splat, float sample_count, std::uint32_t dimension,
+                               Sample& sample) const
+{
+    sample.sampler.start(SampleUse::film, dimension);
+    const SplatTarget target = filter_.choose_pixel(splat.raster, sample.sampler.next_2d());
+    const float weight = target.weight * splat.contribution.weight / sample_count;
+    sample.film.add_splat(target.raster, sample.index, weight * splat.contribution.unweighted);
 }
 
 }  // namespace bdpt

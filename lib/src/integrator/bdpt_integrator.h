@@ -7,8 +7,8 @@
 namespace bdpt {
 
 /// Bidirectional path tracing [Veach 1997, ch. 10]: each sample joins every prefix of a camera
-/// subpath to every prefix of a light subpath. All strategies but s = t = 1 (lights are seen by
-/// hitting them) and t = 0 (a pinhole is never hit).
+/// subpath to every prefix of one or more light subpaths. Light tracing is the same with the
+/// strategies t <= 1 alone.
 class BdptIntegrator final : public Integrator {
 public:
     BdptIntegrator(const World& world, const Camera& camera, const RenderOptions& options);
@@ -24,17 +24,29 @@ private:
         PathWeigher weigher;
         RenderStats stats;
     };
+    /// The sample at work.
+    struct Sample {
+        std::int64_t index;
+        Sampler& sampler;
+        Film& film;
+    };
 
-    [[nodiscard]] Rgb estimate(std::int64_t sample_index, Sampler& sampler, Scratch& scratch,
-                               Film& film) const;
-    [[nodiscard]] std::optional<Contribution> connect(std::span<const PathVertex> light,
-                                                      std::span<const PathVertex> camera,
-                                                      Sampler& sampler, Scratch& scratch) const;
+    /// s <= 1: radiance that the camera path brings by itself.
+    [[nodiscard]] Rgb estimate_camera_path(Sample& sample, Scratch& scratch) const;
+    /// s >= 2, t >= 2: radiance of the joins with the light path in `scratch`.
+    [[nodiscard]] Rgb join_paths(Scratch& scratch) const;
+    /// t <= 1: what the light path in `scratch` brings to any pixel.
+    void splat_light_path(Sample& sample, Scratch& scratch) const;
+    /// s = t = 1
+    void splat_light(Sample& sample, Scratch& scratch) const;
+    void add_splat(const Splat& splat, float sample_count, std::uint32_t dimension,
+                   Sample& sample) const;
 
     const World& world_;
     const Camera& camera_;
     RenderOptions options_;
     PixelFilter filter_;
+    StrategySet strategies_;
 };
 
 }  // namespace bdpt

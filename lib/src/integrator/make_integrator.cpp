@@ -7,7 +7,7 @@ namespace bdpt {
 std::unique_ptr<const Integrator> make_integrator(const World& world, const Camera& camera,
                                                   const RenderOptions& options)
 {
-    if (options.integrator == IntegratorKind::bdpt) {
+    if (options.integrator == IntegratorKind::bdpt || options.integrator == IntegratorKind::lt) {
         return std::make_unique<BdptIntegrator>(world, camera, options);
     }
     return std::make_unique<PathIntegrator>(world, camera, options);

@@ -7,6 +7,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -44,12 +45,13 @@ RenderStats PathIntegrator::render_tile(const Tile& tile, SampleRange samples, F
 
 Rgb PathIntegrator::estimate(Vec2 raster, Sampler& sampler, RayCounts& rays) const
 {
-    const CameraRay first = camera_.generate_ray(raster);
-    Ray ray{.origin = {.p = first.ray.origin},
-            .direction = first.ray.direction,
-            .pdf = first.pdf_direction};
+    sampler.start(SampleUse::lens);
+    const Vec2 u_lens = camera_.has_finite_lens() ? sampler.next_2d() : Vec2(0.0f);
+    const CameraRay first = camera_.generate_ray(raster, u_lens);
+    Ray ray{.origin = first.lens, .direction = first.direction, .pdf = first.pdf_direction};
     Rgb radiance(0.0f);
     Rgb beta(1.0f);
+    const auto measured = [&](int edges) { return edges >= options_.min_depth ? 1.0f : 0.0f; };
     for (int depth = 1; depth <= options_.max_depth; ++depth) {
         ++rays.camera;
         const auto point = world_.intersect(ray.origin, ray.direction);
@@ -58,7 +60,7 @@ Rgb PathIntegrator::estimate(Vec2 raster, Sampler& sampler, RayCounts& rays) con
                 const auto& light = std::get<EnvironmentLight>(world_.lights()[*id].model());
                 const Rgb open = medium_transmittance(ray.origin, {}, ray.direction,
                                                       std::numeric_limits<float>::max());
-                radiance += beta * open *
+                radiance += measured(depth) * beta * open *
                             emission(ray, *id, {.p = ray.direction}, light.radiance(ray.direction));
             }
             break;
@@ -73,14 +75,14 @@ Rgb PathIntegrator::estimate(Vec2 raster, Sampler& sampler, RayCounts& rays) con
         if (point->light) {
             const LightPoint hit{
                 .p = point->end.p, .ng = point->end.ng, .barycentrics = point->barycentrics};
-            radiance += beta * emission(ray, *point->light, hit, point->emission);
+            radiance += measured(depth) * beta * emission(ray, *point->light, hit, point->emission);
         }
         if (depth == options_.max_depth) {
             break;
         }
         const Vec3 wo = -ray.direction;
         const auto vertex = static_cast<std::uint32_t>(depth + 1);
-        if (point->bsdf.connectible()) {
+        if (point->bsdf.connectible() && depth + 1 >= options_.min_depth) {
             sampler.start(SampleUse::next_event, vertex);
             radiance += beta * sample_light(*point, wo, sampler, rays);
         }
@@ -95,15 +97,46 @@ Rgb PathIntegrator::estimate(Vec2 raster, Sampler& sampler, RayCounts& rays) con
         ray = {.origin = point->end,
                .direction = scattered->wi,
                .pdf = scattered->pdf_fwd,
-               .competes = !scattered->delta && options_.integrator == IntegratorKind::mis};
+               .competes = !scattered->delta && options_.integrator != IntegratorKind::pt};
+        if (depth >= options_.rr_start) {
+            const float survival = std::min(1.0f, max_component(beta));
+            if (sampler.next_1d() >= survival) {
+                break;
+            }
+            beta /= survival;
+        }
     }
     return radiance;
 }
 
-float PathIntegrator::weight(float used, float other) const
+float PathIntegrator::light_weight(float light_pdf, float bsdf_pdf) const
 {
-    const float ratio = other / used;
-    return 1.0f / (1.0f + (options_.heuristic == Heuristic::power ? ratio * ratio : ratio));
+    if (options_.integrator != IntegratorKind::mis) {
+        return 1.0f;  // nee; and pt, which takes the lights that no BSDF sample can hit
+    }
+    const float ratio = bsdf_pdf / light_pdf;
+    switch (options_.heuristic) {
+        case Heuristic::balance:
+            return 1.0f / (1.0f + ratio);
+        case Heuristic::power:
+            return 1.0f / (1.0f + ratio * ratio);
+        case Heuristic::cutoff:
+            return ratio > 10.0f ? 0.0f : ratio < 0.1f ? 1.0f : 1.0f / (1.0f + ratio);
+        case Heuristic::maximum:
+            return ratio > 1.0f ? 0.0f : 1.0f;
+        case Heuristic::uniform:
+            return ratio > 0.0f ? 0.5f : 1.0f;
+    }
+    return 0.0f;
+}
+
+float PathIntegrator::bsdf_weight(float bsdf_pdf, float light_pdf) const
+{
+    if (light_pdf == 0.0f) {
+        return 1.0f;
+    }
+    return options_.integrator == IntegratorKind::nee ? 0.0f
+                                                      : 1.0f - light_weight(light_pdf, bsdf_pdf);
 }
 
 Rgb PathIntegrator::emission(const Ray& ray, LightId light, const LightPoint& hit,
@@ -116,11 +149,11 @@ Rgb PathIntegrator::emission(const Ray& ray, LightId light, const LightPoint& hi
     const float probability = lights.receiver_probability(light, ray.origin.p);
     const AreaPdf pdf = lights[light].pdf_incident(ray.origin.p, hit) * probability;
     if (lights[light].is_infinite()) {
-        return radiance * weight(ray.pdf.value, pdf.value);
+        return radiance * bsdf_weight(ray.pdf.value, pdf.value);
     }
     const Vec3 along = hit.p - ray.origin.p;
     const AreaPdf used = to_area(ray.pdf, std::abs(dot(hit.ng, ray.direction)), dot(along, along));
-    return radiance * weight(used.value, pdf.value);
+    return radiance * bsdf_weight(used.value, pdf.value);
 }
 
 Rgb PathIntegrator::sample_light(const SurfacePoint& point, Vec3 wo, Sampler& sampler,
@@ -150,7 +183,8 @@ Rgb PathIntegrator::sample_light(const SurfacePoint& point, Vec3 wo, Sampler& sa
     if (light.is_delta()) {
         return value;
     }
-    return value * weight(incident->pdf_solid_angle.value * choice->probability, f.pdf_fwd.value);
+    return value *
+           light_weight(incident->pdf_solid_angle.value * choice->probability, f.pdf_fwd.value);
 }
 
 }  // namespace bdpt

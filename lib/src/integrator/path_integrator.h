@@ -10,7 +10,8 @@ namespace bdpt {
 class Sampler;
 
 /// Path tracing from the camera. `pt` finds lights by BSDF sampling alone, but for delta lights,
-/// which no such sample can hit; `mis` weighs BSDF sampling and light sampling [Veach 1997, ch. 9].
+/// which no such sample can hit; `mis` weighs BSDF sampling and light sampling [Veach 1997, ch. 9];
+/// `nee` takes light sampling and drops what BSDF sampling finds that it could have found.
 class PathIntegrator final : public Integrator {
 public:
     PathIntegrator(const World& world, const Camera& camera, const RenderOptions& options);
@@ -26,8 +27,10 @@ private:
                                Rgb radiance) const;
     [[nodiscard]] Rgb sample_light(const SurfacePoint& point, Vec3 wo, Sampler& sampler,
                                    RayCounts& rays) const;
-    /// Weight of the technique with density `used` against the one with density `other`.
-    [[nodiscard]] float weight(float used, float other) const;
+    /// Weights of a light sample and of a BSDF sample that find the same point of a light, by their
+    /// densities.
+    [[nodiscard]] float light_weight(float light_pdf, float bsdf_pdf) const;
+    [[nodiscard]] float bsdf_weight(float bsdf_pdf, float light_pdf) const;
 
     const World& world_;
     const Camera& camera_;

@@ -17,6 +17,7 @@ enum class SampleUse : std::uint32_t {
     next_event,   ///< a light point for a vertex of the camera subpath
     light_start,  ///< light, point and direction of the light subpath
     light_walk,   ///< scattering at a vertex of the light subpath
+    lens,         ///< a lens point: of the camera subpath (0), for a vertex of the light subpath
 };
 
 /// Random numbers of one pixel sample, a pure function of (kind, seed, pixel, sample index, use,

@@ -106,15 +106,70 @@ std::optional<Contribution> connect_to_light(const World& world, std::span<const
                             .next_event = incident->pdf * choice->probability})};
 }
 
+std::optional<Splat> connect_light_to_lens(const World& world, const Camera& camera,
+                                           Sampler& sampler, PathWeigher& weigher, RayCounts& rays)
+{
+    sampler.start(SampleUse::lens, 1);
+    const Vec2 u_lens = camera.has_finite_lens() ? sampler.next_2d() : Vec2(0.0f);
+    // The lens is the receiver; where on it is settled before the light is chosen.
+    const SegmentEnd receiver = camera.generate_ray(Vec2(0.0f), u_lens).lens;
+    sampler.start(SampleUse::next_event, 1);
+    const auto choice = world.lights().choose_for_receiver(receiver.p, sampler.next_fine());
+    if (!choice || !can_be_seen_directly(world.lights()[choice->id], camera)) {
+        return std::nullopt;
+    }
+    const auto incident = world.lights()[choice->id].sample_incident(receiver.p, sampler.next_2d());
+    if (!incident) {
+        return std::nullopt;
+    }
+    const auto to_lens = camera.sample_lens(incident->end.p, u_lens);
+    if (!to_lens) {
+        return std::nullopt;
+    }
+    Rgb value = incident->weight * (to_lens->pdf_direction.value / choice->probability);
+    if (is_black(value)) {
+        return std::nullopt;
+    }
+    ++rays.shadow;
+    value *= world.transmittance(incident->end, to_lens->lens);
+    if (is_black(value)) {
+        return std::nullopt;
+    }
+    PathVertex x0;
+    x0.light = choice->id;
+    x0.kind = VertexKind::light;
+    x0.end = incident->end;
+    x0.barycentrics = incident->barycentrics;
+    const LightDensities densities = light_densities(world, x0, to_lens->lens);
+    x0.pdf_fwd = densities.emit;
+    PathVertex lens;
+    lens.kind = VertexKind::camera;
+    lens.end = to_lens->lens;
+    lens.pdf_fwd = to_lens->pdf_lens;
+    const float distance_squared = incident->distance * incident->distance;
+    const float weight =
+        weigher.weight(std::span(&x0, 1), std::span(&lens, 1),
+                       {.light_at_camera_end = densities.to_next,
+                        .light_at_camera_neighbor = {},
+                        .camera_at_light_end =
+                            at_end(to_lens->pdf_direction, x0.end, to_lens->wi, distance_squared),
+                        .camera_at_light_neighbor = {},
+                        .next_event = incident->pdf * choice->probability});
+    return Splat{.contribution = {.unweighted = value, .weight = weight},
+                 .raster = to_lens->raster};
+}
+
 std::optional<Splat> connect_to_lens(const World& world, const Camera& camera,
-                                     std::span<const PathVertex> light, const PathVertex& lens,
+                                     std::span<const PathVertex> light, Sampler& sampler,
                                      PathWeigher& weigher, RayCounts& rays)
 {
     const PathVertex& y = light.back();
     if (!y.connectible) {
         return std::nullopt;
     }
-    const auto to_lens = camera.sample_lens(y.end.p);
+    sampler.start(SampleUse::lens, static_cast<std::uint32_t>(light.size()));
+    const Vec2 u_lens = camera.has_finite_lens() ? sampler.next_2d() : Vec2(0.0f);
+    const auto to_lens = camera.sample_lens(y.end.p, u_lens);
     if (!to_lens) {
         return std::nullopt;
     }
@@ -124,22 +179,49 @@ std::optional<Splat> connect_to_lens(const World& world, const Camera& camera,
         return std::nullopt;
     }
     ++rays.shadow;
-    value *= world.transmittance(y.end, lens.end);
+    value *= world.transmittance(y.end, to_lens->lens);
     if (is_black(value)) {
         return std::nullopt;
     }
     const LightDensities densities = light_densities(world, light[0], light[1].end);
     const float distance_squared = to_lens->distance * to_lens->distance;
-    const float weight =
-        weigher.weight(light, std::span(&lens, 1),
-                       {.light_at_camera_end = {},
-                        .light_at_camera_neighbor = {},
-                        .camera_at_light_end =
-                            at_end(to_lens->pdf_direction, y.end, to_lens->wi, distance_squared),
-                        .camera_at_light_neighbor = at_neighbor(f.pdf_rev, before_last(light)),
-                        .next_event = densities.next_event});
+    const float cosine = std::abs(dot(y.end.ng, to_lens->wi));
+    PathVertex lens;
+    lens.kind = VertexKind::camera;
+    lens.end = to_lens->lens;
+    lens.pdf_fwd = to_lens->pdf_lens;
+    const float weight = weigher.weight(
+        light, std::span(&lens, 1),
+        {.light_at_camera_end = at_end(f.pdf_fwd, lens.end, to_lens->wi, distance_squared),
+         .light_at_camera_neighbor = {},
+         .camera_at_light_end = to_lens->pdf_plane
+                                    ? to_area(*to_lens->pdf_plane, cosine)
+                                    : to_area(to_lens->pdf_direction, cosine, distance_squared),
+         .camera_at_light_neighbor = at_neighbor(f.pdf_rev, before_last(light)),
+         .next_event = densities.next_event});
     return Splat{.contribution = {.unweighted = value, .weight = weight},
                  .raster = to_lens->raster};
+}
+
+std::optional<Splat> hit_lens(const World& world, const Subpath& light_path,
+                              const LensCrossing& crossing, PathWeigher& weigher)
+{
+    const Rgb value = crossing.lens.beta * crossing.importance;
+    if (is_black(value)) {
+        return std::nullopt;
+    }
+    const auto light = light_path.first(crossing.light_vertices);
+    const SegmentEnd& x1 = light.size() > 1 ? light[1].end : crossing.lens.end;
+    const LightDensities densities = light_densities(world, light[0], x1);
+    const AreaPdf neighbor = light.size() > 1 ? before_last(light).pdf_rev : AreaPdf{};
+    const float weight = weigher.weight_of_hit(light, crossing.lens,
+                                               {.light_at_camera_end = crossing.lens.pdf_rev,
+                                                .light_at_camera_neighbor = {},
+                                                .camera_at_light_end = crossing.camera_at_light_end,
+                                                .camera_at_light_neighbor = neighbor,
+                                                .next_event = densities.next_event});
+    return Splat{.contribution = {.unweighted = value, .weight = weight},
+                 .raster = crossing.raster};
 }
 
 std::optional<Contribution> connect_interior(const World& world, std::span<const PathVertex> light,

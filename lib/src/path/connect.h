@@ -38,11 +38,21 @@ struct Splat {
                                                            Sampler& sampler, PathWeigher& weigher,
                                                            RayCounts& rays);
 
-/// t = 1: the last of at least two light vertices is seen through the lens.
+/// s = t = 1: a fresh point of a light is seen through a fresh point of the lens.
+[[nodiscard]] std::optional<Splat> connect_light_to_lens(const World& world, const Camera& camera,
+                                                         Sampler& sampler, PathWeigher& weigher,
+                                                         RayCounts& rays);
+
+/// t = 1, s >= 2: the last of at least two light vertices is seen through a fresh point of the
+/// lens.
 [[nodiscard]] std::optional<Splat> connect_to_lens(const World& world, const Camera& camera,
                                                    std::span<const PathVertex> light,
-                                                   const PathVertex& lens, PathWeigher& weigher,
+                                                   Sampler& sampler, PathWeigher& weigher,
                                                    RayCounts& rays);
+
+/// t = 0: the light subpath crosses the lens by chance.
+[[nodiscard]] std::optional<Splat> hit_lens(const World& world, const Subpath& light_path,
+                                            const LensCrossing& crossing, PathWeigher& weigher);
 
 /// s >= 2, t >= 2: the last vertices of both subpaths see each other.
 [[nodiscard]] std::optional<Contribution> connect_interior(const World& world,

@@ -1,5 +1,7 @@
 #include "path/densities.h"
 
+#include "camera/camera.h"
+
 #include <glm/geometric.hpp>
 
 #include <cmath>
@@ -14,6 +16,11 @@ bool joinable(const PathVertex& vertex)
 }
 
 }  // namespace
+
+bool can_be_seen_directly(const Light& light, const Camera& camera)
+{
+    return !light.is_delta() && !light.is_infinite() && camera.is_perspective();
+}
 
 LightDensities light_densities(const World& world, const PathVertex& x0, const SegmentEnd& x1)
 {
@@ -33,8 +40,11 @@ LightDensities light_densities(const World& world, const PathVertex& x0, const S
                                           distance_squared)};
 }
 
-PathWeigher::PathWeigher(const World& world, Heuristic heuristic, int max_vertices)
+PathWeigher::PathWeigher(const World& world, const Camera& camera, const StrategySet& strategies,
+                         Heuristic heuristic, int max_vertices)
     : world_(world),
+      camera_(camera),
+      strategies_(strategies),
       heuristic_(heuristic),
       from_light_(static_cast<std::size_t>(max_vertices)),
       from_camera_(static_cast<std::size_t>(max_vertices)),
@@ -46,9 +56,19 @@ float PathWeigher::weight(std::span<const PathVertex> light, std::span<const Pat
 {
     size_ = light.size() + camera.size();
     gather_densities(light, camera, join);
-    gather_sample_counts(light, camera);
+    gather_sample_counts(light, camera, light.empty() ? Joined::no : Joined::yes);
     next_event_ = join.next_event;
     return mis_weight(last_path(), static_cast<int>(light.size()), heuristic_);
+}
+
+float PathWeigher::weight_of_hit(std::span<const PathVertex> light, const PathVertex& lens,
+                                 const JoinDensities& join)
+{
+    size_ = light.size() + 1;
+    gather_densities(light, std::span(&lens, 1), join);
+    gather_sample_counts(light, std::span(&lens, 1), Joined::no);
+    next_event_ = join.next_event;
+    return mis_weight(last_path(), static_cast<int>(size_), heuristic_);
 }
 
 PathDensities PathWeigher::last_path() const
@@ -85,25 +105,29 @@ void PathWeigher::gather_densities(std::span<const PathVertex> light,
 }
 
 void PathWeigher::gather_sample_counts(std::span<const PathVertex> light,
-                                       std::span<const PathVertex> camera)
+                                       std::span<const PathVertex> camera, Joined joined)
 {
     const std::size_t s = light.size();
-    // Is vertex i an end that a strategy can join? The two ends of this join are known to be.
+    const int n = static_cast<int>(size_);
+    // Is vertex i an end that a strategy can join? The two ends of a join are known to be, and so
+    // is the light that a path has hit.
     const auto is_joinable = [&](std::size_t i) {
-        const bool end = i == s || i + 1 == s;
+        const bool end = joined == Joined::yes ? i == s || i + 1 == s : i == 0;
         return end || joinable(i < s ? light[i] : camera[size_ - 1 - i]);
     };
     const PathVertex& x0 = s > 0 ? light[0] : camera[size_ - 1];
-    sample_counts_[0] = world_.lights()[*x0.light].is_delta() ? 0.0f : 1.0f;
+    const Light& source = world_.lights()[*x0.light];
+    sample_counts_[0] = source.is_delta() ? 0.0f : strategies_.count(0, n);
     bool left = is_joinable(0);
     for (std::size_t i = 1; i < size_; ++i) {
         const bool right = is_joinable(i);
-        sample_counts_[i] = left && right ? 1.0f : 0.0f;
+        const int from_light = static_cast<int>(i);
+        sample_counts_[i] = left && right ? strategies_.count(from_light, n - from_light) : 0.0f;
         left = right;
     }
-    sample_counts_[size_] = 0.0f;  // a pinhole is never hit
-    if (size_ == 2) {
-        sample_counts_[1] = 0.0f;  // lights are seen by hitting them only
+    sample_counts_[size_] = camera_.has_finite_lens() ? strategies_.count(n, 0) : 0.0f;
+    if (size_ == 2 && !can_be_seen_directly(source, camera_)) {
+        sample_counts_[1] = 0.0f;
     }
 }
 

@@ -2,10 +2,13 @@
 
 #include "path/mis.h"
 #include "path/path_vertex.h"
+#include "path/strategy_set.h"
 
 #include <vector>
 
 namespace bdpt {
+
+class Camera;
 
 /// The densities at a light vertex x_0 as seen from its neighbour x_1, whichever strategy made
 /// them.
@@ -18,6 +21,9 @@ struct LightDensities {
 /// `x0` is a vertex on light `x0.light`.
 [[nodiscard]] LightDensities light_densities(const World& world, const PathVertex& x0,
                                              const SegmentEnd& x1);
+
+/// Can the strategy s = t = 1, which joins a light point to a lens point, see this light?
+[[nodiscard]] bool can_be_seen_directly(const Light& light, const Camera& camera);
 
 /// What joining two subpaths adds to the densities that the walks have stored: those of the ends
 /// and of their neighbours, which now see a new vertex.
@@ -33,23 +39,33 @@ struct JoinDensities {
 /// thread allocates them once.
 class PathWeigher {
 public:
-    PathWeigher(const World& world, Heuristic heuristic, int max_vertices);
+    /// `strategies` and `camera` must outlive this object.
+    PathWeigher(const World& world, const Camera& camera, const StrategySet& strategies,
+                Heuristic heuristic, int max_vertices);
 
     /// Weight of having joined the first s light vertices to the first t camera vertices. For s = 0
     /// the last camera vertex is x_0.
     [[nodiscard]] float weight(std::span<const PathVertex> light,
                                std::span<const PathVertex> camera, const JoinDensities& join);
+    /// Weight of a light walk of n - 1 vertices having hit the lens by chance (t = 0).
+    [[nodiscard]] float weight_of_hit(std::span<const PathVertex> light, const PathVertex& lens,
+                                      const JoinDensities& join);
 
     /// The densities behind the last weight(), for tests.
     [[nodiscard]] PathDensities last_path() const;
 
 private:
+    enum class Joined { yes, no };
+
     void gather_densities(std::span<const PathVertex> light, std::span<const PathVertex> camera,
                           const JoinDensities& join);
-    void gather_sample_counts(std::span<const PathVertex> light,
-                              std::span<const PathVertex> camera);
+    /// `joined`: the path was made by a join between the two subpaths.
+    void gather_sample_counts(std::span<const PathVertex> light, std::span<const PathVertex> camera,
+                              Joined joined);
 
     const World& world_;
+    const Camera& camera_;
+    const StrategySet& strategies_;
     Heuristic heuristic_;
     std::vector<AreaPdf> from_light_;
     std::vector<AreaPdf> from_camera_;

@@ -5,8 +5,56 @@
 
 namespace bdpt {
 
+namespace {
+
+/// Weights of the heuristics that compare all strategies with the best one. The densities of all
+/// are products in the same order whoever asks, so that ties are broken alike for all; long double
+/// has the range for the products of long paths.
+float compared_weight(const PathDensities& path, std::size_t used, Heuristic heuristic)
+{
+    const std::size_t n = path.from_light.size();
+    const auto density = [&](std::size_t s) {
+        auto product = static_cast<long double>(path.sample_counts[s]);
+        for (std::size_t i = 0; i < n && product > 0.0L; ++i) {
+            const AreaPdf pdf = i >= s             ? path.from_camera[i]
+                                : i == 0 && s == 1 ? path.next_event
+                                                   : path.from_light[i];
+            product *= static_cast<long double>(pdf.value);
+        }
+        return product;
+    };
+    long double greatest = 0.0L;
+    std::size_t first_greatest = 0;
+    for (std::size_t s = 0; s <= n; ++s) {
+        if (const long double p = density(s); p > greatest) {
+            greatest = p;
+            first_greatest = s;
+        }
+    }
+    if (heuristic == Heuristic::maximum) {
+        return used == first_greatest ? 1.0f : 0.0f;
+    }
+    constexpr long double cutoff = 0.1L;  // alpha [Veach 1997, sec. 9.2.3.2]
+    const auto share = [&](long double p) {
+        if (heuristic == Heuristic::uniform) {
+            return p > 0.0L ? 1.0L : 0.0L;
+        }
+        return p >= cutoff * greatest ? p / greatest : 0.0L;
+    };
+    long double sum = 0.0L;
+    for (std::size_t s = 0; s <= n; ++s) {
+        sum += share(density(s));
+    }
+    return sum > 0.0L ? static_cast<float>(share(density(used)) / sum) : 0.0f;
+}
+
+}  // namespace
+
 float mis_weight(const PathDensities& path, int s, Heuristic heuristic)
 {
+    if (heuristic != Heuristic::balance && heuristic != Heuristic::power) {
+        return compared_weight(path, static_cast<std::size_t>(s), heuristic);
+    }
     const auto& light = path.from_light;
     const auto& camera = path.from_camera;
     const auto& counts = path.sample_counts;

@@ -10,8 +10,8 @@
 
 namespace bdpt {
 
-/// Squared distance [m^2] below which two vertices count as one point, where surfaces touch: no walk
-/// goes on from there, for the densities would leave the range of float.
+/// Squared distance [m^2] below which two vertices count as one point, where surfaces touch: no
+/// walk goes on from there, for the densities would leave the range of float.
 inline constexpr float coincident = 1e-30f;
 
 enum class VertexKind : std::uint8_t {
@@ -42,14 +42,27 @@ struct PathVertex {
 
 static_assert(std::is_trivially_copyable_v<PathVertex>);
 
+/// A light walk met the lens, which stops nobody, on its way from its last vertex at that time.
+struct LensCrossing {
+    int light_vertices = 0;  ///< of the walk before the lens
+    PathVertex lens;
+    Vec2 raster{0.0f};
+    float importance = 0.0f;      ///< We
+    AreaPdf camera_at_light_end;  ///< the walk's last vertex sampled from the lens
+};
+
 /// Storage for one walk after another; it allocates only when it is made.
 class Subpath {
 public:
-    explicit Subpath(int max_vertices) : vertices_(static_cast<std::size_t>(max_vertices)) {}
+    explicit Subpath(int max_vertices) : vertices_(static_cast<std::size_t>(max_vertices))
+    {
+        crossings_.reserve(vertices_.size() + 1);
+    }
 
     void clear()
     {
         size_ = 0;
+        crossings_.clear();
         rays_ = 0;
     }
     void count_ray() { ++rays_; }
@@ -62,6 +75,8 @@ public:
         vertex = PathVertex{};
         return vertex;
     }
+    void add_crossing(const LensCrossing& crossing) { crossings_.push_back(crossing); }
+    [[nodiscard]] std::span<const LensCrossing> crossings() const { return crossings_; }
     [[nodiscard]] int size() const { return static_cast<int>(size_); }
     [[nodiscard]] int capacity() const { return static_cast<int>(vertices_.size()); }
     [[nodiscard]] PathVertex& operator[](int i) { return vertices_[static_cast<std::size_t>(i)]; }
@@ -73,6 +88,7 @@ public:
 
 private:
     std::vector<PathVertex> vertices_;
+    std::vector<LensCrossing> crossings_;
     std::size_t size_ = 0;
     std::uint64_t rays_ = 0;
 };

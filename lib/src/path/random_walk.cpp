@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -70,13 +71,80 @@ void append_surface(const SurfacePoint& point, float distance_squared, const Ste
     }
 }
 
-/// Goes on from the first vertex until the path is full, leaves the scene or is absorbed.
-void walk(const World& world, Step step, TransportMode mode, SampleUse use, int max_vertices,
-          Sampler& sampler, Subpath& path)
+/// Everything of a walk that does not change on its way.
+struct Walk {
+    const World& world;
+    const Camera* lens;  ///< of light walks: where they may cross it
+    TransportMode mode;
+    SampleUse use;
+    WalkLimits limits;
+};
+
+/// Records that `step` crosses the lens before it ends, after `free_distance`.
+void look_for_lens(const Camera& camera, const Step& step, float free_distance, Subpath& path)
 {
-    while (path.size() < max_vertices) {
+    const auto hit = camera.hit_lens(step.origin.p, step.direction);
+    if (!hit || hit->distance >= free_distance || hit->distance * hit->distance < coincident) {
+        return;
+    }
+    const float distance_squared = hit->distance * hit->distance;
+    const float cosine = std::abs(dot(hit->lens.ng, step.direction));
+    const PathVertex& last = path[path.size() - 1];
+    LensCrossing crossing;
+    crossing.light_vertices = path.size();
+    crossing.raster = hit->raster;
+    crossing.importance = hit->importance;
+    crossing.camera_at_light_end =
+        last.kind == VertexKind::infinite
+            ? AreaPdf{hit->pdf_direction.value}
+            : AreaPdf{hit->pdf_direction.value * abs_cosine(last.end.ng, step.direction) /
+                      distance_squared};
+    PathVertex& lens = crossing.lens;
+    lens.kind = VertexKind::camera;
+    lens.end = hit->lens;
+    lens.wo = -step.direction;
+    lens.beta =
+        step.beta * medium_transmittance(step.origin, hit->lens, step.direction, hit->distance);
+    // Both densities of the lens: as the walk found it, and as a camera path starts.
+    lens.pdf_rev = step.pdf_plane ? to_area(*step.pdf_plane, cosine)
+                                  : to_area(step.pdf, cosine, distance_squared);
+    lens.pdf_fwd = hit->pdf_lens;
+    path.add_crossing(crossing);
+}
+
+/// Ends a walk by chance in proportion to what it has lost since `full`. The survivors are worth
+/// more in return; no density knows of it, so that all strategies are treated alike.
+bool survives(Rgb& beta, Rgb full, float u)
+{
+    const float survival = std::min(1.0f, max_component(beta) / max_component(full));
+    if (u >= survival) {
+        return false;
+    }
+    beta /= survival;
+    return true;
+}
+
+/// Goes on from the first vertex until the path is full, leaves the scene or is absorbed.
+void walk(const Walk& rules, Step step, Sampler& sampler, Subpath& path)
+{
+    const Rgb full = step.beta;
+    const bool watches_lens = rules.lens != nullptr && rules.lens->has_finite_lens();
+    const int max_vertices = rules.limits.max_vertices;
+    const World& world = rules.world;
+    const TransportMode mode = rules.mode;
+    // A walk whose vertices are full may still cross the lens.
+    while (path.size() < max_vertices || (watches_lens && path.size() == max_vertices)) {
         path.count_ray();
         const auto hit = world.intersect(step.origin, step.direction);
+        if (watches_lens) {
+            look_for_lens(*rules.lens, step,
+                          hit ? glm::distance(hit->end.p, step.origin.p)
+                              : std::numeric_limits<float>::infinity(),
+                          path);
+        }
+        if (path.size() == max_vertices) {
+            return;
+        }
         if (!hit) {
             if (mode == TransportMode::radiance) {
                 append_environment(world, step, path);
@@ -89,11 +157,11 @@ void walk(const World& world, Step step, TransportMode mode, SampleUse use, int 
             return;
         }
         append_surface(*hit, distance_squared, step, path);
-        if (path.size() == max_vertices) {
+        if (path.size() == max_vertices && !watches_lens) {
             return;
         }
         PathVertex& vertex = path[path.size() - 1];
-        sampler.start(use, static_cast<std::uint32_t>(path.size()));
+        sampler.start(rules.use, static_cast<std::uint32_t>(path.size()));
         const Vec2 u_direction = sampler.next_2d();
         const auto scattered = vertex.bsdf.sample(vertex.wo, sampler.next_1d(), u_direction, mode);
         if (!scattered || is_black(scattered->weight)) {
@@ -107,36 +175,46 @@ void walk(const World& world, Step step, TransportMode mode, SampleUse use, int 
                 .pdf = scattered->pdf_fwd,
                 .pdf_plane = std::nullopt,
                 .origin = vertex.end};
+        if (path.size() > rules.limits.rr_start && !survives(step.beta, full, sampler.next_1d())) {
+            return;
+        }
     }
 }
 
 }  // namespace
 
-void trace_camera_subpath(const World& world, const Camera& camera, Vec2 raster, int max_vertices,
-                          Sampler& sampler, Subpath& path)
+void trace_camera_subpath(const World& world, const Camera& camera, Vec2 raster,
+                          const WalkLimits& limits, Sampler& sampler, Subpath& path)
 {
     path.clear();
-    const CameraRay ray = camera.generate_ray(raster);
+    sampler.start(SampleUse::lens);
+    const Vec2 u_lens = camera.has_finite_lens() ? sampler.next_2d() : Vec2(0.0f);
+    const CameraRay ray = camera.generate_ray(raster, u_lens);
     PathVertex& lens = path.append();
     lens.kind = VertexKind::camera;
-    lens.end.p = ray.ray.origin;
-    lens.pdf_fwd = {1.0f};  // the Dirac factor of the pinhole is left out
-    walk(world,
-         {.direction = ray.ray.direction,
+    lens.end = ray.lens;
+    lens.pdf_fwd = ray.pdf_lens;
+    walk({.world = world,
+          .lens = nullptr,
+          .mode = TransportMode::radiance,
+          .use = SampleUse::camera_walk,
+          .limits = limits},
+         {.direction = ray.direction,
           .beta = Rgb(1.0f),
           .pdf = ray.pdf_direction,
-          .pdf_plane = std::nullopt,
-          .origin = lens.end},
-         TransportMode::radiance, SampleUse::camera_walk, max_vertices, sampler, path);
+          .pdf_plane = ray.pdf_plane,
+          .origin = ray.lens},
+         sampler, path);
 }
 
-void trace_light_subpath(const World& world, int max_vertices, Sampler& sampler, Subpath& path)
+void trace_light_subpath(const World& world, const Camera& camera, const WalkLimits& limits,
+                         Sampler& sampler, Subpath& path)
 {
     path.clear();
     sampler.start(SampleUse::light_start);
     const Vec2 u_position = sampler.next_2d();
     const auto choice = world.lights().choose_for_emission(sampler.next_fine());
-    if (!choice || max_vertices < 1) {
+    if (!choice || limits.max_vertices < 1) {
         return;
     }
     const Light& light = world.lights()[choice->id];
@@ -163,8 +241,12 @@ void trace_light_subpath(const World& world, int max_vertices, Sampler& sampler,
     if (infinite) {
         step.pdf_plane = world.bounding_sphere().pdf_disk();
     }
-    walk(world, step, TransportMode::importance, SampleUse::light_walk, max_vertices, sampler,
-         path);
+    walk({.world = world,
+          .lens = &camera,
+          .mode = TransportMode::importance,
+          .use = SampleUse::light_walk,
+          .limits = limits},
+         step, sampler, path);
 }
 
 }  // namespace bdpt

@@ -2,18 +2,27 @@
 
 #include "path/path_vertex.h"
 
+#include <limits>
+
 namespace bdpt {
 
 class Camera;
 class Sampler;
 
-/// Fills `path` from the lens through `raster` with up to `max_vertices` vertices; the first is on
-/// the lens, and the last may be at infinity on the environment.
-void trace_camera_subpath(const World& world, const Camera& camera, Vec2 raster, int max_vertices,
-                          Sampler& sampler, Subpath& path);
+/// What limits a walk.
+struct WalkLimits {
+    int max_vertices = 1;  ///< of the subpath, the lens or the light included
+    int rr_start = std::numeric_limits<int>::max();  ///< edges before Russian roulette
+};
 
-/// Fills `path` from a randomly chosen light with up to `max_vertices` vertices, the first on the
-/// light. Empty when no light has power.
-void trace_light_subpath(const World& world, int max_vertices, Sampler& sampler, Subpath& path);
+/// Fills `path` from the lens through `raster`; the first vertex is on the lens, and the last may
+/// be at infinity on the environment.
+void trace_camera_subpath(const World& world, const Camera& camera, Vec2 raster,
+                          const WalkLimits& limits, Sampler& sampler, Subpath& path);
+
+/// Fills `path` from a randomly chosen light; the first vertex is on the light. Records where the
+/// walk crosses the camera's finite lens. Empty when no light has power.
+void trace_light_subpath(const World& world, const Camera& camera, const WalkLimits& limits,
+                         Sampler& sampler, Subpath& path);
 
 }  // namespace bdpt

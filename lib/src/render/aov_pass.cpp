@@ -36,14 +36,17 @@ std::optional<PrimaryHit> AovPass::first_hit(int x, int y, std::int64_t sample_i
     // The random numbers of the integrators' camera rays.
     Sampler sampler(options_.seed, x, y, sample_index);
     sampler.start(SampleUse::film);
-    const CameraRay ray = camera_.generate_ray(filter_.sample_raster(x, y, sampler.next_2d()));
-    const auto point = world_.intersect({.p = ray.ray.origin}, ray.ray.direction);
+    const Vec2 raster = filter_.sample_raster(x, y, sampler.next_2d());
+    sampler.start(SampleUse::lens);
+    const Vec2 u_lens = camera_.has_finite_lens() ? sampler.next_2d() : Vec2(0.0f);
+    const CameraRay ray = camera_.generate_ray(raster, u_lens);
+    const auto point = world_.intersect(ray.lens, ray.direction);
     if (!point) {
         return std::nullopt;
     }
     const Vec3 normal = point->bsdf.shading_normal();
     return PrimaryHit{.albedo = point->bsdf.base_color(),
-                      .normal = dot(normal, ray.ray.direction) > 0.0f ? -normal : normal,
+                      .normal = dot(normal, ray.direction) > 0.0f ? -normal : normal,
                       .position = point->end.p,
                       .depth = camera_.depth(point->end.p)};
 }

@@ -17,6 +17,7 @@ namespace {
 constexpr int max_film_side = 1 << 16;
 constexpr int max_threads = 4096;
 constexpr int max_path_edges = 4096;
+constexpr int max_light_paths = 4096;
 
 void check_range(const char* what, std::int64_t value, std::int64_t low, std::int64_t high)
 {
@@ -70,6 +71,17 @@ void check_options(const RenderOptions& options)
     check_range("number of samples", options.samples.end - options.samples.begin, 1,
                 std::numeric_limits<std::uint32_t>::max() - options.samples.begin);
     check_range("longest path (max_depth)", options.max_depth, 1, max_path_edges);
+    check_range("shortest path (min_depth)", options.min_depth, 1, options.max_depth);
+    check_range("longest camera subpath", options.max_camera_depth, 0,
+                std::numeric_limits<int>::max());
+    check_range("longest light subpath", options.max_light_depth, 0,
+                std::numeric_limits<int>::max());
+    check_range("light paths", options.light_paths, 1, max_light_paths);
+    check_range("start of Russian roulette", options.rr_start, 1, std::numeric_limits<int>::max());
+    for (const Strategy& strategy : options.disabled) {
+        check_range("disabled strategy's s", strategy.s, 0, max_path_edges + 1);
+        check_range("disabled strategy's t", strategy.t, 0, max_path_edges + 1);
+    }
     check_range("tile size", options.tile_size, 1, max_film_side);
     check_range("number of threads", options.threads, 0, max_threads);
 }
@@ -89,6 +101,15 @@ void check_camera(const CameraDesc& camera)
     if (!(dot(side, side) > 0.0f)) {
         throw Error(ErrorCode::invalid_input, item + ": transform has no inverse");
     }
+    const auto check_length = [&](const char* what, float value, bool zero_is_fine) {
+        if (!(value > 0.0f || (zero_is_fine && value == 0.0f)) || !std::isfinite(value)) {
+            throw Error(ErrorCode::invalid_input,
+                        item + ": " + what + " is " + std::to_string(value) + " m");
+        }
+    };
+    check_length("lens radius", camera.lens_radius, true);
+    check_length("focus distance", camera.focus_distance, false);
+    check_length("vertical extent", camera.vertical_extent, false);
     if (!(camera.vertical_fov > 0.0f && camera.vertical_fov < pi)) {
         throw Error(ErrorCode::invalid_input, item + ": vertical field of view is " +
                                                   std::to_string(camera.vertical_fov) +

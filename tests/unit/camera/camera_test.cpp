@@ -16,15 +16,15 @@ TEST_CASE("sample_lens finds the raster position that generate_ray came from", "
     test::Random random(3);
     for (int i = 0; i < 1000; ++i) {
         const Vec2 raster = random.next_2d() * Vec2(64.0f, 36.0f);
-        const CameraRay ray = camera.generate_ray(raster);
+        const CameraRay ray = camera.generate_ray(raster, Vec2(0.5f));
         const float distance = 0.1f + 20.0f * random.next();
-        const auto lens = camera.sample_lens(ray.ray.origin + distance * ray.ray.direction);
+        const auto lens = camera.sample_lens(ray.lens.p + distance * ray.direction, Vec2(0.5f));
         REQUIRE(lens.has_value());
         CHECK(lens->raster.x == Approx(raster.x).margin(1e-3));
         CHECK(lens->raster.y == Approx(raster.y).margin(1e-3));
         CHECK(lens->distance == Approx(distance).epsilon(1e-4));
         CHECK(lens->pdf_direction.value == Approx(ray.pdf_direction.value).epsilon(1e-4));
-        CHECK(dot(lens->wi, -ray.ray.direction) == Approx(1.0));
+        CHECK(dot(lens->wi, -ray.direction) == Approx(1.0));
         // We cos / d^2 is what one light path brings to the whole film.
         CHECK(lens->weight == Approx(lens->pdf_direction.value / (distance * distance)));
     }
@@ -33,10 +33,10 @@ TEST_CASE("sample_lens finds the raster position that generate_ray came from", "
 TEST_CASE("sample_lens sees nothing behind the camera or beside the film", "[camera]")
 {
     const Camera camera(test::camera_at({0, 0, 0}, {0, 0, -1}, 0.8f), 10, 10);
-    CHECK_FALSE(camera.sample_lens({0.0f, 0.0f, 1.0f}).has_value());
-    CHECK_FALSE(camera.sample_lens({5.0f, 0.0f, -1.0f}).has_value());
-    CHECK_FALSE(camera.sample_lens({0.0f, 0.0f, 0.0f}).has_value());
-    CHECK(camera.sample_lens({0.0f, 0.0f, -1.0f}).has_value());
+    CHECK_FALSE(camera.sample_lens({0.0f, 0.0f, 1.0f}, Vec2(0.5f)).has_value());
+    CHECK_FALSE(camera.sample_lens({5.0f, 0.0f, -1.0f}, Vec2(0.5f)).has_value());
+    CHECK_FALSE(camera.sample_lens({0.0f, 0.0f, 0.0f}, Vec2(0.5f)).has_value());
+    CHECK(camera.sample_lens({0.0f, 0.0f, -1.0f}, Vec2(0.5f)).has_value());
 }
 
 TEST_CASE("the density of primary directions is the density of uniform film positions", "[camera]")
@@ -47,7 +47,7 @@ TEST_CASE("the density of primary directions is the density of uniform film posi
     constexpr int size = 16;
     const Camera camera(test::camera_at({0, 0, 0}, {0, 0, -1}, 1.2f), size, size);
     const auto direction = [&](float x, float y) {
-        return camera.generate_ray({x, y}).ray.direction;
+        return camera.generate_ray({x, y}, Vec2(0.5f)).direction;
     };
     const auto triangle = [](Vec3 a, Vec3 b, Vec3 c) {
         return 2.0f *
@@ -61,7 +61,8 @@ TEST_CASE("the density of primary directions is the density of uniform film posi
         const Vec3 c = direction(fx + 1, fy + 1);
         const Vec3 d = direction(fx, fy + 1);
         const float solid_angle = triangle(a, b, c) + triangle(a, c, d);
-        const float pdf = camera.generate_ray({fx + 0.5f, fy + 0.5f}).pdf_direction.value;
+        const float pdf =
+            camera.generate_ray({fx + 0.5f, fy + 0.5f}, Vec2(0.5f)).pdf_direction.value;
         CHECK(pdf * solid_angle == Approx(1.0 / (size * size)).epsilon(0.01));
     }
 }
@@ -70,11 +71,11 @@ TEST_CASE("the top row of the film looks up, and the node's scale does not matte
 {
     CameraDesc desc = test::camera_at({0, 0, 0}, {0, 0, -1}, 0.8f);
     const Camera plain(desc, 8, 8);
-    CHECK(plain.generate_ray({4.0f, 0.0f}).ray.direction.y > 0.3f);
-    CHECK(plain.generate_ray({8.0f, 4.0f}).ray.direction.x > 0.3f);
+    CHECK(plain.generate_ray({4.0f, 0.0f}, Vec2(0.5f)).direction.y > 0.3f);
+    CHECK(plain.generate_ray({8.0f, 4.0f}, Vec2(0.5f)).direction.x > 0.3f);
     desc.world_from_camera = glm::scale(desc.world_from_camera, Vec3(3.0f, 0.5f, 2.0f));
-    const Vec3 scaled = Camera(desc, 8, 8).generate_ray({1.0f, 2.0f}).ray.direction;
-    CHECK(dot(scaled, plain.generate_ray({1.0f, 2.0f}).ray.direction) == Approx(1.0));
+    const Vec3 scaled = Camera(desc, 8, 8).generate_ray({1.0f, 2.0f}, Vec2(0.5f)).direction;
+    CHECK(dot(scaled, plain.generate_ray({1.0f, 2.0f}, Vec2(0.5f)).direction) == Approx(1.0));
 }
 
 }  // namespace bdpt

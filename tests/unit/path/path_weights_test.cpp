@@ -48,11 +48,14 @@ TEST_CASE("weights of all strategies sum to one on traced paths", "[mis]")
     constexpr int size = 16;
     const Camera camera(test::room_camera(), size, size);
     Subpath light_path(max_depth);
+    RenderOptions options;
+    options.max_depth = max_depth;
+    const StrategySet strategies(options);
     Subpath camera_path(max_depth + 1);
     RayCounts rays;
     int paths = 0;
     for (const auto heuristic : {Heuristic::balance, Heuristic::power}) {
-        PathWeigher weigher(world, heuristic, max_depth + 1);
+        PathWeigher weigher(world, camera, strategies, heuristic, max_depth + 1);
         const auto check = [&](const std::optional<Contribution>& found) {
             if (found) {
                 ++paths;
@@ -66,9 +69,10 @@ TEST_CASE("weights of all strategies sum to one on traced paths", "[mis]")
             Sampler sampler(SamplerKind::sobol, 1, i % size, i / size, i);
             const Vec2 raster(static_cast<float>(i % size) + 0.5f,
                               static_cast<float>(i / size % size) + 0.5f);
-            trace_camera_subpath(world, camera, raster, camera_path.capacity(), sampler,
-                                 camera_path);
-            trace_light_subpath(world, light_path.capacity(), sampler, light_path);
+            trace_camera_subpath(world, camera, raster, {.max_vertices = camera_path.capacity()},
+                                 sampler, camera_path);
+            trace_light_subpath(world, camera, {.max_vertices = light_path.capacity()}, sampler,
+                                light_path);
             for (int t = 2; t <= camera_path.size(); ++t) {
                 check(hit_light(world, camera_path.first(t), weigher));
                 if (t <= max_depth) {
@@ -91,14 +95,18 @@ TEST_CASE("joining and hitting agree about the densities of the same path", "[mi
     const World world(room());
     constexpr int max_depth = 5;
     const Camera camera(test::room_camera(), 16, 16);
+    RenderOptions options;
+    options.max_depth = max_depth;
+    const StrategySet strategies(options);
     Subpath camera_path(max_depth + 1);
-    PathWeigher weigher(world, Heuristic::balance, max_depth + 1);
+    PathWeigher weigher(world, camera, strategies, Heuristic::balance, max_depth + 1);
     int compared = 0;
     for (int i = 0; i < 3000; ++i) {
         Sampler sampler(SamplerKind::sobol, 2, i % 16, i / 16 % 16, i);
         const Vec2 raster(static_cast<float>(i % 16) + 0.5f,
                           static_cast<float>(i / 16 % 16) + 0.5f);
-        trace_camera_subpath(world, camera, raster, camera_path.capacity(), sampler, camera_path);
+        trace_camera_subpath(world, camera, raster, {.max_vertices = camera_path.capacity()},
+                             sampler, camera_path);
         for (int t = 3; t <= camera_path.size(); ++t) {
             const auto path = camera_path.first(t);
             const PathVertex& x0 = path.back();

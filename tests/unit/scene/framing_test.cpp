@@ -39,7 +39,8 @@ TEST_CASE("an object is framed whole, from the front, slightly above", "[framing
                 CHECK(camera
                           .sample_lens({(corner & 1) != 0 ? bounds.max.x : bounds.min.x,
                                         (corner & 2) != 0 ? bounds.max.y : bounds.min.y,
-                                        (corner & 4) != 0 ? bounds.max.z : bounds.min.z})
+                                        (corner & 4) != 0 ? bounds.max.z : bounds.min.z},
+                                       Vec2(0.5f))
                           .has_value());
             }
             CHECK(forward(view).z < -0.5f);

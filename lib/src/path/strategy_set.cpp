@@ -1,0 +1,42 @@
+#include "path/strategy_set.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace bdpt {
+namespace {
+
+bool is_used(const RenderOptions& options, Strategy strategy)
+{
+    const auto [s, t] = strategy;
+    const int edges = s + t - 1;
+    const bool by_length = edges >= options.min_depth && edges <= options.max_depth &&
+                           t - 1 <= options.max_camera_depth && s - 1 <= options.max_light_depth;
+    const bool by_integrator = options.integrator != IntegratorKind::lt || t <= 1;
+    const auto& disabled = options.disabled;
+    return by_length && by_integrator &&
+           std::find(disabled.begin(), disabled.end(), strategy) == disabled.end();
+}
+
+}  // namespace
+
+StrategySet::StrategySet(const RenderOptions& options) : stride_(options.max_depth + 2)
+{
+    counts_.assign(static_cast<std::size_t>(stride_ * stride_), 0.0f);
+    for (int s = 0; s < stride_; ++s) {
+        for (int t = 0; s + t < stride_; ++t) {
+            if (s + t < 2 || !is_used(options, {s, t})) {
+                continue;
+            }
+            // A fresh light point for each camera vertex (s = 1); the rest comes from light paths.
+            counts_[static_cast<std::size_t>(s * stride_ + t)] =
+                s >= 2 ? static_cast<float>(options.light_paths) : 1.0f;
+            camera_vertices_ = std::max(camera_vertices_, t);
+            // A path that hits the lens has it as its last vertex, which is not a vertex of the
+            // walk.
+            light_vertices_ = std::max(light_vertices_, s < 2 ? 0 : t == 0 ? s - 1 : s);
+        }
+    }
+}
+
+}  // namespace bdpt

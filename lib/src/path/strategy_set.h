@@ -1,0 +1,33 @@
+#pragma once
+
+#include <bdpt/render_options.h>
+
+#include <vector>
+
+namespace bdpt {
+
+/// Which strategies (s, t) a render uses, and how many samples each takes for one camera path.
+class StrategySet {
+public:
+    /// `options` have been checked. The integrator is bdpt or lt.
+    explicit StrategySet(const RenderOptions& options);
+
+    /// N_s of the strategy; 0 when it is not used.
+    [[nodiscard]] float count(int s, int t) const
+    {
+        return counts_[static_cast<std::size_t>(s * stride_ + t)];
+    }
+    [[nodiscard]] bool uses(int s, int t) const { return count(s, t) > 0.0f; }
+
+    /// Vertices of the longest subpaths that any strategy needs, the lens or the light included.
+    [[nodiscard]] int camera_vertices() const { return camera_vertices_; }
+    [[nodiscard]] int light_vertices() const { return light_vertices_; }
+
+private:
+    int stride_;
+    int camera_vertices_ = 1;
+    int light_vertices_ = 0;
+    std::vector<float> counts_;
+};
+
+}  // namespace bdpt

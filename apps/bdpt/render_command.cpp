@@ -21,7 +21,6 @@
 #include "pictures.h"
 #include "stage.h"
 #include "stats_file.h"
-#include "version.h"
 
 namespace bdpt::app {
 namespace {
@@ -30,13 +29,14 @@ using nlohmann::ordered_json;
 
 const char* name_of(IntegratorKind kind)
 {
-    constexpr std::array names{"bdpt", "pt", "mis"};
+    constexpr std::array names{"bdpt", "pt", "mis", "nee", "lt"};
     return names[static_cast<std::size_t>(kind)];
 }
 
 const char* name_of(Heuristic heuristic)
 {
-    return heuristic == Heuristic::balance ? "balance" : "power";
+    constexpr std::array names{"balance", "power", "cutoff", "maximum", "uniform"};
+    return names[static_cast<std::size_t>(heuristic)];
 }
 
 const char* name_of(SamplerKind sampler)

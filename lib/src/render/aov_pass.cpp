@@ -34,7 +34,7 @@ RenderStats AovPass::render_tile(const Tile& tile, SampleRange samples, AovFilm&
 std::optional<PrimaryHit> AovPass::first_hit(int x, int y, std::int64_t sample_index) const
 {
     // The random numbers of the integrators' camera rays.
-    Sampler sampler(options_.seed, x, y, sample_index);
+    Sampler sampler(options_.sampler, options_.seed, x, y, sample_index);
     sampler.start(SampleUse::film);
     const Vec2 raster = filter_.sample_raster(x, y, sampler.next_2d());
     sampler.start(SampleUse::lens);

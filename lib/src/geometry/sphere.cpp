@@ -5,16 +5,18 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace bdpt {
 
 BoundedPoint Sphere::point(Vec3 normal) const
 {
-    const Vec3 p = center + radius * normal;
-    // The product and the sum are rounded, and so was the unit normal.
-    return {p, rounding_bound(2) * (abs(center) + abs(radius * normal)) +
-                   Vec3(rounding_bound(4) * radius)};
+    // The unit normal, its product and the sum are rounded; rays are tested in double.
+    constexpr int rounded_operations = 8;
+    const Vec3 size = abs(center) + radius;
+    return {center + radius * normal,
+            rounding_bound(rounded_operations) * std::max(size.x, std::max(size.y, size.z))};
 }
 
 std::optional<SphereHit> intersect(const Sphere& sphere, const Ray& ray, float t_min) noexcept

@@ -12,10 +12,11 @@ namespace bdpt {
 
 BoundedPoint Sphere::point(Vec3 normal) const
 {
-    const Vec3 p = center + radius * normal;
-    // The product and the sum are rounded, and so was the unit normal.
-    const Vec3 far = abs(center) + Vec3(radius);
-    return {p, rounding_bound(8) * std::max(far.x, std::max(far.y, far.z))};
+    // The unit normal, its product and the sum are rounded; rays are tested in double.
+    constexpr int rounded_operations = 8;
+    const Vec3 size = abs(center) + radius;
+    return {center + radius * normal,
+            rounding_bound(rounded_operations) * std::max(size.x, std::max(size.y, size.z))};
 }
 
 std::optional<SphereHit> intersect(const Sphere& sphere, const Ray& ray, float t_min) noexcept

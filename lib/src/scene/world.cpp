@@ -98,8 +98,10 @@ std::optional<SurfacePoint> World::intersect(const SegmentEnd& from, Vec3 direct
     if (!hit) {
         return std::nullopt;
     }
-    return hit->sphere == no_sphere ? surface_point(*hit, direction)
-                                    : sphere_point(*hit, direction);
+    if (hit->sphere != no_sphere) [[unlikely]] {
+        return sphere_point(*hit, direction);
+    }
+    return surface_point(*hit, direction);
 }
 
 /// Spheres are lights: they emit from their outside and reflect nothing.

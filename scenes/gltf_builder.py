@@ -65,35 +65,42 @@ class Gltf:
             "asset": {"version": "2.0", "generator": "bdpt scenes/make_scenes.py"},
             "scene": 0,
             "scenes": [{"name": title, "nodes": []}],
-            "nodes": [], "cameras": [], "materials": [], "meshes": [], "accessors": [], "bufferViews": [],
+            "nodes": [], "cameras": [], "materials": [], "meshes": [], "textures": [], "images": [], "samplers": [],
+            "accessors": [], "bufferViews": [],
         }
 
     def _append(self, key, item):
         self.json[key].append(item)
         return len(self.json[key]) - 1
 
-    def _accessor(self, data, target, description):
+    def _view(self, data, **properties):
         self.buffer += bytes(-len(self.buffer) % 4)
         view = self._append("bufferViews", {"buffer": 0, "byteOffset": len(self.buffer), "byteLength": len(data),
-                                            "target": target})
+                                            **properties})
         self.buffer += data
+        return view
+
+    def _accessor(self, data, target, description):
+        view = self._view(data, target=target)
         return self._append("accessors", {"bufferView": view, **description})
 
-    def _vectors(self, values, bounds):
-        packed = b"".join(struct.pack("<3f", *rounded(v)) for v in values)
-        description = {"componentType": 5126, "count": len(values), "type": "VEC3"}
+    def _vectors(self, values, bounds=False):
+        packed = b"".join(struct.pack(f"<{len(v)}f", *rounded(v)) for v in values)
+        description = {"componentType": 5126, "count": len(values), "type": f"VEC{len(values[0])}"}
         if bounds:
             floats = list(struct.iter_unpack("<3f", packed))
             description["min"] = [min(f[i] for f in floats) for i in range(3)]
             description["max"] = [max(f[i] for f in floats) for i in range(3)]
         return self._accessor(packed, 34962, description)
 
-    def shape(self, positions, triangles, normals=None):
+    def shape(self, positions, triangles, normals=None, uvs=None):
         """Stores geometry; what it returns may serve several meshes. Without normals the faces are flat."""
         assert len(positions) <= 65535
         attributes = {"POSITION": self._vectors(positions, bounds=True)}
         if normals:
-            attributes["NORMAL"] = self._vectors([normalized(n) for n in normals], bounds=False)
+            attributes["NORMAL"] = self._vectors([normalized(n) for n in normals])
+        if uvs:
+            attributes["TEXCOORD_0"] = self._vectors(uvs)
         indices = b"".join(struct.pack("<3H", *t) for t in triangles)
         return {"attributes": attributes,
                 "indices": self._accessor(indices, 34963, {"componentType": 5123, "count": 3 * len(triangles),
@@ -104,12 +111,24 @@ class Gltf:
         return self._append("meshes", {"name": name, "primitives": [{**shape, "material": material}
                                                                     for shape, material in parts]})
 
-    def material(self, name, color, metallic=0.0, roughness=1.0, emission=None, extensions=None, double_sided=False):
-        """`emission` is a radiance in nit. `extensions` maps the names of KHR_materials_* to their properties."""
+    def texture(self, name, png):
+        """An embedded PNG file that is not repeated beyond its edges."""
+        image = self._append("images", {"name": name, "mimeType": "image/png", "bufferView": self._view(png)})
+        clamped = self._append("samplers", {"magFilter": 9729, "minFilter": 9729, "wrapS": 33071, "wrapT": 33071})
+        return self._append("textures", {"name": name, "source": image, "sampler": clamped})
+
+    def material(self, name, color, metallic=0.0, roughness=1.0, emission=None, extensions=None, double_sided=False,
+                 texture=None, emission_texture=None, alpha=1.0, **more):
+        """`emission` is a radiance in nit; the textures multiply `color` with `alpha` and `emission`. `extensions` maps
+        the names of KHR_materials_* to their properties; `more` are properties of the glTF material."""
         extensions = dict(extensions or {})
-        material = {"name": name, "pbrMetallicRoughness": {"baseColorFactor": rounded((*color, 1)),
+        material = {"name": name, "pbrMetallicRoughness": {"baseColorFactor": rounded((*color, alpha)),
                                                            "metallicFactor": rounded(metallic),
-                                                           "roughnessFactor": rounded(roughness)}}
+                                                           "roughnessFactor": rounded(roughness)}, **more}
+        if texture is not None:
+            material["pbrMetallicRoughness"]["baseColorTexture"] = {"index": texture}
+        if emission_texture is not None:
+            material["emissiveTexture"] = {"index": emission_texture}
         if emission:
             strength = max(emission)
             material["emissiveFactor"] = rounded([e / strength for e in emission])
@@ -138,10 +157,17 @@ class Gltf:
             self.json["nodes"][parent].setdefault("children", []).append(index)
         return index
 
-    def camera(self, position, direction, vertical_fov, aspect_ratio, name="camera"):
-        """`vertical_fov` in radians."""
+    def camera(self, position, direction, vertical_fov, aspect_ratio, name="camera", lens=None):
+        """`vertical_fov` in radians. `lens`: (radius, distance in focus) of a thin lens [m], else a pinhole."""
+        extras = {"extras": {"lensRadius": rounded(lens[0]), "focusDistance": rounded(lens[1])}} if lens else {}
         camera = self._append("cameras", {"name": name, "type": "perspective", "perspective": {
-            "yfov": rounded(vertical_fov), "aspectRatio": rounded(aspect_ratio), "znear": 0.001}})
+            "yfov": rounded(vertical_fov), "aspectRatio": rounded(aspect_ratio), "znear": 0.001}, **extras})
+        return self.node(name, position, rotation_towards(direction), camera=camera)
+
+    def orthographic_camera(self, position, direction, width, height, name="camera"):
+        """Sees parallel beams over a rectangle of `width` times `height` [m]."""
+        camera = self._append("cameras", {"name": name, "type": "orthographic", "orthographic": {
+            "xmag": rounded(width / 2), "ymag": rounded(height / 2), "znear": 0.001, "zfar": 1000}})
         return self.node(name, position, rotation_towards(direction), camera=camera)
 
     def light(self, name, kind, intensity, color=(1, 1, 1), position=None, direction=None, **properties):
@@ -152,6 +178,10 @@ class Gltf:
         rotation = rotation_towards(direction, up=(0, 0, -1)) if direction else None
         return self.node(name, position, rotation,
                          extensions={"KHR_lights_punctual": {"light": len(self.lights) - 1}})
+
+    def sphere_light(self, name, intensity, radius, position, color=(1, 1, 1)):
+        """A ball of radiance intensity / (pi radius^2); `intensity` in candela."""
+        return self.light(name, "point", intensity, color, position, extras={"radius": rounded(radius)})
 
     def text(self):
         """The file's text."""

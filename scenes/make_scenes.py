@@ -10,11 +10,12 @@ import sys
 
 sys.dont_write_bytecode = True  # leave nothing behind but the scenes
 
+from feature_scenes import FEATURE_SCENES
 from gltf_builder import Gltf, rotation_about, sub
+from hidden_light_scenes import HIDDEN_LIGHT_SCENES
+from materials import SOLID_GLASS, THIN_GLASS
 from shapes import box_quads, coil, flipped, height_field, quads, sphere
-
-SOLID_GLASS = {"transmission": {"transmissionFactor": 1}, "ior": {"ior": 1.5}, "volume": {"thicknessFactor": 0.1}}
-THIN_GLASS = {"transmission": {"transmissionFactor": 1}, "ior": {"ior": 1.5}}
+from specular_scenes import SPECULAR_SCENES
 
 
 # --- The Cornell box ------------------------------------------------------------------------------------------------
@@ -85,6 +86,14 @@ def cornell_spheres(title, hidden=False):
     # A millimetre above the floor: a ball that touches it would make joins of infinite variance there.
     gltf.node("mirror ball", (0.395, 0.101, 0.37), mesh=gltf.mesh("mirror ball", (ball, mirror)))
     gltf.node("glass ball", (0.165, 0.101, 0.2), mesh=gltf.mesh("glass ball", (ball, glass)))
+    return gltf
+
+
+def cornell_lambertian(title):
+    gltf, white = cornell_room(title, hidden=True)
+    ball = gltf.mesh("ball", (gltf.shape(*sphere(64, 32, radius=0.1)), white))
+    gltf.node("left ball", (0.395, 0.101, 0.37), mesh=ball)
+    gltf.node("right ball", (0.165, 0.101, 0.2), mesh=ball)
     return gltf
 
 
@@ -247,6 +256,7 @@ SCENES = {
     "cornell-box-hidden": lambda title: cornell_box(title, hidden=True),
     "cornell-spheres": cornell_spheres,
     "cornell-spheres-hidden": lambda title: cornell_spheres(title, hidden=True),
+    "cornell-lambertian-hidden": cornell_lambertian,
     "furnace": furnace,
     "room-point": room_point,
     "room-spot": room_spot,
@@ -255,6 +265,9 @@ SCENES = {
     "shading-normals": shading_normals,
     "instances": instances,
     "glass-rough": glass_rough,
+    **HIDDEN_LIGHT_SCENES,
+    **FEATURE_SCENES,
+    **SPECULAR_SCENES,
 }
 
 

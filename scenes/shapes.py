@@ -33,6 +33,19 @@ def box_quads(low, high, sides="-x+x-y+y-z+z"):
     return [all_sides[sides[i:i + 2]] for i in range(0, len(sides), 2)]
 
 
+def inner_quads(low, high, sides="-x+x-y+y-z+z"):
+    """The chosen sides of an axis-aligned box, fronts inwards: the walls of a room."""
+    return [flipped(quad) for quad in box_quads(low, high, sides)]
+
+
+def card(width, height):
+    """An upright rectangle that stands on the origin and faces +z, with texture coordinates: a picture, upper row on
+    top."""
+    x = width / 2
+    return ([(-x, 0, 0), (x, 0, 0), (x, height, 0), (-x, height, 0)], [(0, 1, 2), (0, 2, 3)], [(0, 0, 1)] * 4,
+            [(0, 1), (1, 1), (1, 0), (0, 0)])
+
+
 def sphere(segments, rings, radius=1.0):
     """About the origin, closed, with the normals of the true sphere."""
     normals = [(0.0, 1.0, 0.0)]
@@ -102,3 +115,56 @@ def coil(turns, coil_radius, tube_radius, rise, segments, sides):
             edge = (ring * sides + k, ring * sides + (k + 1) % sides)
             triangles.append((tip, *edge[::-sign]))
     return positions, triangles, normals
+
+
+def filleted(corners, steps=4, closed=False):
+    """A smooth outline in the half plane (r, y), as (r, y, normal r, normal y), from `corners` = (r, y, radius of the
+    arc that rounds it). Its normals point to the left of the way along it; without `closed` both ends stay."""
+    def unit(a, b):
+        return normalized((b[0] - a[0], b[1] - a[1]))
+
+    def turned(v, angle):
+        c, s = math.cos(angle), math.sin(angle)
+        return c * v[0] - s * v[1], s * v[0] + c * v[1]
+
+    outline = []
+    count = len(corners)
+    for i, (r, y, radius) in enumerate(corners):
+        before = unit(corners[i - 1], corners[i]) if closed or i > 0 else unit(corners[0], corners[1])
+        after = unit(corners[i], corners[(i + 1) % count]) if closed or i < count - 1 else before
+        left = turned(before, math.pi / 2)
+        turn = math.atan2(before[0] * after[1] - before[1] * after[0], before[0] * after[0] + before[1] * after[1])
+        if abs(turn) < 1e-6:
+            outline.append((r, y, *left))
+            continue
+        back, side = radius * math.tan(abs(turn) / 2), math.copysign(radius, turn)
+        centre = (r - back * before[0] + side * left[0], y - back * before[1] + side * left[1])
+        for k in range(steps + 1):
+            n = turned(left, turn * k / steps)
+            outline.append((centre[0] - side * n[0], centre[1] - side * n[1], *n))
+    return outline
+
+
+def lathe(outline, segments, closed=False):
+    """Turns an outline of (r, y, normal r, normal y) about +y; r = 0 closes it at an end."""
+    positions, normals, triangles = [], [], []
+    for i in range(segments):
+        s, c = math.sin(2 * math.pi * i / segments), math.cos(2 * math.pi * i / segments)
+        positions += [(r * s, y, r * c) for r, y, _, _ in outline]
+        normals += [(nr * s, ny, nr * c) for _, _, nr, ny in outline]
+    count = len(outline)
+    for i in range(segments):
+        here, there = i * count, (i + 1) % segments * count
+        for k in range(count if closed else count - 1):
+            m = (k + 1) % count
+            if outline[m][0] > 0:
+                triangles.append((here + k, here + m, there + m))
+            if outline[k][0] > 0:
+                triangles.append((here + k, there + m, there + k))
+    return positions, triangles, normals
+
+
+def ring(inner, outer, height, fillet, segments):
+    """A ring that lies on the plane y = 0."""
+    corners = [(r, y, fillet) for r, y in ((inner, 0), (inner, height), (outer, height), (outer, 0))]
+    return lathe(filleted(corners, closed=True), segments, closed=True)

@@ -51,7 +51,7 @@ def caustic_metal(title):
 
 def specular_room(title, low, high, lamp_radiance, focus=None):
     """A white room with an ochre and a blue wall, a ceiling lamp of 0.8 x 0.8 m and a camera at its front. `focus`: a
-    point that a lens of 8 cm across shows sharp."""
+    point that a lens of 16 cm across shows sharp."""
     gltf = Gltf(title)
     parts = [(gltf.shape(*quads(*inner_quads(low, high, sides))), gltf.lambertian(name, color))
              for name, color, sides in (("white", (0.75, 0.75, 0.75), "-y+y-z+z"), ("ochre", (0.65, 0.45, 0.2), "-x"),
@@ -62,7 +62,7 @@ def specular_room(title, low, high, lamp_radiance, focus=None):
     gltf.node("lamp", ((low[0] + high[0]) / 2, high[1] - 0.01, (low[2] + high[2]) / 2),
               mesh=gltf.mesh("lamp", (gltf.shape(*quads(corners)), lamp)))
     eye, forward = (0, 1.5, high[2] - 0.05), normalized((0, -0.28, -1))
-    lens = (0.04, sum(a * b for a, b in zip(sub(focus, eye), forward))) if focus else None
+    lens = (0.08, sum(a * b for a, b in zip(sub(focus, eye), forward))) if focus else None
     gltf.camera(eye, forward, math.radians(41), 4 / 3, lens=lens)
     return gltf
 

@@ -1,0 +1,198 @@
+// Each strategy by itself, and all ways to combine them, estimate the same integral.
+
+#include "catch.hpp"
+#include "equal_means.h"
+#include "scene_builder.h"
+
+#include <cstdlib>
+#include <iostream>
+#include <string>
+
+namespace bdpt::test {
+namespace {
+
+/// Surfaces that do not touch each other: where they do, a strategy alone has no finite variance.
+Scene open_stage()
+{
+    SceneBuilder builder;
+    builder.quad({-1, -1, 1}, {1, -1, 1}, {1, -1, -1}, {-1, -1, -1},
+                 lambertian({0.8f, 0.6f, 0.4f}));
+    builder.quad({-0.8f, -0.6f, -1.6f}, {0.8f, -0.6f, -1.6f}, {0.8f, 0.9f, -1.6f},
+                 {-0.8f, 0.9f, -1.6f}, plastic(Rgb(0.7f), 0.6f));
+    builder.sphere({0.1f, -0.2f, 0.1f}, 0.35f, lambertian({0.5f, 0.7f, 0.9f}));
+    builder.lamp(1.0f, 1.1f, Rgb(4.0f, 3.5f, 3.0f));
+    return Scene(std::move(builder.desc));
+}
+
+CameraDesc pinhole()
+{
+    return camera_at({0.0f, 0.3f, 3.6f}, {0.0f, 0.0f, 0.0f}, 0.75f);
+}
+
+/// So wide that light paths hit it.
+CameraDesc thin_lens()
+{
+    CameraDesc camera = pinhole();
+    camera.lens_radius = 1.2f;
+    camera.focus_distance = 3.4f;
+    return camera;
+}
+
+CameraDesc parallel()
+{
+    CameraDesc camera = pinhole();
+    camera.projection = Projection::orthographic;
+    camera.vertical_extent = 2.6f;
+    return camera;
+}
+
+RenderOptions options(IntegratorKind integrator, int min_depth, int max_depth)
+{
+    static std::uint64_t seed = 40000;
+    RenderOptions result;
+    result.integrator = integrator;
+    result.min_depth = min_depth;
+    result.max_depth = max_depth;
+    result.seed = ++seed;
+    return result;
+}
+
+/// Only the strategy with s light vertices makes paths of `edges` edges.
+RenderOptions only(int s, int edges)
+{
+    RenderOptions result = options(IntegratorKind::bdpt, edges, edges);
+    for (int other = 0; other <= edges + 1; ++other) {
+        if (other != s) {
+            result.disabled.push_back({.s = other, .t = edges + 1 - other});
+        }
+    }
+    return result;
+}
+
+void check_equal(const std::string& what, TileMeans& a, TileMeans& b, double detectable_bias)
+{
+    const MeanComparison result = compare_means(a, b, {.detectable_bias = detectable_bias});
+    INFO(what << ": " << result.text());
+    CHECK(result.sharp_enough);
+    CHECK(result.equal);
+    if (std::getenv("BDPT_TEST_VERBOSE") != nullptr) {
+        std::cout << what << ": " << result.text() << "\n";
+    }
+}
+
+/// All strategies for paths of one length against path tracing with both kinds of sampling.
+void check_each_strategy(const Scene& scene, const CameraDesc& camera, int edges, int last_s)
+{
+    TileMeans reference(scene, camera, options(IntegratorKind::mis, edges, edges));
+    for (int s = 0; s <= last_s; ++s) {
+        TileMeans alone(scene, camera, only(s, edges));
+        check_equal("s = " + std::to_string(s) + " of " + std::to_string(edges) + " edges",
+                    reference, alone, 0.06);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("each strategy alone, pinhole", "[strategies]")
+{
+    const Scene scene = open_stage();
+    for (const int edges : {1, 2, 3}) {
+        check_each_strategy(scene, pinhole(), edges, edges);
+    }
+}
+
+TEST_CASE("each strategy alone, thin lens: t = 0 as well", "[strategies]")
+{
+    const Scene scene = open_stage();
+    for (const int edges : {1, 2}) {
+        check_each_strategy(scene, thin_lens(), edges, edges + 1);
+    }
+}
+
+TEST_CASE("each strategy alone, orthographic", "[strategies]")
+{
+    const Scene scene = open_stage();
+    check_each_strategy(scene, parallel(), 1, 0);
+    check_each_strategy(scene, parallel(), 2, 2);
+}
+
+TEST_CASE("all integrators agree through all cameras", "[strategies]")
+{
+    const Scene scene = open_stage();
+    for (const CameraDesc& camera : {pinhole(), thin_lens(), parallel()}) {
+        TileMeans mis(scene, camera, options(IntegratorKind::mis, 2, 4));
+        for (const auto kind :
+             {IntegratorKind::pt, IntegratorKind::nee, IntegratorKind::lt, IntegratorKind::bdpt}) {
+            TileMeans other(scene, camera, options(kind, 2, 4));
+            check_equal("mis = integrator " + std::to_string(static_cast<int>(kind)), mis, other,
+                        0.05);
+        }
+    }
+}
+
+TEST_CASE("light seen directly: s = t = 1 and hits share it", "[strategies]")
+{
+    const Scene scene = open_stage();
+    const CameraDesc up = camera_at({0.0f, -0.5f, 0.8f}, {0.0f, 1.0f, 0.0f}, 0.9f);
+    TileMeans mis(scene, up, options(IntegratorKind::mis, 1, 1));
+    TileMeans bdpt(scene, up, options(IntegratorKind::bdpt, 1, 1));
+    TileMeans lt(scene, up, options(IntegratorKind::lt, 1, 1));
+    check_equal("mis = bdpt", mis, bdpt, 0.02);
+    check_equal("mis = lt", mis, lt, 0.02);
+}
+
+TEST_CASE("heuristics, more light paths and roulette change noise only", "[strategies]")
+{
+    const Scene scene = open_stage();
+    const CameraDesc camera = thin_lens();
+    TileMeans mis(scene, camera, options(IntegratorKind::mis, 1, 4));
+    for (const auto heuristic :
+         {Heuristic::balance, Heuristic::cutoff, Heuristic::maximum, Heuristic::uniform}) {
+        RenderOptions with = options(IntegratorKind::bdpt, 1, 4);
+        with.heuristic = heuristic;
+        // Equal shares take the worst strategies as seriously as the best.
+        const double sharpness = heuristic == Heuristic::uniform ? 0.06 : 0.03;
+        TileMeans bdpt(scene, camera, with);
+        check_equal("bdpt, heuristic " + std::to_string(static_cast<int>(heuristic)), mis, bdpt,
+                    sharpness);
+        with.integrator = IntegratorKind::mis;
+        with.seed += 500;
+        TileMeans path(scene, camera, with);
+        check_equal("mis, heuristic " + std::to_string(static_cast<int>(heuristic)), mis, path,
+                    sharpness);
+    }
+    RenderOptions many = options(IntegratorKind::bdpt, 1, 4);
+    many.light_paths = 3;
+    TileMeans three(scene, camera, many);
+    check_equal("three light paths", mis, three, 0.03);
+    for (const auto kind : {IntegratorKind::bdpt, IntegratorKind::mis, IntegratorKind::lt}) {
+        RenderOptions roulette = options(kind, kind == IntegratorKind::lt ? 2 : 1, 4);
+        RenderOptions without = options(IntegratorKind::mis, roulette.min_depth, 4);
+        roulette.rr_start = 1;
+        TileMeans ended(scene, camera, roulette);
+        TileMeans reference(scene, camera, without);
+        check_equal("roulette", reference, ended, 0.03);
+    }
+}
+
+TEST_CASE("strategies that are left out are made up for by the others", "[strategies]")
+{
+    const Scene scene = open_stage();
+    const CameraDesc camera = thin_lens();
+    TileMeans mis(scene, camera, options(IntegratorKind::mis, 1, 4));
+    RenderOptions fewer = options(IntegratorKind::bdpt, 1, 4);
+    fewer.disabled = {{.s = 1, .t = 2}, {.s = 2, .t = 1}, {.s = 0, .t = 4}, {.s = 1, .t = 1}};
+    TileMeans without(scene, camera, fewer);
+    check_equal("four strategies left out", mis, without, 0.03);
+    RenderOptions shallow = options(IntegratorKind::bdpt, 1, 4);
+    shallow.max_camera_depth = 3;
+    shallow.max_light_depth = 1;
+    TileMeans limited(scene, camera, shallow);
+    check_equal("short subpaths", mis, limited, 0.03);
+    RenderOptions no_light_paths = options(IntegratorKind::bdpt, 1, 4);
+    no_light_paths.max_light_depth = 0;
+    TileMeans path_tracing(scene, camera, no_light_paths);
+    check_equal("no light paths", mis, path_tracing, 0.03);
+}
+
+}  // namespace bdpt::test

@@ -177,7 +177,7 @@ ordered_json head_of_stats(const RenderArguments& arguments, const ordered_json&
                            const std::optional<int>& signal)
 {
     ordered_json stats{
-        {"version", version}, {"file", arguments.file.string()}, {"settings", settings}};
+        {"version", BDPT_VERSION}, {"file", arguments.file.string()}, {"settings", settings}};
     stats["stopped_by"] = signal ? ordered_json(signal_name(*signal)) : ordered_json();
     return stats;
 }

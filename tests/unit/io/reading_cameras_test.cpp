@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 namespace bdpt::io {
 namespace {
@@ -10,7 +11,7 @@ namespace {
 using Json = nlohmann::json;
 
 /// A scene of these cameras, each held by the node of its number.
-GltfFixture with_cameras(const Json& cameras)
+GltfFixture with_cameras(const std::vector<Json>& cameras)
 {
     GltfFixture fixture;
     fixture.json["cameras"] = cameras;

@@ -27,9 +27,10 @@ public:
 
     Outcome render(const Words& more) const
     {
-        Words words{"render",      scene_, "-o",     (folder_ / "out.exr").string(),
-                    "--spp",       "16",   "--size", "64x32",
-                    "--max-depth", "1",    "--quiet"};
+        Words words{"render",      scene_, "-o",      (folder_ / "out.exr").string(),
+                    "--spp",       "16",   "--size",  "64x32",
+                    "--max-depth", "1",    "--quiet", "--integrator",
+                    "pt"};
         words.insert(words.end(), more.begin(), more.end());
         return run(words);
     }

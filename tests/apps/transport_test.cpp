@@ -31,7 +31,7 @@ public:
     ExrFile picture(const Words& more) const
     {
         const std::string out = (folder_ / "out.exr").string();
-        Words words{"render", scene_, "-o", out, "--spp", "4", "--size", "16x8", "--quiet"};
+        Words words{"render", scene_, "-o", out, "--spp", "16", "--size", "16x8", "--quiet"};
         words.insert(words.end(), more.begin(), more.end());
         const Outcome outcome = run(words);
         CAPTURE(words, outcome.err);
@@ -110,7 +110,7 @@ TEST_CASE("every integrator and heuristic shows the same light")
 {
     const GlowingRoom room;
     const auto light = [&](const Words& words) {
-        Words more{"--max-depth", "3", "--spp", "64"};
+        Words more{"--max-depth", "3"};
         more.insert(more.end(), words.begin(), words.end());
         return mean(room.picture(more).image);
     };

@@ -27,13 +27,6 @@ Exit codes: 0 done, 1 internal error, 2 wrong usage, 3 input not found, 4 invali
 5 unsupported feature, 6 output cannot be written, 7 out of memory, 130 stopped by SIGINT,
 143 stopped by SIGTERM.)";
 
-IntegratorKind to_integrator(const std::string& word)
-{
-    return word == "pt"    ? IntegratorKind::pt
-           : word == "mis" ? IntegratorKind::mis
-                           : IntegratorKind::bdpt;
-}
-
 std::uint64_t to_seed(const std::string& word)
 {
     std::uint64_t seed = 0;
@@ -145,33 +138,11 @@ void add_how(CLI::App& command, RenderWords& words)
         ->type_name("WxH")
         ->group(group);
     command
-        .add_option("--integrator", words.integrator,
-                    "bdpt (the default): bidirectional path tracing; mis: path tracing with light "
-                    "and BSDF sampling; pt: with BSDF sampling only")
-        ->check(CLI::IsMember({"bdpt", "pt", "mis"}))
-        ->type_name("bdpt|pt|mis")
-        ->group(group);
-    command
-        .add_option("--heuristic", words.heuristic,
-                    "How strategies share a path: power (the default) or balance")
-        ->check(CLI::IsMember({"balance", "power"}))
-        ->type_name("balance|power")
-        ->group(group);
-    command
         .add_option("--sampler", words.sampler,
                     "Where random numbers come from: sobol (the default), Owen-scrambled, less "
                     "noise; or independent. Best with a power of two as --spp")
         ->check(CLI::IsMember({"sobol", "independent"}))
         ->type_name("sobol|independent")
-        ->group(group);
-    command
-        .add_option(
-            "--max-depth", words.max_depth,
-            fmt::format(
-                "Longest path in edges: 1 sees lights only, 2 adds direct light. {} if not given",
-                words.max_depth))
-        ->check(CLI::Range(1, 1000))
-        ->type_name("N")
         ->group(group);
     command.add_option("--seed", words.seed, "Another number gives other noise. 0 if not given")
         ->type_name("N")
@@ -228,8 +199,10 @@ void add_render_options(CLI::App& command, RenderWords& words)
         ->type_name("FILE");
     add_output(command, words);
     add_how(command, words);
+    add_transport_options(command, words.transport);
     add_film_options(command, words.film);
     add_what(command, words);
+    add_lens_options(command, words.lens);
     command.footer(footer);
 }
 
@@ -245,19 +218,19 @@ RenderArguments understand(const RenderWords& words)
             reject("--size", *words.size, "WIDTHxHEIGHT from 1x1 to 65535x65535");
         }
     }
-    result.options.integrator = to_integrator(words.integrator);
-    result.options.heuristic = words.heuristic == "balance" ? Heuristic::balance : Heuristic::power;
     result.options.sampler =
         words.sampler == "independent" ? SamplerKind::independent : SamplerKind::sobol;
-    result.options.max_depth = words.max_depth;
     result.options.threads = words.threads;
     result.options.seed = to_seed(words.seed);
+    result.options = with_transport(words.transport, result.options);
     result.options = with_film(words.film, result.options);
     if (!result.options.aovs.empty() && !writes_exr(result.outputs)) {
         reject("--aov", *words.film.aovs, "an .exr file among the outputs to hold the layers");
     }
     result.camera = words.camera;
     result.view = to_view(words);
+    check_lens(words.lens);
+    result.lens = words.lens;
     result.scene = words.scene;
     result.environment = words.environment;
     result.exposure = to_exposure(words.exposure);

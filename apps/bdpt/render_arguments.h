@@ -12,6 +12,8 @@
 #include "arguments.h"
 #include "console.h"
 #include "film_arguments.h"
+#include "lens_arguments.h"
+#include "transport_arguments.h"
 #include "view.h"
 
 namespace CLI {
@@ -27,14 +29,13 @@ struct RenderWords {
     std::optional<std::int64_t> samples;
     std::optional<std::string> time;
     std::optional<std::string> size;
-    std::string integrator = "bdpt";
-    std::string heuristic = "power";
+    TransportWords transport;
     std::string sampler = "sobol";
-    int max_depth = RenderOptions{}.max_depth;
     std::optional<std::string> camera;
     std::optional<std::string> look_at;
     std::optional<std::string> from;
     std::optional<double> fov;  // [deg]
+    LensWords lens;
     std::optional<std::string> scene;
     std::optional<std::string> environment;
     std::optional<double> exposure;  // [EV]
@@ -58,6 +59,7 @@ struct RenderArguments {
     RenderOptions options;              ///< without size and sample range
     std::optional<std::string> camera;  ///< name, index or "auto"
     ViewOverrides view;
+    LensWords lens;                          ///< checked
     std::optional<std::string> scene;        ///< name or index
     std::optional<std::string> environment;  ///< file, "none" or "default"
     std::optional<float> exposure;           ///< [EV]

@@ -4,7 +4,6 @@
 #include <bdpt/version.h>
 #include <fmt/core.h>
 
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -21,44 +20,46 @@
 #include "pictures.h"
 #include "stage.h"
 #include "stats_file.h"
+#include "transport_arguments.h"
 
 namespace bdpt::app {
 namespace {
 
 using nlohmann::ordered_json;
 
-const char* name_of(IntegratorKind kind)
-{
-    constexpr std::array names{"bdpt", "pt", "mis", "nee", "lt"};
-    return names[static_cast<std::size_t>(kind)];
-}
-
-const char* name_of(Heuristic heuristic)
-{
-    constexpr std::array names{"balance", "power", "cutoff", "maximum", "uniform"};
-    return names[static_cast<std::size_t>(heuristic)];
-}
-
 const char* name_of(SamplerKind sampler)
 {
     return sampler == SamplerKind::independent ? "independent" : "sobol";
+}
+
+ordered_json view_json(const CameraDesc& camera)
+{
+    ordered_json view{{"camera", camera.name}};
+    if (camera.projection == Projection::orthographic) {
+        view["projection"] = "orthographic";
+        view["vertical_extent"] = camera.vertical_extent;
+        return view;
+    }
+    view["projection"] = "perspective";
+    view["vertical_fov_degrees"] =
+        static_cast<double>(camera.vertical_fov) * 180.0 / std::numbers::pi;
+    if (camera.lens_radius > 0.0f) {
+        view["lens_radius"] = camera.lens_radius;
+        view["focus_distance"] = camera.focus_distance;
+    }
+    return view;
 }
 
 /// All that the picture depends on.
 ordered_json settings_of(const RenderArguments& arguments, const Stage& stage)
 {
     const RenderOptions& options = arguments.options;
-    ordered_json settings{{"width", stage.size.width},
-                          {"height", stage.size.height},
-                          {"integrator", name_of(options.integrator)},
-                          {"heuristic", name_of(options.heuristic)},
-                          {"sampler", name_of(options.sampler)},
-                          {"max_depth", options.max_depth},
-                          {"seed", options.seed},
-                          {"camera", stage.camera.name},
-                          {"vertical_fov_degrees", static_cast<double>(stage.camera.vertical_fov) *
-                                                       180.0 / std::numbers::pi},
-                          {"environment", stage.environment_name}};
+    ordered_json settings{{"width", stage.size.width}, {"height", stage.size.height}};
+    settings.update(transport_json(options));
+    settings["sampler"] = name_of(options.sampler);
+    settings["seed"] = options.seed;
+    settings.update(view_json(stage.camera));
+    settings["environment"] = stage.environment_name;
     const FilterOptions& filter = options.filter;
     settings["filter"] = filter_name(filter.kind);
     settings["filter_radius"] = filter.radius.value_or(default_radius(filter.kind));
@@ -93,7 +94,7 @@ void announce(Console& console, const RenderArguments& arguments, const Stage& s
     console.note(fmt::format("{}: {} triangles, {} lights; {}x{}, {}, camera {}",
                              arguments.file.string(), counts.instanced_triangles, counts.lights,
                              stage.size.width, stage.size.height,
-                             name_of(arguments.options.integrator), stage.camera.name));
+                             integrator_name(arguments.options.integrator), stage.camera.name));
 }
 
 RenderResult render_stage(const RenderArguments& arguments, const Stage& stage, Console& console,
@@ -156,7 +157,7 @@ PictureOptions picture_options(const RenderArguments& arguments, const Stage& st
     metadata.version = BDPT_VERSION;
     metadata.scene = one_line(arguments.file.string());
     metadata.settings = settings.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
-    metadata.integrator = name_of(arguments.options.integrator);
+    metadata.integrator = integrator_name(arguments.options.integrator);
     metadata.seed = arguments.options.seed;
     metadata.samples_per_pixel = result.film.sample_count();
     metadata.render_seconds = result.seconds;

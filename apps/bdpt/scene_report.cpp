@@ -97,6 +97,21 @@ private:
     std::string text_;
 };
 
+std::string lens_text(const CameraDesc& camera)
+{
+    return camera.lens_radius > 0.0f ? fmt::format(", lens radius {:.4g} m, focused at {:.4g} m",
+                                                   camera.lens_radius, camera.focus_distance)
+                                     : "";
+}
+
+std::string view_text(const CameraDesc& camera)
+{
+    return camera.projection == Projection::orthographic
+               ? fmt::format("orthographic, {:.4g} m high", camera.vertical_extent)
+               : fmt::format("perspective, vertical field of view {:.4g} degrees{}",
+                             degrees(camera.vertical_fov), lens_text(camera));
+}
+
 std::vector<std::string> camera_lines(const std::vector<CameraDesc>& cameras)
 {
     std::vector<std::string> lines;
@@ -105,9 +120,9 @@ std::vector<std::string> camera_lines(const std::vector<CameraDesc>& cameras)
         if (camera.aspect_ratio) {
             aspect = fmt::format(", aspect ratio {:.4g}", *camera.aspect_ratio);
         }
-        lines.push_back(fmt::format(
-            "{} \"{}\" at {}, vertical field of view {:.4g} degrees{}", lines.size(), camera.name,
-            to_text(Vec3(camera.world_from_camera[3])), degrees(camera.vertical_fov), aspect));
+        lines.push_back(fmt::format("{} \"{}\" at {}, {}{}", lines.size(), camera.name,
+                                    to_text(Vec3(camera.world_from_camera[3])), view_text(camera),
+                                    aspect));
     }
     return lines;
 }
@@ -136,8 +151,18 @@ std::vector<std::string> scene_lines(const io::GltfFacts& facts)
 ordered_json camera_json(const CameraDesc& camera)
 {
     ordered_json result{{"name", camera.name},
-                        {"position", to_json(Vec3(camera.world_from_camera[3]))},
-                        {"vertical_fov_degrees", degrees(camera.vertical_fov)}};
+                        {"position", to_json(Vec3(camera.world_from_camera[3]))}};
+    if (camera.projection == Projection::orthographic) {
+        result["projection"] = "orthographic";
+        result["vertical_extent"] = camera.vertical_extent;
+    } else {
+        result["projection"] = "perspective";
+        result["vertical_fov_degrees"] = degrees(camera.vertical_fov);
+    }
+    if (camera.lens_radius > 0.0f) {
+        result["lens_radius"] = camera.lens_radius;
+        result["focus_distance"] = camera.focus_distance;
+    }
     result["aspect_ratio"] =
         camera.aspect_ratio ? ordered_json(*camera.aspect_ratio) : ordered_json();
     return result;

@@ -157,6 +157,7 @@ Stage prepare_stage(const RenderArguments& arguments)
     CameraDesc camera =
         from_file ? apply(arguments.view, *from_file, std::nullopt)
                   : apply(arguments.view, frame(built, aspect), center(built.scene.bounds()));
+    camera = with_lens(arguments.lens, std::move(camera), built.scene);
     const auto seconds = [](std::chrono::steady_clock::duration time) {
         return std::chrono::duration<double>(time).count();
     };

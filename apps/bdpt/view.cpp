@@ -58,6 +58,12 @@ const CameraDesc& select_camera(std::span<const CameraDesc> cameras,
 CameraDesc apply(const ViewOverrides& overrides, const CameraDesc& camera,
                  const std::optional<Vec3>& target)
 {
+    if (overrides.vertical_fov && camera.projection == Projection::orthographic) {
+        throw Error(ErrorCode::usage,
+                    fmt::format("camera {} is orthographic and has no field of view: --fov needs "
+                                "another",
+                                camera.name));
+    }
     CameraDesc result = camera;
     result.vertical_fov = overrides.vertical_fov.value_or(camera.vertical_fov);
     if (!overrides.from && !overrides.look_at) {

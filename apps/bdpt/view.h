@@ -27,7 +27,7 @@ struct ViewOverrides {
 
 /// `camera` with `overrides`. A camera that is moved without a word on where to look keeps its
 /// direction or, given `target`, turns to that. Throws `Error` (usage) when it would look at
-/// itself.
+/// itself, or has no field of view to change.
 [[nodiscard]] CameraDesc apply(const ViewOverrides& overrides, const CameraDesc& camera,
                                const std::optional<Vec3>& target);
 

@@ -15,6 +15,7 @@ target_sources(bdpt_io PRIVATE
   src/gltf/extensions.cpp
   src/gltf/glb.cpp
   src/gltf/layout.cpp
+  src/gltf/lens.cpp
   src/gltf/node_graph.cpp
   src/gltf/prepass.cpp
   src/gltf/schema.cpp

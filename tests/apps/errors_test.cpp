@@ -60,6 +60,26 @@ TEST_CASE("wrong usage gives exit code 2 and names the option")
     rejects({"--heuristic", "magic"}, "--heuristic");
     rejects({"--sampler", "magic"}, "--sampler");
     rejects({"--max-depth", "0"}, "--max-depth");
+    rejects({"--only", "some"}, "--only");
+    rejects({"--only", "indirect", "--max-depth", "2"}, "--only \"indirect\"");
+    rejects({"--max-camera-depth", "-1"}, "--max-camera-depth");
+    rejects({"--max-light-depth", "long"}, "--max-light-depth");
+    rejects({"--light-paths", "0"}, "--light-paths");
+    rejects({"--light-paths", "4097"}, "--light-paths");
+    rejects({"--rr-start", "0"}, "--rr-start");
+    rejects({"--disable", "s2"}, "--disable \"s2\"");
+    rejects({"--disable", "s2t1,"}, "--disable \"s2t1,\"");
+    for (const char* integrator : {"pt", "mis", "nee"}) {
+        rejects({"--disable", "s2t1", "--integrator", integrator}, "--disable \"s2t1\"");
+        rejects({"--light-paths", "2", "--integrator", integrator}, "--light-paths \"2\"");
+    }
+    rejects({"--lens-radius", "-1"}, "--lens-radius \"-1\"");
+    rejects({"--lens-radius", "inf"}, "--lens-radius");
+    rejects({"--f-stop", "0"}, "--f-stop \"0\"");
+    rejects({"--f-stop", "nan"}, "--f-stop");
+    rejects({"--f-stop", "2", "--lens-radius", "1"}, "--lens-radius");
+    rejects({"--f-stop", "2", "--focus-distance", "0"}, "--focus-distance \"0\"");
+    rejects({"--focus-distance", "2"}, "the camera has no lens");
     rejects({"--fov", "180"}, "--fov \"180\"");
     rejects({"--fov", "nan"}, "--fov");
     rejects({"--exposure", "nan"}, "--exposure");

@@ -134,7 +134,7 @@ TEST_CASE("option --filter chooses the pixel filter")
 TEST_CASE("option --clamp limits contributions and says what it took")
 {
     const FilmFolder cube;
-    const Words words{"--max-depth", "1", "--clamp", "0.25"};
+    const Words words{"--integrator", "mis", "--max-depth", "1", "--clamp", "0.25"};
     const Outcome outcome = cube.render(words);
     CAPTURE(outcome.err);
     REQUIRE(outcome.exit_code == 0);

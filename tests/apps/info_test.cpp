@@ -28,6 +28,27 @@ TEST_CASE("info tells people what a file holds")
     CHECK(outcome.out.find("no camera") == std::string::npos);
 }
 
+TEST_CASE("info tells which kind of camera and lens there is")
+{
+    const ScratchFolder folder;
+    const std::string scene =
+        write_cube(folder, "cube", {.cameras = two_cameras, .camera_kinds = special_cameras})
+            .string();
+    const std::string text = run({"info", scene}).out;
+    CAPTURE(text);
+    CHECK(text.find("orthographic, 3 m high, aspect ratio 2") != std::string::npos);
+    CHECK(text.find("perspective, vertical field of view 22.92 degrees, lens radius 0.5 m, "
+                    "focused at 4 m") != std::string::npos);
+    const auto cameras = nlohmann::json::parse(run({"info", scene, "--json"}).out)["cameras"];
+    REQUIRE(cameras.size() == 2);
+    CHECK(cameras[0]["projection"] == "orthographic");
+    CHECK(cameras[0]["vertical_extent"] == 3.0);
+    CHECK_FALSE(cameras[0].contains("vertical_fov_degrees"));
+    CHECK(cameras[1]["projection"] == "perspective");
+    CHECK(cameras[1]["lens_radius"] == 0.5);
+    CHECK(cameras[1]["focus_distance"] == 4.0);
+}
+
 TEST_CASE("info --json tells programs the same")
 {
     const ScratchFolder folder;

@@ -51,12 +51,6 @@ constexpr std::string_view fixed_members = R"(
     {"buffer": 0, "byteOffset": 96, "byteLength": 72, "target": 34963}],
 )";
 
-constexpr std::string_view camera_member = R"(
-  "cameras": [
-    {"type": "perspective", "perspective": {"yfov": 0.8, "aspectRatio": 2, "znear": 0.01}},
-    {"type": "perspective", "perspective": {"yfov": 0.4, "aspectRatio": 1, "znear": 0.01}}],
-)";
-
 }  // namespace
 
 std::filesystem::path write_cube(const ScratchFolder& folder, const std::string& name,
@@ -66,7 +60,7 @@ std::filesystem::path write_cube(const ScratchFolder& folder, const std::string&
     json += cube.more;
     json += fixed_members;
     const bool cameras = !cube.cameras.empty();
-    json += cameras ? camera_member : "";
+    json += cameras ? "\"cameras\": [" + cube.camera_kinds + "],\n" : "";
     json += R"("scenes": [{"name": "main", "nodes": )";
     json += cameras ? "[0, 1, 2]}]," : "[0]}],";
     json += "\n\"materials\": [" + cube.material + "],\n\"nodes\": [";

@@ -7,16 +7,28 @@
 
 namespace bdpt::test {
 
+/// Cameras 0 and 1: 2:1 with a field of view of 0.8 rad, and square with 0.4 rad.
+inline const std::string plain_cameras = R"(
+    {"type": "perspective", "perspective": {"yfov": 0.8, "aspectRatio": 2, "znear": 0.01}},
+    {"type": "perspective", "perspective": {"yfov": 0.4, "aspectRatio": 1, "znear": 0.01}})";
+
+/// Camera 0 sees 6 m x 3 m in parallel, camera 1 has a lens.
+inline const std::string special_cameras = R"(
+    {"type": "orthographic",
+     "orthographic": {"xmag": 3, "ymag": 1.5, "znear": 0.01, "zfar": 100}},
+    {"type": "perspective", "perspective": {"yfov": 0.4, "aspectRatio": 1, "znear": 0.01},
+     "extras": {"lensRadius": 0.5, "focusDistance": 4}})";
+
 /// What a scene file of the tests has beside its one cube (from -1 to 1 on all axes).
 struct CubeFile {
     std::string material = R"({"pbrMetallicRoughness": {"metallicFactor": 0}})";
     std::string cameras{};    ///< elements of "nodes" that refer to cameras, each with a comma
     bool inside_out = false;  ///< faces look inwards, as the walls of a room do
-    std::string more{};       ///< further members of the file's object, each with a comma
+    std::string camera_kinds = plain_cameras;
+    std::string more{};  ///< further members of the file's object, each with a comma
 };
 
-/// A cube as NAME.gltf with NAME.bin beside it. Camera 0 is 2:1 with a field of view of 0.8 rad,
-/// camera 1 a square one of 0.4 rad.
+/// A cube as NAME.gltf with NAME.bin beside it.
 std::filesystem::path write_cube(const ScratchFolder& folder, const std::string& name,
                                  const CubeFile& cube);
 

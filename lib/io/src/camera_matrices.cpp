@@ -28,6 +28,14 @@ Mat4 camera_from_world(const CameraDesc& camera)
 
 Mat4 ndc_from_world(const CameraDesc& camera, float aspect)
 {
+    if (camera.projection == Projection::orthographic) {
+        // x' = x / width + 0.5, y' = -y / height + 0.5; the depth [m] is left as it is.
+        const float height = camera.vertical_extent;
+        const Mat4 projection(Vec4(1.0f / (aspect * height), 0.0f, 0.0f, 0.0f),
+                              Vec4(0.0f, -1.0f / height, 0.0f, 0.0f), Vec4(0.0f, 0.0f, 1.0f, 0.0f),
+                              Vec4(0.5f, 0.5f, 0.0f, 1.0f));
+        return projection * camera_from_world(camera);
+    }
     // The depth that is left over goes from 0 here to 1 at infinity.
     constexpr float near_plane = 0.01f;
     const float half_height = std::tan(0.5f * camera.vertical_fov);

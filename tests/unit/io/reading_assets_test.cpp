@@ -33,7 +33,7 @@ struct Asset {
 constexpr Asset known_assets[] = {
     {"AttenuationTest/AttenuationTest.glb", 232, 2},
     {"BoxWithSpaces/Box With Spaces.gltf", 12, 3},
-    {"Cameras/Cameras.gltf", 2, 0, 0, 1},
+    {"Cameras/Cameras.gltf", 2, 0, 0, 2},
     {"CornellBox_bevy/CornellBox.glb", 36},
     {"CornellBox_kajiya/scene.gltf", 32},
     {"Duck/Duck.glb", 4212, 1, 0, 1},

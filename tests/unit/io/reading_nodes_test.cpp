@@ -160,34 +160,6 @@ TEST_CASE("a mesh scaled flat keeps its triangles, one scaled to nothing is left
     CHECK(warns(loaded.warnings, {"/nodes/1", "left out", "and 1 more"}));
 }
 
-TEST_CASE("cameras take the transform of their node")
-{
-    GltfFixture fixture =
-        with_nodes({{{"camera", 0}, {"translation", {1, 2, 3}}, {"name", "front"}},
-                    {{"camera", 1}},
-                    {{"camera", 2}}},
-                   {0, 1, 2});
-    fixture.json["cameras"] = {
-        {{"type", "perspective"},
-         {"perspective", {{"yfov", 0.5}, {"aspectRatio", 1.5}, {"znear", 0.1}}}},
-        {{"type", "orthographic"},
-         {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0.1}, {"zfar", 9}}}},
-        {{"type", "perspective"}, {"perspective", {{"yfov", 4.0}}}, {"name", "broken"}}};
-    const LoadedScene loaded = fixture.load();
-    REQUIRE(loaded.cameras.size() == 1);
-    CHECK(loaded.cameras[0].name == "front");
-    CHECK(loaded.cameras[0].vertical_fov == 0.5f);
-    CHECK(loaded.cameras[0].aspect_ratio == 1.5f);
-    CHECK(loaded.cameras[0].world_from_camera[3] == Vec4(1, 2, 3, 1));
-    CHECK(warns(loaded.warnings, {"/cameras/1", "orthographic"}));
-    CHECK(warns(loaded.warnings, {"/cameras/2/perspective/yfov: 4", "skipped"}));
-
-    fixture.json["cameras"][0]["name"] = "lens";
-    fixture.json["cameras"][0]["perspective"].erase("aspectRatio");
-    CHECK(fixture.load().cameras.at(0).name == "lens");
-    CHECK_FALSE(fixture.load().cameras.at(0).aspect_ratio);
-}
-
 TEST_CASE("facts count the whole file")
 {
     GltfFixture fixture = with_nodes({{{"mesh", 0}}, {{"name", "unused"}}}, {0});

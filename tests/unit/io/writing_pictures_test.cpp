@@ -160,6 +160,24 @@ TEST_CASE("the matrices in an EXR file put points where the camera sees them")
     CHECK(ndc.y == Approx(0.5f - 2.0f / 10.0f));
 }
 
+TEST_CASE("the matrices of an orthographic camera do not make far things small")
+{
+    PictureMetadata data = metadata();
+    data.camera.world_from_camera = Mat4(1.0f);
+    data.camera.projection = Projection::orthographic;
+    data.camera.vertical_extent = 8.0f;
+    const ScratchFolder folder;
+    write_exr(folder / "a.exr", ramp(40, 20), {ExrChannelType::single_float, data});
+    const Imf::Header header = test::read_exr(folder / "a.exr").header;
+    // The picture is 16 m wide and 8 m high at all depths.
+    for (const float depth : {1.0f, 100.0f}) {
+        Imath::V3f ndc;
+        Imf::worldToNDC(header).multVecMatrix(Imath::V3f(4.0f, 2.0f, -depth), ndc);
+        CHECK(ndc.x == Approx(0.5f + 4.0f / 16.0f));
+        CHECK(ndc.y == Approx(0.5f - 2.0f / 8.0f));
+    }
+}
+
 TEST_CASE("a PNG file holds the pixels and says how it was made")
 {
     const ScratchFolder folder;

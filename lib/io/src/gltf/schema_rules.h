@@ -123,6 +123,8 @@ inline constexpr std::array schema_rules{
     SchemaRule{"cameras/*/perspective/yfov!", Kind::number},
     SchemaRule{"cameras/*/perspective/aspectRatio", Kind::number},
     SchemaRule{"cameras/*/orthographic", Kind::object},
+    SchemaRule{"cameras/*/orthographic/xmag!", Kind::number},
+    SchemaRule{"cameras/*/orthographic/ymag!", Kind::number},
     SchemaRule{"extensions/KHR_lights_punctual/lights/*", Kind::object},
     SchemaRule{"extensions/KHR_lights_punctual/lights/*/type!", Kind::string},
     SchemaRule{"extensions/KHR_lights_punctual/lights/*/color", Kind::numbers, "", 3},

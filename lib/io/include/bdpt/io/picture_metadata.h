@@ -16,7 +16,7 @@ struct PictureMetadata {
     std::string version;     ///< of bdpt, e.g. "0.1.0"
     std::string scene;       ///< the file that was rendered; UTF-8
     std::string settings;    ///< all options as one JSON object
-    std::string integrator;  ///< "bdpt", "pt" or "mis"
+    std::string integrator;  ///< "bdpt", "pt", "mis", "nee" or "lt"
     std::uint64_t seed = 0;
     std::int64_t samples_per_pixel = 0;
     double render_seconds = 0.0;

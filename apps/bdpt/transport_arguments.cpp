@@ -1,0 +1,254 @@
+#include "transport_arguments.h"
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "arguments.h"
+
+namespace bdpt::app {
+namespace {
+
+constexpr int longest_path = 1000;  // [edges]
+
+constexpr std::array<std::pair<const char*, IntegratorKind>, 5> integrators{
+    {{"bdpt", IntegratorKind::bdpt},
+     {"pt", IntegratorKind::pt},
+     {"mis", IntegratorKind::mis},
+     {"nee", IntegratorKind::nee},
+     {"lt", IntegratorKind::lt}}};
+
+constexpr std::array<std::pair<const char*, Heuristic>, 5> heuristics{
+    {{"balance", Heuristic::balance},
+     {"power", Heuristic::power},
+     {"cutoff", Heuristic::cutoff},
+     {"maximum", Heuristic::maximum},
+     {"uniform", Heuristic::uniform}}};
+
+/// The value beside `name`, which the parser has found in the table.
+template <typename Table>
+auto value_of(const Table& table, const std::string& name)
+{
+    return std::find_if(table.begin(), table.end(),
+                        [&](const auto& entry) { return entry.first == name; })
+        ->second;
+}
+
+template <typename Table, typename Value>
+const char* name_of(const Table& table, Value value)
+{
+    return std::find_if(table.begin(), table.end(),
+                        [&](const auto& entry) { return entry.second == value; })
+        ->first;
+}
+
+template <typename Table>
+std::vector<std::string> names_of(const Table& table)
+{
+    std::vector<std::string> names;
+    for (const auto& entry : table) {
+        names.emplace_back(entry.first);
+    }
+    return names;
+}
+
+/// "s2t1".
+std::optional<Strategy> parse_strategy(std::string_view text)
+{
+    constexpr std::size_t most_vertices = longest_path + 1;
+    const std::size_t middle = text.find('t');
+    if (!text.starts_with('s') || middle == std::string_view::npos) {
+        return std::nullopt;
+    }
+    const auto s = parse_index(text.substr(1, middle - 1));
+    const auto t = parse_index(text.substr(middle + 1));
+    if (!s || !t || *s > most_vertices || *t > most_vertices || *s + *t < 2) {
+        return std::nullopt;
+    }
+    return Strategy{static_cast<int>(*s), static_cast<int>(*t)};
+}
+
+/// Options that only subpaths from both sides can heed.
+void check_bidirectional(const TransportWords& words)
+{
+    if (words.integrator == "bdpt" || words.integrator == "lt") {
+        return;
+    }
+    const auto check = [&](const char* option, const std::optional<std::string>& value) {
+        if (value) {
+            reject(
+                option, *value,
+                fmt::format("--integrator bdpt or lt with it, not {}", words.integrator).c_str());
+        }
+    };
+    const auto text = [](const std::optional<int>& value) {
+        return value ? std::optional(fmt::format("{}", *value)) : std::nullopt;
+    };
+    check("--max-camera-depth", text(words.max_camera_depth));
+    check("--max-light-depth", text(words.max_light_depth));
+    check("--light-paths", text(words.light_paths));
+    check("--disable", words.disabled);
+}
+
+/// Paths with one bounce and less are direct light, all others indirect.
+void choose_light(const std::string& which, RenderOptions& options)
+{
+    constexpr int longest_direct = 2;
+    if (which == "direct") {
+        options.max_depth = std::min(options.max_depth, longest_direct);
+        return;
+    }
+    if (options.max_depth <= longest_direct) {
+        reject("--only", which, "--max-depth 3 or more, where indirect light begins");
+    }
+    options.min_depth = longest_direct + 1;
+}
+
+void add_limits(CLI::App& command, TransportWords& words, const char* group)
+{
+    command
+        .add_option(
+            "--max-depth", words.max_depth,
+            fmt::format(
+                "Longest path in edges: 1 sees lights only, 2 adds direct light. {} if not given",
+                words.max_depth))
+        ->check(CLI::Range(1, longest_path))
+        ->type_name("N")
+        ->group(group);
+    command
+        .add_option("--only", words.only,
+                    "direct: lights and what they light, paths of one or two edges; indirect: the "
+                    "rest, up to --max-depth. Their sum is the whole picture")
+        ->check(CLI::IsMember({"direct", "indirect"}))
+        ->type_name("direct|indirect")
+        ->group(group);
+    command
+        .add_option("--max-camera-depth", words.max_camera_depth,
+                    "Longest part of a path that starts at the camera, in edges (bdpt, lt)")
+        ->check(CLI::Range(0, longest_path))
+        ->type_name("N")
+        ->group(group);
+    command
+        .add_option("--max-light-depth", words.max_light_depth,
+                    "Longest part of a path that starts at a light, in edges (bdpt, lt)")
+        ->check(CLI::Range(0, longest_path))
+        ->type_name("N")
+        ->group(group);
+    command
+        .add_option("--rr-start", words.rr_start,
+                    "Russian roulette may end subpaths after this many edges. Never if not given")
+        ->check(CLI::Range(1, longest_path))
+        ->type_name("N")
+        ->group(group);
+}
+
+}  // namespace
+
+std::optional<std::vector<Strategy>> parse_strategies(std::string_view text)
+{
+    std::vector<Strategy> result;
+    for (;;) {
+        const std::size_t comma = text.find(',');
+        const std::optional<Strategy> strategy = parse_strategy(text.substr(0, comma));
+        if (!strategy) {
+            return std::nullopt;
+        }
+        result.push_back(*strategy);
+        if (comma == std::string_view::npos) {
+            return result;
+        }
+        text.remove_prefix(comma + 1);
+    }
+}
+
+const char* integrator_name(IntegratorKind kind)
+{
+    return name_of(integrators, kind);
+}
+
+void add_transport_options(CLI::App& command, TransportWords& words)
+{
+    const auto group = "How to render";
+    constexpr int most_light_paths = 4096;
+    command
+        .add_option("--integrator", words.integrator,
+                    "bdpt (the default): bidirectional path tracing; mis: path tracing with light "
+                    "and BSDF sampling; pt: with BSDF sampling only; nee: with light sampling "
+                    "only; lt: light tracing")
+        ->check(CLI::IsMember(names_of(integrators)))
+        ->type_name("bdpt|pt|mis|nee|lt")
+        ->group(group);
+    command
+        .add_option("--heuristic", words.heuristic,
+                    "How strategies share a path: power (the default), balance, cutoff, maximum, "
+                    "or uniform, for tests")
+        ->check(CLI::IsMember(names_of(heuristics)))
+        ->type_name("balance|power|cutoff|maximum|uniform")
+        ->group(group);
+    add_limits(command, words, group);
+    command
+        .add_option("--light-paths", words.light_paths,
+                    "Light paths for each camera path (bdpt, lt). 1 if not given")
+        ->check(CLI::Range(1, most_light_paths))
+        ->type_name("N")
+        ->group(group);
+    command
+        .add_option("--disable", words.disabled,
+                    "Leave these strategies out (bdpt, lt): s vertices from the light and t from "
+                    "the camera, like s2t1,s0t3. What no other strategy can make gets lost")
+        ->type_name("LIST")
+        ->group(group);
+}
+
+RenderOptions with_transport(const TransportWords& words, RenderOptions options)
+{
+    check_bidirectional(words);
+    options.integrator = value_of(integrators, words.integrator);
+    options.heuristic = value_of(heuristics, words.heuristic);
+    options.max_depth = words.max_depth;
+    if (words.only) {
+        choose_light(*words.only, options);
+    }
+    options.max_camera_depth = words.max_camera_depth.value_or(options.max_camera_depth);
+    options.max_light_depth = words.max_light_depth.value_or(options.max_light_depth);
+    options.light_paths = words.light_paths.value_or(options.light_paths);
+    options.rr_start = words.rr_start.value_or(options.rr_start);
+    if (words.disabled) {
+        std::optional<std::vector<Strategy>> strategies = parse_strategies(*words.disabled);
+        if (!strategies) {
+            reject("--disable", *words.disabled,
+                   "strategies sStT of at least two vertices, with commas between, like s2t1,s0t3");
+        }
+        options.disabled = std::move(*strategies);
+    }
+    return options;
+}
+
+nlohmann::ordered_json transport_json(const RenderOptions& options)
+{
+    constexpr int unlimited = std::numeric_limits<int>::max();
+    nlohmann::ordered_json result{{"integrator", integrator_name(options.integrator)},
+                                  {"heuristic", name_of(heuristics, options.heuristic)},
+                                  {"max_depth", options.max_depth},
+                                  {"min_depth", options.min_depth},
+                                  {"light_paths", options.light_paths}};
+    const auto add = [&](const char* name, int limit) {
+        if (limit != unlimited) {
+            result[name] = limit;
+        }
+    };
+    add("max_camera_depth", options.max_camera_depth);
+    add("max_light_depth", options.max_light_depth);
+    add("rr_start", options.rr_start);
+    for (const Strategy& strategy : options.disabled) {
+        result["disabled"].push_back(fmt::format("s{}t{}", strategy.s, strategy.t));
+    }
+    return result;
+}
+
+}  // namespace bdpt::app

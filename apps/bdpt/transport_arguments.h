@@ -1,0 +1,43 @@
+#pragma once
+
+#include <bdpt/render_options.h>
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace bdpt::app {
+
+/// What the words after `bdpt render` say about the transport of light, as they were given.
+struct TransportWords {
+    std::string integrator = "bdpt";
+    std::string heuristic = "power";
+    int max_depth = RenderOptions{}.max_depth;
+    std::optional<std::string> only;
+    std::optional<int> max_camera_depth;
+    std::optional<int> max_light_depth;
+    std::optional<int> light_paths;
+    std::optional<int> rr_start;
+    std::optional<std::string> disabled;
+};
+
+/// "s2t1,s0t3": strategies that make a path, with at most 1001 vertices on either side.
+[[nodiscard]] std::optional<std::vector<Strategy>> parse_strategies(std::string_view text);
+
+[[nodiscard]] const char* integrator_name(IntegratorKind kind);
+
+void add_transport_options(CLI::App& command, TransportWords& words);
+
+/// `options` with what `words` say. Throws `Error` (usage) that names the option and the value.
+[[nodiscard]] RenderOptions with_transport(const TransportWords& words, RenderOptions options);
+
+/// The same as members of the settings that are written into pictures.
+[[nodiscard]] nlohmann::ordered_json transport_json(const RenderOptions& options);
+
+}  // namespace bdpt::app

@@ -1,0 +1,69 @@
+#include "transport_arguments.h"
+
+#include <bdpt/error.h>
+
+#include <nlohmann/json.hpp>
+
+#include "catch.hpp"
+
+namespace bdpt::app {
+namespace {
+
+TEST_CASE("strategies are two numbers of vertices")
+{
+    CHECK(parse_strategies("s2t1") == std::vector{Strategy{2, 1}});
+    CHECK(parse_strategies("s2t1,s0t3,s12t345") ==
+          std::vector{Strategy{2, 1}, Strategy{0, 3}, Strategy{12, 345}});
+    for (const char* wrong :
+         {"", ",", "s2t1,", "s2t1,,s1t1", "s2", "t1", "2t1", "s2t", "st1", "s2t1 ", "s-1t3", "t1s2",
+          "S2T1", "s0t0", "s1t0", "s0t1", "s2t1t1", "s2t1002", "s99999999999999999999t1"}) {
+        CAPTURE(wrong);
+        CHECK_FALSE(parse_strategies(wrong));
+    }
+}
+
+TEST_CASE("words about transport become options")
+{
+    TransportWords words;
+    CHECK(with_transport(words, {}).integrator == IntegratorKind::bdpt);
+    words.integrator = "lt";
+    words.heuristic = "cutoff";
+    words.max_depth = 5;
+    words.max_camera_depth = 3;
+    words.max_light_depth = 0;
+    words.light_paths = 2;
+    words.rr_start = 4;
+    words.disabled = "s3t0";
+    const RenderOptions options = with_transport(words, {});
+    CHECK(options.integrator == IntegratorKind::lt);
+    CHECK(options.heuristic == Heuristic::cutoff);
+    CHECK(options.max_depth == 5);
+    CHECK(options.min_depth == 1);
+    CHECK(options.max_camera_depth == 3);
+    CHECK(options.max_light_depth == 0);
+    CHECK(options.light_paths == 2);
+    CHECK(options.rr_start == 4);
+    CHECK(options.disabled == std::vector{Strategy{3, 0}});
+    const auto json = transport_json(options);
+    CHECK(json == nlohmann::ordered_json::parse(R"({"integrator": "lt", "heuristic": "cutoff",
+        "max_depth": 5, "min_depth": 1, "light_paths": 2, "max_camera_depth": 3,
+        "max_light_depth": 0, "rr_start": 4, "disabled": ["s3t0"]})"));
+}
+
+TEST_CASE("direct and indirect light share the lengths of paths")
+{
+    TransportWords words;
+    words.only = "direct";
+    CHECK(with_transport(words, {}).max_depth == 2);
+    CHECK(with_transport(words, {}).min_depth == 1);
+    words.max_depth = 1;
+    CHECK(with_transport(words, {}).max_depth == 1);
+    words.only = "indirect";
+    CHECK_THROWS_AS(with_transport(words, {}), Error);
+    words.max_depth = 3;
+    CHECK(with_transport(words, {}).max_depth == 3);
+    CHECK(with_transport(words, {}).min_depth == 3);
+}
+
+}  // namespace
+}  // namespace bdpt::app

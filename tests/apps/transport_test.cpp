@@ -1,0 +1,130 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "picture_files.h"
+#include "scene_files.h"
+#include "scratch_folder.h"
+#include "subprocess.h"
+
+namespace bdpt::test {
+namespace {
+
+using Words = std::vector<std::string>;
+
+/// The inside of a grey cube that shines a little everywhere, so that all lengths of paths count.
+class GlowingRoom {
+public:
+    GlowingRoom()
+        : scene_(write_cube(folder_, "room",
+                            {.material = R"({"pbrMetallicRoughness": {"metallicFactor": 0,
+                                 "baseColorFactor": [0.5, 0.5, 0.5, 1]},
+                                 "emissiveFactor": [1, 1, 1]})",
+                             .cameras = R"({"camera": 0, "translation": [0, 0, 0.9]},
+                                           {"camera": 1},)",
+                             .inside_out = true})
+                     .string())
+    {}
+
+    ExrFile picture(const Words& more) const
+    {
+        const std::string out = (folder_ / "out.exr").string();
+        Words words{"render", scene_, "-o", out, "--spp", "16", "--size", "16x8", "--quiet"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Outcome outcome = run(words);
+        CAPTURE(words, outcome.err);
+        REQUIRE(outcome.exit_code == 0);
+        return read_exr(out);
+    }
+
+private:
+    ScratchFolder folder_;
+    std::string scene_;
+};
+
+double mean(const Image& image)
+{
+    double sum = 0.0;
+    for (const Rgb& pixel : image.pixels) {
+        sum += static_cast<double>(pixel.g);
+    }
+    return sum / static_cast<double>(image.pixels.size());
+}
+
+TEST_CASE("direct and indirect light add up to the whole picture")
+{
+    const GlowingRoom room;
+    const std::string integrator = GENERATE(as<std::string>{}, "bdpt", "mis", "nee", "pt", "lt");
+    CAPTURE(integrator);
+    const Words words{"--integrator", integrator, "--max-depth", "5"};
+    const auto part = [&](const char* which) {
+        Words more = words;
+        more.insert(more.end(), {"--only", which});
+        return room.picture(more).image;
+    };
+    const Image whole = room.picture(words).image;
+    const Image direct = part("direct");
+    const Image indirect = part("indirect");
+    CHECK(mean(direct) > 0.1 * mean(whole));
+    CHECK(mean(indirect) > 0.1 * mean(whole));
+    double worst = 0.0;
+    for (std::size_t i = 0; i < whole.pixels.size(); ++i) {
+        const double sum = static_cast<double>(direct.pixels[i].g + indirect.pixels[i].g);
+        const double all = static_cast<double>(whole.pixels[i].g);
+        worst = std::max(worst, std::abs(sum - all) / (1.0 + all));
+    }
+    CHECK(worst < 1e-5);
+}
+
+TEST_CASE("a picture says how light was transported")
+{
+    const GlowingRoom room;
+    const auto settings = nlohmann::json::parse(
+        room.picture({"--heuristic", "maximum", "--max-depth", "4", "--only", "indirect",
+                      "--max-camera-depth", "3", "--max-light-depth", "2", "--light-paths", "2",
+                      "--rr-start", "2", "--disable", "s2t1,s0t4"})
+            .text("bdpt.settings"));
+    CHECK(settings["heuristic"] == "maximum");
+    CHECK(settings["max_depth"] == 4);
+    CHECK(settings["min_depth"] == 3);
+    CHECK(settings["max_camera_depth"] == 3);
+    CHECK(settings["max_light_depth"] == 2);
+    CHECK(settings["light_paths"] == 2);
+    CHECK(settings["rr_start"] == 2);
+    CHECK(settings["disabled"] == nlohmann::json::array({"s2t1", "s0t4"}));
+    CHECK(settings["projection"] == "perspective");
+}
+
+TEST_CASE("a strategy that is disabled makes no path")
+{
+    const GlowingRoom room;
+    // Lights are seen by paths of one edge: hit by chance, or joined to the lens.
+    const Words seen{"--max-depth", "1"};
+    CHECK(mean(room.picture(seen).image) > 0.9);
+    CHECK(mean(room.picture({"--max-depth", "1", "--disable", "s0t2,s1t1"}).image) == 0.0);
+}
+
+TEST_CASE("every integrator and heuristic shows the same light")
+{
+    const GlowingRoom room;
+    const auto light = [&](const Words& words) {
+        Words more{"--max-depth", "3"};
+        more.insert(more.end(), words.begin(), words.end());
+        return mean(room.picture(more).image);
+    };
+    // 1 nit that is reflected by half, twice
+    constexpr double expected = 1.0 + 0.5 + 0.25;
+    for (const char* integrator : {"bdpt", "pt", "mis", "nee", "lt"}) {
+        CAPTURE(integrator);
+        CHECK(light({"--integrator", integrator}) == Approx(expected).epsilon(0.1));
+    }
+    for (const char* heuristic : {"balance", "power", "cutoff", "maximum", "uniform"}) {
+        CAPTURE(heuristic);
+        CHECK(light({"--heuristic", heuristic}) == Approx(expected).epsilon(0.1));
+    }
+}
+
+}  // namespace
+}  // namespace bdpt::test

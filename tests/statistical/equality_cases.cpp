@@ -279,6 +279,9 @@ std::vector<EqualityCase> equality_cases()
     cases.push_back(textures());
     cases.push_back(scaled("millimetres", 1e-3f, Vec3(0.0f)));
     cases.push_back(scaled("kilometres, far from the origin", 1e3f, {3e3f, -2e3f, 5e3f}));
+    for (EqualityCase& with_alpha : alpha_cases()) {
+        cases.push_back(std::move(with_alpha));
+    }
     return cases;
 }
 

@@ -19,5 +19,7 @@ struct EqualityCase {
 };
 
 [[nodiscard]] std::vector<EqualityCase> equality_cases();
+/// Those of them with surfaces that are not opaque or not lit.
+[[nodiscard]] std::vector<EqualityCase> alpha_cases();
 
 }  // namespace bdpt::test

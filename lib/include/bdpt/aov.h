@@ -1,7 +1,5 @@
 #pragma once
 
-#include <bdpt/export.h>
-
 #include <cstdint>
 #include <initializer_list>
 
@@ -28,7 +26,7 @@ enum class Aov : std::uint8_t {
     alpha,
 };
 
-class BDPT_EXPORT AovSet {
+class AovSet {
 public:
     constexpr AovSet() = default;
     constexpr AovSet(std::initializer_list<Aov> aovs)

@@ -43,12 +43,25 @@ struct TextureRef {
     Vec2 scale{1.0f};
 };
 
+/// What alpha, that is base_color.a times the texture's and the vertex colour's, does to a surface
+/// [glTF 2.0, sec. 3.9.4].
+enum class AlphaMode : std::uint8_t {
+    opaque,  ///< nothing
+    mask,    ///< the surface is there where alpha is at least `alpha_cutoff`
+    blend,   ///< alpha is the share of light that meets the surface; the rest passes straight on
+};
+
 /// glTF 2.0 metallic-roughness material with KHR_materials_{emissive_strength, ior, specular,
-/// transmission, volume}; names, defaults and ranges are those of the specification
+/// transmission, volume, unlit}; names, defaults and ranges are those of the specification
 /// [glTF 2.0, sec. 3.9; KHR extensions of these names].
 struct MaterialDesc {
     std::string name{};
-    Vec4 base_color{1.0f};      ///< [0, 1]
+    Vec4 base_color{1.0f};  ///< [0, 1]
+    AlphaMode alpha_mode = AlphaMode::opaque;
+    float alpha_cutoff = 0.5f;  ///< >= 0
+    /// Shines with its base colour as radiance [nit] and scatters nothing: a light like any other.
+    /// Nothing but base colour, alpha and `double_sided` counts.
+    bool unlit = false;
     float metallic = 1.0f;      ///< [0, 1]
     float roughness = 1.0f;     ///< [0, 1], perceptual; GGX alpha is its square; 0: a mirror
     Rgb emission{0.0f};         ///< radiance [nit], >= 0

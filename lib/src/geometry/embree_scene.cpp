@@ -61,8 +61,40 @@ OwnedScene new_scene(RTCDevice device)
     return scene;
 }
 
+/// Asks the rule whether the hit counts. Only single rays are asked for, and packets of one have
+/// the layout of the struct.
+void filter_hit(const RTCFilterFunctionNArguments* args)
+{
+    if (args->valid[0] == 0) {
+        return;
+    }
+    const auto& rule = *static_cast<const PassRule*>(args->geometryUserPtr);
+    const auto& hit = *reinterpret_cast<const RTCHit*>(args->hit);
+    const bool shared = hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
+    if (rule.passes(rule.owner, {.instance = shared ? hit.instID[0] : hit.geomID,
+                                 .triangle = hit.primID,
+                                 .barycentrics = {hit.u, hit.v},
+                                 .segment = embree::segment_of(args->context)})) {
+        args->valid[0] = 0;
+    }
+}
+
+void let_pass(RTCDevice device, RTCGeometry geometry, const PassRule& rule)
+{
+    if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_FILTER_FUNCTION_SUPPORTED) == 0) {
+        throw Error(
+            ErrorCode::unsupported,
+            "this Embree was built without filter functions, which surfaces with alpha need");
+    }
+    // Embree wants a pointer to non-const, but the callback does not write.
+    rtcSetGeometryUserData(geometry, const_cast<PassRule*>(&rule));
+    rtcSetGeometryIntersectFilterFunction(geometry, &filter_hit);
+    rtcSetGeometryOccludedFilterFunction(geometry, &filter_hit);
+}
+
+/// `rule` is null where no ray passes; it must outlive the geometry, like the vectors.
 OwnedGeometry new_triangles(RTCDevice device, const std::vector<Vec3>& padded_positions,
-                            const std::vector<UVec3>& triangles)
+                            const std::vector<UVec3>& triangles, const PassRule* rule)
 {
     OwnedGeometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
     rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
@@ -71,6 +103,9 @@ OwnedGeometry new_triangles(RTCDevice device, const std::vector<Vec3>& padded_po
     rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                triangles.data(), 0, sizeof(UVec3), triangles.size());
     rtcSetGeometryMask(geometry.get(), all_rays);
+    if (rule != nullptr) {
+        let_pass(device, geometry.get(), *rule);
+    }
     rtcCommitGeometry(geometry.get());
     check(device, "take over a mesh");
     return geometry;
@@ -102,10 +137,12 @@ struct EmbreeScene::State {
     std::vector<std::vector<Vec3>> positions;  // what Embree reads: by mesh or by instance
     OwnedScene top;
     std::span<const PlacedMesh> placed;
+    PassRule pass_rule;
 };
 
 EmbreeScene::EmbreeScene(std::span<const InstanceDesc> instances, std::span<PlacedMesh> placed,
-                         std::size_t mesh_count, std::span<const Sphere> spheres)
+                         std::size_t mesh_count, std::span<const Sphere> spheres,
+                         const PassRule& pass_rule)
     : state_(std::make_unique<State>())
 {
     State& state = *state_;
@@ -113,11 +150,18 @@ EmbreeScene::EmbreeScene(std::span<const InstanceDesc> instances, std::span<Plac
     RTCDevice device = state.device.get();
     check(nullptr, "start");
     state.placed = placed;
+    state.pass_rule = pass_rule;
     state.top = new_scene(device);
 
     std::vector<std::size_t> uses(mesh_count, 0);
-    for (const InstanceDesc& instance : instances) {
-        ++uses[static_cast<std::size_t>(instance.mesh)];
+    std::vector<const PassRule*> rules(mesh_count, nullptr);
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+        const auto mesh = static_cast<std::size_t>(instances[i].mesh);
+        ++uses[mesh];
+        if (pass_rule.concerns != nullptr &&
+            pass_rule.concerns(pass_rule.owner, static_cast<std::uint32_t>(i))) {
+            rules[mesh] = &state.pass_rule;
+        }
     }
     state.shared.resize(mesh_count);
     state.positions.reserve(mesh_count);  // at most one entry for each used mesh: never moves
@@ -138,7 +182,7 @@ EmbreeScene::EmbreeScene(std::span<const InstanceDesc> instances, std::span<Plac
             state.positions.push_back(padded(std::move(world)));
             placed[i].use_world_positions(state.positions.back().data());
             const OwnedGeometry geometry =
-                new_triangles(device, state.positions.back(), desc.triangles);
+                new_triangles(device, state.positions.back(), desc.triangles, rules[mesh]);
             rtcAttachGeometryByID(state.top.get(), geometry.get(), id);
             continue;
         }
@@ -146,7 +190,7 @@ EmbreeScene::EmbreeScene(std::span<const InstanceDesc> instances, std::span<Plac
             state.positions.push_back(padded(desc.positions));
             state.shared[mesh] = new_scene(device);
             const OwnedGeometry geometry =
-                new_triangles(device, state.positions.back(), desc.triangles);
+                new_triangles(device, state.positions.back(), desc.triangles, rules[mesh]);
             rtcAttachGeometryByID(state.shared[mesh].get(), geometry.get(), 0);
             rtcCommitScene(state.shared[mesh].get());
             check(device, "build the BVH of a mesh");
@@ -181,7 +225,7 @@ std::optional<RayHit> EmbreeScene::intersect(const Ray& ray) const noexcept
     query.ray = to_embree(ray);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    embree::intersect(state_->top.get(), query);
+    embree::intersect(state_->top.get(), query, ray.segment);
     const RTCHit& hit = query.hit;
     if (hit.geomID == RTC_INVALID_GEOMETRY_ID) {
         return std::nullopt;
@@ -202,7 +246,7 @@ std::optional<RayHit> EmbreeScene::intersect(const Ray& ray) const noexcept
 bool EmbreeScene::occluded(const Ray& ray) const noexcept
 {
     RTCRay query = to_embree(ray);
-    embree::occluded(state_->top.get(), query);
+    embree::occluded(state_->top.get(), query, ray.segment);
     return query.tfar < 0.0f;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "geometry/pass_rule.h"
 #include "geometry/placed_mesh.h"
 #include "geometry/ray.h"
 #include "geometry/sphere.h"
@@ -19,14 +20,16 @@ class EmbreeScene {
 public:
     /// `placed[i]` belongs to `instances[i]`; both must outlive this object, and meshes that went
     /// into the top level are told so (PlacedMesh::use_world_positions). `spheres` must outlive it,
-    /// too. Throws `Error` when Embree fails.
+    /// too, and so must the owner of `pass_rule`. Throws `Error` when Embree fails.
     EmbreeScene(std::span<const InstanceDesc> instances, std::span<PlacedMesh> placed,
-                std::size_t mesh_count, std::span<const Sphere> spheres = {});
+                std::size_t mesh_count, std::span<const Sphere> spheres = {},
+                const PassRule& pass_rule = {});
     EmbreeScene(EmbreeScene&&) noexcept;
     ~EmbreeScene();
 
+    /// The first surface that the ray does not pass.
     [[nodiscard]] std::optional<RayHit> intersect(const Ray& ray) const noexcept;
-    /// Anything in (0, ray.t_max)?
+    /// Anything in (0, ray.t_max) that the ray does not pass?
     [[nodiscard]] bool occluded(const Ray& ray) const noexcept;
 
 private:

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "math/segment_key.h"
+
 #include <bdpt/types.h>
 
 #include <cstdint>
@@ -17,6 +19,7 @@ struct Ray {
     /// The sphere that the ray starts or ends on, on the outside: it is convex, so only rounding
     /// could find it in the way.
     std::uint32_t ignored_sphere = no_sphere;
+    SegmentKey segment{};  ///< decides which surfaces it passes
 };
 
 /// Where a ray met a triangle or a sphere.

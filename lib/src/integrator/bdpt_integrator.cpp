@@ -66,7 +66,7 @@ RenderStats BdptIntegrator::render_tile(const Tile& tile, SampleRange samples, F
                     scratch.stats.rays.light += scratch.light_path.rays();
                     ++scratch.stats.paths.light;
                     splat_light_path(light_sample, scratch);
-                    radiance += join_paths(scratch);
+                    radiance += join_paths(light_sample, scratch);
                 }
                 if (wanted) {
                     ++scratch.stats.paths.camera;
@@ -99,7 +99,7 @@ Rgb BdptIntegrator::estimate_camera_path(Sample& sample, Scratch& scratch) const
     return radiance;
 }
 
-Rgb BdptIntegrator::join_paths(Scratch& scratch) const
+Rgb BdptIntegrator::join_paths(const Sample& sample, Scratch& scratch) const
 {
     Rgb radiance(0.0f);
     for (int t = 2; t <= scratch.camera_path.size(); ++t) {
@@ -108,9 +108,9 @@ Rgb BdptIntegrator::join_paths(Scratch& scratch) const
             if (!strategies_.uses(s, t)) {
                 continue;
             }
-            const auto found =
-                connect_interior(world_, scratch.light_path.first(s), scratch.camera_path.first(t),
-                                 scratch.weigher, scratch.stats.rays);
+            const auto found = connect_interior(
+                world_, scratch.light_path.first(s), scratch.camera_path.first(t),
+                sample.sampler.segment_key(s, t), scratch.weigher, scratch.stats.rays);
             if (found) {
                 radiance += found->weight / strategies_.count(s, t) * found->unweighted;
             }

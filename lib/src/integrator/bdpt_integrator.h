@@ -34,7 +34,7 @@ private:
     /// s <= 1: radiance that the camera path brings by itself.
     [[nodiscard]] Rgb estimate_camera_path(Sample& sample, Scratch& scratch) const;
     /// s >= 2, t >= 2: radiance of the joins with the light path in `scratch`.
-    [[nodiscard]] Rgb join_paths(Scratch& scratch) const;
+    [[nodiscard]] Rgb join_paths(const Sample& sample, Scratch& scratch) const;
     /// t <= 1: what the light path in `scratch` brings to any pixel.
     void splat_light_path(Sample& sample, Scratch& scratch) const;
     /// s = t = 1

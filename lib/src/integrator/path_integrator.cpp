@@ -54,7 +54,8 @@ Rgb PathIntegrator::estimate(Vec2 raster, Sampler& sampler, RayCounts& rays) con
     const auto measured = [&](int edges) { return edges >= options_.min_depth ? 1.0f : 0.0f; };
     for (int depth = 1; depth <= options_.max_depth; ++depth) {
         ++rays.camera;
-        const auto point = world_.intersect(ray.origin, ray.direction);
+        const auto point =
+            world_.intersect(ray.origin, ray.direction, sampler.segment_key(0, depth));
         if (!point) {
             if (const auto id = world_.lights().environment()) {
                 const auto& light = std::get<EnvironmentLight>(world_.lights()[*id].model());
@@ -84,7 +85,8 @@ Rgb PathIntegrator::estimate(Vec2 raster, Sampler& sampler, RayCounts& rays) con
         const auto vertex = static_cast<std::uint32_t>(depth + 1);
         if (point->bsdf.connectible() && depth + 1 >= options_.min_depth) {
             sampler.start(SampleUse::next_event, vertex);
-            radiance += beta * sample_light(*point, wo, sampler, rays);
+            radiance +=
+                beta * sample_light(*point, wo, sampler.segment_key(1, depth + 1), sampler, rays);
         }
         sampler.start(SampleUse::camera_walk, vertex);
         const Vec2 u_direction = sampler.next_2d();
@@ -156,8 +158,8 @@ Rgb PathIntegrator::emission(const Ray& ray, LightId light, const LightPoint& hi
     return radiance * bsdf_weight(used.value, pdf.value);
 }
 
-Rgb PathIntegrator::sample_light(const SurfacePoint& point, Vec3 wo, Sampler& sampler,
-                                 RayCounts& rays) const
+Rgb PathIntegrator::sample_light(const SurfacePoint& point, Vec3 wo, SegmentKey segment,
+                                 Sampler& sampler, RayCounts& rays) const
 {
     const Vec2 u_position = sampler.next_2d();
     const auto choice = world_.lights().choose_for_receiver(point.end.p, sampler.next_fine());
@@ -178,8 +180,9 @@ Rgb PathIntegrator::sample_light(const SurfacePoint& point, Vec3 wo, Sampler& sa
         return Rgb(0.0f);
     }
     ++rays.shadow;
-    value *= light.is_infinite() ? world_.transmittance_to_infinity(point.end, incident->wi)
-                                 : world_.transmittance(point.end, incident->end);
+    value *= light.is_infinite()
+                 ? world_.transmittance_to_infinity(point.end, incident->wi, segment)
+                 : world_.transmittance(point.end, incident->end, segment);
     if (light.is_delta()) {
         return value;
     }

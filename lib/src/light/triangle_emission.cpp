@@ -3,8 +3,6 @@
 #include "math/rgb.h"
 #include "math/warp.h"
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -19,10 +17,11 @@ constexpr float floor_of_cell = 0.1f;       // of the mean of the cells
 /// Longest edge of the triangle in texels.
 float longest_edge(const PlacedMesh& mesh, const Material& material, std::uint32_t triangle)
 {
-    const Vec2 a = material.emission_texel(mesh.uv(triangle, {0.0f, 0.0f}));
-    const Vec2 b = material.emission_texel(mesh.uv(triangle, {1.0f, 0.0f}));
-    const Vec2 c = material.emission_texel(mesh.uv(triangle, {0.0f, 1.0f}));
-    return std::sqrt(std::max({dot(b - a, b - a), dot(c - a, c - a), dot(c - b, c - b)}));
+    const auto a = mesh.uv(triangle, {0.0f, 0.0f});
+    const auto b = mesh.uv(triangle, {1.0f, 0.0f});
+    const auto c = mesh.uv(triangle, {0.0f, 1.0f});
+    return std::max({material.emission_texels(a, b), material.emission_texels(a, c),
+                     material.emission_texels(b, c)});
 }
 
 /// `wanted` rounded up into [least, most]; coordinates may be so large that it is not finite.
@@ -37,7 +36,8 @@ int clamped(float wanted, int least, int most)
 TriangleEmission measure_emission(const PlacedMesh& mesh, const Material& material,
                                   std::uint32_t triangle, int most_samples)
 {
-    if (!material.has_emission_texture()) {
+    const bool colored = !mesh.mesh().colors.empty() && material.emission_needs_color();
+    if (!material.emission_needs_texture() && !colored) {
         return {.mean = material.mean_emission(), .spread = nullptr};
     }
     const float edge = longest_edge(mesh, material, triangle);
@@ -53,7 +53,8 @@ TriangleEmission measure_emission(const PlacedMesh& mesh, const Material& materi
         for (int x = 0; x < samples; ++x) {
             const Vec2 u = (Vec2(x, y) + 0.5f) / static_cast<float>(samples);
             const int cell = y / samples_per_cell * cells + x / samples_per_cell;
-            const Rgb emitted = material.emission(mesh.uv(triangle, square_to_triangle(u)));
+            const Rgb emitted =
+                material.expected_emission(texture_point(mesh, triangle, square_to_triangle(u)));
             total += emitted;
             const auto bright = static_cast<double>(luminance(emitted));
             squares[static_cast<std::size_t>(cell)] += bright * bright;

@@ -26,13 +26,14 @@ TriangleLight::Point TriangleLight::point(Vec2 u) const
     const Vec2 barycentrics =
         square_to_triangle(emission_.spread ? emission_.spread->sample(u).point : u);
     const BoundedPoint at = mesh_->point(triangle_, barycentrics);
-    return {.end = {.p = at.p,
-                    .error = at.error,
-                    .ng = mesh_->area_normal(triangle_) / (2.0f * area_),
-                    .absorption = material_->absorption()},
-            .barycentrics = barycentrics,
-            .pdf = pdf_position(barycentrics),
-            .radiance = material_->emission(mesh_->uv(triangle_, barycentrics))};
+    return {
+        .end = {.p = at.p,
+                .error = at.error,
+                .ng = mesh_->area_normal(triangle_) / (2.0f * area_),
+                .absorption = material_->absorption()},
+        .barycentrics = barycentrics,
+        .pdf = pdf_position(barycentrics),
+        .radiance = material_->expected_emission(texture_point(*mesh_, triangle_, barycentrics))};
 }
 
 std::optional<EmissionSample> TriangleLight::sample_emission(Vec2 u_position,

@@ -43,6 +43,8 @@ public:
 
     /// Black.
     GltfBsdf() = default;
+    /// Black under that base colour: what is seen of it is not scattered light.
+    explicit GltfBsdf(Rgb base_color) : base_color_(base_color) {}
     /// Parameters are clamped to [0, 1]. `albedo` has the refractive index; it must outlive this.
     GltfBsdf(const GltfParameters& parameters, const SpecularAlbedo& albedo);
 

@@ -2,11 +2,13 @@
 
 #include "math/elementary.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace bdpt {
 namespace {
@@ -23,7 +25,7 @@ namespace {
 
 [[nodiscard]] Body body_of(const MaterialDesc& desc)
 {
-    const bool solid = desc.thickness > 0.0f && desc.transmission > 0.0f;
+    const bool solid = desc.thickness > 0.0f && desc.transmission > 0.0f && !desc.unlit;
     return solid ? Body::solid : Body::thin_walled;
 }
 
@@ -74,10 +76,13 @@ Material::Material(const MaterialDesc& desc, std::span<const TexelImage> images,
                desc.transmission,
                body_of(desc)},
       emission_(desc.emission),
-      mean_emission_(desc.emission),
       absorption_(absorption_of(desc)),
       normal_scale_(desc.normal_scale),
       double_sided_(desc.double_sided),
+      unlit_(desc.unlit),
+      alpha_mode_(desc.alpha_mode),
+      alpha_(desc.base_color.w),
+      alpha_cutoff_(desc.alpha_cutoff),
       albedo_(&albedo),
       base_color_map_(make_texture(desc.base_color_texture, images, Encoding::srgb)),
       metallic_roughness_map_(
@@ -88,9 +93,54 @@ Material::Material(const MaterialDesc& desc, std::span<const TexelImage> images,
       specular_color_map_(make_texture(desc.specular_color_texture, images, Encoding::srgb)),
       transmission_map_(make_texture(desc.transmission_texture, images, Encoding::linear))
 {
-    if (emission_map_) {
+    measure_alpha();
+    measure_emission();
+}
+
+void Material::measure_alpha()
+{
+    if (alpha_mode_ == AlphaMode::opaque) {
+        return;
+    }
+    const auto [least, greatest] =
+        base_color_map_ ? base_color_map_->alpha_range() : std::pair(1.0f, 1.0f);
+    least_opacity_ = opacity_of(alpha_ * least);
+    mean_opacity_ = 0.5f * (least_opacity_ + opacity_of(alpha_ * greatest));
+}
+
+void Material::measure_emission()
+{
+    mean_emission_ = mean_opacity_ * (unlit_ ? surface_.base_color : emission_);
+    if (unlit_ && base_color_map_) {
+        mean_emission_ *= Rgb(base_color_map_->mean());
+    } else if (!unlit_ && emission_map_) {
         mean_emission_ *= Rgb(emission_map_->mean());
     }
+}
+
+float Material::opacity_of(float alpha) const noexcept
+{
+    if (alpha_mode_ == AlphaMode::mask) {
+        // Filtering a texture that is even rounds; texels differ by much more.
+        constexpr float rounding = 1e-6f;
+        return alpha + rounding >= alpha_cutoff_ ? 1.0f : 0.0f;
+    }
+    return std::clamp(alpha, 0.0f, 1.0f);
+}
+
+float Material::opacity(const TexturePoint& point) const noexcept
+{
+    if (alpha_mode_ == AlphaMode::opaque) {
+        return 1.0f;
+    }
+    const float texture = base_color_map_ ? base_color_map_->lookup(point.uv).w : 1.0f;
+    return opacity_of(alpha_ * texture * std::clamp(point.color.w, 0.0f, 1.0f));
+}
+
+Rgb Material::base_color(const TexturePoint& point) const noexcept
+{
+    const Rgb color = surface_.base_color * Rgb(point.color);
+    return base_color_map_ ? color * Rgb(base_color_map_->lookup(point.uv)) : color;
 }
 
 /// glTF 2.0, 3.9.3: x along the tangent, y along cross(normal, tangent) times the handedness.
@@ -112,11 +162,13 @@ Vec3 Material::shading_normal(const ShadingPoint& point) const noexcept
 
 Bsdf Material::bsdf(const ShadingPoint& point) const noexcept
 {
-    GltfParameters surface = surface_;
-    surface.base_color *= Rgb(point.color);
-    if (base_color_map_) {
-        surface.base_color *= Rgb(base_color_map_->lookup(point.uv));
+    const Rgb base = base_color({.uv = point.uv, .color = point.color});
+    if (unlit_) {
+        return {point.ng, Frame::from_normal(shading_normal(point)),
+                GltfBsdf(glm::clamp(base, 0.0f, 1.0f))};
     }
+    GltfParameters surface = surface_;
+    surface.base_color = base;
     if (metallic_roughness_map_) {
         const Vec4 texel = metallic_roughness_map_->lookup(point.uv);
         surface.roughness *= texel.y;
@@ -134,9 +186,23 @@ Bsdf Material::bsdf(const ShadingPoint& point) const noexcept
     return {point.ng, Frame::from_normal(shading_normal(point)), GltfBsdf(surface, *albedo_)};
 }
 
-Rgb Material::emission(const std::array<Vec2, 2>& uv) const noexcept
+Rgb Material::emission(const TexturePoint& point) const noexcept
 {
-    return emission_map_ ? emission_ * Rgb(emission_map_->lookup(uv)) : emission_;
+    if (unlit_) {
+        return glm::clamp(base_color(point), 0.0f, 1.0f);
+    }
+    return emission_map_ ? emission_ * Rgb(emission_map_->lookup(point.uv)) : emission_;
+}
+
+float Material::emission_texels(const std::array<Vec2, 2>& a,
+                                const std::array<Vec2, 2>& b) const noexcept
+{
+    const auto texels = [&](const Texture& texture) {
+        const Vec2 way = texture.texel_position(b) - texture.texel_position(a);
+        return std::sqrt(dot(way, way));
+    };
+    return std::max(emission_map_ && !unlit_ ? texels(*emission_map_) : 0.0f,
+                    base_color_map_ && emission_needs_color() ? texels(*base_color_map_) : 0.0f);
 }
 
 }  // namespace bdpt

@@ -22,6 +22,12 @@ struct ShadingPoint {
     Vec4 color{1.0f};  ///< vertex colour, linear
 };
 
+/// What textures and vertex colours are looked up by.
+struct TexturePoint {
+    std::array<Vec2, 2> uv{};
+    Vec4 color{1.0f};  ///< vertex colour, linear
+};
+
 /// A `MaterialDesc` made ready for lookups. Refers to the images, which must outlive it.
 class Material {
 public:
@@ -31,16 +37,37 @@ public:
 
     [[nodiscard]] Bsdf bsdf(const ShadingPoint& point) const noexcept;
 
-    /// Emitted radiance [nit], equal in all directions of an emitting side.
-    [[nodiscard]] Rgb emission(const std::array<Vec2, 2>& uv) const noexcept;
-    /// The average of `emission` over its texture.
-    [[nodiscard]] Rgb mean_emission() const noexcept { return mean_emission_; }
-    [[nodiscard]] bool has_emission_texture() const noexcept { return emission_map_.has_value(); }
-    /// Place in the emission texture, which must be there, in texels.
-    [[nodiscard]] Vec2 emission_texel(const std::array<Vec2, 2>& uv) const noexcept
+    /// The share of rays that meet the surface, in [0, 1]; the others pass as if it were not there.
+    [[nodiscard]] float opacity(const TexturePoint& point) const noexcept;
+    /// A bound of `opacity` from below where vertex colours have no alpha.
+    [[nodiscard]] float least_opacity() const noexcept { return least_opacity_; }
+    [[nodiscard]] AlphaMode alpha_mode() const noexcept { return alpha_mode_; }
+
+    /// Emitted radiance [nit] that a ray finds which meets the surface, equal in all directions of
+    /// an emitting side.
+    [[nodiscard]] Rgb emission(const TexturePoint& point) const noexcept;
+    /// That times `opacity`: what counts for points that no ray was stopped at but that were
+    /// sampled.
+    [[nodiscard]] Rgb expected_emission(const TexturePoint& point) const noexcept
     {
-        return emission_map_->texel_position(uv);
+        return emission(point) * opacity(point);
     }
+    /// Roughly the average of `expected_emission` over its textures, vertex colours left out; zero
+    /// only where it is zero.
+    [[nodiscard]] Rgb mean_emission() const noexcept { return mean_emission_; }
+    /// Does `expected_emission` depend on the vertex colours?
+    [[nodiscard]] bool emission_needs_color() const noexcept
+    {
+        return unlit_ || alpha_mode_ != AlphaMode::opaque;
+    }
+    /// Does it depend on a texture?
+    [[nodiscard]] bool emission_needs_texture() const noexcept
+    {
+        return (emission_map_ && !unlit_) || (base_color_map_ && emission_needs_color());
+    }
+    /// Distance of two places in texels of the finest texture that it depends on; 0 without any.
+    [[nodiscard]] float emission_texels(const std::array<Vec2, 2>& a,
+                                        const std::array<Vec2, 2>& b) const noexcept;
     [[nodiscard]] bool emits_from_both_sides() const noexcept { return double_sided_; }
 
     /// Bounds a solid body that light passes through; its inside is on the back of ng.
@@ -59,6 +86,10 @@ public:
 
 private:
     [[nodiscard]] Vec3 shading_normal(const ShadingPoint& point) const noexcept;
+    [[nodiscard]] Rgb base_color(const TexturePoint& point) const noexcept;
+    [[nodiscard]] float opacity_of(float alpha) const noexcept;
+    void measure_alpha();
+    void measure_emission();
 
     GltfParameters surface_;  ///< the factors, which textures multiply
     Rgb emission_{0.0f};
@@ -66,6 +97,12 @@ private:
     Rgb absorption_{0.0f};
     float normal_scale_;
     bool double_sided_;
+    bool unlit_;
+    AlphaMode alpha_mode_;
+    float alpha_;  ///< the factor
+    float alpha_cutoff_;
+    float least_opacity_ = 1.0f;
+    float mean_opacity_ = 1.0f;  ///< roughly
     const SpecularAlbedo* albedo_;
 
     std::optional<Texture> base_color_map_;

@@ -148,4 +148,15 @@ Vec4 Texture::mean() const
             static_cast<float>(sum[2] / count), static_cast<float>(sum[3] / count)};
 }
 
+std::pair<float, float> Texture::alpha_range() const
+{
+    std::uint8_t least = 255;
+    std::uint8_t greatest = 0;
+    for (std::size_t i = 3; i < image_->rgba.size(); i += 4) {
+        least = std::min(least, image_->rgba[i]);
+        greatest = std::max(greatest, image_->rgba[i]);
+    }
+    return {linear_table[least], linear_table[greatest]};
+}
+
 }  // namespace bdpt

@@ -3,6 +3,7 @@
 #include <bdpt/scene_desc.h>
 
 #include <array>
+#include <utility>
 
 namespace bdpt {
 
@@ -25,6 +26,9 @@ public:
 
     /// Average over the whole picture.
     [[nodiscard]] Vec4 mean() const;
+
+    /// The least and the greatest alpha of the picture.
+    [[nodiscard]] std::pair<float, float> alpha_range() const;
 
     /// 0 or 1
     [[nodiscard]] int uv_set() const noexcept { return uv_set_; }

@@ -42,7 +42,8 @@ Sampler::Sampler(SamplerKind kind, std::uint64_t seed, int x, int y, std::int64_
         reversed_index_ = reverse_bits(low_word((index & point_bits) >> 1U));
         stream = index & ~point_bits;
     }
-    key_ = mix(mix(mix(seed + golden) ^ pixel) + stream * golden);
+    key_ =
+        split_mix(split_mix(split_mix(seed + golden_ratio_64) ^ pixel) + stream * golden_ratio_64);
 }
 
 void Sampler::fill()

@@ -1,5 +1,8 @@
 #pragma once
 
+#include "math/segment_key.h"
+#include "math/split_mix.h"
+
 #include <bdpt/render_options.h>
 #include <bdpt/types.h>
 
@@ -59,22 +62,24 @@ public:
         return {set_[at], to_float(static_cast<std::uint32_t>(lower >> 32U))};
     }
 
+    /// Of the segment that has `s` vertices on the light's side and `t` on the camera's: (s, t) of
+    /// a join, (0, t) where the camera subpath goes on from its t vertices, (s, 0) likewise of the
+    /// light subpath. Its numbers are independent of those of other segments and of `next_1d`.
+    [[nodiscard]] SegmentKey segment_key(int s, int t) const
+    {
+        // Sets have numbers of less than 63 bits, so those of segments are never the same.
+        const std::uint64_t number = std::uint64_t{1} << 63U |
+                                     std::uint64_t{static_cast<std::uint32_t>(s)} << 32U |
+                                     static_cast<std::uint32_t>(t);
+        return {split_mix(key_ + golden_ratio_64 * number + split_mix(reversed_index_))};
+    }
+
 private:
     static constexpr std::size_t set_size = 4;
     static constexpr std::uint64_t uses = 8;
     static constexpr std::uint64_t sets_per_use = 64;
     static constexpr std::uint64_t hashes_per_set = 8;
     static constexpr std::uint64_t fine_hashes = 4;  ///< the first of those for `next_fine`
-    static constexpr std::uint64_t golden = 0x9e3779b97f4a7c15U;  // 2^64 / golden ratio
-
-    /// Finaliser of SplitMix64 [Steele et al. 2014, "Fast Splittable Pseudorandom Number
-    /// Generators"].
-    [[nodiscard]] static constexpr std::uint64_t mix(std::uint64_t z)
-    {
-        z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
-        z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
-        return z ^ (z >> 31U);
-    }
 
     /// The upper 24 bits: all floats of that spacing in [0, 1).
     [[nodiscard]] static constexpr float to_float(std::uint32_t bits)
@@ -85,7 +90,7 @@ private:
     /// One of the `hashes_per_set` random words of a set.
     [[nodiscard]] std::uint64_t bits(std::uint64_t set, std::uint64_t number) const
     {
-        return mix(key_ + golden * (set * hashes_per_set + number));
+        return split_mix(key_ + golden_ratio_64 * (set * hashes_per_set + number));
     }
 
     /// Where in the set `count` unused dimensions begin.

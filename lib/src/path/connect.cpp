@@ -84,8 +84,9 @@ std::optional<Contribution> connect_to_light(const World& world, std::span<const
         x0.barycentrics = incident->barycentrics;
     }
     ++rays.shadow;
-    value *= light.is_infinite() ? world.transmittance_to_infinity(z.end, incident->wi)
-                                 : world.transmittance(z.end, x0.end);
+    const SegmentKey segment = sampler.segment_key(1, static_cast<int>(camera.size()));
+    value *= light.is_infinite() ? world.transmittance_to_infinity(z.end, incident->wi, segment)
+                                 : world.transmittance(z.end, x0.end, segment);
     if (is_black(value)) {
         return std::nullopt;
     }
@@ -131,7 +132,7 @@ std::optional<Splat> connect_light_to_lens(const World& world, const Camera& cam
         return std::nullopt;
     }
     ++rays.shadow;
-    value *= world.transmittance(incident->end, to_lens->lens);
+    value *= world.transmittance(incident->end, to_lens->lens, sampler.segment_key(1, 1));
     if (is_black(value)) {
         return std::nullopt;
     }
@@ -179,7 +180,8 @@ std::optional<Splat> connect_to_lens(const World& world, const Camera& camera,
         return std::nullopt;
     }
     ++rays.shadow;
-    value *= world.transmittance(y.end, to_lens->lens);
+    value *= world.transmittance(y.end, to_lens->lens,
+                                 sampler.segment_key(static_cast<int>(light.size()), 1));
     if (is_black(value)) {
         return std::nullopt;
     }
@@ -225,7 +227,7 @@ std::optional<Splat> hit_lens(const World& world, const Subpath& light_path,
 }
 
 std::optional<Contribution> connect_interior(const World& world, std::span<const PathVertex> light,
-                                             std::span<const PathVertex> camera,
+                                             std::span<const PathVertex> camera, SegmentKey segment,
                                              PathWeigher& weigher, RayCounts& rays)
 {
     const PathVertex& y = light.back();
@@ -249,7 +251,7 @@ std::optional<Contribution> connect_interior(const World& world, std::span<const
         return std::nullopt;
     }
     ++rays.shadow;
-    value *= world.transmittance(z.end, y.end);
+    value *= world.transmittance(z.end, y.end, segment);
     if (is_black(value)) {
         return std::nullopt;
     }

@@ -12,7 +12,8 @@ namespace bdpt {
 class Camera;
 class Sampler;
 
-// The joins that test visibility count their rays in `rays`.
+// The joins that test visibility count their rays in `rays`; the key is that of their segment
+// (`Sampler::segment_key`).
 
 /// What one strategy found.
 struct Contribution {
@@ -58,6 +59,7 @@ struct Splat {
 [[nodiscard]] std::optional<Contribution> connect_interior(const World& world,
                                                            std::span<const PathVertex> light,
                                                            std::span<const PathVertex> camera,
-                                                           PathWeigher& weigher, RayCounts& rays);
+                                                           SegmentKey segment, PathWeigher& weigher,
+                                                           RayCounts& rays);
 
 }  // namespace bdpt

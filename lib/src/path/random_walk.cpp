@@ -135,7 +135,10 @@ void walk(const Walk& rules, Step step, Sampler& sampler, Subpath& path)
     // A walk whose vertices are full may still cross the lens.
     while (path.size() < max_vertices || (watches_lens && path.size() == max_vertices)) {
         path.count_ray();
-        const auto hit = world.intersect(step.origin, step.direction);
+        const bool from_camera = mode == TransportMode::radiance;
+        const SegmentKey segment =
+            sampler.segment_key(from_camera ? 0 : path.size(), from_camera ? path.size() : 0);
+        const auto hit = world.intersect(step.origin, step.direction, segment);
         if (watches_lens) {
             look_for_lens(*rules.lens, step,
                           hit ? glm::distance(hit->end.p, step.origin.p)

@@ -52,7 +52,7 @@ int most_emission_samples(std::span<const InstanceDesc> instances,
     std::size_t textured = 0;
     for (std::size_t i = 0; i < instances.size(); ++i) {
         const bool counts =
-            materials[static_cast<std::size_t>(instances[i].material)].has_emission_texture();
+            materials[static_cast<std::size_t>(instances[i].material)].emission_needs_texture();
         textured += counts ? placed[i].triangle_count() : 0U;
     }
     const double each = budget / static_cast<double>(std::max<std::size_t>(textured, 1));

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace bdpt {
@@ -40,7 +41,7 @@ Surroundings look_around(const World& world, Vec3 p)
         const float r = std::sqrt(1.0f - y * y);
         const SinCos phi = sin_cos(golden_angle * static_cast<float>(i));
         const Vec3 direction(r * phi.cos, y, r * phi.sin);
-        const auto hit = world.intersect({.p = p}, direction);
+        const auto hit = world.intersect({.p = p}, direction, {static_cast<std::uint64_t>(i)});
         if (!hit) {
             result.escaped += 1.0f / directions;
             result.escape_direction += direction;
@@ -73,7 +74,7 @@ float view_depth(const World& world, const CameraDesc& camera, float aspect)
         const float x = (static_cast<float>(i % columns) + 0.5f) / columns * 2.0f - 1.0f;
         const float y = (static_cast<float>(i / columns) + 0.5f) / rows * 2.0f - 1.0f;
         const Vec3 direction = normalize(axes * Vec3(x * slope * aspect, y * slope, -1.0f));
-        const auto hit = world.intersect({.p = eye}, direction);
+        const auto hit = world.intersect({.p = eye}, direction, {static_cast<std::uint64_t>(i)});
         const float distance = hit ? glm::distance(eye, hit->end.p) : size;
         const bool behind = hit && dot(hit->end.ng, direction) > 0.0f;
         if (distance < too_near || behind) {

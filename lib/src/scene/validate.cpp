@@ -115,6 +115,7 @@ void check(const TextureRef& texture, const std::string& item, std::size_t image
 void check(const MaterialDesc& material, const std::string& item, std::size_t image_count)
 {
     check_color(item, "base colour", material.base_color, 1.0f);
+    check_range(item, "alpha cutoff", material.alpha_cutoff, 0.0f, any_positive);
     check_range(item, "metallic", material.metallic, 0.0f, 1.0f);
     check_range(item, "roughness", material.roughness, 0.0f, 1.0f);
     check_color(item, "emission", material.emission, any_positive);

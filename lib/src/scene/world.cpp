@@ -81,7 +81,7 @@ World::World(SceneDesc desc) : desc_(std::move(desc))
     bounds_ = bounds_of(placed_, spheres_);
     sphere_ = sphere_around(bounds_);
     embree_ = std::make_unique<const EmbreeScene>(desc_.instances, placed_, desc_.meshes.size(),
-                                                  spheres_);
+                                                  spheres_, pass_rule());
     lights_ = std::make_unique<const LightSet>(desc_.instances, placed_, materials_, desc_.lights,
                                                sphere_);
     counts_ = count(desc_);
@@ -89,12 +89,50 @@ World::World(SceneDesc desc) : desc_(std::move(desc))
     counts_.emissive_triangles = lights_->size() - desc_.lights.size();
 }
 
-std::optional<SurfacePoint> World::intersect(const SegmentEnd& from, Vec3 direction) const noexcept
+const Material& World::material_of(std::uint32_t instance) const noexcept
+{
+    return materials_[static_cast<std::size_t>(desc_.instances[instance].material)];
+}
+
+bool World::may_be_passed(std::uint32_t instance) const noexcept
+{
+    const Material& material = material_of(instance);
+    return material.alpha_mode() != AlphaMode::opaque &&
+           (material.least_opacity() < 1.0f || !placed_[instance].mesh().colors.empty());
+}
+
+bool World::is_passed(const Crossing& crossing) const noexcept
+{
+    const Material& material = material_of(crossing.instance);
+    if (material.alpha_mode() == AlphaMode::opaque) {
+        return false;  // an instance of a mesh that others share
+    }
+    const float opacity = material.opacity(
+        texture_point(placed_[crossing.instance], crossing.triangle, crossing.barycentrics));
+    return crossing.segment.at_surface(crossing.instance, crossing.triangle) >= opacity;
+}
+
+PassRule World::pass_rule() const noexcept
+{
+    return {.owner = this,
+            .concerns =
+                [](const void* world, std::uint32_t instance) noexcept {
+                    return static_cast<const World*>(world)->may_be_passed(instance);
+                },
+            .passes =
+                [](const void* world, const Crossing& crossing) noexcept {
+                    return static_cast<const World*>(world)->is_passed(crossing);
+                }};
+}
+
+std::optional<SurfacePoint> World::intersect(const SegmentEnd& from, Vec3 direction,
+                                             SegmentKey segment) const noexcept
 {
     const auto hit =
         embree_->intersect({.origin = offset_origin(from.p, from.error, from.ng, direction),
                             .direction = direction,
-                            .ignored_sphere = from.sphere});
+                            .ignored_sphere = from.sphere,
+                            .segment = segment});
     if (!hit) {
         return std::nullopt;
     }
@@ -119,8 +157,7 @@ SurfacePoint World::sphere_point(const RayHit& hit, Vec3 direction) const noexce
 SurfacePoint World::surface_point(const RayHit& hit, Vec3 direction) const noexcept
 {
     const PlacedMesh& mesh = placed_[hit.instance];
-    const InstanceDesc& instance = desc_.instances[hit.instance];
-    const Material& material = materials_[static_cast<std::size_t>(instance.material)];
+    const Material& material = material_of(hit.instance);
 
     const float length_squared = dot(hit.normal, hit.normal);
     const Vec3 ng = length_squared > 0.0f ? hit.normal / std::sqrt(length_squared) : -direction;
@@ -128,15 +165,15 @@ SurfacePoint World::surface_point(const RayHit& hit, Vec3 direction) const noexc
     const float side = dot(ns, ng);
     ns = side > 0.0f ? ns : side < 0.0f ? -ns : ng;
 
-    const auto uv = mesh.uv(hit.triangle, hit.barycentrics);
+    const TexturePoint at = texture_point(mesh, hit.triangle, hit.barycentrics);
     const auto normal_uv_set = material.normal_uv_set();
     const ShadingPoint shading{
         .ng = ng,
         .ns = ns,
         .tangent = normal_uv_set ? mesh.tangent(hit.triangle, hit.barycentrics, *normal_uv_set)
                                  : Vec4(0.0f),
-        .uv = uv,
-        .color = mesh.color(hit.triangle, hit.barycentrics)};
+        .uv = at.uv,
+        .color = at.color};
 
     const BoundedPoint point = mesh.point(hit.triangle, hit.barycentrics);
     SurfacePoint result{
@@ -146,12 +183,13 @@ SurfacePoint World::surface_point(const RayHit& hit, Vec3 direction) const noexc
         .light = lights_->of_triangle(hit.instance, hit.triangle),
         .barycentrics = hit.barycentrics};
     if (result.light && (dot(ng, direction) < 0.0f || material.emits_from_both_sides())) {
-        result.emission = material.emission(uv);
+        result.emission = material.emission(at);
     }
     return result;
 }
 
-Rgb World::transmittance(const SegmentEnd& a, const SegmentEnd& b) const noexcept
+Rgb World::transmittance(const SegmentEnd& a, const SegmentEnd& b,
+                         SegmentKey segment) const noexcept
 {
     // Both ends are moved to their own side of their surfaces, so the whole segment between them is
     // tested; the factor only keeps rounding of the end from reaching through.
@@ -163,16 +201,19 @@ Rgb World::transmittance(const SegmentEnd& a, const SegmentEnd& b) const noexcep
     if (embree_->occluded({.origin = origin,
                            .direction = target - origin,
                            .t_max = short_of_end,
-                           .ignored_sphere = a.sphere != no_sphere ? a.sphere : b.sphere})) {
+                           .ignored_sphere = a.sphere != no_sphere ? a.sphere : b.sphere,
+                           .segment = segment})) {
         return Rgb(0.0f);
     }
     return medium_transmittance(a, b, to_b, std::sqrt(dot(to_b, to_b)));
 }
 
-Rgb World::transmittance_to_infinity(const SegmentEnd& a, Vec3 direction) const noexcept
+Rgb World::transmittance_to_infinity(const SegmentEnd& a, Vec3 direction,
+                                     SegmentKey segment) const noexcept
 {
-    if (embree_->occluded(
-            {.origin = offset_origin(a.p, a.error, a.ng, direction), .direction = direction})) {
+    if (embree_->occluded({.origin = offset_origin(a.p, a.error, a.ng, direction),
+                           .direction = direction,
+                           .segment = segment})) {
         return Rgb(0.0f);
     }
     return medium_transmittance(a, {}, direction, std::numeric_limits<float>::max());

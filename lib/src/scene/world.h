@@ -34,14 +34,19 @@ public:
     World(const World&) = delete;
     World& operator=(const World&) = delete;
 
-    /// The first surface from `from` in the unit direction `direction`.
-    [[nodiscard]] std::optional<SurfacePoint> intersect(const SegmentEnd& from,
-                                                        Vec3 direction) const noexcept;
-    /// What is left of light between two points: zero when a surface is in between, else what the
-    /// medium lets through.
-    [[nodiscard]] Rgb transmittance(const SegmentEnd& a, const SegmentEnd& b) const noexcept;
+    // Surfaces that are not opaque are met or passed, by chance: the key of the segment decides.
+    // Each segment of a path needs a key of its own (docs/mis.md).
+
+    /// The first surface that a ray meets from `from` in the unit direction `direction`.
+    [[nodiscard]] std::optional<SurfacePoint> intersect(const SegmentEnd& from, Vec3 direction,
+                                                        SegmentKey segment) const noexcept;
+    /// What is left of light between two points: zero when it meets a surface in between, else what
+    /// the medium lets through.
+    [[nodiscard]] Rgb transmittance(const SegmentEnd& a, const SegmentEnd& b,
+                                    SegmentKey segment) const noexcept;
     /// The same from a point to infinity in the unit direction `direction`.
-    [[nodiscard]] Rgb transmittance_to_infinity(const SegmentEnd& a, Vec3 direction) const noexcept;
+    [[nodiscard]] Rgb transmittance_to_infinity(const SegmentEnd& a, Vec3 direction,
+                                                SegmentKey segment) const noexcept;
 
     [[nodiscard]] const LightSet& lights() const { return *lights_; }
     [[nodiscard]] const BoundingSphere& bounding_sphere() const { return sphere_; }
@@ -49,6 +54,10 @@ public:
     [[nodiscard]] const SceneCounts& counts() const { return counts_; }
 
 private:
+    [[nodiscard]] const Material& material_of(std::uint32_t instance) const noexcept;
+    [[nodiscard]] bool may_be_passed(std::uint32_t instance) const noexcept;
+    [[nodiscard]] bool is_passed(const Crossing& crossing) const noexcept;
+    [[nodiscard]] PassRule pass_rule() const noexcept;
     [[nodiscard]] SurfacePoint surface_point(const RayHit& hit, Vec3 direction) const noexcept;
     [[nodiscard]] SurfacePoint sphere_point(const RayHit& hit, Vec3 direction) const noexcept;
 

@@ -131,12 +131,53 @@ TEST_CASE("an index of refraction of 0 stands for full reflection")
     CHECK(loaded.warnings.empty());
 }
 
-TEST_CASE("alpha modes are rendered opaque and say so")
+TEST_CASE("alpha modes and the cutoff are read")
 {
-    CHECK(warns(with_material({{"alphaMode", "BLEND"}}).load().warnings,
-                {"/materials/0/alphaMode: BLEND", "opaque"}));
-    CHECK(warns(with_material({{"alphaMode", "MASK"}}).load().warnings, {"opaque"}));
-    CHECK(with_material({{"alphaMode", "OPAQUE"}}).load().warnings.empty());
+    const nlohmann::json color{{"baseColorFactor", {1, 1, 1, 0.25}}};
+    const LoadedScene blend =
+        with_material({{"alphaMode", "BLEND"}, {"pbrMetallicRoughness", color}}).load();
+    CHECK(blend.scene.materials.at(0).alpha_mode == AlphaMode::blend);
+    CHECK(blend.scene.materials.at(0).base_color.w == 0.25f);
+    CHECK(blend.warnings.empty());
+    CHECK(load_material({{"alphaMode", "MASK"}}).alpha_mode == AlphaMode::mask);
+    CHECK(load_material({{"alphaMode", "MASK"}}).alpha_cutoff == 0.5f);
+    CHECK(load_material({{"alphaMode", "MASK"}, {"alphaCutoff", 0.125}}).alpha_cutoff == 0.125f);
+    CHECK(load_material({{"alphaMode", "MASK"}, {"alphaCutoff", 2}}).alpha_cutoff == 2.0f);
+    CHECK(load_material({{"alphaMode", "OPAQUE"}}).alpha_mode == AlphaMode::opaque);
+    CHECK(load_material(nlohmann::json::object()).alpha_mode == AlphaMode::opaque);
+    CHECK(warns(with_material({{"alphaMode", "MASK"}, {"alphaCutoff", -1}}).load().warnings,
+                {"/materials/0/alphaCutoff: -1 becomes 0"}));
+    const LoadedScene unknown = with_material({{"alphaMode", "HASH"}}).load();
+    CHECK(unknown.scene.materials.at(0).alpha_mode == AlphaMode::opaque);
+    CHECK(warns(unknown.warnings, {"/materials/0/alphaMode: HASH", "OPAQUE"}));
+}
+
+TEST_CASE("an unlit material is its base colour, its alpha and its sides")
+{
+    const nlohmann::json unlit{{"KHR_materials_unlit", nlohmann::json::object()}};
+    GltfFixture fixture = with_textures(
+        {{"extensions", unlit},
+         {"doubleSided", true},
+         {"alphaMode", "BLEND"},
+         {"emissiveFactor", {1, 1, 1}},
+         {"emissiveTexture", {{"index", 3}}},
+         {"normalTexture", {{"index", 1}}},
+         {"pbrMetallicRoughness",
+          {{"baseColorFactor", {0.5, 0.25, 1, 0.75}}, {"baseColorTexture", {{"index", 2}}}}}});
+    fixture.json["extensionsUsed"] = {"KHR_materials_unlit"};
+    fixture.json["extensionsRequired"] = {"KHR_materials_unlit"};
+    const LoadedScene loaded = fixture.load();
+    const MaterialDesc& material = loaded.scene.materials.at(0);
+    CHECK(material.unlit);
+    CHECK(material.double_sided);
+    CHECK(material.alpha_mode == AlphaMode::blend);
+    CHECK(material.base_color == Vec4(0.5f, 0.25f, 1.0f, 0.75f));
+    CHECK(picture(loaded, material.base_color_texture) == 2);
+    CHECK_FALSE(material.emission_texture.has_value());
+    CHECK_FALSE(material.normal_texture.has_value());
+    CHECK(material.emission == Rgb(0.0f));
+    CHECK(loaded.warnings.empty());
+    CHECK_FALSE(load_material(nlohmann::json::object()).unlit);
 }
 
 TEST_CASE("every texture slot finds its picture")

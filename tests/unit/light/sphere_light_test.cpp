@@ -228,7 +228,7 @@ TEST_CASE("sphere lights are surfaces: seen, in the way, black", "[world]")
     CHECK(world.counts().emissive_triangles == 0);
     CHECK(world.lights()[LightId{1}].is_delta());
 
-    const auto seen = world.intersect({.p = {0.3f, -0.2f, 4.0f}}, {0, 0, -1});
+    const auto seen = world.intersect({.p = {0.3f, -0.2f, 4.0f}}, {0, 0, -1}, {});
     REQUIRE(seen.has_value());
     CHECK(seen->light == LightId{0});
     CHECK_FALSE(world.lights()[*seen->light].is_delta());
@@ -236,18 +236,18 @@ TEST_CASE("sphere lights are surfaces: seen, in the way, black", "[world]")
     CHECK(seen->end.p.z == Approx(0.75f));
     CHECK_FALSE(seen->bsdf.connectible());
     CHECK_FALSE(seen->bsdf.sample({0, 0, 1}, 0.5f, {0.3f, 0.4f}, TransportMode::radiance));
-    const auto inside = world.intersect({.p = {0.3f, -0.2f, 0.5f}}, {0, 0, -1});
+    const auto inside = world.intersect({.p = {0.3f, -0.2f, 0.5f}}, {0, 0, -1}, {});
     REQUIRE(inside.has_value());
     CHECK(inside->emission == Rgb(0.0f));
-    CHECK(world.transmittance({.p = {0.3f, -0.2f, 4.0f}}, {.p = {0.3f, -0.2f, -4.0f}}) ==
+    CHECK(world.transmittance({.p = {0.3f, -0.2f, 4.0f}}, {.p = {0.3f, -0.2f, -4.0f}}, {}) ==
           Rgb(0.0f));
 
     // The spot shines down from all of its ball, and nowhere else.
-    const auto below = world.intersect({.p = {5.3f, -4.0f, 0.0f}}, {0, 1, 0});
+    const auto below = world.intersect({.p = {5.3f, -4.0f, 0.0f}}, {0, 1, 0}, {});
     REQUIRE(below.has_value());
     CHECK(below->light == LightId{2});
     CHECK(below->emission.r == Approx(3.0f / (pi * 0.25f)));
-    CHECK(world.intersect({.p = {9.0f, 0.0f, 0.0f}}, {-1, 0, 0})->emission == Rgb(0.0f));
+    CHECK(world.intersect({.p = {9.0f, 0.0f, 0.0f}}, {-1, 0, 0}, {})->emission == Rgb(0.0f));
 }
 
 TEST_CASE("a ball never hides its own sampled points, from wherever it is lit", "[world]")
@@ -266,11 +266,12 @@ TEST_CASE("a ball never hides its own sampled points, from wherever it is lit", 
                 const Vec3 receiver = desc.position + distance * random.direction();
                 const auto incident = light.sample_incident(receiver, random.next_2d());
                 if (incident) {
-                    REQUIRE(world.transmittance({.p = receiver}, incident->end) == Rgb(1.0f));
+                    REQUIRE(world.transmittance({.p = receiver}, incident->end, {}) == Rgb(1.0f));
                 }
                 const auto emitted = light.sample_emission(random.next_2d(), random.next_2d());
                 if (emitted) {
-                    REQUIRE_FALSE(world.intersect(emitted->end, emitted->direction).has_value());
+                    REQUIRE_FALSE(
+                        world.intersect(emitted->end, emitted->direction, {}).has_value());
                 }
             }
         }

@@ -199,7 +199,8 @@ TEST_CASE("emission is factor times sRGB texture, and its mean that of the pictu
     desc.double_sided = true;
     const Material material(desc, images, albedo);
     CHECK(material.emits_from_both_sides());
-    check_equal(material.emission({Vec2{0.25f, 0.5f}, Vec2{}}), {0.0f, 20.0f * srgb(0.4), 30.0f});
+    check_equal(material.emission({.uv = {Vec2{0.25f, 0.5f}, Vec2{}}}),
+                {0.0f, 20.0f * srgb(0.4), 30.0f});
     check_equal(material.mean_emission(), {5.0f, 20.0f * srgb(0.4), 15.0f});
 }
 

@@ -80,7 +80,7 @@ TEST_CASE("weights of all strategies sum to one on traced paths", "[mis]")
                 }
                 for (int s = 2; s <= std::min(light_path.size(), max_depth + 1 - t); ++s) {
                     check(connect_interior(world, light_path.first(s), camera_path.first(t),
-                                           weigher, rays));
+                                           sampler.segment_key(s, t), weigher, rays));
                 }
             }
         }

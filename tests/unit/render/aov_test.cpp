@@ -113,6 +113,10 @@ TEST_CASE("AOVs are of the very rays that make the picture", "[aov]")
     MaterialDesc lamp = test::emitter(Rgb(1.0f));
     lamp.double_sided = true;
     test::SceneBuilder builder;
+    // Rays that pass a surface have not met it, in the AOVs as in the picture.
+    const bool passable = GENERATE(false, true);
+    lamp.alpha_mode = passable ? AlphaMode::blend : AlphaMode::opaque;
+    lamp.base_color.w = 0.3f;
     builder.sphere({5.0f, 2.0f, 3.0f}, 1.3f, lamp, 16);
     const Scene scene(builder.desc);
     RenderOptions o = options({Aov::alpha, Aov::depth, Aov::position});
@@ -126,10 +130,12 @@ TEST_CASE("AOVs are of the very rays that make the picture", "[aov]")
             const std::vector<Layer> layers = result.aovs.develop(result.film);
             const Image image = result.film.develop();
             int partial = 0;
+            float inside = 0.0f;
             for (int y = 0; y < size; ++y) {
                 for (int x = 0; x < size; ++x) {
                     const float alpha = value(layer(layers, ""), x, y, 0);
                     REQUIRE(alpha == image.at(x, y).g);
+                    inside += x >= 10 && x < 14 && y >= 10 && y < 14 ? alpha / 16.0f : 0.0f;
                     partial += alpha > 0.0f && alpha < 1.0f ? 1 : 0;
                     if (alpha > 0.0f) {
                         // Position and depth are means over the same hits.
@@ -139,6 +145,8 @@ TEST_CASE("AOVs are of the very rays that make the picture", "[aov]")
                 }
             }
             CHECK(partial > 10);
+            // Front and back of the ball: 1 - 0.7^2.
+            CHECK(inside == Approx(passable ? 0.51 : 1.0).margin(0.1));
         }
     }
 }

@@ -23,6 +23,11 @@ Scene room()
     builder.quad({-0.5f, -0.5f, 0.0f}, {0.5f, -0.5f, 0.0f}, {0.5f, 0.0f, 0.0f}, {-0.5f, 0.0f, 0.0f},
                  test::lambertian({0.1f, 0.1f, 0.8f}));
     builder.sphere({0.4f, -0.7f, 0.4f}, 0.3f, test::glass(0.0f), 16);
+    // Which rays pass must not depend on it either, nor on what other rays did.
+    MaterialDesc pane = test::plastic({0.2f, 0.7f, 0.3f}, 0.4f);
+    pane.base_color.w = 0.4f;
+    pane.alpha_mode = AlphaMode::blend;
+    builder.sphere({-0.3f, 0.3f, 0.3f}, 0.5f, pane, 12);
     builder.light(PointLightDesc{.position = {-0.5f, 0.0f, 0.5f}, .intensity = Rgb(0.3f)});
     return Scene(std::move(builder.desc));
 }

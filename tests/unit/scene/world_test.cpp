@@ -27,20 +27,20 @@ TEST_CASE("Beer-Lambert: the attenuation colour is left after the attenuation di
     SceneBuilder builder;
     builder.sphere({0, 0, 0}, 1.0f, tinted_glass(), 128);
     const World world(std::move(builder.desc));
-    const auto front = world.intersect({.p = {0, 0, 5}}, {0, 0, -1});
-    const auto back = world.intersect({.p = {0, 0, -5}}, {0, 0, 1});
+    const auto front = world.intersect({.p = {0, 0, 5}}, {0, 0, -1}, {});
+    const auto back = world.intersect({.p = {0, 0, -5}}, {0, 0, 1}, {});
     REQUIRE(front.has_value());
     REQUIRE(back.has_value());
-    const Rgb inside = world.transmittance(front->end, back->end);
+    const Rgb inside = world.transmittance(front->end, back->end, {});
     CHECK(inside.r == Approx(0.5f).epsilon(0.01));
     CHECK(inside.g == Approx(0.25f).epsilon(0.01));
     CHECK(inside.b == Approx(1.0f));
-    CHECK(world.transmittance(back->end, front->end) == inside);
+    CHECK(world.transmittance(back->end, front->end, {}) == inside);
     // Outside there is nothing to absorb, and the ball hides what is behind it.
-    CHECK(world.transmittance({.p = {0, 0, 5}}, front->end) == Rgb(1.0f));
-    CHECK(world.transmittance({.p = {0, 0, 5}}, back->end) == Rgb(0.0f));
-    CHECK(world.transmittance_to_infinity(front->end, {0, 0, 1}) == Rgb(1.0f));
-    CHECK(world.transmittance_to_infinity(front->end, {0, 0, -1}) == Rgb(0.0f));
+    CHECK(world.transmittance({.p = {0, 0, 5}}, front->end, {}) == Rgb(1.0f));
+    CHECK(world.transmittance({.p = {0, 0, 5}}, back->end, {}) == Rgb(0.0f));
+    CHECK(world.transmittance_to_infinity(front->end, {0, 0, 1}, {}) == Rgb(1.0f));
+    CHECK(world.transmittance_to_infinity(front->end, {0, 0, -1}, {}) == Rgb(0.0f));
 }
 
 TEST_CASE("a medium is known from either end, and the rule is symmetric", "[world]")
@@ -64,8 +64,8 @@ TEST_CASE("emission is seen from the front, or from both sides", "[world]")
         material.double_sided = double_sided;
         builder.quad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, material);
         const World world(std::move(builder.desc));
-        const auto front = world.intersect({.p = {0.1f, 0.2f, 3}}, {0, 0, -1});
-        const auto back = world.intersect({.p = {0.1f, 0.2f, -3}}, {0, 0, 1});
+        const auto front = world.intersect({.p = {0.1f, 0.2f, 3}}, {0, 0, -1}, {});
+        const auto back = world.intersect({.p = {0.1f, 0.2f, -3}}, {0, 0, 1}, {});
         REQUIRE(front.has_value());
         REQUIRE(back.has_value());
         CHECK(front->emission == Rgb(7.0f));
@@ -99,7 +99,7 @@ TEST_CASE("a scene without light or surfaces has none, and bounds of zero", "[wo
     const World world(SceneDesc{});
     CHECK_FALSE(world.lights().choose_for_emission({0.5f, 0.5f}).has_value());
     CHECK_FALSE(world.lights().environment().has_value());
-    CHECK_FALSE(world.intersect({}, {0, 0, 1}).has_value());
+    CHECK_FALSE(world.intersect({}, {0, 0, 1}, {}).has_value());
     CHECK(world.bounds().max == Vec3(0.0f));
 }
 

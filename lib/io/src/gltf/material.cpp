@@ -30,6 +30,12 @@ public:
     {
         desc_.name = source_.name;
         desc_.double_sided = source_.doubleSided;
+        read_base_color();
+        read_alpha();
+        if (extension("KHR_materials_unlit") != nullptr) {
+            desc_.unlit = true;  // all else is for viewers that do not know the extension
+            return std::move(desc_);
+        }
         read_metallic_roughness();
         read_emission();
         read_ior();
@@ -40,9 +46,6 @@ public:
             desc_.normal_scale = static_cast<float>(source_.normalTexture.scale);
             desc_.normal_texture =
                 textures_.resolve(texture_info(source_.normalTexture), place_ + "/normalTexture");
-        }
-        if (source_.alphaMode != "OPAQUE" && !source_.alphaMode.empty()) {
-            warnings_.add("rendered opaque", place_ + "/alphaMode: " + source_.alphaMode);
         }
         return std::move(desc_);
     }
@@ -80,19 +83,37 @@ private:
         return rgb;
     }
 
-    void read_metallic_roughness()
+    void read_base_color()
     {
         const auto& pbr = source_.pbrMetallicRoughness;
         for (int c = 0; c < 4; ++c) {
             desc_.base_color[c] = in_range(pbr.baseColorFactor[static_cast<std::size_t>(c)], 0.0,
                                            1.0, "pbrMetallicRoughness/baseColorFactor");
         }
+        desc_.base_color_texture = textures_.resolve(
+            texture_info(pbr.baseColorTexture), place_ + "/pbrMetallicRoughness/baseColorTexture");
+    }
+
+    void read_alpha()
+    {
+        const std::string& mode = source_.alphaMode;
+        if (mode == "MASK") {
+            desc_.alpha_mode = AlphaMode::mask;
+            desc_.alpha_cutoff = in_range(source_.alphaCutoff, 0.0, no_limit, "alphaCutoff");
+        } else if (mode == "BLEND") {
+            desc_.alpha_mode = AlphaMode::blend;
+        } else if (mode != "OPAQUE" && !mode.empty()) {
+            warnings_.add("an unknown alpha mode counts as OPAQUE", place_ + "/alphaMode: " + mode);
+        }
+    }
+
+    void read_metallic_roughness()
+    {
+        const auto& pbr = source_.pbrMetallicRoughness;
         desc_.metallic =
             in_range(pbr.metallicFactor, 0.0, 1.0, "pbrMetallicRoughness/metallicFactor");
         desc_.roughness =
             in_range(pbr.roughnessFactor, 0.0, 1.0, "pbrMetallicRoughness/roughnessFactor");
-        desc_.base_color_texture = textures_.resolve(
-            texture_info(pbr.baseColorTexture), place_ + "/pbrMetallicRoughness/baseColorTexture");
         if (desc_.metallic > 0.0f || desc_.roughness > 0.0f) {
             desc_.metallic_roughness_texture =
                 textures_.resolve(texture_info(pbr.metallicRoughnessTexture),

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "math/split_mix.h"
+
+#include <cstdint>
+
+namespace bdpt {
+
+/// Names one segment of one sample among all others (`Sampler::segment_key`). What happens to a ray
+/// on its way, where it may pass surfaces, is a function of the key and of the surface alone.
+struct SegmentKey {
+    std::uint64_t value = 0;
+
+    /// Uniform in [0, 1), a multiple of 2^-24: the number of a surface for this segment.
+    [[nodiscard]] constexpr float at_surface(std::uint32_t instance,
+                                             std::uint32_t triangle) const noexcept
+    {
+        const std::uint64_t surface = std::uint64_t{instance} << 32U | triangle;
+        const std::uint64_t bits = split_mix(value + golden_ratio_64 * surface);
+        return static_cast<float>(static_cast<std::int32_t>(bits >> 40U)) * 0x1p-24f;
+    }
+};
+
+}  // namespace bdpt

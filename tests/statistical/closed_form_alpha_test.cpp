@@ -59,11 +59,10 @@ TEST_CASE("white panes in a white furnace are invisible, whatever their alpha",
           "[closed-form][alpha]")
 {
     SceneBuilder builder;
-    TexelImage holes{.width = 2, .height = 2, .rgba = {}};
-    for (const std::uint8_t alpha : {0, 255, 130, 80}) {
-        holes.rgba.insert(holes.rgba.end(), {255, 255, 255, alpha});
-    }
-    builder.desc.images.push_back(holes);
+    builder.desc.images.push_back({.width = 2,
+                                   .height = 2,
+                                   .rgba = {255, 255, 255, 0, 255, 255, 255, 255,  //
+                                            255, 255, 255, 130, 255, 255, 255, 80}});
     MaterialDesc blended = lambertian(Rgb(1.0f));
     blended.alpha_mode = AlphaMode::blend;
     blended.base_color_texture = TextureRef{.image = ImageId{0}};

@@ -293,7 +293,7 @@ TEST_CASE("a ball never hides its own outline from far away", "[world]")
         const auto incident = light.sample_incident(receiver, {near_border, random.next()});
         if (incident) {
             ++seen;
-            REQUIRE(world.transmittance({.p = receiver}, incident->end) == Rgb(1.0f));
+            REQUIRE(world.transmittance({.p = receiver}, incident->end, {}) == Rgb(1.0f));
         }
     }
     CHECK(seen > 10000);

@@ -55,7 +55,7 @@ SceneDesc stack(const std::vector<MaterialDesc>& materials, bool shared)
 
 SegmentKey key(int sample, int s = 0, int t = 1)
 {
-    return Sampler(3, sample % 64, sample / 64, sample).segment_key(s, t);
+    return Sampler(SamplerKind::sobol, 3, sample % 64, sample / 64, sample).segment_key(s, t);
 }
 
 /// Is `count` what one may expect of `samples` trials, five standard deviations apart at most?
@@ -145,7 +145,7 @@ TEST_CASE("the numbers of segments are uniform and apart from the sampler's", "[
     std::array<int, 16> bins{};
     int equal = 0;
     for (int i = 0; i < samples; ++i) {
-        Sampler sampler(3, i, 0, 0);
+        Sampler sampler(SamplerKind::sobol, 3, i, 0, 0);
         const float number = sampler.segment_key(0, 1).at_surface(0, 0);
         REQUIRE(number >= 0.0f);
         REQUIRE(number < 1.0f);

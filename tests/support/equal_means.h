@@ -19,7 +19,7 @@ struct Sharpness {
     /// is too noisy for that fails.
     double detectable_bias = 0.025;
     /// Batches that are rendered at most to get there.
-    int max_batches = 8192;
+    int max_batches = 16384;
 };
 
 /// Outcome of a comparison: all that a failing test has to say.

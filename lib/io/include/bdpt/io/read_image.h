@@ -16,8 +16,8 @@ namespace bdpt::io {
 struct ImageOptions {
     /// "albedo" reads albedo.R, albedo.G, albedo.B; X, Y, Z serve as well, and a single channel
     /// gives grey. None: the picture itself, or else the first layer that has colours.
-    std::optional<std::string> layer;
-    ReadLimits limits;
+    std::optional<std::string> layer{};
+    ReadLimits limits{};
 };
 
 /// What `read_image` read.

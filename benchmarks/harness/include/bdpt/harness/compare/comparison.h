@@ -14,7 +14,7 @@ namespace bdpt::harness {
 
 struct ComparisonOptions {
     std::vector<Metric> metrics{all_metrics.begin(), all_metrics.end()};
-    MetricOptions scale;
+    MetricOptions scale{};
     Metric map_metric = Metric::relmse;  ///< of the map and the worst tiles; not psnr
     int tile_size = 32;                  ///< [pixels] a side, at least 1
     int worst_tiles = 5;                 ///< how many are reported at most

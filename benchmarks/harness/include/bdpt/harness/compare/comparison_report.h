@@ -23,7 +23,7 @@ struct ImageErrors {
 struct MetricSummary {
     Metric metric = Metric::relmse;
     double mean = 0.0;
-    std::optional<double> deviation;  ///< standard deviation; none for one picture
+    std::optional<double> deviation{};  ///< standard deviation; none for one picture
     double least = 0.0;
     double greatest = 0.0;
 };
@@ -31,7 +31,7 @@ struct MetricSummary {
 /// A number that was estimated.
 struct Estimate {
     double value = 0.0;
-    std::optional<double> standard_error;
+    std::optional<double> standard_error{};
 };
 
 /// Where standard errors of the bias come from.
@@ -46,20 +46,20 @@ struct Bias {
     BiasSource source = BiasSource::blocks;
     std::array<Estimate, 4> channels;
     /// Root mean square over pixels (tiles) and channels; none for one picture.
-    std::optional<double> pixel_standard_error;
-    std::optional<double> tile_standard_error;
+    std::optional<double> pixel_standard_error{};
+    std::optional<double> tile_standard_error{};
 };
 
 /// A tile and the metric in it, averaged over the pictures.
 struct TileError {
-    PixelRect tile;  ///< in the whole image
+    PixelRect tile{};  ///< in the whole image
     double value = 0.0;
 };
 
 /// A tile and how sure it is that its mean differs from the reference's.
 struct TileBias {
-    PixelRect tile;   ///< in the whole image
-    int channel = 0;  ///< red, green, blue
+    PixelRect tile{};  ///< in the whole image
+    int channel = 0;   ///< red, green, blue
     double bias = 0.0;
     double standard_error = 0.0;
     double t = 0.0;  ///< bias / standard_error

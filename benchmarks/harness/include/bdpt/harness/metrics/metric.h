@@ -24,8 +24,9 @@ enum class Metric : std::uint8_t {
     flip_ldr,  ///< mean of FLIP between the pictures as `io::filmic` shows them
 };
 
-inline constexpr std::array all_metrics{Metric::relmse, Metric::mse,  Metric::rmse, Metric::mape,
-                                 Metric::smape,  Metric::psnr, Metric::flip, Metric::flip_ldr};
+inline constexpr std::array all_metrics{Metric::relmse, Metric::mse,     Metric::rmse,
+                                        Metric::mape,   Metric::smape,   Metric::psnr,
+                                        Metric::flip,   Metric::flip_ldr};
 
 /// The enumerator's own name.
 [[nodiscard]] BDPT_EXPORT std::string_view to_string(Metric metric);

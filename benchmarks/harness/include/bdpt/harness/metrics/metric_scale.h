@@ -19,10 +19,10 @@ enum class EpsilonUnit : std::uint8_t {
 struct MetricOptions {
     double epsilon = 0.01;  ///< > 0; keeps relative errors of black pixels finite
     EpsilonUnit epsilon_unit = EpsilonUnit::absolute;
-    std::optional<double> peak;  ///< of PSNR, > 0; none: the reference's greatest component
+    std::optional<double> peak{};  ///< of PSNR, > 0; none: the reference's greatest component
     double pixels_per_degree = default_pixels_per_degree;  ///< of FLIP; 1 to 1000
-    std::optional<FlipExposures> exposures;  ///< of HDR-FLIP; none: those that suit the reference
-    std::optional<float> exposure;  ///< [EV] of LDR-FLIP; none: io::automatic_exposure(reference)
+    std::optional<FlipExposures> exposures{};  ///< of HDR-FLIP; none: those that suit the reference
+    std::optional<float> exposure{};  ///< [EV] of LDR-FLIP; none: io::automatic_exposure(reference)
 };
 
 /// The options with all that depends on the reference filled in: the same for every picture that is

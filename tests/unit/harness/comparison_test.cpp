@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 
 #include "catch.hpp"
@@ -44,7 +45,8 @@ TEST_CASE("the bias of seeds has the error that their spread says")
     Comparison comparison("r", row_of({Rgb(1, 0, 0), Rgb(3, 0, 0)}), quick());
     comparison.add("a", row_of({Rgb(2, 1, 0), Rgb(4, 0, 0)}));  // red +1, +1; green +1, 0
     comparison.add("b", row_of({Rgb(4, 1, 0), Rgb(4, 0, 0)}));  // red +3, +1; green +1, 0
-    const Bias bias = comparison.report().bias;
+    const ComparisonReport report = comparison.report();
+    const Bias& bias = report.bias;
     CHECK(bias.source == BiasSource::seeds);
     // Red: means 1 and 2, so 1.5 with variance 0.5 and standard error sqrt(0.5 / 2).
     CHECK(bias.channels[0].value == Approx(1.5));
@@ -58,6 +60,15 @@ TEST_CASE("the bias of seeds has the error that their spread says")
     CHECK(bias.pixel_standard_error.value() == Approx(std::sqrt(1.0 / 6)));
     // One tile with three channels, of which red has variance 0.25.
     CHECK(bias.tile_standard_error.value() == Approx(std::sqrt(0.25 / 3)));
+    // Green is wrong for sure. Red has t = 1.5 / 0.5 with one degree of freedom, so p is that of
+    // Cauchy's distribution, twice by Holm since two of three tests are left. Blue is right.
+    REQUIRE(report.biased_tiles.size() == 3);
+    CHECK(report.biased_tiles[0].channel == 1);
+    CHECK(report.biased_tiles[0].p == 0.0);
+    CHECK(report.biased_tiles[1].channel == 0);
+    CHECK(report.biased_tiles[1].t == Approx(3.0));
+    CHECK(report.biased_tiles[1].p == Approx(2.0 * 2.0 / std::numbers::pi * std::atan(1.0 / 3.0)));
+    CHECK(report.biased_tiles[2].p == 1.0);
 }
 
 TEST_CASE("one picture's bias has the error that its blocks say")

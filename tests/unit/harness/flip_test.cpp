@@ -137,14 +137,14 @@ TEST_CASE("exposures go from the brightest to the median luminance")
     // The tone curve reaches 0.85 at 2.118871: the positive root of
     // (2.51 - 0.85 2.43) x^2 + (0.03 - 0.85 0.59) x - 0.85 0.14 = 0, divided by 0.6.
     const double bright_end = std::log2(2.118871);
-    Image image{5, 1, {Rgb(1), Rgb(16), Rgb(2), Rgb(0.5f), Rgb(0.25f)}};
-    FlipExposures exposures = flip_exposures(image);  // median 1, greatest 16
-    CHECK(exposures.start == Approx(bright_end - 4).epsilon(1e-5));
+    Image image{5, 1, {Rgb(1), Rgb(24), Rgb(2), Rgb(0.5f), Rgb(0.25f)}};
+    FlipExposures exposures = flip_exposures(image);  // median 1, greatest 24
+    CHECK(exposures.start == Approx(bright_end - std::log2(24.0)).epsilon(1e-5));
     CHECK(exposures.stop == Approx(bright_end).epsilon(1e-5));
-    CHECK(exposures.count == 4);
+    CHECK(exposures.count == 5);  // log2(24) is 4.6
     CHECK(exposures.at(0) == exposures.start);
-    CHECK(exposures.at(1) == Approx(exposures.start + 4.0 / 3));
-    CHECK(exposures.at(3) == exposures.stop);
+    CHECK(exposures.at(1) == Approx(exposures.start + std::log2(24.0) / 4));
+    CHECK(exposures.at(4) == Approx(exposures.stop));
 
     image.pixels = {Rgb(0), Rgb(0), Rgb(0), Rgb(4), Rgb(1)};  // the median is black
     exposures = flip_exposures(image);

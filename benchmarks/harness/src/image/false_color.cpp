@@ -10,6 +10,8 @@
 #include <cstdio>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace bdpt::harness {
 namespace {
@@ -118,7 +120,8 @@ io::DisplayImage false_color(const ErrorMap& map, const FalseColorOptions& optio
     Canvas canvas(width, map.height + strip_height * zoom);
     for (int y = 0; y < map.height; ++y) {
         for (int x = 0; x < map.width; ++x) {
-            const double part = std::clamp(map.at(x, y) / options.scale, 0.0, 1.0);
+            const double error = map.at(x, y);  // NaN has the first colour
+            const double part = error > 0.0 ? std::min(error / options.scale, 1.0) : 0.0;
             canvas.set(x, y, colors[static_cast<std::size_t>(std::lround(part * last))]);
         }
     }

@@ -43,11 +43,10 @@ void check_options(const ComparisonOptions& options)
     if (options.map_metric == Metric::psnr) {
         throw Error(ErrorCode::usage, "psnr is not defined for single pixels");
     }
-    if (options.tile_size < 1 || options.worst_tiles < 0) {
+    if (options.tile_size < 1 || options.worst_tiles < 1) {
         throw Error(ErrorCode::usage, "tile size " + std::to_string(options.tile_size) + ", " +
                                           std::to_string(options.worst_tiles) +
-                                          " worst tiles: a size of 1 and a number of 0 is the "
-                                          "least");
+                                          " worst tiles: at least 1 of both");
     }
 }
 

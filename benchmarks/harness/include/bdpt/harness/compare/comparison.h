@@ -17,7 +17,7 @@ struct ComparisonOptions {
     MetricOptions scale{};
     Metric map_metric = Metric::relmse;  ///< of the map and the worst tiles; not psnr
     int tile_size = 32;                  ///< [pixels] a side, at least 1
-    int worst_tiles = 5;                 ///< how many are reported at most
+    int worst_tiles = 5;                 ///< how many are reported at most; at least 1
     /// Where the pictures lie in the whole image [pixels]: for messages and reported tiles.
     int x0 = 0;
     int y0 = 0;

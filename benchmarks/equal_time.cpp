@@ -1,6 +1,7 @@
 // Error at equal time: renders a scene with each integrator for the same number of seconds, over
 // several seeds in turn (A B C A B C ...), and prints the error of each against a reference.
 
+#include <bdpt/harness/metrics/metric.h>
 #include <bdpt/io/gltf.h>
 #include <bdpt/render.h>
 
@@ -11,8 +12,6 @@
 #include <cstdio>
 #include <string>
 #include <vector>
-
-#include "relative_mse.h"
 
 namespace {
 
@@ -57,7 +56,9 @@ void measure(const Settings& settings)
     // their mean is a quarter of the whole.
     std::printf("reference: bdpt, %lld samples, %.1f s, relMSE about %.2e\n",
                 static_cast<long long>(settings.reference_samples), reference.seconds,
-                relative_mse(reference.film.develop_half(0), reference.film.develop_half(1)) / 4);
+                harness::evaluate(harness::Metric::relmse, reference.film.develop_half(0),
+                                  reference.film.develop_half(1)) /
+                    4);
 
     std::array<Row, 3> rows{Row{IntegratorKind::pt, "pt"}, Row{IntegratorKind::mis, "mis"},
                             Row{IntegratorKind::bdpt, "bdpt"}};
@@ -69,8 +70,9 @@ void measure(const Settings& settings)
             RenderControl control;
             control.time_limit = settings.seconds;
             const RenderResult result = render(scene, camera, options, control);
-            row.errors.push_back(relative_mse(result.film.develop(), truth) * result.seconds /
-                                 settings.seconds);
+            row.errors.push_back(
+                harness::evaluate(harness::Metric::relmse, result.film.develop(), truth) *
+                result.seconds / settings.seconds);
             row.samples.push_back(static_cast<double>(result.film.sample_count()));
         }
     }

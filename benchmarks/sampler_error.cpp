@@ -1,6 +1,7 @@
 // What the Sobol sampler brings and costs: error at equal samples and CPU time of whole renders on
 // one thread, against independent random numbers, in turn (A B A B ...).
 
+#include <bdpt/harness/metrics/metric.h>
 #include <bdpt/io/gltf.h>
 #include <bdpt/render.h>
 
@@ -12,8 +13,6 @@
 #include <exception>
 #include <string>
 #include <vector>
-
-#include "relative_mse.h"
 
 namespace {
 
@@ -60,7 +59,9 @@ void measure(const Settings& settings)
     // The squared difference of the halves has four times the variance of their mean.
     std::printf("reference: bdpt, %lld samples, relMSE about %.2e\n",
                 static_cast<long long>(settings.reference_samples),
-                relative_mse(reference.film.develop_half(0), reference.film.develop_half(1)) / 4);
+                harness::evaluate(harness::Metric::relmse, reference.film.develop_half(0),
+                                  reference.film.develop_half(1)) /
+                    4);
 
     struct Kind {
         IntegratorKind kind;
@@ -83,7 +84,8 @@ void measure(const Settings& settings)
                 const double begin = cpu_seconds();
                 const RenderResult result = render(scene, camera, options);
                 outcome.seconds.push_back(cpu_seconds() - begin);
-                outcome.errors.push_back(relative_mse(result.film.develop(), truth));
+                outcome.errors.push_back(
+                    harness::evaluate(harness::Metric::relmse, result.film.develop(), truth));
             }
         }
         std::printf("%-5s %14.3e %14.3e %14.2f %14.3f\n", integrator.name, median(sobol.errors),

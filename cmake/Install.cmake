@@ -7,6 +7,9 @@ set(libraries bdpt)
 if(BDPT_BUILD_IO)
   list(APPEND libraries bdpt_io)
 endif()
+if(BDPT_BUILD_HARNESS)
+  list(APPEND libraries bdpt_harness)
+endif()
 
 # Before 1.0 every minor version may break what was compiled with another.
 set_target_properties(${libraries} PROPERTIES VERSION ${PROJECT_VERSION}
@@ -37,6 +40,13 @@ if(BDPT_BUILD_IO)
   # bdpt_io looks for it there: lib/io/src/image/oiio_library.cpp
   install(TARGETS bdpt_oiio LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/bdpt"
           COMPONENT bdpt_runtime)
+endif()
+
+if(BDPT_BUILD_HARNESS)
+  bdpt_install_library(bdpt_harness harness bdptHarnessTargets)
+  set_property(TARGET bdpt_harness APPEND PROPERTY INSTALL_RPATH "$ORIGIN")
+  install(DIRECTORY benchmarks/harness/include/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
+          COMPONENT bdpt_development FILES_MATCHING PATTERN "*.h")
 endif()
 
 if(BDPT_BUILD_APPS)

@@ -14,6 +14,8 @@
 #include <vector>
 
 #include "arguments.h"
+#include "compare_arguments.h"
+#include "compare_command.h"
 #include "console.h"
 #include "help_formatter.h"
 #include "info_command.h"
@@ -27,6 +29,7 @@ constexpr const char* footer = R"(Examples:
   bdpt render scene.gltf -o out.exr
   bdpt render scene.glb -o out.exr -o preview.png --spp 256
   bdpt info scene.glb
+  bdpt compare out.exr reference.exr
 
 "bdpt render --help" has all options and the exit codes.)";
 
@@ -35,8 +38,10 @@ struct CommandLine {
     CLI::App app{"bdpt renders glTF 2.0 scenes by bidirectional path tracing.", "bdpt"};
     RenderWords render_words;
     InfoArguments info_arguments;
+    CompareWords compare_words;
     CLI::App* render = nullptr;
     CLI::App* info = nullptr;
+    CLI::App* compare = nullptr;
 };
 
 void describe(CommandLine& line)
@@ -49,6 +54,8 @@ void describe(CommandLine& line)
     add_render_options(*line.render, line.render_words);
     line.info = line.app.add_subcommand("info", "Say what a scene holds");
     add_info_options(*line.info, line.info_arguments);
+    line.compare = line.app.add_subcommand("compare", "Say how far pictures are from a reference");
+    add_compare_options(*line.compare, line.compare_words);
 }
 
 /// All long names of the options of `command`.
@@ -66,9 +73,10 @@ std::vector<std::string> option_names(const CLI::App& command)
 /// One line for what the parser did not like, with a hint.
 std::string explain(const CommandLine& line, const CLI::ParseError& error)
 {
-    const CLI::App* command = line.render->parsed() ? line.render
-                              : line.info->parsed() ? line.info
-                                                    : nullptr;
+    const CLI::App* command = line.render->parsed()    ? line.render
+                              : line.info->parsed()    ? line.info
+                              : line.compare->parsed() ? line.compare
+                                                       : nullptr;
     const std::string help =
         command != nullptr ? fmt::format("bdpt {} --help", command->get_name()) : "bdpt --help";
     const std::vector<std::string> extras = line.app.remaining(true);
@@ -77,8 +85,8 @@ std::string explain(const CommandLine& line, const CLI::ParseError& error)
     }
     const std::string& word = extras.front();
     if (command == nullptr && !word.starts_with("-")) {
-        return fmt::format("unknown command \"{}\": there are render and info; see \"{}\"", word,
-                           help);
+        return fmt::format("unknown command \"{}\": there are render, info and compare; see \"{}\"",
+                           word, help);
     }
     if (!word.starts_with("-")) {
         return fmt::format("unexpected argument \"{}\"; see \"{}\"", word, help);
@@ -102,6 +110,9 @@ int run(int argc, char** argv, Format format)
         const int code = static_cast<int>(ErrorCode::usage);
         report_error(format, code, explain(line, error));
         return code;
+    }
+    if (line.compare->parsed()) {
+        return run_compare(understand(line.compare_words));
     }
     return line.info->parsed() ? run_info(line.info_arguments)
                                : run_render(understand(line.render_words));

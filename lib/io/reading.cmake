@@ -8,8 +8,11 @@ target_sources(bdpt_io PRIVATE
   src/file/warnings.cpp
   # pictures
   src/image/environment.cpp
+  src/image/exr_channels.cpp
   src/image/exr_reader.cpp
+  src/image/hdr_reader.cpp
   src/image/oiio_library.cpp
+  src/image/read_image.cpp
   src/image/texels.cpp
   # glTF: checks before tinygltf
   src/gltf/extensions.cpp

@@ -30,6 +30,8 @@ ALLOWED = {
     "lib/io/src/oiio_module": [r"OpenImageIO/"],
     "apps": [r"glm/", r"CLI/", r"nlohmann/", r"fmt/", POSIX],
     "tests": [r"glm/", r"catch2/", r"embree[34]/", r"(oneapi/)?tbb/", FILE_LIBRARIES, POSIX, INTRINSICS],
+    "benchmarks/harness/include": [],
+    "benchmarks/harness/src": [r"glm/", r"nlohmann/", r"(oneapi/)?tbb/"],
     "benchmarks": [r"glm/", r"CLI/", r"benchmark/", r"embree[34]/", r"(oneapi/)?tbb/", POSIX, INTRINSICS],
 }
 # Area -> what it may include of our own by <bdpt/...>.
@@ -37,9 +39,9 @@ OWN = {
     "lib/include": r"bdpt/[a-z0-9_]+\.h",
     "lib/src": r"bdpt/[a-z0-9_]+\.h",
     "lib/io": r"bdpt/(io/)?[a-z0-9_]+\.h",
-    "apps": r"bdpt/(io/)?[a-z0-9_]+\.h",
-    "tests": r"bdpt/(io/)?[a-z0-9_]+\.h",
-    "benchmarks": r"bdpt/(io/)?[a-z0-9_]+\.h",
+    "apps": r"bdpt/(io/|harness/[a-z_]+/)?[a-z0-9_]+\.h",
+    "tests": r"bdpt/(io/|harness/[a-z_]+/)?[a-z0-9_]+\.h",
+    "benchmarks": r"bdpt/(io/|harness/[a-z_]+/)?[a-z0-9_]+\.h",
 }
 STANDARD = re.compile(r"[a-z_]+")  # <vector>; the C headers with .h are not ours to use
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"]+)"|<([^>]+)>)', re.MULTILINE)
@@ -65,11 +67,12 @@ def angle_error(path, header):
 
 def quoted_error(path, header):
     """What is wrong with `#include "header"` in the file `path`, or None."""
-    if path.startswith(("lib/include/", "lib/io/include/")):
+    if path.startswith(("lib/include/", "lib/io/include/", "benchmarks/harness/include/")):
         return f'is public: "{header}" must be a <bdpt/...> header'
     folder = header.split("/")[0]
     if not path.startswith("lib/src/"):
-        internal = folder in LAYERS and "/" in header and not path.startswith(("tests/", "benchmarks/"))
+        may_look_inside = path.startswith(("tests/", "benchmarks/")) and not path.startswith("benchmarks/harness/")
+        internal = folder in LAYERS and "/" in header and not may_look_inside
         return f'reaches into lib/src: "{header}"' if internal else None
     layer = path.split("/")[2]
     if layer not in LAYERS:

@@ -63,6 +63,7 @@ use_find_package() {
   grep "^bdpt_DIR:PATH=$prefix/" "$WORK/find_package/CMakeCache.txt" || fail "not from $prefix"
   expect_version "$WORK/find_package/render_box"
   "$WORK/find_package/read_sky" "$sky"
+  "$WORK/find_package/judge"
 }
 
 # compile PROGRAM SOURCE PACKAGE: as one does by hand. What is hidden in the program must not hide what
@@ -86,6 +87,8 @@ use_pkg_config() {
   expect_version ./render_box
   compile read_sky "$consumer/read_sky.cpp" bdpt_io
   ./read_sky "$sky"
+  compile judge "$consumer/judge.cpp" bdpt_harness
+  ./judge
 
   # The program in the README, with fewer pixels.
   awk '/^```cpp$/ {inside = 1; next} /^```$/ {inside = 0} inside' "$SOURCE/README.md" \

@@ -1,5 +1,6 @@
 #include "image/exr_reader.h"
 
+#include "image/exr_channels.h"
 #include "image/oiio_library.h"
 
 #include <bdpt/error.h>
@@ -17,7 +18,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <cstring>
 #include <exception>
@@ -60,40 +60,6 @@ private:
     std::size_t position_ = 0;
 };
 
-/// Names of the channels of one layer that together are colours.
-struct ColorChannels {
-    std::string prefix;      // of the layer, with a dot, or empty
-    bool luminance = false;  // Y instead of R, G, B
-    bool chroma = false;     // RY and BY beside Y
-};
-
-std::optional<ColorChannels> find_colors(const Imf::ChannelList& channels)
-{
-    const auto has = [&channels](const std::string& name) {
-        return channels.findChannel(name.c_str()) != nullptr;
-    };
-    // Every channel's prefix is a candidate; the empty one, if any, comes first.
-    std::vector<std::string> prefixes{""};
-    for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
-        const std::string name = channel.name();
-        const std::size_t dot = name.rfind('.');
-        if (dot != std::string::npos) {
-            prefixes.push_back(name.substr(0, dot + 1));
-        }
-    }
-    for (const std::string& prefix : prefixes) {
-        if (has(prefix + "R") && has(prefix + "G") && has(prefix + "B")) {
-            return ColorChannels{prefix, false, false};
-        }
-    }
-    for (const std::string& prefix : prefixes) {
-        if (has(prefix + "Y")) {
-            return ColorChannels{prefix, true, has(prefix + "RY") && has(prefix + "BY")};
-        }
-    }
-    return std::nullopt;
-}
-
 struct Window {
     int width = 0;
     int height = 0;
@@ -114,26 +80,23 @@ Window checked_size(const Imath::Box2i& box, std::size_t encoded, const ReadLimi
     return window;
 }
 
-/// Reads R, G, B or Y in single precision, whatever their type in the file.
+/// Reads the channels in single precision, whatever their type in the file.
 std::vector<Rgb> read_channels(Imf::InputFile& input, const ColorChannels& colors,
                                const Imath::Box2i& box, const Window& window)
 {
     std::vector<Rgb> pixels(
         static_cast<std::size_t>(window.width) * static_cast<std::size_t>(window.height),
         Rgb(0.0f));
-    const std::array<std::string, 3> names = colors.luminance
-                                                 ? std::array<std::string, 3>{"Y", "", ""}
-                                                 : std::array<std::string, 3>{"R", "G", "B"};
     Imf::FrameBuffer buffer;
     const std::size_t row = sizeof(Rgb) * static_cast<std::size_t>(window.width);
-    for (std::size_t c = 0; c < names.size() && !names[c].empty(); ++c) {
+    for (std::size_t c = 0; c < colors.names.size() && !colors.names[c].empty(); ++c) {
         auto* const base = reinterpret_cast<char*>(&pixels[0][static_cast<int>(c)]);
-        buffer.insert((colors.prefix + names[c]).c_str(),
+        buffer.insert(colors.names[c].c_str(),
                       Imf::Slice::Make(Imf::FLOAT, base, box, sizeof(Rgb), row));
     }
     input.setFrameBuffer(buffer);
     input.readPixels(box.min.y, box.max.y);
-    if (colors.luminance) {
+    if (colors.grey()) {
         for (Rgb& pixel : pixels) {
             pixel = Rgb(pixel[0]);
         }
@@ -187,7 +150,38 @@ Image place(const std::vector<Rgb>& pixels, const Imath::Box2i& data, const Imat
     return image;
 }
 
-Image read(ByteView file, const ReadLimits& limits, Warnings& warnings)
+/// The part of the display window that has data, with its corner at (0, 0).
+PixelRect filled_part(const Imath::Box2i& data, const Imath::Box2i& display)
+{
+    const auto size = [](int low, int high) { return std::max(high - low + 1, 0); };
+    const int left = std::max(data.min.x, display.min.x);
+    const int top = std::max(data.min.y, display.min.y);
+    PixelRect rect{.x0 = left - display.min.x, .y0 = top - display.min.y, .x1 = 0, .y1 = 0};
+    rect.x1 = rect.x0 + size(left, std::min(data.max.x, display.max.x));
+    rect.y1 = rect.y0 + size(top, std::min(data.max.y, display.max.y));
+    return rect;
+}
+
+/// The channels of `layer`, or those of the picture itself.
+ColorChannels choose_channels(const Imf::ChannelList& channels,
+                              const std::optional<std::string>& layer, Warnings& warnings)
+{
+    if (layer) {
+        return find_layer(channels, *layer);
+    }
+    const std::optional<ColorChannels> colors = find_colors(channels);
+    if (!colors) {
+        throw Error(ErrorCode::unsupported, "neither R, G, B nor Y channels");
+    }
+    if (!colors->prefix.empty()) {
+        warnings.add("only one layer is read",
+                     "layer " + colors->prefix.substr(0, colors->prefix.size() - 1));
+    }
+    return *colors;
+}
+
+ExrPicture read(ByteView file, const std::optional<std::string>& layer, const ReadLimits& limits,
+                Warnings& warnings)
 {
     MemoryStream stream(file);
     Imf::InputFile input(stream, 0);
@@ -195,22 +189,16 @@ Image read(ByteView file, const ReadLimits& limits, Warnings& warnings)
     if (header.hasType() && Imf::isDeepData(header.type())) {
         throw Error(ErrorCode::unsupported, "deep OpenEXR files are not supported");
     }
-    const std::optional<ColorChannels> colors = find_colors(header.channels());
-    if (!colors) {
-        throw Error(ErrorCode::unsupported, "neither R, G, B nor Y channels");
-    }
+    const ColorChannels colors = choose_channels(header.channels(), layer, warnings);
     const Imath::Box2i data = header.dataWindow();
     const Imath::Box2i display = header.displayWindow();
     const Window data_size = checked_size(data, file.size(), limits);
     const Window size = checked_size(display, file.size(), limits);
-    if (!colors->prefix.empty()) {
-        warnings.add("only one layer is read",
-                     "layer " + colors->prefix.substr(0, colors->prefix.size() - 1));
-    }
-    const std::vector<Rgb> pixels = colors->chroma
-                                        ? read_chroma(file, colors->prefix, data, data_size)
-                                        : read_channels(input, *colors, data, data_size);
-    return place(pixels, data, display, data_size, size);
+    const std::vector<Rgb> pixels = colors.chroma
+                                        ? read_chroma(file, colors.prefix, data, data_size)
+                                        : read_channels(input, colors, data, data_size);
+    return {.image = place(pixels, data, display, data_size, size),
+            .filled = filled_part(data, display)};
 }
 
 }  // namespace
@@ -220,10 +208,11 @@ bool is_exr(ByteView file)
     return file.size() >= 4 && Imf::isImfMagic(reinterpret_cast<const char*>(file.data()));
 }
 
-Image read_exr(ByteView file, const ReadLimits& limits, Warnings& warnings)
+ExrPicture read_exr(ByteView file, const std::optional<std::string>& layer,
+                    const ReadLimits& limits, Warnings& warnings)
 {
     try {
-        return read(file, limits, warnings);
+        return read(file, layer, limits, warnings);
     } catch (const Error&) {
         throw;
     } catch (const std::exception& error) {

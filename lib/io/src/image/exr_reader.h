@@ -5,18 +5,28 @@
 
 #include <bdpt/image.h>
 #include <bdpt/io/read_limits.h>
+#include <bdpt/pixel_rect.h>
+
+#include <optional>
+#include <string>
 
 namespace bdpt::io {
 
 /// Whether a file is OpenEXR, by its first bytes.
 [[nodiscard]] bool is_exr(ByteView file);
 
-/// Decodes the colours of the first part of an OpenEXR file as linear RGB: channels R, G, B, or Y
-/// with or without RY, BY, of the unnamed layer or else of the first that has them. The picture is
-/// the display window; black where there is no data.
+/// What an OpenEXR file shows: the display window, black where there is no data.
+struct ExrPicture {
+    Image image;
+    PixelRect filled;  ///< where there is data
+};
+
+/// Decodes a layer of the first part of an OpenEXR file as linear RGB: `find_layer`, or without a
+/// layer `find_colors`.
 ///
-/// Throws `Error`: invalid_input (broken, or over a limit), unsupported (deep data, other
-/// channels).
-[[nodiscard]] Image read_exr(ByteView file, const ReadLimits& limits, Warnings& warnings);
+/// Throws `Error`: not_found (no such layer), invalid_input (broken, or over a limit), unsupported
+/// (deep data, other channels).
+[[nodiscard]] ExrPicture read_exr(ByteView file, const std::optional<std::string>& layer,
+                                  const ReadLimits& limits, Warnings& warnings);
 
 }  // namespace bdpt::io

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <bdpt/export.h>
+#include <bdpt/image.h>
+#include <bdpt/io/read_limits.h>
+#include <bdpt/pixel_rect.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace bdpt::io {
+
+/// What to read of a picture's file, and how much at most.
+struct ImageOptions {
+    /// "albedo" reads albedo.R, albedo.G, albedo.B; X, Y, Z serve as well, and a single channel
+    /// gives grey. None: the picture itself, or else the first layer that has colours.
+    std::optional<std::string> layer{};
+    ReadLimits limits{};
+};
+
+/// What `read_image` read.
+struct LoadedImage {
+    Image image;       ///< the whole image, black where the file has no data
+    PixelRect filled;  ///< where it has data: all of it, or the part that was rendered
+    std::vector<std::string> warnings;  ///< one line each, without the file's name
+};
+
+/// Reads linear pixels from an OpenEXR (of halves or floats; the first part) or Radiance HDR file;
+/// which of the two it is, its first bytes say. Values are what the file has, also when they are
+/// negative, infinite or NaN. Alpha is ignored: colours are taken as they are.
+///
+/// Throws `Error`, whose message starts with the file's path: not_found (missing or unreadable; no
+/// such layer), invalid_input (broken, or over a limit), unsupported (neither format).
+[[nodiscard]] BDPT_EXPORT LoadedImage read_image(const std::filesystem::path& file,
+                                                 const ImageOptions& options = {});
+
+}  // namespace bdpt::io

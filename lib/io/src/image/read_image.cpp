@@ -1,0 +1,55 @@
+#include <bdpt/error.h>
+#include <bdpt/io/read_image.h>
+
+#include "file/read_file.h"
+#include "file/warnings.h"
+#include "image/exr_reader.h"
+#include "image/hdr_reader.h"
+
+#include <exception>
+#include <new>
+#include <utility>
+
+namespace bdpt::io {
+
+namespace {
+
+LoadedImage load(const std::filesystem::path& file, const ImageOptions& options)
+{
+    const Bytes bytes = read_file(file, options.limits.file_bytes);
+    if (is_exr(bytes)) {
+        Warnings warnings;
+        ExrPicture picture = read_exr(bytes, options.layer, options.limits, warnings);
+        return {.image = std::move(picture.image),
+                .filled = picture.filled,
+                .warnings = warnings.lines()};
+    }
+    if (!is_hdr(bytes)) {
+        throw Error(ErrorCode::unsupported, "neither OpenEXR nor Radiance HDR");
+    }
+    if (options.layer) {
+        throw Error(ErrorCode::not_found,
+                    "no layer \"" + *options.layer + "\": Radiance HDR files have none");
+    }
+    Image image = read_hdr(bytes, options.limits);
+    const PixelRect whole{.x0 = 0, .y0 = 0, .x1 = image.width, .y1 = image.height};
+    return {.image = std::move(image), .filled = whole, .warnings = {}};
+}
+
+}  // namespace
+
+LoadedImage read_image(const std::filesystem::path& file, const ImageOptions& options)
+{
+    const std::string prefix = file.string() + ": ";
+    try {
+        return load(file, options);
+    } catch (const Error& error) {
+        throw Error(error.code(), prefix + error.what());
+    } catch (const std::bad_alloc&) {
+        throw Error(ErrorCode::out_of_memory, prefix + "not enough memory");
+    } catch (const std::exception& error) {
+        throw Error(ErrorCode::internal, prefix + error.what());
+    }
+}
+
+}  // namespace bdpt::io

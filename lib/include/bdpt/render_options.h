@@ -77,6 +77,11 @@ struct RenderOptions {
     int light_paths = 1;
     /// Strategies that bdpt and lt leave out; the others share what they can make.
     std::vector<Strategy> disabled{};
+    /// Longest paths [edges], from 0 (none), whose strategies get images of their own; for bdpt and
+    /// lt. They are not clamped.
+    int strategy_depth = 0;
+    /// Bytes that these images may take at most; what they take grows with the square of the depth.
+    std::uint64_t strategy_memory = 4'000'000'000;
     /// Edges of a subpath after which Russian roulette may end it.
     int rr_start = std::numeric_limits<int>::max();
     int tile_size = 16;  ///< [pixels]; has no influence on the result

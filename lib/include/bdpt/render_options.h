@@ -52,7 +52,8 @@ struct SampleRange {
 };
 
 /// What to render but for scene and camera. Ranges: width, height and tile_size [1, 65536],
-/// max_depth [1, 4096], threads [0, 4096], samples within [0, 2^32 - 1] and not empty.
+/// max_depth [1, 4096], strategy_depth [0, 4096], threads [0, 4096], samples within [0, 2^32 - 1]
+/// and not empty.
 struct RenderOptions {
     IntegratorKind integrator = IntegratorKind::bdpt;
     Heuristic heuristic = Heuristic::power;

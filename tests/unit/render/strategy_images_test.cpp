@@ -188,6 +188,8 @@ TEST_CASE("an unweighted image is the picture by that strategy alone", "[strateg
     RenderOptions o = options();
     o.light_paths = GENERATE(1, 3);
     o.samples = {.begin = 0, .end = 64};
+    // With weights beside 1 for splats.
+    o.filter = {.kind = FilterKind::gaussian, .radius = 0.7f};
     const CameraDesc camera = thin_lens();
     const StrategyFilm film = render(scene, camera, o).strategies;
     REQUIRE(film.strategies().size() == 3 + 4 + 5 + 6);

@@ -20,16 +20,27 @@ enum class FileType { exr, png };
 
 std::optional<FileType> type_of(const fs::path& file)
 {
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (extension == ".exr") {
+    if (has_extension(file, ".exr")) {
         return FileType::exr;
     }
-    return extension == ".png" ? std::optional(FileType::png) : std::nullopt;
+    return has_extension(file, ".png") ? std::optional(FileType::png) : std::nullopt;
 }
 
 }  // namespace
+
+bool same_file(const fs::path& a, const fs::path& b)
+{
+    std::error_code missing;
+    return fs::weakly_canonical(a, missing) == fs::weakly_canonical(b, missing);
+}
+
+bool has_extension(const fs::path& file, std::string_view extension)
+{
+    std::string own = file.extension().string();
+    std::transform(own.begin(), own.end(), own.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return own == extension;
+}
 
 void check_outputs(std::span<const fs::path> outputs, std::span<const fs::path> inputs)
 {

@@ -183,6 +183,7 @@ void add_output(CLI::App& command, RenderWords& words)
                     "Write rays, paths and where the time went to this .json file")
         ->type_name("FILE")
         ->group(group);
+    add_strategy_options(command, words.strategies);
     command.add_flag("-q,--quiet", words.quiet, "Print nothing but errors")->group(group);
     command
         .add_flag("--json", words.json,
@@ -238,6 +239,7 @@ RenderArguments understand(const RenderWords& words)
         words.half ? io::ExrChannelType::half_float : io::ExrChannelType::single_float;
     result.storage = words.tiled ? io::ExrStorage::tiles : io::ExrStorage::scanlines;
     result.stats = words.stats;
+    result.strategies = strategy_files(words.strategies, result.options);
     result.format = words.json ? Format::json : Format::text;
     result.verbosity = words.quiet ? Verbosity::quiet : Verbosity::normal;
     return result;

@@ -13,6 +13,7 @@
 #include "console.h"
 #include "film_arguments.h"
 #include "lens_arguments.h"
+#include "strategy_files.h"
 #include "transport_arguments.h"
 #include "view.h"
 
@@ -42,6 +43,7 @@ struct RenderWords {
     int threads = 0;
     FilmWords film;
     std::optional<std::string> stats;
+    StrategyWords strategies;
     bool tiled = false;
     std::string seed = "0";
     bool half = false;
@@ -66,6 +68,7 @@ struct RenderArguments {
     io::ExrChannelType channel_type = io::ExrChannelType::single_float;
     io::ExrStorage storage = io::ExrStorage::scanlines;
     std::optional<std::filesystem::path> stats;  ///< where numbers about the render go
+    std::optional<StrategyFiles> strategies;     ///< where images of strategies go
     Format format = Format::text;
     Verbosity verbosity = Verbosity::normal;
 };

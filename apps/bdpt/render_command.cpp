@@ -1,5 +1,6 @@
 #include "render_command.h"
 
+#include <bdpt/io/tone_map.h>
 #include <bdpt/render.h>
 #include <bdpt/version.h>
 #include <fmt/core.h>
@@ -20,6 +21,7 @@
 #include "pictures.h"
 #include "stage.h"
 #include "stats_file.h"
+#include "strategy_files.h"
 #include "transport_arguments.h"
 
 namespace bdpt::app {
@@ -97,8 +99,7 @@ void announce(Console& console, const RenderArguments& arguments, const Stage& s
                              integrator_name(arguments.options.integrator), stage.camera.name));
 }
 
-RenderResult render_stage(const RenderArguments& arguments, const Stage& stage, Console& console,
-                          const std::stop_token& stop)
+RenderOptions options_for(const RenderArguments& arguments, const Stage& stage, Console& console)
 {
     // With --time alone, more samples than anyone has time for.
     constexpr std::int64_t no_limit = std::int64_t{1} << 31;
@@ -106,6 +107,20 @@ RenderResult render_stage(const RenderArguments& arguments, const Stage& stage, 
     options.width = stage.size.width;
     options.height = stage.size.height;
     options.samples = {0, arguments.goal.samples.value_or(no_limit)};
+    if (arguments.strategies) {
+        const StrategyDepth depth = strategy_depth(*arguments.strategies, options, stage.camera);
+        options.strategy_depth = depth.edges;
+        if (depth.warning) {
+            console.warning(*depth.warning);
+        }
+    }
+    return options;
+}
+
+RenderResult render_stage(const RenderArguments& arguments, const Stage& stage, Console& console,
+                          const std::stop_token& stop)
+{
+    const RenderOptions options = options_for(arguments, stage, console);
 
     RenderControl control;
     control.stop = stop;
@@ -182,11 +197,44 @@ ordered_json head_of_stats(const RenderArguments& arguments, const ordered_json&
     return stats;
 }
 
+/// Where pictures go, images of strategies too.
+std::vector<std::filesystem::path> all_pictures(const RenderArguments& arguments)
+{
+    std::vector<std::filesystem::path> files = arguments.outputs;
+    if (arguments.strategies) {
+        const auto more = arguments.strategies->both();
+        files.insert(files.end(), more.begin(), more.end());
+    }
+    return files;
+}
+
+/// Refuses, before anything is rendered, what could not be written. Returns all that will be.
+std::vector<std::filesystem::path> check_files(const RenderArguments& arguments)
+{
+    std::vector<std::filesystem::path> taken{arguments.file};
+    if (arguments.environment) {
+        taken.emplace_back(*arguments.environment);
+    }
+    check_outputs(arguments.outputs, taken);
+    taken.insert(taken.end(), arguments.outputs.begin(), arguments.outputs.end());
+    std::vector<std::filesystem::path> written = all_pictures(arguments);
+    if (arguments.strategies) {
+        check_strategy_files(*arguments.strategies, taken);
+        const auto more = arguments.strategies->both();
+        taken.insert(taken.end(), more.begin(), more.end());
+    }
+    if (arguments.stats) {
+        check_stats_file(*arguments.stats, taken);
+        written.push_back(*arguments.stats);
+    }
+    return written;
+}
+
 void report_done(Console& console, const RenderArguments& arguments, const RenderResult& result,
                  const PictureReport& pictures, std::optional<int> signal)
 {
     ordered_json outputs = ordered_json::array();
-    for (const std::filesystem::path& output : arguments.outputs) {
+    for (const std::filesystem::path& output : all_pictures(arguments)) {
         outputs.push_back(output.string());
         console.note(fmt::format("wrote {}: {} spp in {:.1f} s", output.string(),
                                  result.film.sample_count(), result.seconds));
@@ -203,18 +251,7 @@ void report_done(Console& console, const RenderArguments& arguments, const Rende
 
 int run_render(const RenderArguments& arguments)
 {
-    std::vector<std::filesystem::path> inputs{arguments.file};
-    if (arguments.environment) {
-        inputs.emplace_back(*arguments.environment);
-    }
-    check_outputs(arguments.outputs, inputs);
-    std::vector<std::filesystem::path> written = arguments.outputs;
-    if (arguments.stats) {
-        inputs.insert(inputs.end(), arguments.outputs.begin(), arguments.outputs.end());
-        check_stats_file(*arguments.stats, inputs);
-        written.push_back(*arguments.stats);
-    }
-
+    const std::vector<std::filesystem::path> written = check_files(arguments);
     Console console(arguments.format, arguments.verbosity);
     Interrupt interrupt(temporary_paths(written), [&console] {
         console.note("stopping after the pass in flight; interrupt again to end at once");
@@ -233,8 +270,12 @@ int run_render(const RenderArguments& arguments)
     const auto writing_start = std::chrono::steady_clock::now();
     const Image image = result.film.develop();
     tell_of_clamp(console, result.film, image);
-    const PictureReport pictures = write_pictures(
-        arguments.outputs, image, picture_options(arguments, stage, result, settings));
+    const PictureOptions options = picture_options(arguments, stage, result, settings);
+    const PictureReport pictures = write_pictures(arguments.outputs, image, options);
+    if (arguments.strategies) {
+        write_strategy_files(*arguments.strategies, image, result.strategies, options.exr,
+                             arguments.exposure.value_or(io::automatic_exposure(image)));
+    }
     const std::chrono::duration<double> writing = std::chrono::steady_clock::now() - writing_start;
     if (pictures.clamped_pixels > 0) {
         console.warning(

@@ -7,19 +7,14 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <system_error>
+
+#include "pictures.h"
 
 namespace bdpt::app {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
-
-bool same_file(const fs::path& a, const fs::path& b)
-{
-    std::error_code missing;
-    return fs::weakly_canonical(a, missing) == fs::weakly_canonical(b, missing);
-}
 
 ordered_json rays_json(const RayCounts& rays, double seconds)
 {

@@ -6,7 +6,9 @@
 #include <bdpt/render_options.h>
 #include <bdpt/render_stats.h>
 #include <bdpt/scene.h>
+#include <bdpt/strategy_film.h>
 
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <stop_token>
@@ -34,7 +36,8 @@ struct RenderControl {
 /// What render() gives back.
 struct RenderResult {
     Film film;
-    AovFilm aovs;  ///< of the same samples; empty if none were asked for
+    AovFilm aovs;             ///< of the same samples; empty if none were asked for
+    StrategyFilm strategies;  ///< of the same samples; empty if none were asked for
     RenderStats stats;
     SampleRange samples;  ///< those that are in `film`; fewer than asked for after a stop
     double seconds = 0.0;
@@ -43,9 +46,15 @@ struct RenderResult {
 /// Blocks until all samples are done, `control.stop` is requested or the time is up; at least one
 /// pass is always done. The result depends on scene, camera and options only, to the bit: not on
 /// threads, tiles or time. May be called from several threads at once, for the same scene too.
-/// Throws `Error`: usage for options out of range, invalid_input for a camera that is not usable.
+/// Throws `Error`: usage for options out of range and for images of strategies that would take more
+/// than `strategy_memory`, invalid_input for a camera that is not usable.
 [[nodiscard]] BDPT_EXPORT RenderResult render(const Scene& scene, const CameraDesc& camera,
                                               const RenderOptions& options,
                                               const RenderControl& control = {});
+
+/// Memory that the images of strategies of this render take [bytes], with the layers that they are
+/// developed to; 0 if none are asked for. Throws `Error` (usage) for options out of range.
+[[nodiscard]] BDPT_EXPORT std::uint64_t strategy_image_bytes(const RenderOptions& options,
+                                                             const CameraDesc& camera);
 
 }  // namespace bdpt

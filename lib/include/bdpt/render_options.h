@@ -52,7 +52,8 @@ struct SampleRange {
 };
 
 /// What to render but for scene and camera. Ranges: width, height and tile_size [1, 65536],
-/// max_depth [1, 4096], threads [0, 4096], samples within [0, 2^32 - 1] and not empty.
+/// max_depth [1, 4096], strategy_depth [0, 4096], threads [0, 4096], samples within [0, 2^32 - 1]
+/// and not empty.
 struct RenderOptions {
     IntegratorKind integrator = IntegratorKind::bdpt;
     Heuristic heuristic = Heuristic::power;
@@ -77,6 +78,11 @@ struct RenderOptions {
     int light_paths = 1;
     /// Strategies that bdpt and lt leave out; the others share what they can make.
     std::vector<Strategy> disabled{};
+    /// Longest paths [edges], from 0 (none), whose strategies get images of their own; for bdpt and
+    /// lt. They are not clamped.
+    int strategy_depth = 0;
+    /// Bytes that these images may take at most; what they take grows with the square of the depth.
+    std::uint64_t strategy_memory = 4'000'000'000;
     /// Edges of a subpath after which Russian roulette may end it.
     int rr_start = std::numeric_limits<int>::max();
     int tile_size = 16;  ///< [pixels]; has no influence on the result

@@ -33,7 +33,8 @@ BdptIntegrator::BdptIntegrator(const World& world, const Camera& camera,
       strategies_(options)
 {}
 
-RenderStats BdptIntegrator::render_tile(const Tile& tile, SampleRange samples, Film& film) const
+RenderStats BdptIntegrator::render_tile(const Tile& tile, SampleRange samples,
+                                        const Films& films) const
 {
     Scratch scratch{.light_path = Subpath(strategies_.light_vertices()),
                     .camera_path = Subpath(strategies_.camera_vertices()),
@@ -46,11 +47,12 @@ RenderStats BdptIntegrator::render_tile(const Tile& tile, SampleRange samples, F
         for (int x = tile.x_begin; x < tile.x_end; ++x) {
             for (std::int64_t index = samples.begin; index < samples.end; ++index) {
                 Sampler sampler(options_.sampler, options_.seed, x, y, index);
-                Sample sample{.index = index, .sampler = sampler, .film = film};
+                const Vec2 center(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+                Sample sample{.index = index, .sampler = sampler, .films = films, .pixel = center};
                 sampler.start(SampleUse::film);
                 const Vec2 raster = filter_.sample_raster(x, y, sampler.next_2d());
                 // Light paths outside of a crop can splat into it.
-                const bool wanted = film.region().contains(x, y);
+                const bool wanted = films.film.region().contains(x, y);
                 const int camera_vertices = wanted ? strategies_.camera_vertices() : 1;
                 trace_camera_subpath(
                     world_, camera_, raster,
@@ -61,7 +63,8 @@ RenderStats BdptIntegrator::render_tile(const Tile& tile, SampleRange samples, F
                 splat_light(sample, scratch);
                 for (int i = 0; i < options_.light_paths; ++i) {
                     Sampler own = light_sampler(options_, sampler, x, y, index, i);
-                    Sample light_sample{.index = index, .sampler = own, .film = film};
+                    Sample light_sample{
+                        .index = index, .sampler = own, .films = films, .pixel = center};
                     trace_light_subpath(world_, camera_, light_limits, own, scratch.light_path);
                     scratch.stats.rays.light += scratch.light_path.rays();
                     ++scratch.stats.paths.light;
@@ -70,7 +73,7 @@ RenderStats BdptIntegrator::render_tile(const Tile& tile, SampleRange samples, F
                 }
                 if (wanted) {
                     ++scratch.stats.paths.camera;
-                    film.add_sample(x, y, index, radiance);
+                    films.film.add_sample(x, y, index, radiance);
                 }
             }
         }
@@ -81,19 +84,19 @@ RenderStats BdptIntegrator::render_tile(const Tile& tile, SampleRange samples, F
 Rgb BdptIntegrator::estimate_camera_path(Sample& sample, Scratch& scratch) const
 {
     Rgb radiance(0.0f);
-    const auto add = [&](const std::optional<Contribution>& found) {
+    const auto add = [&](Strategy strategy, const std::optional<Contribution>& found) {
         if (found) {
-            radiance += found->weight * found->unweighted;
+            radiance += measure(strategy, *found, sample);
         }
     };
     for (int t = 2; t <= scratch.camera_path.size(); ++t) {
         const auto camera = scratch.camera_path.first(t);
         if (strategies_.uses(0, t)) {
-            add(hit_light(world_, camera, scratch.weigher));
+            add({.s = 0, .t = t}, hit_light(world_, camera, scratch.weigher));
         }
         if (t <= options_.max_depth && strategies_.uses(1, t)) {
-            add(connect_to_light(world_, camera, sample.sampler, scratch.weigher,
-                                 scratch.stats.rays));
+            add({.s = 1, .t = t}, connect_to_light(world_, camera, sample.sampler, scratch.weigher,
+                                                   scratch.stats.rays));
         }
     }
     return radiance;
@@ -112,7 +115,7 @@ Rgb BdptIntegrator::join_paths(const Sample& sample, Scratch& scratch) const
                 world_, scratch.light_path.first(s), scratch.camera_path.first(t),
                 sample.sampler.segment_key(s, t), scratch.weigher, scratch.stats.rays);
             if (found) {
-                radiance += found->weight / strategies_.count(s, t) * found->unweighted;
+                radiance += measure({.s = s, .t = t}, *found, sample);
             }
         }
     }
@@ -130,7 +133,7 @@ void BdptIntegrator::splat_light_path(Sample& sample, Scratch& scratch) const
         const auto splat = connect_to_lens(world_, camera_, path.first(s), sample.sampler,
                                            scratch.weigher, scratch.stats.rays);
         if (splat) {
-            add_splat(*splat, strategies_.count(s, 1), static_cast<std::uint32_t>(2 * s), sample);
+            add_splat({.s = s, .t = 1}, *splat, static_cast<std::uint32_t>(2 * s), sample);
         }
     }
     for (const LensCrossing& crossing : path.crossings()) {
@@ -139,8 +142,7 @@ void BdptIntegrator::splat_light_path(Sample& sample, Scratch& scratch) const
             continue;
         }
         if (const auto splat = hit_lens(world_, path, crossing, scratch.weigher)) {
-            add_splat(*splat, strategies_.count(s, 0), static_cast<std::uint32_t>(2 * s + 1),
-                      sample);
+            add_splat({.s = s, .t = 0}, *splat, static_cast<std::uint32_t>(2 * s + 1), sample);
         }
     }
 }
@@ -153,18 +155,36 @@ void BdptIntegrator::splat_light(Sample& sample, Scratch& scratch) const
     const auto splat =
         connect_light_to_lens(world_, camera_, sample.sampler, scratch.weigher, scratch.stats.rays);
     if (splat) {
-        add_splat(*splat, strategies_.count(1, 1), 1, sample);
+        add_splat({.s = 1, .t = 1}, *splat, 1, sample);
     }
 }
 
-/// `dimension` tells the splats of one light path apart.
-void BdptIntegrator::add_splat(const Splat& splat, float sample_count, std::uint32_t dimension,
+Rgb BdptIntegrator::measure(Strategy strategy, const Contribution& found,
+                            const Sample& sample) const
+{
+    const float count = strategies_.count(strategy.s, strategy.t);
+    const Rgb weighted = found.weight / count * found.unweighted;
+    if (!sample.films.strategies.empty()) {
+        sample.films.strategies.add(strategy, sample.pixel,
+                                    {.weighted = weighted, .unweighted = found.unweighted / count});
+    }
+    return weighted;
+}
+
+void BdptIntegrator::add_splat(Strategy strategy, const Splat& splat, std::uint32_t dimension,
                                Sample& sample) const
 {
     sample.sampler.start(SampleUse::film, dimension);
     const SplatTarget target = filter_.choose_pixel(splat.raster, sample.sampler.next_2d());
-    const float weight = target.weight * splat.contribution.weight / sample_count;
-    sample.film.add_splat(target.raster, sample.index, weight * splat.contribution.unweighted);
+    const float count = strategies_.count(strategy.s, strategy.t);
+    const auto& [unweighted, mis_weight] = splat.contribution;
+    const Rgb weighted = target.weight * mis_weight / count * unweighted;
+    sample.films.film.add_splat(target.raster, sample.index, weighted);
+    if (!sample.films.strategies.empty()) {
+        sample.films.strategies.add(
+            strategy, target.raster,
+            {.weighted = weighted, .unweighted = target.weight / count * unweighted});
+    }
 }
 
 }  // namespace bdpt

@@ -13,7 +13,7 @@ class BdptIntegrator final : public Integrator {
 public:
     BdptIntegrator(const World& world, const Camera& camera, const RenderOptions& options);
     [[nodiscard]] RenderStats render_tile(const Tile& tile, SampleRange samples,
-                                          Film& film) const override;
+                                          const Films& films) const override;
     [[nodiscard]] bool splats() const override { return true; }
 
 private:
@@ -28,7 +28,8 @@ private:
     struct Sample {
         std::int64_t index;
         Sampler& sampler;
-        Film& film;
+        const Films& films;
+        Vec2 pixel;  // centre [pixels]
     };
 
     /// s <= 1: radiance that the camera path brings by itself.
@@ -39,7 +40,11 @@ private:
     void splat_light_path(Sample& sample, Scratch& scratch) const;
     /// s = t = 1
     void splat_light(Sample& sample, Scratch& scratch) const;
-    void add_splat(const Splat& splat, float sample_count, std::uint32_t dimension,
+    /// What `found` counts in the pixel of the sample; notes it in the strategy's images.
+    [[nodiscard]] Rgb measure(Strategy strategy, const Contribution& found,
+                              const Sample& sample) const;
+    /// `dimension` tells the splats of one light path apart.
+    void add_splat(Strategy strategy, const Splat& splat, std::uint32_t dimension,
                    Sample& sample) const;
 
     const World& world_;

@@ -3,6 +3,7 @@
 #include <bdpt/film.h>
 #include <bdpt/render_options.h>
 #include <bdpt/render_stats.h>
+#include <bdpt/strategy_film.h>
 
 #include <memory>
 
@@ -19,15 +20,21 @@ struct Tile {
     int y_end = 0;
 };
 
+/// Where an integrator adds what it finds.
+struct Films {
+    Film& film;
+    StrategyFilm& strategies;  ///< empty unless images of strategies are asked for
+};
+
 /// A light transport algorithm. Const while rendering: every thread calls the same object.
 class Integrator {
 public:
     virtual ~Integrator() = default;
-    /// Adds the samples of all pixels of `tile` that are in the film's region to `film`, and what
+    /// Adds the samples of all pixels of `tile` that are in the film's region to `films`, and what
     /// the light paths of all of its pixels splat anywhere. Tiles of an integrator without splats
     /// lie inside of the region. Returns the work that it was.
     [[nodiscard]] virtual RenderStats render_tile(const Tile& tile, SampleRange samples,
-                                                  Film& film) const = 0;
+                                                  const Films& films) const = 0;
     /// Does it splat on pixels that are not its own?
     [[nodiscard]] virtual bool splats() const = 0;
 };

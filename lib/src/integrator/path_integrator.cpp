@@ -26,7 +26,8 @@ PathIntegrator::PathIntegrator(const World& world, const Camera& camera,
     : world_(world), camera_(camera), options_(options), filter_(options.filter)
 {}
 
-RenderStats PathIntegrator::render_tile(const Tile& tile, SampleRange samples, Film& film) const
+RenderStats PathIntegrator::render_tile(const Tile& tile, SampleRange samples,
+                                        const Films& films) const
 {
     RenderStats stats;
     for (int y = tile.y_begin; y < tile.y_end; ++y) {
@@ -35,7 +36,7 @@ RenderStats PathIntegrator::render_tile(const Tile& tile, SampleRange samples, F
                 Sampler sampler(options_.sampler, options_.seed, x, y, index);
                 sampler.start(SampleUse::film);
                 const Vec2 raster = filter_.sample_raster(x, y, sampler.next_2d());
-                film.add_sample(x, y, index, estimate(raster, sampler, stats.rays));
+                films.film.add_sample(x, y, index, estimate(raster, sampler, stats.rays));
                 ++stats.paths.camera;
             }
         }

@@ -16,7 +16,7 @@ class PathIntegrator final : public Integrator {
 public:
     PathIntegrator(const World& world, const Camera& camera, const RenderOptions& options);
     [[nodiscard]] RenderStats render_tile(const Tile& tile, SampleRange samples,
-                                          Film& film) const override;
+                                          const Films& films) const override;
     [[nodiscard]] bool splats() const override { return false; }
 
 private:

@@ -82,6 +82,13 @@ void check_options(const RenderOptions& options)
         check_range("disabled strategy's s", strategy.s, 0, max_path_edges + 1);
         check_range("disabled strategy's t", strategy.t, 0, max_path_edges + 1);
     }
+    check_range("longest path with images of strategies", options.strategy_depth, 0,
+                max_path_edges);
+    if (options.strategy_depth > 0 && options.integrator != IntegratorKind::bdpt &&
+        options.integrator != IntegratorKind::lt) {
+        throw Error(ErrorCode::usage,
+                    "images of strategies (strategy_depth) need the integrator bdpt or lt");
+    }
     check_range("tile size", options.tile_size, 1, max_film_side);
     check_range("number of threads", options.threads, 0, max_threads);
 }

@@ -7,6 +7,7 @@
 #include "render/aov_pass.h"
 #include "render/check_options.h"
 #include "render/flush_denormals.h"
+#include "render/strategy_images.h"
 #include "scene/world.h"
 
 #include <tbb/blocked_range2d.h>
@@ -63,8 +64,9 @@ void render_pass(const Work& work, const RenderOptions& options, SampleRange sam
                                     .x_end = std::min(x + options.tile_size, area.x1),
                                     .y_begin = y,
                                     .y_end = std::min(y + options.tile_size, area.y1)};
+                    const Films films{.film = result.film, .strategies = result.strategies};
                     RenderStats& stats = stats_of_threads.local();
-                    stats += work.integrator.render_tile(tile, samples, result.film);
+                    stats += work.integrator.render_tile(tile, samples, films);
                     if (result.aovs.needs_hits()) {
                         stats += work.aov_pass.render_tile(tile, samples, result.aovs);
                     }
@@ -74,6 +76,7 @@ void render_pass(const Work& work, const RenderOptions& options, SampleRange sam
         tbb::simple_partitioner{});
     stats_of_threads.combine_each([&](const RenderStats& stats) { result.stats += stats; });
     result.film.count_samples(samples.begin, samples.end);
+    result.strategies.count_samples(samples.end - samples.begin);
 }
 
 }  // namespace
@@ -83,6 +86,7 @@ RenderResult render(const Scene& scene, const CameraDesc& camera_desc, const Ren
 {
     check_options(options);
     check_camera(camera_desc);
+    check_strategy_memory(options, camera_desc);
     const auto start = std::chrono::steady_clock::now();
     const PixelRect region = options.crop.value_or(whole_image(options));
     // What counts for a pixel of the region can lie beside it, even beside the image.
@@ -107,11 +111,13 @@ RenderResult render(const Scene& scene, const CameraDesc& camera_desc, const Ren
         .region = region,
         .splats = integrator->splats() ? SplatImage::present : SplatImage::absent,
         .clamp = options.clamp};
-    RenderResult result{.film = Film(layout),
-                        .aovs = AovFilm(region, options.aovs),
-                        .stats = {},
-                        .samples = {.begin = options.samples.begin, .end = options.samples.begin},
-                        .seconds = 0.0};
+    RenderResult result{
+        .film = Film(layout),
+        .aovs = AovFilm(region, options.aovs),
+        .strategies = StrategyFilm(region, strategies_with_images(options, camera_desc)),
+        .stats = {},
+        .samples = {.begin = options.samples.begin, .end = options.samples.begin},
+        .seconds = 0.0};
     std::int64_t pass_size = 1;
     while (result.samples.end < options.samples.end) {
         const std::int64_t begin = result.samples.end;

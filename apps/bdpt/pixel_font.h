@@ -1,0 +1,30 @@
+#pragma once
+
+#include <bdpt/io/tone_map.h>
+
+#include <string_view>
+
+namespace bdpt::app {
+
+// A font of 5 x 7 dots with what the labels of contact sheets are made of: digits and some small
+// letters. It depends on no file, so that labels look the same everywhere.
+
+/// Dots from one line's top to its bottom, and from one letter to the next.
+constexpr int glyph_height = 7;
+constexpr int glyph_advance = 6;
+
+/// Is there a glyph for `letter`? All others are drawn as spaces.
+[[nodiscard]] bool has_glyph(char letter);
+
+/// Where and how large a text is drawn.
+struct TextPlace {
+    int x = 0;  ///< top left corner [pixels]
+    int y = 0;
+    int dot = 1;  ///< side of a dot [pixels]
+};
+
+/// `image` with `text` in light grey; what is outside of it is cut off.
+[[nodiscard]] io::DisplayImage with_text(io::DisplayImage image, std::string_view text,
+                                         const TextPlace& place);
+
+}  // namespace bdpt::app

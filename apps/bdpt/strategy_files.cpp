@@ -1,0 +1,147 @@
+#include "strategy_files.h"
+
+#include <bdpt/error.h>
+#include <bdpt/io/output_file.h>
+#include <bdpt/io/png.h>
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdint>
+
+#include "arguments.h"
+#include "contact_sheet.h"
+#include "transport_arguments.h"
+
+namespace bdpt::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int default_depth = 5;     // [edges]
+constexpr int greatest_depth = 100;  // beyond, nobody could look at the sheet
+
+double gigabytes(std::uint64_t bytes)
+{
+    return static_cast<double>(bytes) * 1e-9;
+}
+
+std::uint64_t bytes_up_to(int depth, RenderOptions options, const CameraDesc& camera)
+{
+    options.strategy_depth = depth;
+    return strategy_image_bytes(options, camera);
+}
+
+/// The greatest depth up to `wanted` whose images fit into memory; 0 when none does.
+int affordable_depth(int wanted, const RenderOptions& options, const CameraDesc& camera)
+{
+    int depth = wanted;
+    while (depth > 0 && bytes_up_to(depth, options, camera) > options.strategy_memory) {
+        --depth;
+    }
+    return depth;
+}
+
+}  // namespace
+
+void add_strategy_options(CLI::App& command, StrategyWords& words)
+{
+    const auto group = "Output";
+    command
+        .add_option("--strategies", words.file,
+                    "Write images of all strategies (bdpt, lt) to this .exr: layers like s02t03, "
+                    "the share that it has in the picture, and s02t03.unweighted, what it finds by "
+                    "itself; and beside it a .png with all of them")
+        ->type_name("FILE")
+        ->group(group);
+    command
+        .add_option("--strategy-depth", words.depth,
+                    fmt::format("Longest paths in edges that --strategies shows. {} if not given, "
+                                "or what 4 GB of memory are enough for",
+                                default_depth))
+        ->check(CLI::Range(1, greatest_depth))
+        ->type_name("N")
+        ->group(group);
+}
+
+std::optional<StrategyFiles> strategy_files(const StrategyWords& words,
+                                            const RenderOptions& options)
+{
+    if (!words.file) {
+        if (words.depth) {
+            reject("--strategy-depth", fmt::format("{}", *words.depth),
+                   "--strategies FILE.exr with it");
+        }
+        return std::nullopt;
+    }
+    const fs::path file = *words.file;
+    if (!has_extension(file, ".exr")) {
+        reject("--strategies", *words.file, "a file that is named .exr");
+    }
+    if (options.integrator != IntegratorKind::bdpt && options.integrator != IntegratorKind::lt) {
+        reject("--strategies", *words.file,
+               fmt::format("--integrator bdpt or lt with it, not {}",
+                           integrator_name(options.integrator))
+                   .c_str());
+    }
+    return StrategyFiles{
+        .layers = file, .sheet = fs::path(file).replace_extension(".png"), .depth = words.depth};
+}
+
+void check_strategy_files(const StrategyFiles& files, std::span<const fs::path> others)
+{
+    for (const fs::path& file : files.both()) {
+        for (const fs::path& other : others) {
+            if (same_file(file, other)) {
+                throw Error(
+                    ErrorCode::usage,
+                    fmt::format(
+                        "--strategies \"{}\": {} is an input or another output",
+                        files.layers.string(),
+                        file == files.layers ? "it" : "the sheet " + file.string() + " beside it"));
+            }
+        }
+        io::check_writable(file);
+    }
+}
+
+StrategyDepth strategy_depth(const StrategyFiles& files, RenderOptions options,
+                             const CameraDesc& camera)
+{
+    const int wanted = std::min(files.depth.value_or(default_depth), options.max_depth);
+    const std::uint64_t bytes = bytes_up_to(wanted, options, camera);
+    if (bytes == 0) {
+        throw Error(ErrorCode::usage,
+                    fmt::format("--strategies \"{}\": no strategy that is used makes paths of up "
+                                "to {} edges (--strategy-depth)",
+                                files.layers.string(), wanted));
+    }
+    const int depth = affordable_depth(wanted, options, camera);
+    if (depth == wanted) {
+        return {.edges = wanted, .warning = {}};
+    }
+    const std::string figures = fmt::format(
+        "--strategies \"{}\": images of paths of up to {} edges take {:.1f} GB, more than the "
+        "limit of {:.1f} GB",
+        files.layers.string(), wanted, gigabytes(bytes), gigabytes(options.strategy_memory));
+    const bool any = depth > 0 && bytes_up_to(depth, options, camera) > 0;
+    if (files.depth || !any) {
+        throw Error(ErrorCode::usage,
+                    figures + (any ? fmt::format("; --strategy-depth {} takes less", depth)
+                                   : "; a smaller --size or --crop takes less"));
+    }
+    return {.edges = depth,
+            .warning = fmt::format("{}: those of up to {} edges are made (--strategy-depth)",
+                                   figures, depth)};
+}
+
+void write_strategy_files(const StrategyFiles& files, const Image& image,
+                          const StrategyFilm& strategies, const io::ExrOptions& options,
+                          float exposure)
+{
+    io::write_exr(files.layers, image, strategies.develop(), options);
+    io::write_png(files.sheet, contact_sheet(strategies, exposure),
+                  {.exposure = exposure, .metadata = options.metadata});
+}
+
+}  // namespace bdpt::app

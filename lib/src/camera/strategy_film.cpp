@@ -1,0 +1,150 @@
+#include <bdpt/error.h>
+#include <bdpt/strategy_film.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace bdpt {
+namespace {
+
+std::size_t area(const PixelRect& region)
+{
+    return static_cast<std::size_t>(region.width()) * static_cast<std::size_t>(region.height());
+}
+
+void add(std::array<ExactSum, 3>& sums, Rgb value) noexcept
+{
+    const auto sound = [](float x) { return x >= 0.0f && x <= std::numeric_limits<float>::max(); };
+    if (!sound(value.r) || !sound(value.g) || !sound(value.b)) {
+        return;
+    }
+    for (int c = 0; c < 3; ++c) {
+        sums[static_cast<std::size_t>(c)].add(std::min(value[c], ExactSum::max_value));
+    }
+}
+
+void add(std::array<ExactSum, 3>& sums, const std::array<ExactSum, 3>& others) noexcept
+{
+    for (std::size_t c = 0; c < 3; ++c) {
+        sums[c].add(others[c]);
+    }
+}
+
+std::string two_digits(int number)
+{
+    return (number < 10 ? "0" : "") + std::to_string(number);
+}
+
+Layer to_layer(const Image& image, std::string name)
+{
+    Layer layer{.name = std::move(name),
+                .channels = "RGB",
+                .width = image.width,
+                .height = image.height,
+                .values = {}};
+    layer.values.reserve(3 * image.pixels.size());
+    for (const Rgb& pixel : image.pixels) {
+        layer.values.insert(layer.values.end(), {pixel.r, pixel.g, pixel.b});
+    }
+    return layer;
+}
+
+}  // namespace
+
+std::string strategy_name(Strategy strategy)
+{
+    return "s" + two_digits(strategy.s) + "t" + two_digits(strategy.t);
+}
+
+StrategyFilm::StrategyFilm(const PixelRect& region, std::span<const Strategy> strategies)
+    : region_(region), strategies_(strategies.begin(), strategies.end())
+{
+    for (const auto [s, t] : strategies_) {
+        stride_ = std::max({stride_, s + 1, t + 1});
+    }
+    const std::size_t size = strategies_.size() * area(region_);
+    pixels_.resize(size);
+    begins_.assign(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(stride_), size);
+    std::size_t begin = 0;
+    for (const auto [s, t] : strategies_) {
+        begins_[static_cast<std::size_t>(s * stride_ + t)] = begin;
+        begin += area(region_);
+    }
+}
+
+std::size_t StrategyFilm::begin_of(Strategy strategy) const noexcept
+{
+    const auto [s, t] = strategy;
+    return s < stride_ && t < stride_ ? begins_[static_cast<std::size_t>(s * stride_ + t)]
+                                      : pixels_.size();
+}
+
+void StrategyFilm::add(Strategy strategy, Vec2 raster, const StrategyShare& share) noexcept
+{
+    const std::size_t begin = begin_of(strategy);
+    const bool inside =
+        raster.x >= static_cast<float>(region_.x0) && raster.x < static_cast<float>(region_.x1) &&
+        raster.y >= static_cast<float>(region_.y0) && raster.y < static_cast<float>(region_.y1);
+    if (begin == pixels_.size() || !inside) {
+        return;
+    }
+    const auto x = static_cast<std::size_t>(static_cast<int>(raster.x) - region_.x0);
+    const auto y = static_cast<std::size_t>(static_cast<int>(raster.y) - region_.y0);
+    Pixel& pixel = pixels_[begin + y * static_cast<std::size_t>(region_.width()) + x];
+    bdpt::add(pixel.weighted, share.weighted);
+    bdpt::add(pixel.unweighted, share.unweighted);
+}
+
+void StrategyFilm::merge(const StrategyFilm& other)
+{
+    if (region_ != other.region_ || strategies_ != other.strategies_) {
+        throw Error(ErrorCode::usage,
+                    "images of strategies to merge differ in their region or in the strategies");
+    }
+    for (std::size_t i = 0; i < pixels_.size(); ++i) {
+        bdpt::add(pixels_[i].weighted, other.pixels_[i].weighted);
+        bdpt::add(pixels_[i].unweighted, other.pixels_[i].unweighted);
+    }
+    samples_ += other.samples_;
+}
+
+Image StrategyFilm::develop(Strategy strategy, Sum3 Pixel::*sums) const
+{
+    const std::size_t begin = begin_of(strategy);
+    if (begin == pixels_.size()) {
+        throw Error(ErrorCode::usage, "no images of strategy " + strategy_name(strategy));
+    }
+    Image image{region_.width(), region_.height(), std::vector<Rgb>(area(region_), Rgb(0.0f))};
+    for (std::size_t i = 0; samples_ > 0 && i < image.pixels.size(); ++i) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            image.pixels[i][static_cast<int>(c)] = static_cast<float>(
+                (pixels_[begin + i].*sums)[c].value() / static_cast<double>(samples_));
+        }
+    }
+    return image;
+}
+
+Image StrategyFilm::unweighted(Strategy strategy) const
+{
+    return develop(strategy, &Pixel::unweighted);
+}
+
+Image StrategyFilm::weighted(Strategy strategy) const
+{
+    return develop(strategy, &Pixel::weighted);
+}
+
+std::vector<Layer> StrategyFilm::develop() const
+{
+    std::vector<Layer> layers;
+    layers.reserve(2 * strategies_.size());
+    for (const Strategy& strategy : strategies_) {
+        const std::string name = strategy_name(strategy);
+        layers.push_back(to_layer(weighted(strategy), name));
+        layers.push_back(to_layer(unweighted(strategy), name + ".unweighted"));
+    }
+    return layers;
+}
+
+}  // namespace bdpt

@@ -1,0 +1,75 @@
+#include "render/strategy_images.h"
+
+#include "path/strategy_set.h"
+#include "render/check_options.h"
+
+#include <bdpt/error.h>
+#include <bdpt/render.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+
+namespace bdpt {
+namespace {
+
+/// Only a finite lens is hit; parallel rays see no point of a light directly.
+bool camera_allows(const CameraDesc& camera, Strategy strategy)
+{
+    const bool perspective = camera.projection == Projection::perspective;
+    if (strategy.t == 0) {
+        return perspective && camera.lens_radius > 0.0f;
+    }
+    return perspective || strategy != Strategy{.s = 1, .t = 1};
+}
+
+std::string megabytes(std::uint64_t bytes)
+{
+    constexpr std::uint64_t megabyte = 1'000'000;
+    return std::to_string((bytes + megabyte - 1) / megabyte) + " MB";
+}
+
+}  // namespace
+
+std::vector<Strategy> strategies_with_images(const RenderOptions& options, const CameraDesc& camera)
+{
+    std::vector<Strategy> result;
+    if (options.strategy_depth == 0) {
+        return result;
+    }
+    const StrategySet used(options);
+    const int longest = std::min(options.strategy_depth, options.max_depth);
+    for (int edges = 1; edges <= longest; ++edges) {
+        for (int s = 0; s <= edges + 1; ++s) {
+            const Strategy strategy{.s = s, .t = edges + 1 - s};
+            if (used.uses(s, strategy.t) && camera_allows(camera, strategy)) {
+                result.push_back(strategy);
+            }
+        }
+    }
+    return result;
+}
+
+std::uint64_t strategy_image_bytes(const RenderOptions& options, const CameraDesc& camera)
+{
+    check_options(options);
+    const PixelRect region = options.crop.value_or(
+        PixelRect{.x0 = 0, .y0 = 0, .x1 = options.width, .y1 = options.height});
+    return StrategyFilm::bytes_per_pixel * static_cast<std::uint64_t>(region.width()) *
+           static_cast<std::uint64_t>(region.height()) *
+           strategies_with_images(options, camera).size();
+}
+
+void check_strategy_memory(const RenderOptions& options, const CameraDesc& camera)
+{
+    const std::uint64_t bytes = strategy_image_bytes(options, camera);
+    if (bytes > options.strategy_memory) {
+        throw Error(ErrorCode::usage, "images of strategies up to " +
+                                          std::to_string(options.strategy_depth) +
+                                          " edges (strategy_depth) take " + megabytes(bytes) +
+                                          ", more than the limit (strategy_memory) of " +
+                                          megabytes(options.strategy_memory));
+    }
+}
+
+}  // namespace bdpt

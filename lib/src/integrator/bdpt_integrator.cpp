@@ -161,8 +161,11 @@ void BdptIntegrator::splat_light(Sample& sample, Scratch& scratch) const
 void BdptIntegrator::add_splat(const Splat& splat, float sample_count, std::uint32_t dimension,
                                Sample& sample) const
 {
-    sample.sampler.start(SampleUse::film, dimension);
-    const SplatTarget target = filter_.choose_pixel(splat.raster, sample.sampler.next_2d());
+    SplatTarget target{.raster = splat.raster};
+    if (!filter_.is_pixel()) {
+        sample.sampler.start(SampleUse::film, dimension);
+        target = filter_.choose_pixel(splat.raster, sample.sampler.next_2d());
+    }
     const float weight = target.weight * splat.contribution.weight / sample_count;
     sample.film.add_splat(target.raster, sample.index, weight * splat.contribution.unweighted);
 }

@@ -164,7 +164,7 @@ Bsdf Material::bsdf(const ShadingPoint& point) const noexcept
 {
     const Rgb base = base_color({.uv = point.uv, .color = point.color});
     if (unlit_) {
-        return {point.ng, Frame::from_normal(shading_normal(point)),
+        return {point.ng, Frame::from_normal(shading_normal(point)), point.wo,
                 GltfBsdf(glm::clamp(base, 0.0f, 1.0f))};
     }
     GltfParameters surface = surface_;
@@ -183,7 +183,8 @@ Bsdf Material::bsdf(const ShadingPoint& point) const noexcept
     if (transmission_map_) {
         surface.transmission *= transmission_map_->lookup(point.uv).x;
     }
-    return {point.ng, Frame::from_normal(shading_normal(point)), GltfBsdf(surface, *albedo_)};
+    return {point.ng, Frame::from_normal(shading_normal(point)), point.wo,
+            GltfBsdf(surface, *albedo_)};
 }
 
 Rgb Material::emission(const TexturePoint& point) const noexcept

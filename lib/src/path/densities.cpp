@@ -22,6 +22,14 @@ bool can_be_seen_directly(const Light& light, const Camera& camera)
     return !light.is_delta() && !light.is_infinite() && camera.is_perspective();
 }
 
+AreaPdf next_event_density(const World& world, const PathVertex& x0, const SegmentEnd& x1)
+{
+    const LightPoint point{.p = x0.end.p, .ng = x0.end.ng, .barycentrics = x0.barycentrics};
+    const LightSet& lights = world.lights();
+    return lights[*x0.light].pdf_incident(x1.p, point) *
+           lights.receiver_probability(*x0.light, x1.p);
+}
+
 LightDensities light_densities(const World& world, const PathVertex& x0, const SegmentEnd& x1)
 {
     const LightSet& lights = world.lights();
@@ -33,8 +41,7 @@ LightDensities light_densities(const World& world, const PathVertex& x0, const S
     const LightPoint point{.p = x0.end.p, .ng = x0.end.ng, .barycentrics = x0.barycentrics};
     const float cosine = std::abs(dot(x1.ng, to_light));
     return {.emit = light.pdf_position(point) * lights.emission_probability(*x0.light),
-            .next_event =
-                light.pdf_incident(x1.p, point) * lights.receiver_probability(*x0.light, x1.p),
+            .next_event = next_event_density(world, x0, x1),
             .to_next = infinite ? to_area(world.bounding_sphere().pdf_disk(), cosine)
                                 : to_area(light.pdf_direction(x0.end.ng, -to_light), cosine,
                                           distance_squared)};

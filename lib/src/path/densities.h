@@ -18,6 +18,10 @@ struct LightDensities {
     AreaPdf to_next;     ///< x_1 sampled from x_0 by a light path
 };
 
+/// x_0 on light `x0.light`, sampled from x_1 by next-event estimation.
+[[nodiscard]] AreaPdf next_event_density(const World& world, const PathVertex& x0,
+                                         const SegmentEnd& x1);
+
 /// `x0` is a vertex on light `x0.light`.
 [[nodiscard]] LightDensities light_densities(const World& world, const PathVertex& x0,
                                              const SegmentEnd& x1);

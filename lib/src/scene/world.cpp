@@ -173,7 +173,8 @@ SurfacePoint World::surface_point(const RayHit& hit, Vec3 direction) const noexc
         .tangent = normal_uv_set ? mesh.tangent(hit.triangle, hit.barycentrics, *normal_uv_set)
                                  : Vec4(0.0f),
         .uv = at.uv,
-        .color = at.color};
+        .color = at.color,
+        .wo = -direction};
 
     const BoundedPoint point = mesh.point(hit.triangle, hit.barycentrics);
     SurfacePoint result{

@@ -56,6 +56,7 @@ RenderStats BdptIntegrator::render_tile(const Tile& tile, SampleRange samples, F
                     world_, camera_, raster,
                     {.max_vertices = camera_vertices, .rr_start = options_.rr_start}, sampler,
                     scratch.camera_path);
+                scratch.weigher.begin_camera_path(scratch.camera_path.all());
                 scratch.stats.rays.camera += scratch.camera_path.rays();
                 Rgb radiance = wanted ? estimate_camera_path(sample, scratch) : Rgb(0.0f);
                 splat_light(sample, scratch);
@@ -63,6 +64,7 @@ RenderStats BdptIntegrator::render_tile(const Tile& tile, SampleRange samples, F
                     Sampler own = light_sampler(options_, sampler, x, y, index, i);
                     Sample light_sample{.index = index, .sampler = own, .film = film};
                     trace_light_subpath(world_, camera_, light_limits, own, scratch.light_path);
+                    scratch.weigher.begin_light_path(scratch.light_path.all());
                     scratch.stats.rays.light += scratch.light_path.rays();
                     ++scratch.stats.paths.light;
                     splat_light_path(light_sample, scratch);

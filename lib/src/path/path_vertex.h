@@ -81,6 +81,7 @@ public:
     [[nodiscard]] int size() const { return static_cast<int>(size_); }
     [[nodiscard]] int capacity() const { return static_cast<int>(vertices_.size()); }
     [[nodiscard]] PathVertex& operator[](int i) { return vertices_[static_cast<std::size_t>(i)]; }
+    [[nodiscard]] std::span<const PathVertex> all() const { return first(size()); }
     /// The first `count` vertices.
     [[nodiscard]] std::span<const PathVertex> first(int count) const
     {

@@ -92,7 +92,8 @@ private:
     void measure_alpha();
     void measure_emission();
 
-    GltfParameters surface_;  ///< the factors, which textures multiply
+    GltfParameters surface_;         ///< the factors, which textures multiply
+    std::optional<GltfBsdf> plain_;  ///< of a surface on which nothing varies
     Rgb emission_{0.0f};
     Rgb mean_emission_{0.0f};
     Rgb absorption_{0.0f};

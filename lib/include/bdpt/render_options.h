@@ -77,8 +77,8 @@ struct RenderOptions {
     int light_paths = 1;
     /// Strategies that bdpt and lt leave out; the others share what they can make.
     std::vector<Strategy> disabled{};
-    /// Edges of a subpath after which Russian roulette may end it.
-    int rr_start = std::numeric_limits<int>::max();
+    /// Edges of a subpath after which Russian roulette may end it; `max_depth` or more: never.
+    int rr_start = 3;
     int tile_size = 16;  ///< [pixels]; has no influence on the result
     int threads = 0;     ///< 0: one for each hardware thread; has no influence on the result
     std::uint64_t seed = 0;

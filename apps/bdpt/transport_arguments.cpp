@@ -141,7 +141,7 @@ void add_limits(CLI::App& command, TransportWords& words, const char* group)
         ->group(group);
     command
         .add_option("--rr-start", words.rr_start,
-                    "Russian roulette may end subpaths after this many edges. Never if not given")
+                    "Russian roulette may end subpaths after this many edges; 3 if not given")
         ->check(CLI::Range(1, longest_path))
         ->type_name("N")
         ->group(group);
@@ -236,7 +236,8 @@ nlohmann::ordered_json transport_json(const RenderOptions& options)
                                   {"heuristic", name_of(heuristics, options.heuristic)},
                                   {"max_depth", options.max_depth},
                                   {"min_depth", options.min_depth},
-                                  {"light_paths", options.light_paths}};
+                                  {"light_paths", options.light_paths},
+                                  {"rr_start", options.rr_start}};
     const auto add = [&](const char* name, int limit) {
         if (limit != unlimited) {
             result[name] = limit;
@@ -244,7 +245,6 @@ nlohmann::ordered_json transport_json(const RenderOptions& options)
     };
     add("max_camera_depth", options.max_camera_depth);
     add("max_light_depth", options.max_light_depth);
-    add("rr_start", options.rr_start);
     for (const Strategy& strategy : options.disabled) {
         result["disabled"].push_back(fmt::format("s{}t{}", strategy.s, strategy.t));
     }

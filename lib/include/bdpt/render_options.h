@@ -83,8 +83,8 @@ struct RenderOptions {
     int strategy_depth = 0;
     /// Bytes that these images may take at most; what they take grows with the square of the depth.
     std::uint64_t strategy_memory = 4'000'000'000;
-    /// Edges of a subpath after which Russian roulette may end it.
-    int rr_start = std::numeric_limits<int>::max();
+    /// Edges of a subpath after which Russian roulette may end it; `max_depth` or more: never.
+    int rr_start = 3;
     int tile_size = 16;  ///< [pixels]; has no influence on the result
     int threads = 0;     ///< 0: one for each hardware thread; has no influence on the result
     std::uint64_t seed = 0;

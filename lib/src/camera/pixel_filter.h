@@ -22,6 +22,8 @@ public:
     explicit PixelFilter(const FilterOptions& options);
 
     [[nodiscard]] float radius() const { return radius_; }
+    /// Does each raster position count for the pixel that it lies in, and no other?
+    [[nodiscard]] bool is_pixel() const { return is_pixel_; }
     /// Raster position of a camera sample of pixel (x, y), by the density h. It can lie beside the
     /// image. `u` is uniform in [0, 1)^2.
     [[nodiscard]] Vec2 sample_raster(int x, int y, Vec2 u) const noexcept;

@@ -58,6 +58,7 @@ RenderStats BdptIntegrator::render_tile(const Tile& tile, SampleRange samples,
                     world_, camera_, raster,
                     {.max_vertices = camera_vertices, .rr_start = options_.rr_start}, sampler,
                     scratch.camera_path);
+                scratch.weigher.begin_camera_path(scratch.camera_path.all());
                 scratch.stats.rays.camera += scratch.camera_path.rays();
                 Rgb radiance = wanted ? estimate_camera_path(sample, scratch) : Rgb(0.0f);
                 splat_light(sample, scratch);
@@ -66,6 +67,7 @@ RenderStats BdptIntegrator::render_tile(const Tile& tile, SampleRange samples,
                     Sample light_sample{
                         .index = index, .sampler = own, .films = films, .pixel = center};
                     trace_light_subpath(world_, camera_, light_limits, own, scratch.light_path);
+                    scratch.weigher.begin_light_path(scratch.light_path.all());
                     scratch.stats.rays.light += scratch.light_path.rays();
                     ++scratch.stats.paths.light;
                     splat_light_path(light_sample, scratch);
@@ -174,8 +176,11 @@ Rgb BdptIntegrator::measure(Strategy strategy, const Contribution& found,
 void BdptIntegrator::add_splat(Strategy strategy, const Splat& splat, std::uint32_t dimension,
                                Sample& sample) const
 {
-    sample.sampler.start(SampleUse::film, dimension);
-    const SplatTarget target = filter_.choose_pixel(splat.raster, sample.sampler.next_2d());
+    SplatTarget target{.raster = splat.raster};
+    if (!filter_.is_pixel()) {
+        sample.sampler.start(SampleUse::film, dimension);
+        target = filter_.choose_pixel(splat.raster, sample.sampler.next_2d());
+    }
     const float count = strategies_.count(strategy.s, strategy.t);
     const auto& [unweighted, mis_weight] = splat.contribution;
     const Rgb weighted = target.weight * mis_weight / count * unweighted;

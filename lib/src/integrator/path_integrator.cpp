@@ -82,17 +82,16 @@ Rgb PathIntegrator::estimate(Vec2 raster, Sampler& sampler, RayCounts& rays) con
         if (depth == options_.max_depth) {
             break;
         }
-        const Vec3 wo = -ray.direction;
         const auto vertex = static_cast<std::uint32_t>(depth + 1);
         if (point->bsdf.connectible() && depth + 1 >= options_.min_depth) {
             sampler.start(SampleUse::next_event, vertex);
             radiance +=
-                beta * sample_light(*point, wo, sampler.segment_key(1, depth + 1), sampler, rays);
+                beta * sample_light(*point, sampler.segment_key(1, depth + 1), sampler, rays);
         }
         sampler.start(SampleUse::camera_walk, vertex);
         const Vec2 u_direction = sampler.next_2d();
         const auto scattered =
-            point->bsdf.sample(wo, sampler.next_1d(), u_direction, TransportMode::radiance);
+            point->bsdf.sample(sampler.next_1d(), u_direction, TransportMode::radiance);
         if (!scattered || is_black(scattered->weight)) {
             break;
         }
@@ -159,8 +158,8 @@ Rgb PathIntegrator::emission(const Ray& ray, LightId light, const LightPoint& hi
     return radiance * bsdf_weight(used.value, pdf.value);
 }
 
-Rgb PathIntegrator::sample_light(const SurfacePoint& point, Vec3 wo, SegmentKey segment,
-                                 Sampler& sampler, RayCounts& rays) const
+Rgb PathIntegrator::sample_light(const SurfacePoint& point, SegmentKey segment, Sampler& sampler,
+                                 RayCounts& rays) const
 {
     const Vec2 u_position = sampler.next_2d();
     const auto choice = world_.lights().choose_for_receiver(point.end.p, sampler.next_fine());
@@ -175,7 +174,7 @@ Rgb PathIntegrator::sample_light(const SurfacePoint& point, Vec3 wo, SegmentKey 
     if (!incident) {
         return Rgb(0.0f);
     }
-    const BsdfEval f = point.bsdf.eval(wo, incident->wi, TransportMode::radiance);
+    const BsdfEval f = point.bsdf.eval(incident->wi, TransportMode::radiance);
     Rgb value = f.f_cos * incident->weight / choice->probability;
     if (is_black(value)) {
         return Rgb(0.0f);

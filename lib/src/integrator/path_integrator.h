@@ -25,8 +25,8 @@ private:
     /// Radiance that the ray brings from a light it hit, weighed against light sampling.
     [[nodiscard]] Rgb emission(const Ray& ray, LightId light, const LightPoint& hit,
                                Rgb radiance) const;
-    [[nodiscard]] Rgb sample_light(const SurfacePoint& point, Vec3 wo, SegmentKey segment,
-                                   Sampler& sampler, RayCounts& rays) const;
+    [[nodiscard]] Rgb sample_light(const SurfacePoint& point, SegmentKey segment, Sampler& sampler,
+                                   RayCounts& rays) const;
     /// Weights of a light sample and of a BSDF sample that find the same point of a light, by their
     /// densities.
     [[nodiscard]] float light_weight(float light_pdf, float bsdf_pdf) const;

@@ -2,7 +2,6 @@
 
 #include <glm/geometric.hpp>
 
-#include <cmath>
 #include <type_traits>
 
 namespace bdpt {
@@ -10,64 +9,58 @@ namespace {
 
 static_assert(std::is_trivially_copyable_v<Bsdf>);
 
-/// One direction against both normals.
-struct Cosines {
-    float geometric;
-    float shading;
-
-    /// Light neither leaks through the surface nor comes from below it.
-    [[nodiscard]] bool agree() const { return geometric * shading > 0.0f; }
-};
-
-/// What shading normals do to importance but not to radiance [Veach 1997, sec. 5.3]; exactly 1
-/// where the normals are equal.
-[[nodiscard]] float adjoint_factor(const Cosines& wo, const Cosines& wi)
+/// By how much a cosine to the geometric normal is greater than that to the shading normal; 0 where
+/// they differ in sign, for light neither leaks through a surface nor comes from below it.
+[[nodiscard]] float cosine_ratio(float geometric, float shading)
 {
-    return std::abs((wo.shading * wi.geometric) / (wo.geometric * wi.shading));
+    return geometric * shading > 0.0f ? geometric / shading : 0.0f;
 }
 
 }  // namespace
 
-Bsdf::Bsdf(Vec3 ng, const Frame& shading, const GltfBsdf& model)
-    : shading_(shading), ng_(ng), model_(model)
+Bsdf::Bsdf(Vec3 ng, const Frame& shading, Vec3 wo, const GltfBsdf& model) noexcept
+    : shading_(shading),
+      ng_(ng),
+      local_wo_(shading.to_local(wo)),
+      ratio_o_(cosine_ratio(dot(wo, ng), local_wo_.z)),
+      from_(model.side(local_wo_.z)),
+      model_(model)
 {}
 
-BsdfEval Bsdf::eval(Vec3 wo, Vec3 wi, TransportMode mode) const noexcept
+// Shading normals change importance, but not radiance, by the quotient of the ratios of both
+// directions [Veach 1997, sec. 5.3]; it is exactly 1 where the normals are equal.
+
+BsdfEval Bsdf::eval(Vec3 wi, TransportMode mode) const noexcept
 {
-    const Vec3 local_wo = shading_.to_local(wo);
     const Vec3 local_wi = shading_.to_local(wi);
-    const Cosines cos_o{dot(wo, ng_), local_wo.z};
-    const Cosines cos_i{dot(wi, ng_), local_wi.z};
-    if (!cos_o.agree() || !cos_i.agree()) {
+    const float ratio_i = cosine_ratio(dot(wi, ng_), local_wi.z);
+    if (ratio_o_ == 0.0f || ratio_i == 0.0f) {
         return {};
     }
-    BsdfEval value = model_.eval(local_wo, local_wi, mode);
+    BsdfEval value = model_.eval(from_, local_wo_, local_wi, mode);
     if (mode == TransportMode::importance) {
-        value.f_cos *= adjoint_factor(cos_o, cos_i);
+        value.f_cos *= ratio_i / ratio_o_;
     }
     return value;
 }
 
-std::optional<BsdfSample> Bsdf::sample(Vec3 wo, float u_lobe, Vec2 u,
-                                       TransportMode mode) const noexcept
+std::optional<BsdfSample> Bsdf::sample(float u_lobe, Vec2 u, TransportMode mode) const noexcept
 {
-    const Vec3 local_wo = shading_.to_local(wo);
-    const Cosines cos_o{dot(wo, ng_), local_wo.z};
-    if (!cos_o.agree()) {
+    if (ratio_o_ == 0.0f) {
         return std::nullopt;
     }
-    std::optional<BsdfSample> sampled = model_.sample(local_wo, u_lobe, u, mode);
+    std::optional<BsdfSample> sampled = model_.sample(from_, local_wo_, u_lobe, u, mode);
     if (!sampled) {
         return std::nullopt;
     }
     const float local_cos = sampled->wi.z;
     sampled->wi = shading_.to_world(sampled->wi);
-    const Cosines cos_i{dot(sampled->wi, ng_), local_cos};
-    if (!cos_i.agree()) {
+    const float ratio_i = cosine_ratio(dot(sampled->wi, ng_), local_cos);
+    if (ratio_i == 0.0f) {
         return std::nullopt;
     }
     if (mode == TransportMode::importance) {
-        sampled->weight *= adjoint_factor(cos_o, cos_i);
+        sampled->weight *= ratio_i / ratio_o_;
     }
     return sampled;
 }

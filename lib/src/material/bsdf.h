@@ -8,19 +8,20 @@
 
 namespace bdpt {
 
-/// A scattering model placed at a surface point: world-space directions in, world-space directions
-/// out; both point away from the surface. The one place that knows of geometric versus shading
-/// normals. A small trivially copyable value that lives inside a path vertex.
+/// A scattering model placed at a surface point and seen from one direction: world-space directions
+/// in, world-space directions out; all point away from the surface. The one place that knows of
+/// geometric versus shading normals. What follows from `wo` alone is worked out once, for all the
+/// joins of a path vertex. A trivially copyable value that lives inside a vertex.
 class Bsdf {
 public:
     Bsdf() = default;
     /// `ng` and `shading.z` are unit vectors on the front side of the surface (for a solid body:
-    /// its outside) and in one hemisphere.
-    Bsdf(Vec3 ng, const Frame& shading, const GltfBsdf& model);
+    /// its outside) and in one hemisphere. `wo` is unit, towards the previous vertex of the walk.
+    Bsdf(Vec3 ng, const Frame& shading, Vec3 wo, const GltfBsdf& model) noexcept;
 
-    /// `wo` points towards the previous vertex of the walk whose mode is given.
-    [[nodiscard]] BsdfEval eval(Vec3 wo, Vec3 wi, TransportMode mode) const noexcept;
-    [[nodiscard]] std::optional<BsdfSample> sample(Vec3 wo, float u_lobe, Vec2 u,
+    /// `mode` is that of the walk which came from wo.
+    [[nodiscard]] BsdfEval eval(Vec3 wi, TransportMode mode) const noexcept;
+    [[nodiscard]] std::optional<BsdfSample> sample(float u_lobe, Vec2 u,
                                                    TransportMode mode) const noexcept;
     /// Has a lobe that is not delta: strategies can join here.
     [[nodiscard]] bool connectible() const noexcept { return model_.has_smooth_lobe(); }
@@ -32,6 +33,9 @@ public:
 private:
     Frame shading_;
     Vec3 ng_{0.0f, 0.0f, 1.0f};
+    Vec3 local_wo_{0.0f};
+    float ratio_o_ = 0.0f;  ///< wo.ng / wo.ns; 0 where they differ in sign
+    GltfBsdf::Side from_;
     GltfBsdf model_;
 };
 

@@ -79,8 +79,7 @@ GltfBsdf::GltfBsdf(const GltfParameters& parameters, const SpecularAlbedo& albed
     has_specular_ = f90_ > 0.0f || metallic_ > 0.0f || transmission_ > 0.0f || solid_;
 }
 
-/// `z` is that of a direction.
-GltfBsdf::Side GltfBsdf::side_of(float z) const noexcept
+GltfBsdf::Side GltfBsdf::side(float z) const noexcept
 {
     if (diffuse_weight_ == 0.0f || inside(z)) {
         return {has_specular_ ? 1.0f : 0.0f, 0.0f};
@@ -157,18 +156,15 @@ BsdfEval GltfBsdf::eval_microfacets(Vec3 wo, Vec3 wi, TransportMode mode) const 
             SolidAnglePdf{choice * lobe.pdf_rev}};
 }
 
-BsdfEval GltfBsdf::eval(Vec3 wo, Vec3 wi, TransportMode mode) const noexcept
+BsdfEval GltfBsdf::eval(const Side& from, Vec3 wo, Vec3 wi, TransportMode mode) const noexcept
 {
-    if (grazes(wo) || grazes(wi)) {
-        return {};
-    }
-    return eval_from(side_of(wo.z), wo, wi, mode);
+    return grazes(wo) || grazes(wi) ? BsdfEval{} : eval_lobes(from, wo, wi, mode);
 }
 
-BsdfEval GltfBsdf::eval_from(const Side& from, Vec3 wo, Vec3 wi, TransportMode mode) const noexcept
+BsdfEval GltfBsdf::eval_lobes(const Side& from, Vec3 wo, Vec3 wi, TransportMode mode) const noexcept
 {
     BsdfEval sum;
-    const Side to = side_of(wi.z);
+    const Side to = side(wi.z);
     if (has_specular_ && alpha_ >= smooth_alpha) {
         sum = eval_microfacets(wo, wi, mode);
         sum.pdf_fwd.value *= from.specular_choice;
@@ -222,17 +218,15 @@ std::optional<BsdfSample> GltfBsdf::sample_smooth(Vec3 wo, float u_share, float 
     const float compression = mode == TransportMode::radiance ? n_o * n_o / (n_i * n_i) : 1.0f;
     return BsdfSample{wi, share.transmitted * (compression / (specular_choice * choice)),
                       SolidAnglePdf{specular_choice * choice * std::abs(wi.z) * n_i * n_i},
-                      SolidAnglePdf{side_of(wi.z).specular_choice * choice * cos_o * n_o * n_o},
-                      true};
+                      SolidAnglePdf{side(wi.z).specular_choice * choice * cos_o * n_o * n_o}, true};
 }
 
-std::optional<BsdfSample> GltfBsdf::sample(Vec3 wo, float u_lobe, Vec2 u,
+std::optional<BsdfSample> GltfBsdf::sample(const Side& from, Vec3 wo, float u_lobe, Vec2 u,
                                            TransportMode mode) const noexcept
 {
     if (grazes(wo)) {
         return std::nullopt;
     }
-    const Side from = side_of(wo.z);
     const float specular_choice = from.specular_choice;
     std::optional<Vec3> wi;
     if (u_lobe < specular_choice) {
@@ -248,7 +242,7 @@ std::optional<BsdfSample> GltfBsdf::sample(Vec3 wo, float u_lobe, Vec2 u,
     if (!wi || grazes(*wi)) {
         return std::nullopt;
     }
-    const BsdfEval value = eval_from(from, wo, *wi, mode);
+    const BsdfEval value = eval_lobes(from, wo, *wi, mode);
     if (!(value.pdf_fwd.value >= std::numeric_limits<float>::min())) {
         return std::nullopt;
     }

@@ -48,10 +48,29 @@ public:
     /// Parameters are clamped to [0, 1]. `albedo` has the refractive index; it must outlive this.
     GltfBsdf(const GltfParameters& parameters, const SpecularAlbedo& albedo);
 
-    [[nodiscard]] BsdfEval eval(Vec3 wo, Vec3 wi, TransportMode mode) const noexcept;
+    /// What follows from one direction alone.
+    struct Side {
+        float specular_choice = 0.0f;   ///< probability of the microfacet lobes
+        float base_transmitted = 0.0f;  ///< share of light that reaches the base, 1 - E
+    };
+    /// `z` is that of the direction.
+    [[nodiscard]] Side side(float z) const noexcept;
+
+    /// `from` is the side of wo.
+    [[nodiscard]] BsdfEval eval(const Side& from, Vec3 wo, Vec3 wi,
+                                TransportMode mode) const noexcept;
     /// `u_lobe` and `u` are uniform in [0, 1).
-    [[nodiscard]] std::optional<BsdfSample> sample(Vec3 wo, float u_lobe, Vec2 u,
+    [[nodiscard]] std::optional<BsdfSample> sample(const Side& from, Vec3 wo, float u_lobe, Vec2 u,
                                                    TransportMode mode) const noexcept;
+    [[nodiscard]] BsdfEval eval(Vec3 wo, Vec3 wi, TransportMode mode) const noexcept
+    {
+        return eval(side(wo.z), wo, wi, mode);
+    }
+    [[nodiscard]] std::optional<BsdfSample> sample(Vec3 wo, float u_lobe, Vec2 u,
+                                                   TransportMode mode) const noexcept
+    {
+        return sample(side(wo.z), wo, u_lobe, u, mode);
+    }
 
     /// Scatters into a lobe that is not delta.
     [[nodiscard]] bool has_smooth_lobe() const noexcept
@@ -61,12 +80,6 @@ public:
     [[nodiscard]] Rgb base_color() const noexcept { return base_color_; }
 
 private:
-    /// What follows from one direction alone.
-    struct Side {
-        float specular_choice;   ///< probability of the microfacet lobes
-        float base_transmitted;  ///< share of light that reaches the base, 1 - E
-    };
-
     /// What becomes of light at one microfacet.
     struct Shares {
         Rgb reflected;
@@ -76,11 +89,10 @@ private:
 
     [[nodiscard]] bool inside(float z) const noexcept { return solid_ && z < 0.0f; }
     [[nodiscard]] float index_at(float z) const noexcept { return inside(z) ? ior_ : 1.0f; }
-    [[nodiscard]] Side side_of(float z) const noexcept;
     [[nodiscard]] Shares shares(float cos_outer) const noexcept;
     [[nodiscard]] float cos_outer_of(float cos_microfacet, float z) const noexcept;
-    [[nodiscard]] BsdfEval eval_from(const Side& from, Vec3 wo, Vec3 wi,
-                                     TransportMode mode) const noexcept;
+    [[nodiscard]] BsdfEval eval_lobes(const Side& from, Vec3 wo, Vec3 wi,
+                                      TransportMode mode) const noexcept;
     [[nodiscard]] BsdfEval eval_microfacets(Vec3 wo, Vec3 wi, TransportMode mode) const noexcept;
     [[nodiscard]] std::optional<Vec3> sample_microfacets(Vec3 wo, float u_share,
                                                          Vec2 u) const noexcept;

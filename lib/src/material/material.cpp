@@ -93,6 +93,11 @@ Material::Material(const MaterialDesc& desc, std::span<const TexelImage> images,
       specular_color_map_(make_texture(desc.specular_color_texture, images, Encoding::srgb)),
       transmission_map_(make_texture(desc.transmission_texture, images, Encoding::linear))
 {
+    const bool varies = base_color_map_ || metallic_roughness_map_ || specular_map_ ||
+                        specular_color_map_ || transmission_map_;
+    if (!varies && !unlit_) {
+        plain_.emplace(surface_, *albedo_);
+    }
     measure_alpha();
     measure_emission();
 }
@@ -146,10 +151,13 @@ Rgb Material::base_color(const TexturePoint& point) const noexcept
 /// glTF 2.0, 3.9.3: x along the tangent, y along cross(normal, tangent) times the handedness.
 Vec3 Material::shading_normal(const ShadingPoint& point) const noexcept
 {
+    if (!normal_map_) {
+        return point.ns;
+    }
     const Vec3 along(point.tangent);
     const Vec3 tangent = along - dot(along, point.ns) * point.ns;
     const float length2 = dot(tangent, tangent);
-    if (!normal_map_ || !(length2 > 0.0f)) {
+    if (!(length2 > 0.0f)) {
         return point.ns;
     }
     const Vec3 t = tangent / std::sqrt(length2);
@@ -162,9 +170,12 @@ Vec3 Material::shading_normal(const ShadingPoint& point) const noexcept
 
 Bsdf Material::bsdf(const ShadingPoint& point) const noexcept
 {
+    if (plain_ && point.color == Vec4(1.0f)) {
+        return {point.ng, Frame::from_normal(shading_normal(point)), point.wo, *plain_};
+    }
     const Rgb base = base_color({.uv = point.uv, .color = point.color});
     if (unlit_) {
-        return {point.ng, Frame::from_normal(shading_normal(point)),
+        return {point.ng, Frame::from_normal(shading_normal(point)), point.wo,
                 GltfBsdf(glm::clamp(base, 0.0f, 1.0f))};
     }
     GltfParameters surface = surface_;
@@ -183,7 +194,8 @@ Bsdf Material::bsdf(const ShadingPoint& point) const noexcept
     if (transmission_map_) {
         surface.transmission *= transmission_map_->lookup(point.uv).x;
     }
-    return {point.ng, Frame::from_normal(shading_normal(point)), GltfBsdf(surface, *albedo_)};
+    return {point.ng, Frame::from_normal(shading_normal(point)), point.wo,
+            GltfBsdf(surface, *albedo_)};
 }
 
 Rgb Material::emission(const TexturePoint& point) const noexcept

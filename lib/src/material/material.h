@@ -19,7 +19,8 @@ struct ShadingPoint {
     Vec3 ns{0.0f, 0.0f, 1.0f};  ///< unit, interpolated; in the hemisphere of ng
     Vec4 tangent{0.0f};         ///< xyz (any length, not parallel to ns) and handedness; zero: none
     std::array<Vec2, 2> uv{};
-    Vec4 color{1.0f};  ///< vertex colour, linear
+    Vec4 color{1.0f};           ///< vertex colour, linear
+    Vec3 wo{0.0f, 0.0f, 1.0f};  ///< unit, towards where the walk came from
 };
 
 /// What textures and vertex colours are looked up by.
@@ -91,7 +92,8 @@ private:
     void measure_alpha();
     void measure_emission();
 
-    GltfParameters surface_;  ///< the factors, which textures multiply
+    GltfParameters surface_;         ///< the factors, which textures multiply
+    std::optional<GltfBsdf> plain_;  ///< of a surface on which nothing varies
     Rgb emission_{0.0f};
     Rgb mean_emission_{0.0f};
     Rgb absorption_{0.0f};

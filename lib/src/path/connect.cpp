@@ -68,7 +68,7 @@ std::optional<Contribution> connect_to_light(const World& world, std::span<const
     if (!incident) {
         return std::nullopt;
     }
-    const BsdfEval f = z.bsdf.eval(z.wo, incident->wi, TransportMode::radiance);
+    const BsdfEval f = z.bsdf.eval(incident->wi, TransportMode::radiance);
     Rgb value = z.beta * f.f_cos * incident->weight / choice->probability;
     if (is_black(value)) {
         return std::nullopt;
@@ -174,7 +174,7 @@ std::optional<Splat> connect_to_lens(const World& world, const Camera& camera,
     if (!to_lens) {
         return std::nullopt;
     }
-    const BsdfEval f = y.bsdf.eval(y.wo, to_lens->wi, TransportMode::importance);
+    const BsdfEval f = y.bsdf.eval(to_lens->wi, TransportMode::importance);
     Rgb value = y.beta * f.f_cos * to_lens->weight;
     if (is_black(value)) {
         return std::nullopt;
@@ -185,7 +185,6 @@ std::optional<Splat> connect_to_lens(const World& world, const Camera& camera,
     if (is_black(value)) {
         return std::nullopt;
     }
-    const LightDensities densities = light_densities(world, light[0], light[1].end);
     const float distance_squared = to_lens->distance * to_lens->distance;
     const float cosine = std::abs(dot(y.end.ng, to_lens->wi));
     PathVertex lens;
@@ -200,7 +199,7 @@ std::optional<Splat> connect_to_lens(const World& world, const Camera& camera,
                                     ? to_area(*to_lens->pdf_plane, cosine)
                                     : to_area(to_lens->pdf_direction, cosine, distance_squared),
          .camera_at_light_neighbor = at_neighbor(f.pdf_rev, before_last(light)),
-         .next_event = densities.next_event});
+         .next_event = light[0].pdf_next_event});
     return Splat{.contribution = {.unweighted = value, .weight = weight},
                  .raster = to_lens->raster};
 }
@@ -213,15 +212,16 @@ std::optional<Splat> hit_lens(const World& world, const Subpath& light_path,
         return std::nullopt;
     }
     const auto light = light_path.first(crossing.light_vertices);
-    const SegmentEnd& x1 = light.size() > 1 ? light[1].end : crossing.lens.end;
-    const LightDensities densities = light_densities(world, light[0], x1);
+    const AreaPdf next_event = light.size() > 1
+                                   ? light[0].pdf_next_event
+                                   : next_event_density(world, light[0], crossing.lens.end);
     const AreaPdf neighbor = light.size() > 1 ? before_last(light).pdf_rev : AreaPdf{};
     const float weight = weigher.weight_of_hit(light, crossing.lens,
                                                {.light_at_camera_end = crossing.lens.pdf_rev,
                                                 .light_at_camera_neighbor = {},
                                                 .camera_at_light_end = crossing.camera_at_light_end,
                                                 .camera_at_light_neighbor = neighbor,
-                                                .next_event = densities.next_event});
+                                                .next_event = next_event});
     return Splat{.contribution = {.unweighted = value, .weight = weight},
                  .raster = crossing.raster};
 }
@@ -241,11 +241,11 @@ std::optional<Contribution> connect_interior(const World& world, std::span<const
         return std::nullopt;
     }
     const Vec3 wi = to_y / std::sqrt(distance_squared);
-    const BsdfEval f_z = z.bsdf.eval(z.wo, wi, TransportMode::radiance);
+    const BsdfEval f_z = z.bsdf.eval(wi, TransportMode::radiance);
     if (is_black(f_z.f_cos)) {
         return std::nullopt;
     }
-    const BsdfEval f_y = y.bsdf.eval(y.wo, -wi, TransportMode::importance);
+    const BsdfEval f_y = y.bsdf.eval(-wi, TransportMode::importance);
     Rgb value = z.beta * f_z.f_cos * f_y.f_cos * y.beta / distance_squared;
     if (is_black(value)) {
         return std::nullopt;
@@ -255,7 +255,6 @@ std::optional<Contribution> connect_interior(const World& world, std::span<const
     if (is_black(value)) {
         return std::nullopt;
     }
-    const LightDensities densities = light_densities(world, light[0], light[1].end);
     return Contribution{
         .unweighted = value,
         .weight = weigher.weight(
@@ -264,7 +263,7 @@ std::optional<Contribution> connect_interior(const World& world, std::span<const
              .light_at_camera_neighbor = at_neighbor(f_z.pdf_rev, before_last(camera)),
              .camera_at_light_end = at_end(f_z.pdf_fwd, y.end, wi, distance_squared),
              .camera_at_light_neighbor = at_neighbor(f_y.pdf_rev, before_last(light)),
-             .next_event = densities.next_event})};
+             .next_event = light[0].pdf_next_event})};
 }
 
 }  // namespace bdpt

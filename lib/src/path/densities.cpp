@@ -7,19 +7,17 @@
 #include <cmath>
 
 namespace bdpt {
-namespace {
-
-/// Can a strategy join at this vertex, which lies inside of a subpath?
-bool joinable(const PathVertex& vertex)
-{
-    return vertex.kind != VertexKind::surface || (vertex.connectible && !vertex.scattered_delta);
-}
-
-}  // namespace
-
 bool can_be_seen_directly(const Light& light, const Camera& camera)
 {
     return !light.is_delta() && !light.is_infinite() && camera.is_perspective();
+}
+
+AreaPdf next_event_density(const World& world, const PathVertex& x0, const SegmentEnd& x1)
+{
+    const LightPoint point{.p = x0.end.p, .ng = x0.end.ng, .barycentrics = x0.barycentrics};
+    const LightSet& lights = world.lights();
+    return lights[*x0.light].pdf_incident(x1.p, point) *
+           lights.receiver_probability(*x0.light, x1.p);
 }
 
 LightDensities light_densities(const World& world, const PathVertex& x0, const SegmentEnd& x1)
@@ -33,8 +31,7 @@ LightDensities light_densities(const World& world, const PathVertex& x0, const S
     const LightPoint point{.p = x0.end.p, .ng = x0.end.ng, .barycentrics = x0.barycentrics};
     const float cosine = std::abs(dot(x1.ng, to_light));
     return {.emit = light.pdf_position(point) * lights.emission_probability(*x0.light),
-            .next_event =
-                light.pdf_incident(x1.p, point) * lights.receiver_probability(*x0.light, x1.p),
+            .next_event = next_event_density(world, x0, x1),
             .to_next = infinite ? to_area(world.bounding_sphere().pdf_disk(), cosine)
                                 : to_area(light.pdf_direction(x0.end.ng, -to_light), cosine,
                                           distance_squared)};
@@ -49,12 +46,34 @@ PathWeigher::PathWeigher(const World& world, const Camera& camera, const Strateg
       from_light_(static_cast<std::size_t>(max_vertices)),
       from_camera_(static_cast<std::size_t>(max_vertices)),
       sample_counts_(static_cast<std::size_t>(max_vertices) + 1)
-{}
+{
+    if (WeightSums::applies(strategies, heuristic)) {
+        sums_.emplace(world, camera, strategies, heuristic);
+    }
+}
+
+void PathWeigher::begin_camera_path(std::span<const PathVertex> path)
+{
+    if (sums_) {
+        sums_->begin_camera_path(path);
+        uses_sums_ = true;
+    }
+}
+
+void PathWeigher::begin_light_path(std::span<const PathVertex> path)
+{
+    if (sums_) {
+        sums_->begin_light_path(path);
+    }
+}
 
 float PathWeigher::weight(std::span<const PathVertex> light, std::span<const PathVertex> camera,
                           const JoinDensities& join)
 {
     size_ = light.size() + camera.size();
+    if (uses_sums_ && size_ > 2) {
+        return sums_->weight(light, camera, join);
+    }
     gather_densities(light, camera, join);
     gather_sample_counts(light, camera, light.empty() ? Joined::no : Joined::yes);
     next_event_ = join.next_event;

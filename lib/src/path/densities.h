@@ -1,9 +1,11 @@
 #pragma once
 
+#include "path/join_densities.h"
 #include "path/mis.h"
-#include "path/path_vertex.h"
 #include "path/strategy_set.h"
+#include "path/weight_sums.h"
 
+#include <optional>
 #include <vector>
 
 namespace bdpt {
@@ -18,22 +20,16 @@ struct LightDensities {
     AreaPdf to_next;     ///< x_1 sampled from x_0 by a light path
 };
 
+/// x_0 on light `x0.light`, sampled from x_1 by next-event estimation.
+[[nodiscard]] AreaPdf next_event_density(const World& world, const PathVertex& x0,
+                                         const SegmentEnd& x1);
+
 /// `x0` is a vertex on light `x0.light`.
 [[nodiscard]] LightDensities light_densities(const World& world, const PathVertex& x0,
                                              const SegmentEnd& x1);
 
 /// Can the strategy s = t = 1, which joins a light point to a lens point, see this light?
 [[nodiscard]] bool can_be_seen_directly(const Light& light, const Camera& camera);
-
-/// What joining two subpaths adds to the densities that the walks have stored: those of the ends
-/// and of their neighbours, which now see a new vertex.
-struct JoinDensities {
-    AreaPdf light_at_camera_end;       ///< z_{t-1} sampled from y_{s-1}
-    AreaPdf light_at_camera_neighbor;  ///< z_{t-2} sampled from z_{t-1}
-    AreaPdf camera_at_light_end;       ///< y_{s-1} sampled from z_{t-1}
-    AreaPdf camera_at_light_neighbor;  ///< y_{s-2} sampled from y_{s-1}
-    AreaPdf next_event;                ///< x_0 sampled from x_1 by next-event estimation
-};
 
 /// Gathers the densities of joined paths and weighs their strategies. Holds the arrays, so that a
 /// thread allocates them once.
@@ -43,6 +39,12 @@ public:
     PathWeigher(const World& world, const Camera& camera, const StrategySet& strategies,
                 Heuristic heuristic, int max_vertices);
 
+    /// Sums up once what the weights of all prefixes of a subpath share, where that is possible.
+    /// From then on every call of `weight` must be for such prefixes; without, each call gathers
+    /// all densities.
+    void begin_camera_path(std::span<const PathVertex> path);
+    void begin_light_path(std::span<const PathVertex> path);
+
     /// Weight of having joined the first s light vertices to the first t camera vertices. For s = 0
     /// the last camera vertex is x_0.
     [[nodiscard]] float weight(std::span<const PathVertex> light,
@@ -51,7 +53,7 @@ public:
     [[nodiscard]] float weight_of_hit(std::span<const PathVertex> light, const PathVertex& lens,
                                       const JoinDensities& join);
 
-    /// The densities behind the last weight(), for tests.
+    /// The densities behind the last weight(), if no subpath was begun: for tests.
     [[nodiscard]] PathDensities last_path() const;
 
 private:
@@ -72,6 +74,8 @@ private:
     std::vector<float> sample_counts_;
     AreaPdf next_event_;
     std::size_t size_ = 0;
+    std::optional<WeightSums> sums_;
+    bool uses_sums_ = false;
 };
 
 }  // namespace bdpt

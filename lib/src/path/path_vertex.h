@@ -25,11 +25,12 @@ enum class VertexKind : std::uint8_t {
 /// vertex; the `rev` density is that of a walk which comes from the other end of the path.
 struct PathVertex {
     SegmentEnd end;
-    Vec3 wo{0.0f};       ///< unit, towards the previous vertex
     Rgb beta{1.0f};      ///< Monte Carlo weight of the subpath up to here, scattering not included
-    Rgb emission{0.0f};  ///< radiance towards wo, of vertices that a camera walk found [nit]
+    Rgb emission{0.0f};  ///< radiance towards the previous vertex, of vertices that a camera walk
+                         ///< found [nit]
     AreaPdf pdf_fwd;
     AreaPdf pdf_rev;
+    AreaPdf pdf_next_event;  ///< of a light path's start: by next-event estimation from x_1
     /// Turns a density of directions at the next vertex into one of area here.
     float area_per_solid_angle = 1.0f;
     std::optional<LightId> light;
@@ -80,6 +81,7 @@ public:
     [[nodiscard]] int size() const { return static_cast<int>(size_); }
     [[nodiscard]] int capacity() const { return static_cast<int>(vertices_.size()); }
     [[nodiscard]] PathVertex& operator[](int i) { return vertices_[static_cast<std::size_t>(i)]; }
+    [[nodiscard]] std::span<const PathVertex> all() const { return first(size()); }
     /// The first `count` vertices.
     [[nodiscard]] std::span<const PathVertex> first(int count) const
     {

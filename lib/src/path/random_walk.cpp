@@ -3,6 +3,7 @@
 #include "camera/camera.h"
 #include "math/rgb.h"
 #include "math/sampler.h"
+#include "path/densities.h"
 
 #include <glm/geometric.hpp>
 
@@ -41,7 +42,6 @@ void append_environment(const World& world, const Step& step, Subpath& path)
     vertex.kind = VertexKind::infinite;
     vertex.light = id;
     vertex.end.p = step.direction;
-    vertex.wo = -step.direction;
     vertex.beta = step.beta * medium_transmittance(step.origin, {}, step.direction,
                                                    std::numeric_limits<float>::max());
     vertex.emission = light.radiance(step.direction);
@@ -54,7 +54,6 @@ void append_surface(const SurfacePoint& point, float distance_squared, const Ste
     PathVertex& previous = path[path.size() - 1];
     PathVertex& vertex = path.append();
     vertex.end = point.end;
-    vertex.wo = -step.direction;
     vertex.beta = step.beta * medium_transmittance(step.origin, point.end, step.direction,
                                                    std::sqrt(distance_squared));
     vertex.emission = point.emission;
@@ -102,7 +101,6 @@ void look_for_lens(const Camera& camera, const Step& step, float free_distance, 
     PathVertex& lens = crossing.lens;
     lens.kind = VertexKind::camera;
     lens.end = hit->lens;
-    lens.wo = -step.direction;
     lens.beta =
         step.beta * medium_transmittance(step.origin, hit->lens, step.direction, hit->distance);
     // Both densities of the lens: as the walk found it, and as a camera path starts.
@@ -160,13 +158,16 @@ void walk(const Walk& rules, Step step, Sampler& sampler, Subpath& path)
             return;
         }
         append_surface(*hit, distance_squared, step, path);
+        if (mode == TransportMode::importance && path.size() == 2) {
+            path[0].pdf_next_event = next_event_density(world, path[0], path[1].end);
+        }
         if (path.size() == max_vertices && !watches_lens) {
             return;
         }
         PathVertex& vertex = path[path.size() - 1];
         sampler.start(rules.use, static_cast<std::uint32_t>(path.size()));
         const Vec2 u_direction = sampler.next_2d();
-        const auto scattered = vertex.bsdf.sample(vertex.wo, sampler.next_1d(), u_direction, mode);
+        const auto scattered = vertex.bsdf.sample(sampler.next_1d(), u_direction, mode);
         if (!scattered || is_black(scattered->weight)) {
             return;
         }

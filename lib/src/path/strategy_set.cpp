@@ -20,7 +20,12 @@ bool is_used(const RenderOptions& options, Strategy strategy)
 
 }  // namespace
 
-StrategySet::StrategySet(const RenderOptions& options) : stride_(options.max_depth + 2)
+StrategySet::StrategySet(const RenderOptions& options)
+    : stride_(options.max_depth + 2),
+      light_paths_(options.light_paths),
+      complete_(options.integrator == IntegratorKind::bdpt && options.disabled.empty() &&
+                options.max_camera_depth >= options.max_depth &&
+                options.max_light_depth >= options.max_depth)
 {
     counts_.assign(static_cast<std::size_t>(stride_ * stride_), 0.0f);
     for (int s = 0; s < stride_; ++s) {

@@ -19,12 +19,19 @@ public:
     }
     [[nodiscard]] bool uses(int s, int t) const { return count(s, t) > 0.0f; }
 
+    /// Does every strategy that can make a path take part, those with s >= 2 `light_paths` times
+    /// for each camera path and the others once?
+    [[nodiscard]] bool is_complete() const { return complete_; }
+    [[nodiscard]] int light_paths() const { return light_paths_; }
+
     /// Vertices of the longest subpaths that any strategy needs, the lens or the light included.
     [[nodiscard]] int camera_vertices() const { return camera_vertices_; }
     [[nodiscard]] int light_vertices() const { return light_vertices_; }
 
 private:
     int stride_;
+    int light_paths_;
+    bool complete_;
     int camera_vertices_ = 1;
     int light_vertices_ = 0;
     std::vector<float> counts_;

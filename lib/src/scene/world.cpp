@@ -2,8 +2,6 @@
 
 #include "geometry/rounding.h"
 #include "material/specular_albedo.h"
-#include "math/elementary.h"
-#include "math/rgb.h"
 #include "scene/validate.h"
 
 #include <glm/common.hpp>
@@ -43,24 +41,7 @@ BoundingSphere sphere_around(const Bounds& bounds)
             .radius = radius > 0.0f ? 1.0001f * radius : 1.0f};
 }
 
-Rgb attenuate(Rgb absorption, float distance)
-{
-    return {exp_exact(-absorption.r * distance), exp_exact(-absorption.g * distance),
-            exp_exact(-absorption.b * distance)};
-}
-
-Rgb absorption_towards(const SegmentEnd& end, Vec3 w)
-{
-    return dot(end.ng, w) < 0.0f ? end.absorption : Rgb(0.0f);
-}
-
 }  // namespace
-
-Rgb medium_transmittance(const SegmentEnd& a, const SegmentEnd& b, Vec3 w, float distance) noexcept
-{
-    const Rgb absorption = max(absorption_towards(a, w), absorption_towards(b, -w));
-    return is_black(absorption) ? Rgb(1.0f) : attenuate(absorption, distance);
-}
 
 World::World(SceneDesc desc) : desc_(std::move(desc))
 {
@@ -173,7 +154,8 @@ SurfacePoint World::surface_point(const RayHit& hit, Vec3 direction) const noexc
         .tangent = normal_uv_set ? mesh.tangent(hit.triangle, hit.barycentrics, *normal_uv_set)
                                  : Vec4(0.0f),
         .uv = at.uv,
-        .color = at.color};
+        .color = at.color,
+        .wo = -direction};
 
     const BoundedPoint point = mesh.point(hit.triangle, hit.barycentrics);
     SurfacePoint result{

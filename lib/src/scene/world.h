@@ -6,6 +6,7 @@
 #include "material/bsdf.h"
 #include "material/material.h"
 #include "scene/light_set.h"
+#include "scene/medium.h"
 
 #include <bdpt/scene.h>
 
@@ -72,12 +73,5 @@ private:
     std::unique_ptr<const EmbreeScene> embree_;
     std::unique_ptr<const LightSet> lights_;
 };
-
-/// What a medium leaves of light over a segment that is known to be free. `w`: unit, from a to b.
-/// The medium is what lies behind the surface at an end if the segment runs there. Should the ends
-/// disagree (open bodies, bodies in bodies), the denser one counts, in each channel: the rule must
-/// be the same in both directions.
-[[nodiscard]] Rgb medium_transmittance(const SegmentEnd& a, const SegmentEnd& b, Vec3 w,
-                                       float distance) noexcept;
 
 }  // namespace bdpt

@@ -235,7 +235,7 @@ TEST_CASE("sphere lights are surfaces: seen, in the way, black", "[world]")
     CHECK(seen->emission.r == Approx(2.0f / (pi * 0.0625f)));
     CHECK(seen->end.p.z == Approx(0.75f));
     CHECK_FALSE(seen->bsdf.connectible());
-    CHECK_FALSE(seen->bsdf.sample({0, 0, 1}, 0.5f, {0.3f, 0.4f}, TransportMode::radiance));
+    CHECK_FALSE(seen->bsdf.sample(0.5f, {0.3f, 0.4f}, TransportMode::radiance));
     const auto inside = world.intersect({.p = {0.3f, -0.2f, 0.5f}}, {0, 0, -1}, {});
     REQUIRE(inside.has_value());
     CHECK(inside->emission == Rgb(0.0f));

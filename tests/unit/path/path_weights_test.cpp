@@ -120,12 +120,13 @@ TEST_CASE("joining and hitting agree about the densities of the same path", "[mi
                 continue;
             }
             const PathDensities made = weigher.last_path();
-            const BsdfEval f = x1.bsdf.eval(x1.wo, -x0.wo, TransportMode::radiance);
             // C_0 as a join would compute it equals the density that the walk stored.
             const Vec3 along = x0.end.p - x1.end.p;
             const float distance_squared = dot(along, along);
+            const Vec3 wi = along / std::sqrt(distance_squared);
+            const BsdfEval f = x1.bsdf.eval(wi, TransportMode::radiance);
             const float joined =
-                to_area(f.pdf_fwd, std::abs(dot(x0.end.ng, x0.wo)), distance_squared).value;
+                to_area(f.pdf_fwd, std::abs(dot(x0.end.ng, wi)), distance_squared).value;
             CHECK(made.from_camera[0].value == Approx(joined).epsilon(1e-3));
             // L_2 as a join would compute it equals what the walk stored for a reversed walk.
             const PathVertex& x2 = path[path.size() - 3];

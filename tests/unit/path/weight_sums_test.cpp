@@ -1,0 +1,136 @@
+#include "path/weight_sums.h"
+
+#include "camera/camera.h"
+#include "catch.hpp"
+#include "math/sampler.h"
+#include "path/connect.h"
+#include "path/random_walk.h"
+#include "scene_builder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace bdpt {
+namespace {
+
+using test::SceneBuilder;
+
+constexpr int max_depth = 6;
+constexpr int size = 16;
+
+/// Glass, a mirror, gloss, delta lights, a lamp and the sky: all that makes a weight special.
+SceneDesc room()
+{
+    SceneBuilder builder;
+    builder.walls(test::plastic(Rgb(0.7f), 0.3f), test::lambertian(Rgb(0.6f)));
+    builder.lamp(0.9f, 0.5f, Rgb(5.0f));
+    builder.sphere({-0.4f, -0.6f, 0.0f}, 0.4f, test::glass(0.0f));
+    builder.sphere({0.5f, -0.6f, 0.2f}, 0.4f, test::plastic(Rgb(0.5f), 0.0f));
+    builder.light(EnvironmentLightDesc{.radiance = {.width = 1, .height = 1, .pixels = {Rgb(1)}}});
+    builder.light(PointLightDesc{.position = {0.0f, 0.3f, 0.2f}, .intensity = Rgb(1.0f)});
+    return std::move(builder.desc);
+}
+
+/// The weights of all contributions of one sample, in the order of their strategies.
+std::vector<float> weights_of(const World& world, const Camera& camera, const Subpath& light_path,
+                              const Subpath& camera_path, Sampler sampler, PathWeigher& weigher)
+{
+    RayCounts rays;
+    std::vector<float> weights;
+    const auto add = [&](const std::optional<Contribution>& found) {
+        weights.push_back(found ? found->weight : std::numeric_limits<float>::infinity());
+    };
+    for (int t = 2; t <= camera_path.size(); ++t) {
+        add(hit_light(world, camera_path.first(t), weigher));
+        if (t <= max_depth) {
+            add(connect_to_light(world, camera_path.first(t), sampler, weigher, rays));
+        }
+        for (int s = 2; s <= std::min(light_path.size(), max_depth + 1 - t); ++s) {
+            add(connect_interior(world, light_path.first(s), camera_path.first(t),
+                                 sampler.segment_key(s, t), weigher, rays));
+        }
+    }
+    for (int s = 2; s <= std::min(light_path.size(), max_depth); ++s) {
+        const auto splat =
+            connect_to_lens(world, camera, light_path.first(s), sampler, weigher, rays);
+        add(splat ? std::optional(splat->contribution) : std::nullopt);
+    }
+    return weights;
+}
+
+}  // namespace
+
+TEST_CASE("sums over subpaths weigh joins as all densities of the path do", "[mis]")
+{
+    const World world(room());
+    const auto heuristic = GENERATE(Heuristic::balance, Heuristic::power);
+    const int light_paths = GENERATE(1, 3);
+    const float lens_radius = GENERATE(0.0f, 0.2f);
+    CAPTURE(static_cast<int>(heuristic), light_paths, lens_radius);
+    CameraDesc desc = test::room_camera();
+    desc.lens_radius = lens_radius;
+    const Camera camera(desc, size, size);
+    RenderOptions options;
+    options.max_depth = max_depth;
+    options.light_paths = light_paths;
+    const StrategySet strategies(options);
+    REQUIRE(WeightSums::applies(strategies, heuristic));
+    Subpath light_path(strategies.light_vertices());
+    Subpath camera_path(strategies.camera_vertices());
+    PathWeigher gathers(world, camera, strategies, heuristic, max_depth + 1);
+    PathWeigher sums(world, camera, strategies, heuristic, max_depth + 1);
+    int compared = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const Sampler first(SamplerKind::sobol, 1, i % size, i / size % size, i);
+        Sampler sampler = first;
+        const Vec2 raster(static_cast<float>(i % size) + 0.5f,
+                          static_cast<float>(i / size % size) + 0.5f);
+        trace_camera_subpath(world, camera, raster, {.max_vertices = camera_path.capacity()},
+                             sampler, camera_path);
+        trace_light_subpath(world, camera, {.max_vertices = light_path.capacity()}, sampler,
+                            light_path);
+        sums.begin_camera_path(camera_path.all());
+        sums.begin_light_path(light_path.all());
+        const auto by_sums = weights_of(world, camera, light_path, camera_path, first, sums);
+        const auto expected = weights_of(world, camera, light_path, camera_path, first, gathers);
+        REQUIRE(by_sums.size() == expected.size());
+        for (std::size_t k = 0; k < expected.size(); ++k) {
+            if (std::isfinite(expected[k]) && expected[k] > 1e-30f) {
+                REQUIRE(by_sums[k] == Approx(expected[k]).epsilon(1e-5));
+                ++compared;
+            }
+        }
+    }
+    CHECK(compared > 4000);
+}
+
+TEST_CASE("sets of strategies with gaps are not weighed by sums", "[mis]")
+{
+    const auto applies = [](const RenderOptions& options, Heuristic heuristic = Heuristic::power) {
+        return WeightSums::applies(StrategySet(options), heuristic);
+    };
+    RenderOptions options;
+    CHECK(applies(options));
+    CHECK_FALSE(applies(options, Heuristic::maximum));
+    CHECK_FALSE(applies(options, Heuristic::cutoff));
+    CHECK_FALSE(applies(options, Heuristic::uniform));
+    RenderOptions other = options;
+    other.disabled = {{2, 1}};
+    CHECK_FALSE(applies(other));
+    other = options;
+    other.max_camera_depth = options.max_depth - 1;
+    CHECK_FALSE(applies(other));
+    other = options;
+    other.max_light_depth = options.max_depth - 1;
+    CHECK_FALSE(applies(other));
+    other = options;
+    other.integrator = IntegratorKind::lt;
+    CHECK_FALSE(applies(other));
+    other = options;
+    other.min_depth = 3;
+    CHECK(applies(other));
+}
+
+}  // namespace bdpt

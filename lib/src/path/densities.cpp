@@ -22,7 +22,8 @@ bool can_be_seen_directly(const Light& light, const Camera& camera)
     return !light.is_delta() && !light.is_infinite() && camera.is_perspective();
 }
 
-LightDensities light_densities(const World& world, const PathVertex& x0, const SegmentEnd& x1)
+LightDensities light_densities(const World& world, const PathVertex& x0, const SegmentEnd& x1,
+                               EnvironmentSampling sampling)
 {
     const LightSet& lights = world.lights();
     const Light& light = lights[*x0.light];
@@ -33,8 +34,8 @@ LightDensities light_densities(const World& world, const PathVertex& x0, const S
     const LightPoint point{.p = x0.end.p, .ng = x0.end.ng, .barycentrics = x0.barycentrics};
     const float cosine = std::abs(dot(x1.ng, to_light));
     return {.emit = light.pdf_position(point) * lights.emission_probability(*x0.light),
-            .next_event =
-                light.pdf_incident(x1.p, point) * lights.receiver_probability(*x0.light, x1.p),
+            .next_event = light.pdf_incident(x1.p, point, sampling) *
+                          lights.receiver_probability(*x0.light, x1.p),
             .to_next = infinite ? to_area(world.bounding_sphere().pdf_disk(), cosine)
                                 : to_area(light.pdf_direction(x0.end.ng, -to_light), cosine,
                                           distance_squared)};

@@ -18,9 +18,9 @@ struct LightDensities {
     AreaPdf to_next;     ///< x_1 sampled from x_0 by a light path
 };
 
-/// `x0` is a vertex on light `x0.light`.
+/// `x0` is a vertex on light `x0.light`. `sampling`: of next-event estimation.
 [[nodiscard]] LightDensities light_densities(const World& world, const PathVertex& x0,
-                                             const SegmentEnd& x1);
+                                             const SegmentEnd& x1, EnvironmentSampling sampling);
 
 /// Can the strategy s = t = 1, which joins a light point to a lens point, see this light?
 [[nodiscard]] bool can_be_seen_directly(const Light& light, const Camera& camera);
@@ -53,6 +53,11 @@ public:
 
     /// The densities behind the last weight(), for tests.
     [[nodiscard]] PathDensities last_path() const;
+
+    [[nodiscard]] EnvironmentSampling environment_sampling() const
+    {
+        return strategies_.environment_sampling();
+    }
 
 private:
     enum class Joined { yes, no };

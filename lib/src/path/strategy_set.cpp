@@ -20,7 +20,8 @@ bool is_used(const RenderOptions& options, Strategy strategy)
 
 }  // namespace
 
-StrategySet::StrategySet(const RenderOptions& options) : stride_(options.max_depth + 2)
+StrategySet::StrategySet(const RenderOptions& options)
+    : stride_(options.max_depth + 2), environment_sampling_(options.environment_sampling)
 {
     counts_.assign(static_cast<std::size_t>(stride_ * stride_), 0.0f);
     for (int s = 0; s < stride_; ++s) {
@@ -35,6 +36,11 @@ StrategySet::StrategySet(const RenderOptions& options) : stride_(options.max_dep
             // A path that hits the lens has it as its last vertex, which is not a vertex of the
             // walk.
             light_vertices_ = std::max(light_vertices_, s < 2 ? 0 : t == 0 ? s - 1 : s);
+        }
+    }
+    for (int t = 2; t + 1 < stride_; ++t) {
+        if (uses(1, t) && !uses(0, t + 1)) {
+            environment_sampling_ = EnvironmentSampling::plain;
         }
     }
 }

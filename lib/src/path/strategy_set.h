@@ -19,6 +19,9 @@ public:
     }
     [[nodiscard]] bool uses(int s, int t) const { return count(s, t) > 0.0f; }
 
+    /// How s = 1 samples environments: as asked for if s = 0 can make every path that it can.
+    [[nodiscard]] EnvironmentSampling environment_sampling() const { return environment_sampling_; }
+
     /// Vertices of the longest subpaths that any strategy needs, the lens or the light included.
     [[nodiscard]] int camera_vertices() const { return camera_vertices_; }
     [[nodiscard]] int light_vertices() const { return light_vertices_; }
@@ -27,6 +30,7 @@ private:
     int stride_;
     int camera_vertices_ = 1;
     int light_vertices_ = 0;
+    EnvironmentSampling environment_sampling_;
     std::vector<float> counts_;
 };
 

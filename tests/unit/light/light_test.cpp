@@ -38,22 +38,27 @@ EnvironmentLight environment(Image image)
 TEST_CASE("environment: the density integrates to one and is that of the samples", "[light]")
 {
     const EnvironmentLight light = environment(sky());
+    const auto sampling = GENERATE(EnvironmentSampling::plain, EnvironmentSampling::compensated);
+    CAPTURE(static_cast<int>(sampling));
     test::Random random(1);
     test::Moments density;
     test::Moments radiance;
     for (int i = 0; i < 400000; ++i) {
         const Vec3 w = random.direction();
-        density.add(static_cast<double>(4.0f * pi * light.pdf_incident(w).value));
-        radiance.add(static_cast<double>(4.0f * pi * luminance(light.radiance(w))));
+        const float pdf = light.pdf_incident(w, sampling).value;
+        density.add(static_cast<double>(4.0f * pi * pdf));
+        // What is never sampled is left to others.
+        const float sampled = pdf > 0.0f ? luminance(light.radiance(w)) : 0.0f;
+        radiance.add(static_cast<double>(4.0f * pi * sampled));
     }
     CHECK(std::abs(density.mean() - 1.0) < 4.0 * density.standard_error());
     CHECK(density.standard_error() < 0.01);
 
     test::Moments sampled;
     for (int i = 0; i < 20000; ++i) {
-        const auto incident = light.sample_incident(random.next_2d());
+        const auto incident = light.sample_incident(random.next_2d(), sampling);
         REQUIRE(incident.has_value());
-        REQUIRE(light.pdf_incident(incident->wi).value ==
+        REQUIRE(light.pdf_incident(incident->wi, sampling).value ==
                 Approx(incident->pdf_solid_angle.value).epsilon(2e-3));
         sampled.add(static_cast<double>(luminance(incident->weight)));
     }
@@ -69,8 +74,41 @@ TEST_CASE("environment: light wherever it is bright can be sampled", "[light]")
     for (int i = 0; i < 10000; ++i) {
         const Vec3 w = random.direction();
         if (luminance(light.radiance(w)) > 0.0f) {
-            REQUIRE(light.pdf_incident(w).value > 0.0f);
+            REQUIRE(light.pdf_incident(w, EnvironmentSampling::plain).value > 0.0f);
+            REQUIRE(light.pdf_emission(w).value > 0.0f);
         }
+    }
+}
+
+TEST_CASE("environment: compensated sampling is for what is brighter than the mean", "[light]")
+{
+    constexpr int width = 16;
+    constexpr int height = 256;
+    Image image{.width = width, .height = height, .pixels = {}};
+    for (int i = 0; i < width * height; ++i) {
+        image.pixels.emplace_back(i / width < height / 2 ? 3.0f : 1.0f);  // the mean is 2
+    }
+    const auto compensated = EnvironmentSampling::compensated;
+    const EnvironmentLight light({.radiance = image}, {.center = Vec3(0.0f), .radius = 1.0f});
+    const Vec3 up = normalize(Vec3(0.3f, 0.5f, -0.2f));
+    const Vec3 down = normalize(Vec3(0.3f, -0.5f, -0.2f));
+    CHECK(light.pdf_incident(up, compensated).value == Approx(0.5f * inv_pi).epsilon(0.02));
+    CHECK(light.pdf_incident(down, compensated).value == 0.0f);
+    // Light paths and plain next-event estimation: three quarters up, one down.
+    for (const float pdf : {light.pdf_emission(down).value,
+                            light.pdf_incident(down, EnvironmentSampling::plain).value}) {
+        CHECK(pdf == Approx(0.25f * 0.5f * inv_pi).epsilon(0.02));
+    }
+
+    // Nothing is above the mean of a constant picture, but light has to come from somewhere.
+    for (const int columns : {1, 7, 512}) {
+        const Image grey{.width = columns,
+                         .height = 3,
+                         .pixels = std::vector<Rgb>(3 * static_cast<std::size_t>(columns),
+                                                    Rgb(0.1f, 0.7f, 0.3f))};
+        const EnvironmentLight constant({.radiance = grey}, {});
+        CHECK(constant.pdf_incident(up, compensated).value == Approx(0.25f * inv_pi));
+        CHECK(constant.pdf_incident(down, compensated).value == Approx(0.25f * inv_pi));
     }
 }
 

@@ -1,6 +1,7 @@
 #include "subject.h"
 
-#include <bdpt/error.h>
+#include <bdpt/framing.h>
+#include <bdpt/io/environment.h>
 #include <bdpt/io/gltf.h>
 
 #include <CLI/CLI.hpp>
@@ -18,25 +19,11 @@ namespace {
 
 constexpr std::uint64_t reference_seed = 1'000'003;
 
-Subject make_subject(const std::string& file, io::LoadedScene loaded,
-                     const SubjectSettings& settings)
-{
-    if (loaded.cameras.empty()) {
-        throw Error(ErrorCode::invalid_input, file + ": no camera");
-    }
-    RenderOptions options;
-    options.width = settings.size;
-    options.height = settings.size;
-    options.max_depth = settings.max_depth;
-    options.threads = settings.threads;
-    return {std::filesystem::path(file).stem().string(), Scene(std::move(loaded.scene)),
-            loaded.cameras.front(), options};
-}
-
 }  // namespace
 
 void add_options(CLI::App& app, SubjectSettings& settings)
 {
+    app.add_option("--env", settings.environment, "A picture of light from all around");
     app.add_option("--size", settings.size, "Width and height [pixels]")->capture_default_str();
     app.add_option("--max-depth", settings.max_depth, "Longest path in edges")
         ->capture_default_str();
@@ -51,7 +38,21 @@ void add_reference_option(CLI::App& app, SubjectSettings& settings)
 
 Subject load_subject(const std::string& file, const SubjectSettings& settings)
 {
-    return make_subject(file, io::load_gltf(file), settings);
+    io::LoadedScene loaded = io::load_gltf(file);
+    std::string name = std::filesystem::path(file).stem().string();
+    if (!settings.environment.empty()) {
+        loaded.scene.lights.emplace_back(io::load_environment(settings.environment).light);
+        name += " + " + std::filesystem::path(settings.environment).stem().string();
+    }
+    Scene scene(std::move(loaded.scene));
+    const CameraDesc camera =
+        loaded.cameras.empty() ? frame_scene(scene, 1.0f).camera : loaded.cameras.front();
+    RenderOptions options;
+    options.width = settings.size;
+    options.height = settings.size;
+    options.max_depth = settings.max_depth;
+    options.threads = settings.threads;
+    return {std::move(name), std::move(scene), camera, options};
 }
 
 Reference make_reference(const Subject& subject, std::int64_t samples)

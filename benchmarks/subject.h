@@ -15,13 +15,14 @@ namespace bdpt {
 
 /// Which scene is rendered, and how: what the benchmarks of renders have in common.
 struct SubjectSettings {
+    std::string environment{};              ///< file; empty: only what the scene brings
     int size = 128;                         ///< width and height [pixels]
     int max_depth = 8;                      ///< longest path in edges
     int threads = 1;                        ///< 0: one for each hardware thread
     std::int64_t reference_samples = 2048;  ///< per pixel
 };
 
-/// Adds --size, --max-depth and --threads.
+/// Adds --env, --size, --max-depth and --threads.
 void add_options(CLI::App& app, SubjectSettings& settings);
 /// Adds --reference.
 void add_reference_option(CLI::App& app, SubjectSettings& settings);
@@ -34,7 +35,7 @@ struct Subject {
     RenderOptions options;  ///< of bdpt
 };
 
-/// The scene of a glTF file and its first camera. Throws `Error`, also when there is no camera.
+/// The scene of a glTF file as its first camera sees it, or framed if it has none. Throws `Error`.
 [[nodiscard]] Subject load_subject(const std::string& file, const SubjectSettings& settings);
 
 /// What a picture converges to, as well as it is known.

@@ -47,9 +47,9 @@ enum class SamplerKind : std::uint8_t {
 /// How next-event estimation samples the light of an environment.
 enum class EnvironmentSampling : std::uint8_t {
     plain,  ///< by luminance
-    /// By how much it is brighter than the mean: what is not, BSDF sampling finds well enough
-    /// [Karlik et al. 2019, "MIS Compensation"]. Integrators that cannot rely on BSDF sampling for
-    /// the rest take `plain`: nee, and bdpt when such strategies are left out.
+    /// By how much luminance is above half of its mean, after Karlik et al. (2019, "MIS
+    /// Compensation"): what is not, BSDF sampling finds well enough. Integrators that cannot rely
+    /// on that for the rest take `plain`: nee, and bdpt when such strategies are left out.
     compensated,
 };
 

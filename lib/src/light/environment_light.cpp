@@ -51,9 +51,9 @@ std::vector<float> sampling_weights(const Image& image, const std::vector<float>
     return weights;
 }
 
-/// What is left of the weights above their mean radiance [Karlik et al. 2019]; all of
-/// them where nothing is, for then the mean is all there is.
-std::vector<float> compensated(std::vector<float> weights, int width,
+/// What is left of the weights above half of their mean, after Karlik et al. (2019), who take off
+/// all of it; docs/decisions/0023 says why half. A constant picture keeps its shape.
+std::vector<float> compensated(const std::vector<float>& weights, int width,
                                const std::vector<float>& cosines)
 {
     double sum = 0.0;
@@ -64,16 +64,13 @@ std::vector<float> compensated(std::vector<float> weights, int width,
     const double mean = sum / (2.0 * static_cast<double>(width));
     std::vector<float> excess;
     excess.reserve(weights.size());
-    double left = 0.0;
     for (std::size_t i = 0; i < weights.size(); ++i) {
         const std::size_t row = i / static_cast<std::size_t>(width);
         const double solid_angle = static_cast<double>(cosines[row] - cosines[row + 1]);
-        const double above = std::max(static_cast<double>(weights[i]) - mean * solid_angle, 0.0);
-        excess.push_back(static_cast<float>(above));
-        left += above;
+        const double above = static_cast<double>(weights[i]) - 0.5 * mean * solid_angle;
+        excess.push_back(static_cast<float>(std::max(above, 0.0)));
     }
-    constexpr double least_share = 1e-3;  // rounding leaves less of a constant picture
-    return left > least_share * sum ? excess : weights;
+    return excess;
 }
 
 }  // namespace

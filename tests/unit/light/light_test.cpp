@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include <cmath>
+#include <utility>
 
 namespace bdpt {
 namespace {
@@ -80,27 +81,33 @@ TEST_CASE("environment: light wherever it is bright can be sampled", "[light]")
     }
 }
 
-TEST_CASE("environment: compensated sampling is for what is brighter than the mean", "[light]")
+TEST_CASE("environment: compensated sampling leaves out half of the mean", "[light]")
 {
     constexpr int width = 16;
     constexpr int height = 256;
     Image image{.width = width, .height = height, .pixels = {}};
     for (int i = 0; i < width * height; ++i) {
-        image.pixels.emplace_back(i / width < height / 2 ? 3.0f : 1.0f);  // the mean is 2
+        const float below = i % width < width / 2 ? 1.0f : 2.0f;
+        image.pixels.emplace_back(i / width < height / 2 ? 5.0f : below);  // the mean is 3.25
     }
     const auto compensated = EnvironmentSampling::compensated;
     const EnvironmentLight light({.radiance = image}, {.center = Vec3(0.0f), .radius = 1.0f});
     const Vec3 up = normalize(Vec3(0.3f, 0.5f, -0.2f));
-    const Vec3 down = normalize(Vec3(0.3f, -0.5f, -0.2f));
-    CHECK(light.pdf_incident(up, compensated).value == Approx(0.5f * inv_pi).epsilon(0.02));
-    CHECK(light.pdf_incident(down, compensated).value == 0.0f);
-    // Light paths and plain next-event estimation: three quarters up, one down.
-    for (const float pdf : {light.pdf_emission(down).value,
-                            light.pdf_incident(down, EnvironmentSampling::plain).value}) {
-        CHECK(pdf == Approx(0.25f * 0.5f * inv_pi).epsilon(0.02));
+    const Vec3 left = normalize(Vec3(-0.3f, -0.5f, -0.2f));
+    const Vec3 right = normalize(Vec3(0.3f, -0.5f, -0.2f));
+    const auto share = [](float level, float mean) {
+        return Approx(0.25f * inv_pi * level / mean).epsilon(0.02);
+    };
+    CHECK(light.pdf_incident(up, compensated).value == share(3.375f, 1.78125f));
+    CHECK(light.pdf_incident(right, compensated).value == share(0.375f, 1.78125f));
+    CHECK(light.pdf_incident(left, compensated).value == 0.0f);
+    for (const auto& [direction, level] : {std::pair{up, 5.0f}, {left, 1.0f}, {right, 2.0f}}) {
+        CHECK(light.pdf_emission(direction).value == share(level, 3.25f));
+        CHECK(light.pdf_incident(direction, EnvironmentSampling::plain).value ==
+              share(level, 3.25f));
     }
 
-    // Nothing is above the mean of a constant picture, but light has to come from somewhere.
+    // A constant picture keeps its density.
     for (const int columns : {1, 7, 512}) {
         const Image grey{.width = columns,
                          .height = 3,
@@ -108,7 +115,7 @@ TEST_CASE("environment: compensated sampling is for what is brighter than the me
                                                     Rgb(0.1f, 0.7f, 0.3f))};
         const EnvironmentLight constant({.radiance = grey}, {});
         CHECK(constant.pdf_incident(up, compensated).value == Approx(0.25f * inv_pi));
-        CHECK(constant.pdf_incident(down, compensated).value == Approx(0.25f * inv_pi));
+        CHECK(constant.pdf_incident(left, compensated).value == Approx(0.25f * inv_pi));
     }
 }
 

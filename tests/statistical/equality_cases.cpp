@@ -125,6 +125,17 @@ EqualityCase scaled(std::string name, float scale, Vec3 shift)
     return result;
 }
 
+/// Most of this sky is below half of its mean, so light sampling leaves it to BSDF sampling.
+EqualityCase sunny_sky()
+{
+    Image sky{.width = 16, .height = 8, .pixels = std::vector<Rgb>(128, Rgb(0.4f, 0.5f, 0.7f))};
+    sky.pixels[2 * 16 + 2] = Rgb(120.0f, 100.0f, 80.0f);
+    SceneBuilder room_with_ball = room();
+    room_with_ball.sphere({0.4f, -0.6f, 0.0f}, 0.4f, plastic(white, 0.3f));
+    room_with_ball.light(EnvironmentLightDesc{.radiance = std::move(sky)});
+    return in_room("environment with a sun", std::move(room_with_ball));
+}
+
 void add_lights(std::vector<EqualityCase>& cases)
 {
     cases.push_back(in_room("area light", lit_room()));
@@ -282,6 +293,7 @@ std::vector<EqualityCase> equality_cases()
     for (EqualityCase& with_alpha : alpha_cases()) {
         cases.push_back(std::move(with_alpha));
     }
+    cases.push_back(sunny_sky());
     return cases;
 }
 

@@ -129,7 +129,9 @@ EqualityCase scaled(std::string name, float scale, Vec3 shift)
 EqualityCase sunny_sky()
 {
     Image sky{.width = 16, .height = 8, .pixels = std::vector<Rgb>(128, Rgb(0.4f, 0.5f, 0.7f))};
-    sky.pixels[2 * 16 + 2] = Rgb(120.0f, 100.0f, 80.0f);
+    for (const std::size_t texel : {18U, 19U, 34U, 35U}) {  // two by two
+        sky.pixels[texel] = Rgb(40.0f, 35.0f, 25.0f);
+    }
     SceneBuilder room_with_ball = room();
     room_with_ball.sphere({0.4f, -0.6f, 0.0f}, 0.4f, plastic(white, 0.3f));
     room_with_ball.light(EnvironmentLightDesc{.radiance = std::move(sky)});

@@ -125,6 +125,19 @@ EqualityCase scaled(std::string name, float scale, Vec3 shift)
     return result;
 }
 
+/// Most of this sky is below half of its mean, so light sampling leaves it to BSDF sampling.
+EqualityCase sunny_sky()
+{
+    Image sky{.width = 16, .height = 8, .pixels = std::vector<Rgb>(128, Rgb(0.4f, 0.5f, 0.7f))};
+    for (const std::size_t texel : {18U, 19U, 34U, 35U}) {  // two by two
+        sky.pixels[texel] = Rgb(40.0f, 35.0f, 25.0f);
+    }
+    SceneBuilder room_with_ball = room();
+    room_with_ball.sphere({0.4f, -0.6f, 0.0f}, 0.4f, plastic(white, 0.3f));
+    room_with_ball.light(EnvironmentLightDesc{.radiance = std::move(sky)});
+    return in_room("environment with a sun", std::move(room_with_ball));
+}
+
 void add_lights(std::vector<EqualityCase>& cases)
 {
     cases.push_back(in_room("area light", lit_room()));
@@ -282,6 +295,7 @@ std::vector<EqualityCase> equality_cases()
     for (EqualityCase& with_alpha : alpha_cases()) {
         cases.push_back(std::move(with_alpha));
     }
+    cases.push_back(sunny_sky());
     return cases;
 }
 

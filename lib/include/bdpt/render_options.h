@@ -44,6 +44,15 @@ enum class SamplerKind : std::uint8_t {
     independent,  ///< every number by itself
 };
 
+/// How next-event estimation samples the light of an environment.
+enum class EnvironmentSampling : std::uint8_t {
+    plain,  ///< by luminance
+    /// By how much luminance is above half of its mean, after Karlik et al. (2019, "MIS
+    /// Compensation"): what is not, BSDF sampling finds well enough. Integrators that cannot rely
+    /// on that for the rest take `plain`: nee, and bdpt when such strategies are left out.
+    compensated,
+};
+
 /// Half-open range of sample indices. Every index is a fixed set of random numbers, so disjoint
 /// ranges may be rendered apart and their films merged.
 struct SampleRange {
@@ -58,6 +67,7 @@ struct RenderOptions {
     IntegratorKind integrator = IntegratorKind::bdpt;
     Heuristic heuristic = Heuristic::power;
     SamplerKind sampler = SamplerKind::sobol;
+    EnvironmentSampling environment_sampling = EnvironmentSampling::compensated;
     int width = 1280;
     int height = 720;
     /// The part of the image that is rendered; its pixels are those of the whole image, to the bit.

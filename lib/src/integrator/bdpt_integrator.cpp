@@ -66,7 +66,9 @@ RenderStats BdptIntegrator::render_tile(const Tile& tile, SampleRange samples,
                     Sampler own = light_sampler(options_, sampler, x, y, index, i);
                     Sample light_sample{
                         .index = index, .sampler = own, .films = films, .pixel = center};
-                    trace_light_subpath(world_, camera_, light_limits, own, scratch.light_path);
+                    trace_light_subpath(world_, camera_, light_limits,
+                                        strategies_.environment_sampling(), own,
+                                        scratch.light_path);
                     scratch.weigher.begin_light_path(scratch.light_path.all());
                     scratch.stats.rays.light += scratch.light_path.rays();
                     ++scratch.stats.paths.light;

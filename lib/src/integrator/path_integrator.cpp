@@ -23,7 +23,13 @@ struct PathIntegrator::Ray {
 
 PathIntegrator::PathIntegrator(const World& world, const Camera& camera,
                                const RenderOptions& options)
-    : world_(world), camera_(camera), options_(options), filter_(options.filter)
+    : world_(world),
+      camera_(camera),
+      options_(options),
+      filter_(options.filter),
+      // What light sampling leaves out is found by BSDF sampling in `mis` alone.
+      environment_sampling_(options.integrator == IntegratorKind::mis ? options.environment_sampling
+                                                                      : EnvironmentSampling::plain)
 {}
 
 RenderStats PathIntegrator::render_tile(const Tile& tile, SampleRange samples,
@@ -149,7 +155,8 @@ Rgb PathIntegrator::emission(const Ray& ray, LightId light, const LightPoint& hi
     }
     const LightSet& lights = world_.lights();
     const float probability = lights.receiver_probability(light, ray.origin.p);
-    const AreaPdf pdf = lights[light].pdf_incident(ray.origin.p, hit) * probability;
+    const AreaPdf pdf =
+        lights[light].pdf_incident(ray.origin.p, hit, environment_sampling_) * probability;
     if (lights[light].is_infinite()) {
         return radiance * bsdf_weight(ray.pdf.value, pdf.value);
     }
@@ -170,7 +177,7 @@ Rgb PathIntegrator::sample_light(const SurfacePoint& point, SegmentKey segment, 
     if (options_.integrator == IntegratorKind::pt && !light.is_delta()) {
         return Rgb(0.0f);
     }
-    const auto incident = light.sample_incident(point.end.p, u_position);
+    const auto incident = light.sample_incident(point.end.p, u_position, environment_sampling_);
     if (!incident) {
         return Rgb(0.0f);
     }

@@ -36,6 +36,7 @@ private:
     const Camera& camera_;
     RenderOptions options_;
     PixelFilter filter_;
+    EnvironmentSampling environment_sampling_;
 };
 
 }  // namespace bdpt

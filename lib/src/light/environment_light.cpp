@@ -51,6 +51,28 @@ std::vector<float> sampling_weights(const Image& image, const std::vector<float>
     return weights;
 }
 
+/// What is left of the weights above half of their mean, after Karlik et al. (2019), who take off
+/// all of it; docs/decisions/0023 says why half. A constant picture keeps its shape.
+std::vector<float> compensated(const std::vector<float>& weights, int width,
+                               const std::vector<float>& cosines)
+{
+    double sum = 0.0;
+    for (const float weight : weights) {
+        sum += static_cast<double>(weight);
+    }
+    // The solid angles of all texels, in the unit of the weights, add up to 2 for each column.
+    const double mean = sum / (2.0 * static_cast<double>(width));
+    std::vector<float> excess;
+    excess.reserve(weights.size());
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        const std::size_t row = i / static_cast<std::size_t>(width);
+        const double solid_angle = static_cast<double>(cosines[row] - cosines[row + 1]);
+        const double above = static_cast<double>(weights[i]) - 0.5 * mean * solid_angle;
+        excess.push_back(static_cast<float>(std::max(above, 0.0)));
+    }
+    return excess;
+}
+
 }  // namespace
 
 EnvironmentLight::EnvironmentLight(const EnvironmentLightDesc& desc, const BoundingSphere& bounds)
@@ -58,8 +80,11 @@ EnvironmentLight::EnvironmentLight(const EnvironmentLightDesc& desc, const Bound
       world_from_environment_(desc.world_from_environment),
       bounds_(bounds),
       row_cosines_(row_cosines(desc.radiance.height)),
-      distribution_(sampling_weights(desc.radiance, row_cosines_), desc.radiance.width,
-                    desc.radiance.height)
+      plain_(sampling_weights(desc.radiance, row_cosines_), desc.radiance.width,
+             desc.radiance.height),
+      compensated_(compensated(sampling_weights(desc.radiance, row_cosines_), desc.radiance.width,
+                               row_cosines_),
+                   desc.radiance.width, desc.radiance.height)
 {}
 
 /// Row 0 is around +y; the centre column is at -z and columns to the right turn towards +x.
@@ -109,15 +134,31 @@ SolidAnglePdf EnvironmentLight::to_solid_angle(float pdf_square, int row) const
     return {pdf_square / (2.0f * pi * height)};
 }
 
-SolidAnglePdf EnvironmentLight::pdf_incident(Vec3 to_light) const
+const Distribution2D& EnvironmentLight::distribution(EnvironmentSampling sampling) const
 {
-    const Vec2 uv = uv_of(to_light);
-    return to_solid_angle(distribution_.pdf(uv), row_of(uv.y));
+    return sampling == EnvironmentSampling::plain ? plain_ : compensated_;
 }
 
-std::optional<EnvironmentLight::Direction> EnvironmentLight::sample_direction(Vec2 u) const
+SolidAnglePdf EnvironmentLight::pdf(Vec3 to_light, EnvironmentSampling sampling) const
 {
-    const auto [point, pdf] = distribution_.sample(u);
+    const Vec2 uv = uv_of(to_light);
+    return to_solid_angle(distribution(sampling).pdf(uv), row_of(uv.y));
+}
+
+SolidAnglePdf EnvironmentLight::pdf_emission(Vec3 to_light) const
+{
+    return pdf(to_light, EnvironmentSampling::plain);
+}
+
+SolidAnglePdf EnvironmentLight::pdf_incident(Vec3 to_light, EnvironmentSampling sampling) const
+{
+    return pdf(to_light, sampling);
+}
+
+std::optional<EnvironmentLight::Direction> EnvironmentLight::sample_direction(
+    Vec2 u, EnvironmentSampling sampling) const
+{
+    const auto [point, pdf] = distribution(sampling).sample(u);
     if (!(pdf > 0.0f)) {
         return std::nullopt;
     }
@@ -136,7 +177,7 @@ std::optional<EnvironmentLight::Direction> EnvironmentLight::sample_direction(Ve
 std::optional<EmissionSample> EnvironmentLight::sample_emission(Vec2 u_position,
                                                                 Vec2 u_direction) const
 {
-    const auto from = sample_direction(u_direction);
+    const auto from = sample_direction(u_direction, EnvironmentSampling::plain);
     if (!from) {
         return std::nullopt;
     }
@@ -147,9 +188,10 @@ std::optional<EmissionSample> EnvironmentLight::sample_emission(Vec2 u_position,
                           .pdf_direction = {}};
 }
 
-std::optional<IncidentSample> EnvironmentLight::sample_incident(Vec2 u) const
+std::optional<IncidentSample> EnvironmentLight::sample_incident(Vec2 u,
+                                                                EnvironmentSampling sampling) const
 {
-    const auto from = sample_direction(u);
+    const auto from = sample_direction(u, sampling);
     if (!from) {
         return std::nullopt;
     }

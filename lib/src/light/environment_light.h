@@ -4,6 +4,7 @@
 #include "light/light_samples.h"
 #include "math/distribution_2d.h"
 
+#include <bdpt/render_options.h>
 #include <bdpt/scene_desc.h>
 
 #include <optional>
@@ -12,7 +13,8 @@
 namespace bdpt {
 
 /// Light from all directions at infinity, from an equirectangular picture that is looked up with
-/// bilinear interpolation. Directions are sampled by luminance.
+/// bilinear interpolation. Light paths start in proportion to luminance; next-event estimation has
+/// the choice of `EnvironmentSampling`.
 class EnvironmentLight {
 public:
     /// The picture is copied; negative values have been refused before.
@@ -20,11 +22,15 @@ public:
 
     /// `to_light`: unit, from the scene towards infinity.
     [[nodiscard]] Rgb radiance(Vec3 to_light) const;
-    [[nodiscard]] SolidAnglePdf pdf_incident(Vec3 to_light) const;
+    /// Of the direction that a light path comes from.
+    [[nodiscard]] SolidAnglePdf pdf_emission(Vec3 to_light) const;
+    /// Of the direction that `sample_incident` takes; compensated, it can be zero where light is.
+    [[nodiscard]] SolidAnglePdf pdf_incident(Vec3 to_light, EnvironmentSampling sampling) const;
 
     [[nodiscard]] std::optional<EmissionSample> sample_emission(Vec2 u_position,
                                                                 Vec2 u_direction) const;
-    [[nodiscard]] std::optional<IncidentSample> sample_incident(Vec2 u) const;
+    [[nodiscard]] std::optional<IncidentSample> sample_incident(Vec2 u,
+                                                                EnvironmentSampling sampling) const;
     /// Luminous flux into the scene's bounding sphere [lm].
     [[nodiscard]] Rgb power() const;
 
@@ -34,7 +40,10 @@ private:
         Rgb radiance;
         SolidAnglePdf pdf;
     };
-    [[nodiscard]] std::optional<Direction> sample_direction(Vec2 u) const;
+    [[nodiscard]] const Distribution2D& distribution(EnvironmentSampling sampling) const;
+    [[nodiscard]] std::optional<Direction> sample_direction(Vec2 u,
+                                                            EnvironmentSampling sampling) const;
+    [[nodiscard]] SolidAnglePdf pdf(Vec3 to_light, EnvironmentSampling sampling) const;
     [[nodiscard]] Vec2 uv_of(Vec3 to_light) const;
     [[nodiscard]] Rgb lookup(Vec2 uv) const;
     [[nodiscard]] const Rgb& texel(int x, int y) const;
@@ -45,7 +54,8 @@ private:
     Mat3 world_from_environment_;
     BoundingSphere bounds_;
     std::vector<float> row_cosines_;
-    Distribution2D distribution_;
+    Distribution2D plain_;
+    Distribution2D compensated_;
 };
 
 }  // namespace bdpt

@@ -21,7 +21,8 @@ std::optional<EmissionSample> Light::sample_emission(Vec2 u_position, Vec2 u_dir
     return std::get<EnvironmentLight>(model_).sample_emission(u_position, u_direction);
 }
 
-std::optional<IncidentSample> Light::sample_incident(Vec3 receiver, Vec2 u) const
+std::optional<IncidentSample> Light::sample_incident(Vec3 receiver, Vec2 u,
+                                                     EnvironmentSampling sampling) const
 {
     if (const auto* light = std::get_if<TriangleLight>(&model_)) {
         return light->sample_incident(receiver, u);
@@ -35,7 +36,7 @@ std::optional<IncidentSample> Light::sample_incident(Vec3 receiver, Vec2 u) cons
     if (const auto* light = std::get_if<DirectionalLight>(&model_)) {
         return light->sample_incident();
     }
-    return std::get<EnvironmentLight>(model_).sample_incident(u);
+    return std::get<EnvironmentLight>(model_).sample_incident(u, sampling);
 }
 
 AreaPdf Light::pdf_position(const LightPoint& x0) const
@@ -47,15 +48,18 @@ AreaPdf Light::pdf_position(const LightPoint& x0) const
         return light->pdf_position();
     }
     if (const auto* light = std::get_if<EnvironmentLight>(&model_)) {
-        return {light->pdf_incident(x0.p).value};
+        return {light->pdf_emission(x0.p).value};
     }
     return {1.0f};
 }
 
-AreaPdf Light::pdf_incident(Vec3 receiver, const LightPoint& x0) const
+AreaPdf Light::pdf_incident(Vec3 receiver, const LightPoint& x0, EnvironmentSampling sampling) const
 {
     if (const auto* light = std::get_if<SphereLight>(&model_)) {
         return light->pdf_incident(receiver, x0.p, x0.ng);
+    }
+    if (const auto* light = std::get_if<EnvironmentLight>(&model_)) {
+        return {light->pdf_incident(x0.p, sampling).value};
     }
     return pdf_position(x0);  // the other kinds sample the same points for every receiver
 }

@@ -23,13 +23,17 @@ public:
 
     [[nodiscard]] std::optional<EmissionSample> sample_emission(Vec2 u_position,
                                                                 Vec2 u_direction) const;
-    [[nodiscard]] std::optional<IncidentSample> sample_incident(Vec3 receiver, Vec2 u) const;
+    /// `sampling` counts for environments.
+    [[nodiscard]] std::optional<IncidentSample> sample_incident(
+        Vec3 receiver, Vec2 u, EnvironmentSampling sampling = EnvironmentSampling::plain) const;
 
     /// Of x_0 as the start of a light path: on the surface, or for an infinite light of the
     /// direction; 1 for a delta light.
     [[nodiscard]] AreaPdf pdf_position(const LightPoint& x0) const;
     /// Of x_0 by `sample_incident` from `receiver`, in the same measure.
-    [[nodiscard]] AreaPdf pdf_incident(Vec3 receiver, const LightPoint& x0) const;
+    [[nodiscard]] AreaPdf pdf_incident(
+        Vec3 receiver, const LightPoint& x0,
+        EnvironmentSampling sampling = EnvironmentSampling::plain) const;
     /// Of the direction of a light path that leaves a finite light at a point with the normal `ng`,
     /// zero if none. `SphereLight` says which factor of the joint density this is.
     [[nodiscard]] SolidAnglePdf pdf_direction(Vec3 ng, Vec3 direction) const;

@@ -39,7 +39,8 @@ std::optional<Contribution> hit_light(const World& world, std::span<const PathVe
         return std::nullopt;
     }
     const PathVertex& x1 = before_last(camera);
-    const LightDensities densities = light_densities(world, x0, x1.end);
+    const LightDensities densities =
+        light_densities(world, x0, x1.end, weigher.environment_sampling());
     return Contribution{.unweighted = value,
                         .weight = weigher.weight({}, camera,
                                                  {.light_at_camera_end = densities.emit,
@@ -64,7 +65,8 @@ std::optional<Contribution> connect_to_light(const World& world, std::span<const
         return std::nullopt;
     }
     const Light& light = world.lights()[choice->id];
-    const auto incident = light.sample_incident(z.end.p, u_position);
+    const auto incident =
+        light.sample_incident(z.end.p, u_position, weigher.environment_sampling());
     if (!incident) {
         return std::nullopt;
     }
@@ -90,7 +92,8 @@ std::optional<Contribution> connect_to_light(const World& world, std::span<const
     if (is_black(value)) {
         return std::nullopt;
     }
-    const LightDensities densities = light_densities(world, x0, z.end);
+    const LightDensities densities =
+        light_densities(world, x0, z.end, weigher.environment_sampling());
     x0.pdf_fwd = densities.emit;
     const AreaPdf from_camera =
         light.is_infinite()
@@ -141,7 +144,8 @@ std::optional<Splat> connect_light_to_lens(const World& world, const Camera& cam
     x0.kind = VertexKind::light;
     x0.end = incident->end;
     x0.barycentrics = incident->barycentrics;
-    const LightDensities densities = light_densities(world, x0, to_lens->lens);
+    const LightDensities densities =
+        light_densities(world, x0, to_lens->lens, weigher.environment_sampling());
     x0.pdf_fwd = densities.emit;
     PathVertex lens;
     lens.kind = VertexKind::camera;
@@ -214,7 +218,8 @@ std::optional<Splat> hit_lens(const World& world, const Subpath& light_path,
     const auto light = light_path.first(crossing.light_vertices);
     const AreaPdf next_event = light.size() > 1
                                    ? light[0].pdf_next_event
-                                   : next_event_density(world, light[0], crossing.lens.end);
+                                   : next_event_density(world, light[0], crossing.lens.end,
+                                                        weigher.environment_sampling());
     const AreaPdf neighbor = light.size() > 1 ? before_last(light).pdf_rev : AreaPdf{};
     const float weight = weigher.weight_of_hit(light, crossing.lens,
                                                {.light_at_camera_end = crossing.lens.pdf_rev,

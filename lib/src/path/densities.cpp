@@ -12,15 +12,17 @@ bool can_be_seen_directly(const Light& light, const Camera& camera)
     return !light.is_delta() && !light.is_infinite() && camera.is_perspective();
 }
 
-AreaPdf next_event_density(const World& world, const PathVertex& x0, const SegmentEnd& x1)
+AreaPdf next_event_density(const World& world, const PathVertex& x0, const SegmentEnd& x1,
+                           EnvironmentSampling sampling)
 {
     const LightPoint point{.p = x0.end.p, .ng = x0.end.ng, .barycentrics = x0.barycentrics};
     const LightSet& lights = world.lights();
-    return lights[*x0.light].pdf_incident(x1.p, point) *
+    return lights[*x0.light].pdf_incident(x1.p, point, sampling) *
            lights.receiver_probability(*x0.light, x1.p);
 }
 
-LightDensities light_densities(const World& world, const PathVertex& x0, const SegmentEnd& x1)
+LightDensities light_densities(const World& world, const PathVertex& x0, const SegmentEnd& x1,
+                               EnvironmentSampling sampling)
 {
     const LightSet& lights = world.lights();
     const Light& light = lights[*x0.light];
@@ -31,7 +33,7 @@ LightDensities light_densities(const World& world, const PathVertex& x0, const S
     const LightPoint point{.p = x0.end.p, .ng = x0.end.ng, .barycentrics = x0.barycentrics};
     const float cosine = std::abs(dot(x1.ng, to_light));
     return {.emit = light.pdf_position(point) * lights.emission_probability(*x0.light),
-            .next_event = next_event_density(world, x0, x1),
+            .next_event = next_event_density(world, x0, x1, sampling),
             .to_next = infinite ? to_area(world.bounding_sphere().pdf_disk(), cosine)
                                 : to_area(light.pdf_direction(x0.end.ng, -to_light), cosine,
                                           distance_squared)};

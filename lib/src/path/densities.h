@@ -20,13 +20,14 @@ struct LightDensities {
     AreaPdf to_next;     ///< x_1 sampled from x_0 by a light path
 };
 
-/// x_0 on light `x0.light`, sampled from x_1 by next-event estimation.
+/// x_0 on light `x0.light`, sampled from x_1 by next-event estimation, which samples environments
+/// by `sampling`.
 [[nodiscard]] AreaPdf next_event_density(const World& world, const PathVertex& x0,
-                                         const SegmentEnd& x1);
+                                         const SegmentEnd& x1, EnvironmentSampling sampling);
 
-/// `x0` is a vertex on light `x0.light`.
+/// `x0` is a vertex on light `x0.light`. `sampling`: of next-event estimation.
 [[nodiscard]] LightDensities light_densities(const World& world, const PathVertex& x0,
-                                             const SegmentEnd& x1);
+                                             const SegmentEnd& x1, EnvironmentSampling sampling);
 
 /// Can the strategy s = t = 1, which joins a light point to a lens point, see this light?
 [[nodiscard]] bool can_be_seen_directly(const Light& light, const Camera& camera);
@@ -55,6 +56,11 @@ public:
 
     /// The densities behind the last weight(), if no subpath was begun: for tests.
     [[nodiscard]] PathDensities last_path() const;
+
+    [[nodiscard]] EnvironmentSampling environment_sampling() const
+    {
+        return strategies_.environment_sampling();
+    }
 
 private:
     enum class Joined { yes, no };

@@ -158,9 +158,6 @@ void walk(const Walk& rules, Step step, Sampler& sampler, Subpath& path)
             return;
         }
         append_surface(*hit, distance_squared, step, path);
-        if (mode == TransportMode::importance && path.size() == 2) {
-            path[0].pdf_next_event = next_event_density(world, path[0], path[1].end);
-        }
         if (path.size() == max_vertices && !watches_lens) {
             return;
         }
@@ -212,7 +209,7 @@ void trace_camera_subpath(const World& world, const Camera& camera, Vec2 raster,
 }
 
 void trace_light_subpath(const World& world, const Camera& camera, const WalkLimits& limits,
-                         Sampler& sampler, Subpath& path)
+                         EnvironmentSampling sampling, Sampler& sampler, Subpath& path)
 {
     path.clear();
     sampler.start(SampleUse::light_start);
@@ -251,6 +248,9 @@ void trace_light_subpath(const World& world, const Camera& camera, const WalkLim
           .use = SampleUse::light_walk,
           .limits = limits},
          step, sampler, path);
+    if (path.size() > 1) {
+        start.pdf_next_event = next_event_density(world, start, path[1].end, sampling);
+    }
 }
 
 }  // namespace bdpt

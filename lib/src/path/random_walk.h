@@ -21,8 +21,9 @@ void trace_camera_subpath(const World& world, const Camera& camera, Vec2 raster,
                           const WalkLimits& limits, Sampler& sampler, Subpath& path);
 
 /// Fills `path` from a randomly chosen light; the first vertex is on the light. Records where the
-/// walk crosses the camera's finite lens. Empty when no light has power.
+/// walk crosses the camera's finite lens. Empty when no light has power. `sampling` is how
+/// next-event estimation samples environments, whose density it notes.
 void trace_light_subpath(const World& world, const Camera& camera, const WalkLimits& limits,
-                         Sampler& sampler, Subpath& path);
+                         EnvironmentSampling sampling, Sampler& sampler, Subpath& path);
 
 }  // namespace bdpt

@@ -25,7 +25,10 @@ StrategySet::StrategySet(const RenderOptions& options)
       light_paths_(options.light_paths),
       complete_(options.integrator == IntegratorKind::bdpt && options.disabled.empty() &&
                 options.max_camera_depth >= options.max_depth &&
-                options.max_light_depth >= options.max_depth)
+                options.max_light_depth >= options.max_depth),
+      // Images of single strategies show what each finds by itself.
+      environment_sampling_(options.strategy_depth > 0 ? EnvironmentSampling::plain
+                                                       : options.environment_sampling)
 {
     counts_.assign(static_cast<std::size_t>(stride_ * stride_), 0.0f);
     for (int s = 0; s < stride_; ++s) {
@@ -40,6 +43,11 @@ StrategySet::StrategySet(const RenderOptions& options)
             // A path that hits the lens has it as its last vertex, which is not a vertex of the
             // walk.
             light_vertices_ = std::max(light_vertices_, s < 2 ? 0 : t == 0 ? s - 1 : s);
+        }
+    }
+    for (int t = 2; t + 1 < stride_; ++t) {
+        if (uses(1, t) && !uses(0, t + 1)) {
+            environment_sampling_ = EnvironmentSampling::plain;
         }
     }
 }

@@ -24,6 +24,9 @@ public:
     [[nodiscard]] bool is_complete() const { return complete_; }
     [[nodiscard]] int light_paths() const { return light_paths_; }
 
+    /// How s = 1 samples environments: as asked for if s = 0 can make every path that it can.
+    [[nodiscard]] EnvironmentSampling environment_sampling() const { return environment_sampling_; }
+
     /// Vertices of the longest subpaths that any strategy needs, the lens or the light included.
     [[nodiscard]] int camera_vertices() const { return camera_vertices_; }
     [[nodiscard]] int light_vertices() const { return light_vertices_; }
@@ -34,6 +37,7 @@ private:
     bool complete_;
     int camera_vertices_ = 1;
     int light_vertices_ = 0;
+    EnvironmentSampling environment_sampling_;
     std::vector<float> counts_;
 };
 

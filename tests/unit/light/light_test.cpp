@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include <cmath>
+#include <utility>
 
 namespace bdpt {
 namespace {
@@ -38,22 +39,27 @@ EnvironmentLight environment(Image image)
 TEST_CASE("environment: the density integrates to one and is that of the samples", "[light]")
 {
     const EnvironmentLight light = environment(sky());
+    const auto sampling = GENERATE(EnvironmentSampling::plain, EnvironmentSampling::compensated);
+    CAPTURE(static_cast<int>(sampling));
     test::Random random(1);
     test::Moments density;
     test::Moments radiance;
     for (int i = 0; i < 400000; ++i) {
         const Vec3 w = random.direction();
-        density.add(static_cast<double>(4.0f * pi * light.pdf_incident(w).value));
-        radiance.add(static_cast<double>(4.0f * pi * luminance(light.radiance(w))));
+        const float pdf = light.pdf_incident(w, sampling).value;
+        density.add(static_cast<double>(4.0f * pi * pdf));
+        // What is never sampled is left to others.
+        const float sampled = pdf > 0.0f ? luminance(light.radiance(w)) : 0.0f;
+        radiance.add(static_cast<double>(4.0f * pi * sampled));
     }
     CHECK(std::abs(density.mean() - 1.0) < 4.0 * density.standard_error());
     CHECK(density.standard_error() < 0.01);
 
     test::Moments sampled;
     for (int i = 0; i < 20000; ++i) {
-        const auto incident = light.sample_incident(random.next_2d());
+        const auto incident = light.sample_incident(random.next_2d(), sampling);
         REQUIRE(incident.has_value());
-        REQUIRE(light.pdf_incident(incident->wi).value ==
+        REQUIRE(light.pdf_incident(incident->wi, sampling).value ==
                 Approx(incident->pdf_solid_angle.value).epsilon(2e-3));
         sampled.add(static_cast<double>(luminance(incident->weight)));
     }
@@ -69,8 +75,47 @@ TEST_CASE("environment: light wherever it is bright can be sampled", "[light]")
     for (int i = 0; i < 10000; ++i) {
         const Vec3 w = random.direction();
         if (luminance(light.radiance(w)) > 0.0f) {
-            REQUIRE(light.pdf_incident(w).value > 0.0f);
+            REQUIRE(light.pdf_incident(w, EnvironmentSampling::plain).value > 0.0f);
+            REQUIRE(light.pdf_emission(w).value > 0.0f);
         }
+    }
+}
+
+TEST_CASE("environment: compensated sampling leaves out half of the mean", "[light]")
+{
+    constexpr int width = 16;
+    constexpr int height = 256;
+    Image image{.width = width, .height = height, .pixels = {}};
+    for (int i = 0; i < width * height; ++i) {
+        const float below = i % width < width / 2 ? 1.0f : 2.0f;
+        image.pixels.emplace_back(i / width < height / 2 ? 5.0f : below);  // the mean is 3.25
+    }
+    const auto compensated = EnvironmentSampling::compensated;
+    const EnvironmentLight light({.radiance = image}, {.center = Vec3(0.0f), .radius = 1.0f});
+    const Vec3 up = normalize(Vec3(0.3f, 0.5f, -0.2f));
+    const Vec3 left = normalize(Vec3(-0.3f, -0.5f, -0.2f));
+    const Vec3 right = normalize(Vec3(0.3f, -0.5f, -0.2f));
+    const auto share = [](float level, float mean) {
+        return Approx(0.25f * inv_pi * level / mean).epsilon(0.02);
+    };
+    CHECK(light.pdf_incident(up, compensated).value == share(3.375f, 1.78125f));
+    CHECK(light.pdf_incident(right, compensated).value == share(0.375f, 1.78125f));
+    CHECK(light.pdf_incident(left, compensated).value == 0.0f);
+    for (const auto& [direction, level] : {std::pair{up, 5.0f}, {left, 1.0f}, {right, 2.0f}}) {
+        CHECK(light.pdf_emission(direction).value == share(level, 3.25f));
+        CHECK(light.pdf_incident(direction, EnvironmentSampling::plain).value ==
+              share(level, 3.25f));
+    }
+
+    // A constant picture keeps its density.
+    for (const int columns : {1, 7, 512}) {
+        const Image grey{.width = columns,
+                         .height = 3,
+                         .pixels = std::vector<Rgb>(3 * static_cast<std::size_t>(columns),
+                                                    Rgb(0.1f, 0.7f, 0.3f))};
+        const EnvironmentLight constant({.radiance = grey}, {});
+        CHECK(constant.pdf_incident(up, compensated).value == Approx(0.25f * inv_pi));
+        CHECK(constant.pdf_incident(left, compensated).value == Approx(0.25f * inv_pi));
     }
 }
 

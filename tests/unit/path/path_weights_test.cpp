@@ -71,8 +71,8 @@ TEST_CASE("weights of all strategies sum to one on traced paths", "[mis]")
                               static_cast<float>(i / size % size) + 0.5f);
             trace_camera_subpath(world, camera, raster, {.max_vertices = camera_path.capacity()},
                                  sampler, camera_path);
-            trace_light_subpath(world, camera, {.max_vertices = light_path.capacity()}, sampler,
-                                light_path);
+            trace_light_subpath(world, camera, {.max_vertices = light_path.capacity()},
+                                strategies.environment_sampling(), sampler, light_path);
             for (int t = 2; t <= camera_path.size(); ++t) {
                 check(hit_light(world, camera_path.first(t), weigher));
                 if (t <= max_depth) {

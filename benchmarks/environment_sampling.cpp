@@ -1,0 +1,71 @@
+// What compensated sampling of environments brings: error at equal samples and CPU time, against
+// plain sampling by luminance, in turn.
+
+#include <CLI/CLI.hpp>
+
+#include <array>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "contest.h"
+#include "subject.h"
+
+namespace {
+
+using namespace bdpt;
+
+struct Settings {
+    std::vector<std::string> scenes;
+    SubjectSettings subject{.size = 64, .max_depth = 6};
+    int rounds = 5;
+    std::int64_t samples = 16;
+};
+
+struct Kind {
+    IntegratorKind kind;
+    const char* name;
+};
+
+void measure(const std::string& file, const Settings& settings)
+{
+    const Subject subject = load_subject(file, settings.subject);
+    const Reference reference = make_reference(subject, settings.subject.reference_samples);
+    for (const Kind& integrator :
+         {Kind{IntegratorKind::mis, "mis"}, Kind{IntegratorKind::bdpt, "bdpt"}}) {
+        std::array variants{Variant{"plain", subject.options},
+                            Variant{"compensated", subject.options}};
+        for (Variant& variant : variants) {
+            variant.options.integrator = integrator.kind;
+        }
+        variants[0].options.environment_sampling = EnvironmentSampling::plain;
+        variants[1].options.environment_sampling = EnvironmentSampling::compensated;
+        const auto scores = compete_at_equal_samples(subject, reference, variants, settings.samples,
+                                                     settings.rounds);
+        std::printf("  %-4s relMSE: plain %.2e, compensated %.2e, ratio %.2f; time ratio %.2f\n",
+                    integrator.name, scores[0].error, scores[1].error,
+                    scores[1].error / scores[0].error,
+                    scores[1].sample_seconds / scores[0].sample_seconds);
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+    Settings settings;
+    CLI::App app{"Error and time of compensated sampling of environments against plain sampling"};
+    app.add_option("scenes", settings.scenes, "glTF files with an environment, or see --env")
+        ->required();
+    app.add_option("--spp", settings.samples, "Samples per pixel")->capture_default_str();
+    app.add_option("--rounds", settings.rounds, "Renders of each")->capture_default_str();
+    add_options(app, settings.subject);
+    add_reference_option(app, settings.subject);
+    CLI11_PARSE(app, argc, argv);
+    return report_errors([&] {
+        for (const std::string& scene : settings.scenes) {
+            measure(scene, settings);
+        }
+        return 0;
+    });
+}

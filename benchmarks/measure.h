@@ -1,0 +1,50 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <ctime>
+#include <type_traits>
+#include <vector>
+
+namespace bdpt {
+
+/// Median, or the upper one of two; `values` is not empty.
+[[nodiscard]] inline double median(std::vector<double> values)
+{
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+}
+
+/// CPU time of all threads of this process [s]: other programs on the machine count less than on a
+/// clock at the wall.
+[[nodiscard]] inline double cpu_seconds()
+{
+    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+/// Results of `run(variant, round)` for each variant, by round. The variants take turns, A B C A B
+/// C ..., so that a machine that gets slower or busier does so for all.
+template <typename Run>
+[[nodiscard]] auto in_turn(std::size_t variants, int rounds, const Run& run)
+{
+    using Result = std::invoke_result_t<Run, std::size_t, int>;
+    std::vector<std::vector<Result>> results(variants);
+    for (int round = 0; round < rounds; ++round) {
+        for (std::size_t variant = 0; variant < variants; ++variant) {
+            results[variant].push_back(run(variant, round));
+        }
+    }
+    return results;
+}
+
+/// The median over rounds of how many times more `a` is than `b` in the same round.
+[[nodiscard]] inline double median_ratio(const std::vector<double>& a, const std::vector<double>& b)
+{
+    std::vector<double> ratios;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        ratios.push_back(a[i] / b[i]);
+    }
+    return median(ratios);
+}
+
+}  // namespace bdpt

@@ -52,9 +52,12 @@ SceneBuilder& hang(SceneBuilder& builder, const MaterialDesc& material)
                         {-0.6f, 0.5f, -0.1f}, material);
 }
 
-EqualityCase in_room(std::string name, SceneBuilder builder)
+EqualityCase in_room(std::string name, SceneBuilder builder, std::optional<int> seen_by_lt = 1)
 {
-    return {.name = std::move(name), .scene = std::move(builder.desc), .camera = room_camera()};
+    return {.name = std::move(name),
+            .scene = std::move(builder.desc),
+            .camera = room_camera(),
+            .seen_by_lt = seen_by_lt};
 }
 
 /// Balls of one mesh, of which each lets rays pass in its own way.
@@ -98,7 +101,7 @@ std::vector<EqualityCase> alpha_cases()
              see_through(lambertian({0.3f, 0.6f, 0.3f}), 0.6f));
     sky.light(EnvironmentLightDesc{
         .radiance = {.width = 2, .height = 1, .pixels = {Rgb(2.0f, 1.0f, 1.0f), Rgb(0.5f)}}});
-    cases.push_back(in_room("masked leaves and a blended roof under a sky", std::move(sky)));
+    cases.push_back(in_room("masked leaves and a blended roof under a sky", std::move(sky), 2));
 
     SceneBuilder lamps = closed_room();
     MaterialDesc lantern = emitter({3.0f, 2.0f, 1.0f});
@@ -126,7 +129,7 @@ std::vector<EqualityCase> alpha_cases()
     tinted.attenuation_distance = 0.5f;
     glasses.lamp(0.98f, 0.85f, Rgb(3.0f)).sphere({0.4f, -0.5f, 0.1f}, 0.4f, tinted);
     glasses.sphere({-0.4f, -0.5f, 0.1f}, 0.4f, see_through(thin_glass(0.0f), 0.5f));
-    cases.push_back(in_room("glass with alpha", std::move(glasses)));
+    cases.push_back(in_room("glass with alpha", std::move(glasses), std::nullopt));
     return cases;
 }
 

@@ -48,7 +48,8 @@ TEST_CASE("closed Lambertian furnace: L = Le (1 - a^k) / (1 - a)", "[closed-form
                               (1.0f - albedo[c]);
             }
             TileMeans means(scene, camera, options(kind, k));
-            const MeanComparison result = compare_means(means, average(expected), {.detectable_bias = 0.01});
+            const MeanComparison result =
+                compare_means(means, average(expected), {.detectable_bias = 0.01});
             INFO("integrator " << static_cast<int>(kind) << ", " << k
                                << " edges: " << result.text());
             CHECK(result.sharp_enough);

@@ -26,9 +26,12 @@ SceneBuilder lit_room(const MaterialDesc& floor = lambertian(white))
     return builder;
 }
 
-EqualityCase in_room(std::string name, SceneBuilder builder)
+EqualityCase in_room(std::string name, SceneBuilder builder, std::optional<int> seen_by_lt = 1)
 {
-    return {.name = std::move(name), .scene = std::move(builder.desc), .camera = room_camera()};
+    return {.name = std::move(name),
+            .scene = std::move(builder.desc),
+            .camera = room_camera(),
+            .seen_by_lt = seen_by_lt};
 }
 
 Image gradient_sky()
@@ -75,7 +78,7 @@ EqualityCase mirrored_instances()
                   glm::scale(at(0.0f, 0.9f, -0.4f), Vec3(0.6f, 1.0f, 0.4f)));
     builder.place(mesh, emitter({3.0f, 2.0f, 1.0f}),
                   glm::scale(at(0.0f, 0.9f, 0.5f), Vec3(-0.6f, 1.0f, 0.4f)));
-    return in_room("instances with negative scale", std::move(builder));
+    return in_room("instances with negative scale", std::move(builder), std::nullopt);
 }
 
 /// All texture slots at once, with a transform, vertex colours and a normal map.
@@ -116,7 +119,7 @@ EqualityCase scaled(std::string name, float scale, Vec3 shift)
     SceneBuilder builder = lit_room();
     builder.sphere({-0.4f, -0.5f, 0.0f}, 0.4f, glass(0.0f));
     builder.sphere({0.5f, -0.6f, 0.2f}, 0.4f, lambertian(red));
-    EqualityCase result = in_room(std::move(name), std::move(builder));
+    EqualityCase result = in_room(std::move(name), std::move(builder), std::nullopt);
     const Mat4 transform = glm::scale(glm::translate(Mat4(1.0f), shift), Vec3(scale));
     for (InstanceDesc& instance : result.scene.instances) {
         instance.world_from_object = transform * instance.world_from_object;
@@ -135,7 +138,7 @@ EqualityCase sunny_sky()
     SceneBuilder room_with_ball = room();
     room_with_ball.sphere({0.4f, -0.6f, 0.0f}, 0.4f, plastic(white, 0.3f));
     room_with_ball.light(EnvironmentLightDesc{.radiance = std::move(sky)});
-    return in_room("environment with a sun", std::move(room_with_ball));
+    return in_room("environment with a sun", std::move(room_with_ball), 2);
 }
 
 void add_lights(std::vector<EqualityCase>& cases)
@@ -177,21 +180,21 @@ void add_lights(std::vector<EqualityCase>& cases)
     SceneBuilder constant = room();
     constant.sphere({0.4f, -0.6f, 0.0f}, 0.4f, glass(0.0f));
     constant.light(EnvironmentLightDesc{.radiance = {.width = 1, .height = 1, .pixels = {Rgb(1)}}});
-    cases.push_back(in_room("constant environment", std::move(constant)));
+    cases.push_back(in_room("constant environment", std::move(constant), std::nullopt));
 
     SceneBuilder sky = room();
     sky.sphere({0.4f, -0.6f, 0.0f}, 0.4f, metal(white, 0.3f));
     sky.light(EnvironmentLightDesc{
         .radiance = gradient_sky(),
         .world_from_environment = Mat3(glm::rotate(Mat4(1.0f), 0.5f, Vec3(0.6f, 0.8f, 0.0f)))});
-    cases.push_back(in_room("environment picture", std::move(sky)));
+    cases.push_back(in_room("environment picture", std::move(sky), 2));
 
     SceneBuilder mixed = room();
     mixed.lamp(0.9f, 0.4f, Rgb(3.0f));
     mixed.light(PointLightDesc{.position = {0.5f, 0.2f, 0.5f}, .intensity = {0.5f, 0.1f, 0.1f}});
     mixed.light(DirectionalLightDesc{.direction = {-0.2f, -1.0f, -0.3f}, .illuminance = Rgb(0.5f)});
     mixed.light(EnvironmentLightDesc{.radiance = gradient_sky()});
-    cases.push_back(in_room("all kinds of light", std::move(mixed)));
+    cases.push_back(in_room("all kinds of light", std::move(mixed), 2));
 }
 
 void add_sphere_lights(std::vector<EqualityCase>& cases)
@@ -220,7 +223,8 @@ void add_sphere_lights(std::vector<EqualityCase>& cases)
     behind_glass.light(
         PointLightDesc{.position = {0.0f, -0.1f, 0.0f}, .intensity = Rgb(1.0f), .radius = 0.2f});
     behind_glass.sphere({0.0f, -0.1f, 0.0f}, 0.45f, glass(0.0f));
-    cases.push_back(in_room("sphere light in a ball of glass", std::move(behind_glass)));
+    cases.push_back(
+        in_room("sphere light in a ball of glass", std::move(behind_glass), std::nullopt));
 
     // Two balls and a mirror: each hides the other, and both are seen twice.
     SceneBuilder mixed = room();
@@ -229,7 +233,7 @@ void add_sphere_lights(std::vector<EqualityCase>& cases)
         PointLightDesc{.position = {0.4f, 0.1f, 0.0f}, .intensity = Rgb(0.5f), .radius = 0.2f});
     mixed.light(PointLightDesc{
         .position = {0.1f, -0.3f, 0.4f}, .intensity = {0.1f, 0.5f, 0.2f}, .radius = 0.3f});
-    cases.push_back(in_room("sphere lights, lamp and mirror", std::move(mixed)));
+    cases.push_back(in_room("sphere lights, lamp and mirror", std::move(mixed), std::nullopt));
 }
 
 /// A screen with a bright spot, a dim one, and much that is black.
@@ -254,22 +258,23 @@ EqualityCase textured_emitter()
 
 void add_materials(std::vector<EqualityCase>& cases)
 {
-    const auto with_ball = [&](std::string name, const MaterialDesc& material) {
+    const auto with_ball = [&](std::string name, const MaterialDesc& material,
+                               std::optional<int> seen_by_lt = 1) {
         SceneBuilder builder = lit_room();
         builder.sphere({0.0f, -0.4f, 0.0f}, 0.55f, material);
-        cases.push_back(in_room(std::move(name), std::move(builder)));
+        cases.push_back(in_room(std::move(name), std::move(builder), seen_by_lt));
     };
     with_ball("plastic", plastic(red, 0.3f));
-    with_ball("smooth plastic", plastic(red, 0.0f));
+    with_ball("smooth plastic", plastic(red, 0.0f), std::nullopt);
     with_ball("rough metal", metal({0.9f, 0.7f, 0.4f}, 0.4f));
-    with_ball("mirror", metal(Rgb(0.95f), 0.0f));
-    with_ball("thin glass", thin_glass(0.0f));
+    with_ball("mirror", metal(Rgb(0.95f), 0.0f), std::nullopt);
+    with_ball("thin glass", thin_glass(0.0f), std::nullopt);
     with_ball("rough thin glass", thin_glass(0.5f));
     with_ball("rough glass", glass(0.4f));
     MaterialDesc tinted = glass(0.0f);
     tinted.attenuation_color = {0.9f, 0.4f, 0.2f};
     tinted.attenuation_distance = 0.5f;
-    with_ball("tinted glass", tinted);
+    with_ball("tinted glass", tinted, std::nullopt);
     MaterialDesc half = glass(0.3f);
     half.base_color = {0.5f, 0.8f, 0.6f, 1.0f};
     half.transmission = 0.5f;

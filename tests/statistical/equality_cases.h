@@ -2,6 +2,7 @@
 
 #include <bdpt/scene_desc.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@ struct EqualityCase {
     /// `pt` and `mis` see delta lights through light sampling alone, so they miss what those cast
     /// through mirrors and glass: such scenes have other lights only.
     double detectable_bias = 0.025;
+    /// `lt` sees all paths of this many edges and more: 2 where the sky can be seen, for no light
+    /// path starts towards the lens there. None where camera rays can meet mirrors or smooth glass.
+    std::optional<int> seen_by_lt = 1;
 };
 
 [[nodiscard]] std::vector<EqualityCase> equality_cases();

@@ -1,5 +1,5 @@
-// pt = mis = bdpt: the three integrators estimate the same integral by different densities, so a
-// wrong density, weight, cosine or factor in any of them makes them differ.
+// pt = nee = mis = lt = bdpt: the integrators estimate the same integral by different densities, so
+// a wrong density, weight, cosine or factor in any of them makes them differ.
 
 #include "catch.hpp"
 #include "equal_means.h"
@@ -33,6 +33,26 @@ void check_equal(const EqualityCase& test, const char* what, TileMeans& a, TileM
     }
 }
 
+/// `mis`: means of all paths.
+void check_light_tracing(const EqualityCase& test, const Scene& scene, TileMeans& mis,
+                         std::uint64_t first_seed)
+{
+    if (!test.seen_by_lt) {
+        return;
+    }
+    RenderOptions seen = options(test, IntegratorKind::lt, first_seed);
+    seen.min_depth = *test.seen_by_lt;
+    TileMeans lt(scene, test.camera, seen);
+    if (seen.min_depth == 1) {
+        check_equal(test, "mis = lt", mis, lt);
+        return;
+    }
+    RenderOptions part = options(test, IntegratorKind::mis, first_seed + 1);
+    part.min_depth = seen.min_depth;
+    TileMeans mis_part(scene, test.camera, part);
+    check_equal(test, "mis = lt", mis_part, lt);
+}
+
 /// `first_seed`: cases do not share random numbers, or one unlucky draw would be seen in all.
 void check_case(const EqualityCase& test, std::uint64_t first_seed)
 {
@@ -46,6 +66,9 @@ void check_case(const EqualityCase& test, std::uint64_t first_seed)
     balance.heuristic = Heuristic::balance;
     TileMeans bdpt_balance(scene, test.camera, balance);
     check_equal(test, "mis = bdpt (balance)", mis, bdpt_balance);
+    TileMeans nee(scene, test.camera, options(test, IntegratorKind::nee, first_seed + 5));
+    check_equal(test, "mis = nee", mis, nee);
+    check_light_tracing(test, scene, mis, first_seed + 6);
 }
 
 /// The same integral by other random numbers.
@@ -72,22 +95,22 @@ void check_cases(std::size_t first)
 
 }  // namespace
 
-TEST_CASE("pt, mis and bdpt agree: cases 0, 4, ...", "[equality]")
+TEST_CASE("all integrators agree: cases 0, 4, ...", "[equality]")
 {
     check_cases(0);
 }
 
-TEST_CASE("pt, mis and bdpt agree: cases 1, 5, ...", "[equality]")
+TEST_CASE("all integrators agree: cases 1, 5, ...", "[equality]")
 {
     check_cases(1);
 }
 
-TEST_CASE("pt, mis and bdpt agree: cases 2, 6, ...", "[equality]")
+TEST_CASE("all integrators agree: cases 2, 6, ...", "[equality]")
 {
     check_cases(2);
 }
 
-TEST_CASE("pt, mis and bdpt agree: cases 3, 7, ...", "[equality]")
+TEST_CASE("all integrators agree: cases 3, 7, ...", "[equality]")
 {
     check_cases(3);
 }

@@ -62,7 +62,7 @@ Rgb medium_transmittance(const SegmentEnd& a, const SegmentEnd& b, Vec3 w, float
     return is_black(absorption) ? Rgb(1.0f) : attenuate(absorption, distance);
 }
 
-World::World(SceneDesc desc) : desc_(std::move(desc))
+World::World(SceneDesc desc, Isa isa) : desc_(std::move(desc))
 {
     validate(desc_);
     for (const MaterialDesc& material : desc_.materials) {
@@ -81,7 +81,7 @@ World::World(SceneDesc desc) : desc_(std::move(desc))
     bounds_ = bounds_of(placed_, spheres_);
     sphere_ = sphere_around(bounds_);
     embree_ = std::make_unique<const EmbreeScene>(desc_.instances, placed_, desc_.meshes.size(),
-                                                  spheres_, pass_rule());
+                                                  spheres_, pass_rule(), isa);
     lights_ = std::make_unique<const LightSet>(desc_.instances, placed_, materials_, desc_.lights,
                                                sphere_);
     counts_ = count(desc_);

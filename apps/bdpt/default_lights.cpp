@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <variant>
 
 namespace bdpt::app {
 
@@ -17,6 +18,22 @@ bool has_light(const SceneDesc& desc)
                            return index < desc.materials.size() &&
                                   desc.materials[index].emission != Rgb(0.0f);
                        });
+}
+
+bool has_surface(const SceneDesc& desc)
+{
+    const auto has_triangles = [&desc](const InstanceDesc& instance) {
+        const auto index = static_cast<std::size_t>(instance.mesh);
+        return index < desc.meshes.size() && !desc.meshes[index].triangles.empty();
+    };
+    const auto is_ball = [](const LightDesc& light) {
+        const auto* point = std::get_if<PointLightDesc>(&light);
+        const auto* spot = std::get_if<SpotLightDesc>(&light);
+        return (point != nullptr && point->radius > 0.0f) ||
+               (spot != nullptr && spot->radius > 0.0f);
+    };
+    return std::any_of(desc.instances.begin(), desc.instances.end(), has_triangles) ||
+           std::any_of(desc.lights.begin(), desc.lights.end(), is_ball);
 }
 
 EnvironmentLightDesc default_environment()

@@ -16,16 +16,6 @@
 namespace bdpt::app {
 namespace {
 
-std::size_t count_triangles(const SceneDesc& desc)
-{
-    std::size_t count = 0;
-    for (const InstanceDesc& instance : desc.instances) {
-        const auto mesh = static_cast<std::size_t>(instance.mesh);
-        count += mesh < desc.meshes.size() ? desc.meshes[mesh].triangles.size() : 0;
-    }
-    return count;
-}
-
 /// Where light from infinity comes from, once all is decided.
 enum class Sky { none, fallback, chosen };
 
@@ -135,9 +125,11 @@ Stage prepare_stage(const RenderArguments& arguments)
     for (const std::string& warning : loaded.warnings) {
         warnings.push_back(fmt::format("{}: {}", file, warning));
     }
-    if (count_triangles(loaded.scene) == 0) {
-        throw Error(ErrorCode::invalid_input,
-                    fmt::format("{}: the scene is empty: it has no triangles", file));
+    if (!has_surface(loaded.scene)) {
+        throw Error(
+            ErrorCode::invalid_input,
+            fmt::format("{}: the scene is empty: it has no triangles and no light with a radius",
+                        file));
     }
     const std::optional<CameraDesc> from_file = camera_in_file(loaded.cameras, arguments);
     const Size size =

@@ -76,6 +76,32 @@ void render_pass(const Work& work, const RenderOptions& options, SampleRange sam
     result.film.count_samples(samples.begin, samples.end);
 }
 
+/// Lets oneTBB use more threads than there are processors while somebody asks for them.
+class MoreThreads {
+public:
+    /// `wanted` 0: one for each processor.
+    explicit MoreThreads(int wanted)
+        : threads_(wanted > 0 ? wanted : tbb::info::default_concurrency())
+    {
+        // The least of all allowances counts in a process, so nobody takes one that is not needed.
+        if (threads_ > allowed()) {
+            allowance_.emplace(parallelism, static_cast<std::size_t>(threads_));
+            threads_ = std::min(threads_, allowed());
+        }
+    }
+    [[nodiscard]] int threads() const { return threads_; }
+
+private:
+    static constexpr auto parallelism = tbb::global_control::max_allowed_parallelism;
+    static int allowed()
+    {
+        return static_cast<int>(tbb::global_control::active_value(parallelism));
+    }
+
+    int threads_;
+    std::optional<tbb::global_control> allowance_;
+};
+
 }  // namespace
 
 RenderResult render(const Scene& scene, const CameraDesc& camera_desc, const RenderOptions& options,
@@ -93,13 +119,8 @@ RenderResult render(const Scene& scene, const CameraDesc& camera_desc, const Ren
     const auto integrator = make_integrator(scene.world(), camera, options);
     const AovPass aov_pass(scene.world(), camera, options);
 
-    const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
-    // More threads than cores are allowed only while somebody asks for them.
-    const tbb::global_control allowance(
-        tbb::global_control::max_allowed_parallelism,
-        std::max(static_cast<std::size_t>(threads),
-                 tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)));
-    tbb::task_arena arena(threads);
+    const MoreThreads allowance(options.threads);
+    tbb::task_arena arena(allowance.threads());
 
     const FilmLayout layout{
         .width = options.width,

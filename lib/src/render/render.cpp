@@ -12,7 +12,6 @@
 #include <tbb/blocked_range2d.h>
 #include <tbb/combinable.h>
 #include <tbb/global_control.h>
-#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -76,20 +75,35 @@ void render_pass(const Work& work, const RenderOptions& options, SampleRange sam
     result.film.count_samples(samples.begin, samples.end);
 }
 
-/// Lets oneTBB use more threads than there are processors while somebody asks for them.
-class MoreThreads {
+/// The threads of one render.
+class Threads {
 public:
-    /// `wanted` 0: one for each processor.
-    explicit MoreThreads(int wanted)
-        : threads_(wanted > 0 ? wanted : tbb::info::default_concurrency())
+    /// `wanted` 0: those that the caller's thread would use for any work with oneTBB. That makes no
+    /// arena, and before version 2021.9 oneTBB frees arenas late when they come in quick
+    /// succession.
+    explicit Threads(int wanted)
     {
-        // The least of all allowances counts in a process, so nobody takes one that is not needed.
-        if (threads_ > allowed()) {
-            allowance_.emplace(parallelism, static_cast<std::size_t>(threads_));
-            threads_ = std::min(threads_, allowed());
+        if (wanted == 0) {
+            return;
+        }
+        // More than there are processors must be allowed. The least of all allowances counts in a
+        // process, so nobody takes one that is not needed.
+        if (wanted > allowed()) {
+            allowance_.emplace(parallelism, static_cast<std::size_t>(wanted));
+        }
+        arena_.emplace(std::min(wanted, allowed()));
+    }
+
+    /// Does `work`, and nothing else that the calling thread may have to do.
+    template <typename Work>
+    void execute(const Work& work)
+    {
+        if (arena_) {
+            arena_->execute(work);
+        } else {
+            tbb::this_task_arena::isolate(work);
         }
     }
-    [[nodiscard]] int threads() const { return threads_; }
 
 private:
     static constexpr auto parallelism = tbb::global_control::max_allowed_parallelism;
@@ -98,8 +112,8 @@ private:
         return static_cast<int>(tbb::global_control::active_value(parallelism));
     }
 
-    int threads_;
     std::optional<tbb::global_control> allowance_;
+    std::optional<tbb::task_arena> arena_;
 };
 
 }  // namespace
@@ -119,8 +133,7 @@ RenderResult render(const Scene& scene, const CameraDesc& camera_desc, const Ren
     const auto integrator = make_integrator(scene.world(), camera, options);
     const AovPass aov_pass(scene.world(), camera, options);
 
-    const MoreThreads allowance(options.threads);
-    tbb::task_arena arena(allowance.threads());
+    Threads threads(options.threads);
 
     const FilmLayout layout{
         .width = options.width,
@@ -138,7 +151,7 @@ RenderResult render(const Scene& scene, const CameraDesc& camera_desc, const Ren
         const std::int64_t begin = result.samples.end;
         const std::int64_t end = std::min(begin + pass_size, options.samples.end);
         const double before = seconds_since(start);
-        arena.execute([&] {
+        threads.execute([&] {
             render_pass({*integrator, aov_pass}, options, {.begin = begin, .end = end}, result);
         });
         result.samples.end = end;

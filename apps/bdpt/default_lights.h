@@ -8,6 +8,9 @@ namespace bdpt::app {
 /// True when something in `desc` may shine: a light, or a placed material that emits.
 [[nodiscard]] bool has_light(const SceneDesc& desc);
 
+/// True when something in `desc` can be seen: a triangle, or a light with a radius.
+[[nodiscard]] bool has_surface(const SceneDesc& desc);
+
 /// A soft grey sky for scenes without light: its radiance is 0.5 nit below, grows upwards from the
 /// horizon, and is 1 nit on average.
 [[nodiscard]] EnvironmentLightDesc default_environment();

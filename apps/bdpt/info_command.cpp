@@ -25,10 +25,12 @@ Exit codes: as those of bdpt render.)";
 void complete(SceneReport& report, SceneDesc desc)
 {
     const bool dark = !has_light(desc);
+    const bool empty = !has_surface(desc);
     const Scene scene(std::move(desc));
     report.counts = scene.counts();
-    if (report.counts.instanced_triangles == 0) {
-        report.defaults.emplace_back("no triangles: there is nothing to render");
+    if (empty) {
+        report.defaults.emplace_back(
+            "no triangles and no light with a radius: there is nothing to render");
         return;
     }
     report.bounds = scene.bounds();

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -90,6 +91,22 @@ std::optional<float> to_exposure(const std::optional<double>& word)
     return word ? std::optional(static_cast<float>(*word)) : std::nullopt;
 }
 
+std::vector<std::string> isa_names()
+{
+    std::vector<std::string> names;
+    for (const Isa isa : all_isas) {
+        names.emplace_back(isa_name(isa));
+    }
+    return names;
+}
+
+/// The one of that name, which the parser has found.
+Isa to_isa(const std::string& name)
+{
+    return *std::find_if(all_isas.begin(), all_isas.end(),
+                         [&](Isa isa) { return isa_name(isa) == name; });
+}
+
 void add_what(CLI::App& command, RenderWords& words)
 {
     const auto group = "What to render";
@@ -152,6 +169,14 @@ void add_how(CLI::App& command, RenderWords& words)
                     "Threads to use; the picture does not depend on it. All if not given")
         ->check(CLI::Range(0, 4096))
         ->type_name("N")
+        ->group(group);
+    command
+        .add_option("--isa", words.isa,
+                    "Instruction set to trace rays with. Pictures are equal to the bit for the "
+                    "same one only, so choose one that all machines of a farm have. The best one "
+                    "of this CPU if not given")
+        ->check(CLI::IsMember(isa_names()))
+        ->type_name("sse2|sse4.2|avx|avx2|avx512|native")
         ->group(group);
 }
 
@@ -222,6 +247,7 @@ RenderArguments understand(const RenderWords& words)
     result.options.sampler =
         words.sampler == "independent" ? SamplerKind::independent : SamplerKind::sobol;
     result.options.threads = words.threads;
+    result.isa = to_isa(words.isa);
     result.options.seed = to_seed(words.seed);
     result.options = with_transport(words.transport, result.options);
     result.options = with_film(words.film, result.options);

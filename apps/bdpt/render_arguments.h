@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bdpt/io/exr.h>
+#include <bdpt/isa.h>
 #include <bdpt/render_options.h>
 
 #include <cstdint>
@@ -41,6 +42,7 @@ struct RenderWords {
     std::optional<std::string> environment;
     std::optional<double> exposure;  // [EV]
     int threads = 0;
+    std::string isa = "native";
     FilmWords film;
     std::optional<std::string> stats;
     StrategyWords strategies;
@@ -61,7 +63,8 @@ struct RenderArguments {
     RenderOptions options;              ///< without size and sample range
     std::optional<std::string> camera;  ///< name, index or "auto"
     ViewOverrides view;
-    LensWords lens;                          ///< checked
+    LensWords lens;  ///< checked
+    Isa isa = Isa::native;
     std::optional<std::string> scene;        ///< name or index
     std::optional<std::string> environment;  ///< file, "none" or "default"
     std::optional<float> exposure;           ///< [EV]

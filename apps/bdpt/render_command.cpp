@@ -60,6 +60,7 @@ ordered_json settings_of(const RenderArguments& arguments, const Stage& stage)
     settings.update(transport_json(options));
     settings["sampler"] = name_of(options.sampler);
     settings["seed"] = options.seed;
+    settings["isa"] = isa_name(stage.scene.isa());
     settings.update(view_json(stage.camera));
     settings["environment"] = stage.environment_name;
     const FilterOptions& filter = options.filter;

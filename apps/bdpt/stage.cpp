@@ -16,16 +16,6 @@
 namespace bdpt::app {
 namespace {
 
-std::size_t count_triangles(const SceneDesc& desc)
-{
-    std::size_t count = 0;
-    for (const InstanceDesc& instance : desc.instances) {
-        const auto mesh = static_cast<std::size_t>(instance.mesh);
-        count += mesh < desc.meshes.size() ? desc.meshes[mesh].triangles.size() : 0;
-    }
-    return count;
-}
-
 /// Where light from infinity comes from, once all is decided.
 enum class Sky { none, fallback, chosen };
 
@@ -75,12 +65,12 @@ struct BuiltScene {
 };
 
 /// Builds the scene; a second time, with a lamp, when only the default sky lights a closed room.
-BuiltScene build(LitScene& lit, const std::string& file, float aspect)
+BuiltScene build(LitScene& lit, const RenderArguments& arguments, float aspect)
 {
     if (lit.sky != Sky::fallback) {
-        return {Scene(std::move(lit.desc)), std::nullopt};
+        return {Scene(std::move(lit.desc), arguments.isa), std::nullopt};
     }
-    Scene scene(lit.desc);
+    Scene scene(lit.desc, arguments.isa);
     const FramedView framed = frame_scene(scene, aspect);
     if (!framed.enclosed) {
         return {std::move(scene), framed};
@@ -88,9 +78,10 @@ BuiltScene build(LitScene& lit, const std::string& file, float aspect)
     lit.warnings.push_back(fmt::format(
         "{}: a closed room without light: a lamp was added at {:.3g},{:.3g},{:.3g} (--env none "
         "takes it away)",
-        file, framed.lamp_position.x, framed.lamp_position.y, framed.lamp_position.z));
+        arguments.file.string(), framed.lamp_position.x, framed.lamp_position.y,
+        framed.lamp_position.z));
     lit.desc.lights.emplace_back(default_lamp(framed));
-    return {Scene(std::move(lit.desc)), framed};
+    return {Scene(std::move(lit.desc), arguments.isa), framed};
 }
 
 CameraDesc frame(const BuiltScene& built, float aspect)
@@ -134,9 +125,11 @@ Stage prepare_stage(const RenderArguments& arguments)
     for (const std::string& warning : loaded.warnings) {
         warnings.push_back(fmt::format("{}: {}", file, warning));
     }
-    if (count_triangles(loaded.scene) == 0) {
-        throw Error(ErrorCode::invalid_input,
-                    fmt::format("{}: the scene is empty: it has no triangles", file));
+    if (!has_surface(loaded.scene)) {
+        throw Error(
+            ErrorCode::invalid_input,
+            fmt::format("{}: the scene is empty: it has no triangles and no light with a radius",
+                        file));
     }
     const std::optional<CameraDesc> from_file = camera_in_file(loaded.cameras, arguments);
     const Size size =
@@ -145,7 +138,7 @@ Stage prepare_stage(const RenderArguments& arguments)
 
     LitScene lit = add_environment(std::move(loaded.scene), arguments);
     const auto loading_end = std::chrono::steady_clock::now();
-    BuiltScene built = build(lit, file, aspect);
+    BuiltScene built = build(lit, arguments, aspect);
     const auto building_end = std::chrono::steady_clock::now();
     warnings.insert(warnings.end(), lit.warnings.begin(), lit.warnings.end());
     if (!from_file && !arguments.camera && !arguments.view.from) {

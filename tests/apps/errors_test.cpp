@@ -59,6 +59,7 @@ TEST_CASE("wrong usage gives exit code 2 and names the option")
     rejects({"--integrator", "magic"}, "--integrator");
     rejects({"--heuristic", "magic"}, "--heuristic");
     rejects({"--sampler", "magic"}, "--sampler");
+    rejects({"--isa", "sse9"}, "--isa");
     rejects({"--max-depth", "0"}, "--max-depth");
     rejects({"--only", "some"}, "--only");
     rejects({"--only", "indirect", "--max-depth", "2"}, "--only \"indirect\"");

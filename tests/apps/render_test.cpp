@@ -273,5 +273,68 @@ TEST_CASE("option --json prints one valid event a line")
     CHECK(events.back()["stopped_by"].is_null());
 }
 
+TEST_CASE("option --isa pins the instruction set, and the files say which one it was")
+{
+    const ScratchFolder folder;
+    const std::string scene =
+        write_cube(folder, "cube", {.material = emissive_material, .cameras = two_cameras})
+            .string();
+    const std::string stats = (folder / "stats.json").string();
+    const Words words{"--spp", "2", "--size", "16x8", "--stats", stats};
+    const auto with_isa = [&](const char* isa) {
+        Words result = words;
+        result.insert(result.end(), {"--isa", isa});
+        return result;
+    };
+    const ExrFile pinned = render(folder, scene, with_isa("sse2"));
+    CHECK(settings_of(pinned)["isa"] == "sse2");
+    CHECK(nlohmann::json::parse(read_text(stats))["settings"]["isa"] == "sse2");
+
+    const ExrFile free = render(folder, scene, words);
+    const std::string best = settings_of(free)["isa"];
+    CHECK(best != "native");
+    CHECK(nlohmann::json::parse(read_text(stats))["settings"]["isa"] == best);
+    const ExrFile same = render(folder, scene, with_isa(best.c_str()));
+    CHECK(same_bits(same.image, free.image));
+    CHECK(same.text("bdpt.settings") == free.text("bdpt.settings"));
+    CHECK(settings_of(render(folder, scene, with_isa("native")))["isa"] == best);
+}
+
+TEST_CASE("a scene of nothing but lights with a radius is rendered")
+{
+    const ScratchFolder folder;
+    const std::string scene = (folder / "ball.gltf").string();
+    const auto write = [&](const char* radius) {
+        write_text(scene, std::string(R"({"asset": {"version": "2.0"}, "scene": 0,
+            "extensionsUsed": ["KHR_lights_punctual"],
+            "extensions": {"KHR_lights_punctual": {"lights": [
+                {"type": "point", "intensity": 3.14159265, "extras": {"radius": )") +
+                              radius + R"(}}]}},
+            "scenes": [{"nodes": [0]}],
+            "nodes": [{"extensions": {"KHR_lights_punctual": {"light": 0}}}]})");
+    };
+    write("0.5");
+    for (const char* integrator : {"bdpt", "mis", "lt"}) {
+        const Image image =
+            render(folder, scene,
+                   {"--spp", "64", "--size", "16x16", "--from", "0,0,4", "--look-at", "0,0,0",
+                    "--fov", "10", "--integrator", integrator})
+                .image;
+        CAPTURE(integrator);
+        // Radiance I / (pi r^2).
+        CHECK(image.at(8, 8).g == Approx(4.0f).epsilon(0.3));
+        CHECK(mean(image) == Approx(4.0).epsilon(0.05));
+    }
+    const Image framed = render(folder, scene, {"--spp", "4", "--size", "16x16"}).image;
+    CHECK(framed.at(8, 8).g == Approx(4.0f).epsilon(0.3));
+    CHECK(framed.at(0, 0).g == 0.0f);
+    CHECK(run({"info", scene}).out.find("nothing to render") == std::string::npos);
+
+    write("0");
+    const Outcome empty = run({"render", scene, "-o", (folder / "out.exr").string()});
+    CHECK(empty.exit_code == 4);
+    CHECK(empty.err.find("the scene is empty") != std::string::npos);
+}
+
 }  // namespace
 }  // namespace bdpt::test

@@ -13,8 +13,12 @@ FUNCTION = re.compile(r"^(?:\[\[nodiscard\]\] )?BDPT_EXPORT [^;{}()]*?(\w+)\(", 
 # Our style does not indent what is in a namespace, so these lines begin declarations of free functions.
 UNMARKED = re.compile(r"^(?!.*BDPT_EXPORT)(?:\[\[nodiscard\]\] )?(?!inline|constexpr|template|using|class|struct|enum)"
                       r"[\w:][\w:<>,&* ]* (\w+)\(", re.M)
+# What the standard library's templates leave in any program; with a return type, or as the type of a function, too. And
+# the exceptions of fmt, which it makes visible itself from version 10 on.
 STANDARD = re.compile(r"^(?:(?:typeinfo|typeinfo name|vtable|VTT|guard variable) for )?"
-                      r"(?:std|__gnu_cxx|__cxxabiv1)::|^__|^operator (?:new|delete)")
+                      r"(?:(?:(?:unsigned|long|int|bool|char|void|float|double|short) )+(?:\((?:\*\)\()?)?)?"
+                      r"(?:std|__gnu_cxx|__cxxabiv1)::|^__|^operator (?:new|delete)"
+                      r"|^(?:typeinfo|typeinfo name|vtable) for fmt::v\d+::\w+_error$")
 OF_CLASS = r"(?:(?:typeinfo|typeinfo name|vtable|VTT) for )?"
 
 

@@ -111,11 +111,31 @@ use_add_subdirectory() {
   expect_version "$WORK/add_subdirectory/render_box"
 }
 
+# Configures with BDPT_BUILD_IO=OFF and nothing else: the core and its tests, without looking for the
+# libraries of the rest.
+configure_core_alone() {
+  local unneeded=() package
+  for package in OpenImageIO OpenEXR Imath PNG nlohmann_json fmt CLI11 benchmark; do
+    unneeded+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON")
+  done
+  local folder=$WORK/core_alone
+  rm -rf "$folder"
+  mkdir -p "$WORK"
+  "$CMAKE" -S "$SOURCE" -B "$folder" -G "$GENERATOR" -DCMAKE_CXX_COMPILER="$CXX" \
+    -DBDPT_BUILD_IO=OFF "${unneeded[@]}" | tee "$WORK/core_alone.log"
+  grep -q "the command and its tests are left out" "$WORK/core_alone.log" || fail "does not say so"
+  local targets
+  targets=$("$CMAKE" --build "$folder" --target help)
+  grep -q '\bbdpt_unit_tests\b' <<<"$targets" || fail "no tests of the core"
+  ! grep -E '\bbdpt_(io|app|command|apps_tests|io_tests)\b' <<<"$targets" || fail "more than the core"
+}
+
 case $1 in
   install) install_and_move ;;
   command) run_command ;;
   find_package) use_find_package ;;
   pkg-config) use_pkg_config ;;
   add_subdirectory) use_add_subdirectory ;;
+  core_alone) configure_core_alone ;;
   *) fail "unknown task $1" ;;
 esac

@@ -96,7 +96,9 @@ struct RenderOptions {
     /// Edges of a subpath after which Russian roulette may end it; `max_depth` or more: never.
     int rr_start = 3;
     int tile_size = 16;  ///< [pixels]; has no influence on the result
-    int threads = 0;     ///< 0: one for each hardware thread; has no influence on the result
+    /// Most threads that work at once, the caller's among them; 0: those that oneTBB gives to the
+    /// calling thread, one for each processor if nobody has chosen. Has no influence on the result.
+    int threads = 0;
     std::uint64_t seed = 0;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bdpt/export.h>
+#include <bdpt/isa.h>
 #include <bdpt/scene_desc.h>
 
 #include <cstddef>
@@ -30,8 +31,9 @@ struct SceneCounts {
 class BDPT_EXPORT Scene {
 public:
     /// Throws `Error`: invalid_input when an index, a transform or a value in `desc` is invalid,
-    /// and the message names the item and the value; out_of_memory or internal when Embree fails.
-    explicit Scene(SceneDesc desc);
+    /// and the message names the item and the value; usage when this CPU lacks `isa`; out_of_memory
+    /// or internal when Embree fails.
+    explicit Scene(SceneDesc desc, Isa isa = Isa::native);
     Scene(Scene&&) noexcept;
     Scene& operator=(Scene&&) noexcept;
     ~Scene();
@@ -39,6 +41,8 @@ public:
     /// Of all instances; both corners are zero in an empty scene.
     [[nodiscard]] Bounds bounds() const;
     [[nodiscard]] SceneCounts counts() const;
+    /// What rays are traced with; never `native` on x86.
+    [[nodiscard]] Isa isa() const;
 
     /// For the library itself.
     [[nodiscard]] const World& world() const { return *world_; }

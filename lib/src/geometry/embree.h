@@ -8,7 +8,7 @@
 #include <embree3/rtcore.h>
 #endif
 
-#include "math/segment_key.h"
+#include "geometry/ray.h"
 
 namespace bdpt::embree {
 
@@ -19,14 +19,15 @@ using Context = RTCIntersectContext;
 #endif
 
 /// What callbacks get to know of a query: Embree hands them the address of its own part.
-struct KeyedContext {
+struct RayContext {
     Context embree;
-    SegmentKey segment;
+    const Ray* ray;
 };
 
-inline void intersect(RTCScene scene, RTCRayHit& ray_hit, SegmentKey segment)
+/// `of`: the ray of `ray_hit`, as callbacks will get to know it.
+inline void intersect(RTCScene scene, RTCRayHit& ray_hit, const Ray& of)
 {
-    KeyedContext context{.embree = {}, .segment = segment};
+    RayContext context{.embree = {}, .ray = &of};
 #if BDPT_EMBREE_MAJOR >= 4
     rtcInitRayQueryContext(&context.embree);
     RTCIntersectArguments arguments;
@@ -40,9 +41,9 @@ inline void intersect(RTCScene scene, RTCRayHit& ray_hit, SegmentKey segment)
 }
 
 /// Sets `ray.tfar` to minus infinity when anything is in the way.
-inline void occluded(RTCScene scene, RTCRay& ray, SegmentKey segment)
+inline void occluded(RTCScene scene, RTCRay& ray, const Ray& of)
 {
-    KeyedContext context{.embree = {}, .segment = segment};
+    RayContext context{.embree = {}, .ray = &of};
 #if BDPT_EMBREE_MAJOR >= 4
     rtcInitRayQueryContext(&context.embree);
     RTCOccludedArguments arguments;
@@ -55,10 +56,10 @@ inline void occluded(RTCScene scene, RTCRay& ray, SegmentKey segment)
 #endif
 }
 
-/// The key that the query in a callback came with.
-inline SegmentKey segment_of(const Context* context)
+/// The ray, in the world, of the query that a callback belongs to.
+inline const Ray& ray_of(const Context* context)
 {
-    return reinterpret_cast<const KeyedContext*>(context)->segment;
+    return *reinterpret_cast<const RayContext*>(context)->ray;
 }
 
 }  // namespace bdpt::embree

@@ -1,10 +1,14 @@
 #include "geometry/embree_scene.h"
 
 #include "geometry/embree.h"
+#include "geometry/embree_device.h"
 #include "geometry/embree_spheres.h"
 
 #include <bdpt/error.h>
 
+#include <glm/geometric.hpp>
+
+#include <array>
 #include <limits>
 #include <new>
 #include <string>
@@ -28,22 +32,8 @@ struct Releaser {
 template <typename Handle, auto release>
 using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Releaser<release>>;
 
-using OwnedDevice = Owned<RTCDevice, rtcReleaseDevice>;
 using OwnedScene = Owned<RTCScene, rtcReleaseScene>;
 using OwnedGeometry = Owned<RTCGeometry, rtcReleaseGeometry>;
-
-void check(RTCDevice device, const char* action)
-{
-    const RTCError code = rtcGetDeviceError(device);
-    if (code == RTC_ERROR_NONE) {
-        return;
-    }
-    if (code == RTC_ERROR_OUT_OF_MEMORY) {
-        throw Error(ErrorCode::out_of_memory, std::string("not enough memory to ") + action);
-    }
-    throw Error(ErrorCode::internal, std::string("Embree failed to ") + action + " (error " +
-                                         std::to_string(static_cast<int>(code)) + ")");
-}
 
 /// Embree reads whole 16-byte vectors, so one more float must follow the last vertex.
 std::vector<Vec3> padded(std::vector<Vec3> positions)
@@ -55,11 +45,35 @@ std::vector<Vec3> padded(std::vector<Vec3> positions)
 OwnedScene new_scene(RTCDevice device)
 {
     OwnedScene scene(rtcNewScene(device));
-    check(device, "make a scene");
+    check_embree(device, "make a scene");
     rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);  // watertight
     rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_MEDIUM);
     return scene;
 }
+
+/// Where the line of the ray crosses the plane of the triangle. Embree knows it too, but from
+/// reciprocals that CPUs of different makers approximate differently; this is the same on all. The
+/// products are those of Pluecker coordinates relative to the ray's origin.
+Vec2 barycentrics_of(const std::array<Vec3, 3>& corners, const Ray& ray)
+{
+    const Vec3 a = corners[0] - ray.origin;
+    const Vec3 b = corners[1] - ray.origin;
+    const Vec3 c = corners[2] - ray.origin;
+    const float of_b = dot(cross(c - a, c + a), ray.direction);
+    const float of_c = dot(cross(a - b, a + b), ray.direction);
+    const float of_a = dot(cross(b - c, b + c), ray.direction);
+    const float sum = of_a + of_b + of_c;
+    if (sum == 0.0f) {
+        return Vec2(0.0f);  // seen from the side
+    }
+    return {of_b / sum, of_c / sum};
+}
+
+/// What decides which hits count, and for whom.
+struct HitFilter {
+    PassRule rule;
+    std::span<const PlacedMesh> placed;
+};
 
 /// Asks the rule whether the hit counts. Only single rays are asked for, and packets of one have
 /// the layout of the struct.
@@ -68,18 +82,21 @@ void filter_hit(const RTCFilterFunctionNArguments* args)
     if (args->valid[0] == 0) {
         return;
     }
-    const auto& rule = *static_cast<const PassRule*>(args->geometryUserPtr);
+    const auto& [rule, placed] = *static_cast<const HitFilter*>(args->geometryUserPtr);
     const auto& hit = *reinterpret_cast<const RTCHit*>(args->hit);
     const bool shared = hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
-    if (rule.passes(rule.owner, {.instance = shared ? hit.instID[0] : hit.geomID,
-                                 .triangle = hit.primID,
-                                 .barycentrics = {hit.u, hit.v},
-                                 .segment = embree::segment_of(args->context)})) {
+    const std::uint32_t instance = shared ? hit.instID[0] : hit.geomID;
+    const Ray& ray = embree::ray_of(args->context);
+    if (rule.passes(rule.owner,
+                    {.instance = instance,
+                     .triangle = hit.primID,
+                     .barycentrics = barycentrics_of(placed[instance].corners(hit.primID), ray),
+                     .segment = ray.segment})) {
         args->valid[0] = 0;
     }
 }
 
-void let_pass(RTCDevice device, RTCGeometry geometry, const PassRule& rule)
+void let_pass(RTCDevice device, RTCGeometry geometry, const HitFilter& filter)
 {
     if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_FILTER_FUNCTION_SUPPORTED) == 0) {
         throw Error(
@@ -87,14 +104,14 @@ void let_pass(RTCDevice device, RTCGeometry geometry, const PassRule& rule)
             "this Embree was built without filter functions, which surfaces with alpha need");
     }
     // Embree wants a pointer to non-const, but the callback does not write.
-    rtcSetGeometryUserData(geometry, const_cast<PassRule*>(&rule));
+    rtcSetGeometryUserData(geometry, const_cast<HitFilter*>(&filter));
     rtcSetGeometryIntersectFilterFunction(geometry, &filter_hit);
     rtcSetGeometryOccludedFilterFunction(geometry, &filter_hit);
 }
 
-/// `rule` is null where no ray passes; it must outlive the geometry, like the vectors.
+/// `filter` is null where no ray passes; it must outlive the geometry, like the vectors.
 OwnedGeometry new_triangles(RTCDevice device, const std::vector<Vec3>& padded_positions,
-                            const std::vector<UVec3>& triangles, const PassRule* rule)
+                            const std::vector<UVec3>& triangles, const HitFilter* filter)
 {
     OwnedGeometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
     rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
@@ -103,11 +120,11 @@ OwnedGeometry new_triangles(RTCDevice device, const std::vector<Vec3>& padded_po
     rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                triangles.data(), 0, sizeof(UVec3), triangles.size());
     rtcSetGeometryMask(geometry.get(), all_rays);
-    if (rule != nullptr) {
-        let_pass(device, geometry.get(), *rule);
+    if (filter != nullptr) {
+        let_pass(device, geometry.get(), *filter);
     }
     rtcCommitGeometry(geometry.get());
-    check(device, "take over a mesh");
+    check_embree(device, "take over a mesh");
     return geometry;
 }
 
@@ -132,35 +149,35 @@ RTCRay to_embree(const Ray& ray)
 }  // namespace
 
 struct EmbreeScene::State {
-    OwnedDevice device;
+    explicit State(Isa isa) : device(isa) {}
+
+    EmbreeDevice device;
     std::vector<OwnedScene> shared;  // by mesh; null for meshes that are used at most once
     std::vector<std::vector<Vec3>> positions;  // what Embree reads: by mesh or by instance
     OwnedScene top;
     std::span<const PlacedMesh> placed;
-    PassRule pass_rule;
+    HitFilter filter;
 };
 
 EmbreeScene::EmbreeScene(std::span<const InstanceDesc> instances, std::span<PlacedMesh> placed,
                          std::size_t mesh_count, std::span<const Sphere> spheres,
-                         const PassRule& pass_rule)
-    : state_(std::make_unique<State>())
+                         const PassRule& pass_rule, Isa isa)
+    : state_(std::make_unique<State>(isa))
 {
     State& state = *state_;
-    state.device.reset(rtcNewDevice(nullptr));
     RTCDevice device = state.device.get();
-    check(nullptr, "start");
     state.placed = placed;
-    state.pass_rule = pass_rule;
+    state.filter = {.rule = pass_rule, .placed = placed};
     state.top = new_scene(device);
 
     std::vector<std::size_t> uses(mesh_count, 0);
-    std::vector<const PassRule*> rules(mesh_count, nullptr);
+    std::vector<const HitFilter*> filters(mesh_count, nullptr);
     for (std::size_t i = 0; i < instances.size(); ++i) {
         const auto mesh = static_cast<std::size_t>(instances[i].mesh);
         ++uses[mesh];
         if (pass_rule.concerns != nullptr &&
             pass_rule.concerns(pass_rule.owner, static_cast<std::uint32_t>(i))) {
-            rules[mesh] = &state.pass_rule;
+            filters[mesh] = &state.filter;
         }
     }
     state.shared.resize(mesh_count);
@@ -182,7 +199,7 @@ EmbreeScene::EmbreeScene(std::span<const InstanceDesc> instances, std::span<Plac
             state.positions.push_back(padded(std::move(world)));
             placed[i].use_world_positions(state.positions.back().data());
             const OwnedGeometry geometry =
-                new_triangles(device, state.positions.back(), desc.triangles, rules[mesh]);
+                new_triangles(device, state.positions.back(), desc.triangles, filters[mesh]);
             rtcAttachGeometryByID(state.top.get(), geometry.get(), id);
             continue;
         }
@@ -190,10 +207,10 @@ EmbreeScene::EmbreeScene(std::span<const InstanceDesc> instances, std::span<Plac
             state.positions.push_back(padded(desc.positions));
             state.shared[mesh] = new_scene(device);
             const OwnedGeometry geometry =
-                new_triangles(device, state.positions.back(), desc.triangles, rules[mesh]);
+                new_triangles(device, state.positions.back(), desc.triangles, filters[mesh]);
             rtcAttachGeometryByID(state.shared[mesh].get(), geometry.get(), 0);
             rtcCommitScene(state.shared[mesh].get());
-            check(device, "build the BVH of a mesh");
+            check_embree(device, "build the BVH of a mesh");
         }
         const OwnedGeometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE));
         rtcSetGeometryInstancedScene(geometry.get(), state.shared[mesh].get());
@@ -207,17 +224,22 @@ EmbreeScene::EmbreeScene(std::span<const InstanceDesc> instances, std::span<Plac
         const OwnedGeometry geometry(new_sphere_geometry(device, spheres));
         rtcSetGeometryMask(geometry.get(), all_rays);
         rtcCommitGeometry(geometry.get());
-        check(device, "take over the spheres");
+        check_embree(device, "take over the spheres");
         // The number after those of the instances tells them apart.
         rtcAttachGeometryByID(state.top.get(), geometry.get(),
                               static_cast<unsigned>(instances.size()));
     }
     rtcCommitScene(state.top.get());
-    check(device, "build the BVH of the scene");
+    check_embree(device, "build the BVH of the scene");
 }
 
 EmbreeScene::EmbreeScene(EmbreeScene&&) noexcept = default;
 EmbreeScene::~EmbreeScene() = default;
+
+Isa EmbreeScene::isa() const noexcept
+{
+    return state_->device.isa();
+}
 
 std::optional<RayHit> EmbreeScene::intersect(const Ray& ray) const noexcept
 {
@@ -225,7 +247,7 @@ std::optional<RayHit> EmbreeScene::intersect(const Ray& ray) const noexcept
     query.ray = to_embree(ray);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    embree::intersect(state_->top.get(), query, ray.segment);
+    embree::intersect(state_->top.get(), query, ray);
     const RTCHit& hit = query.hit;
     if (hit.geomID == RTC_INVALID_GEOMETRY_ID) {
         return std::nullopt;
@@ -237,16 +259,18 @@ std::optional<RayHit> EmbreeScene::intersect(const Ray& ray) const noexcept
         return RayHit{.normal = normal, .sphere = hit.primID};
     }
     const PlacedMesh& mesh = state_->placed[instance];
-    return RayHit{.instance = instance,
-                  .triangle = hit.primID,
-                  .barycentrics = {hit.u, hit.v},
-                  .normal = shared ? mesh.world_normal(normal) : mesh.front_sign() * normal};
+    const auto corners = mesh.corners(hit.primID);
+    return RayHit{
+        .instance = instance,
+        .triangle = hit.primID,
+        .barycentrics = barycentrics_of(corners, ray),
+        .normal = mesh.front_sign() * cross(corners[1] - corners[0], corners[2] - corners[0])};
 }
 
 bool EmbreeScene::occluded(const Ray& ray) const noexcept
 {
     RTCRay query = to_embree(ray);
-    embree::occluded(state_->top.get(), query, ray.segment);
+    embree::occluded(state_->top.get(), query, ray);
     return query.tfar < 0.0f;
 }
 

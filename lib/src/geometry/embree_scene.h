@@ -5,6 +5,7 @@
 #include "geometry/ray.h"
 #include "geometry/sphere.h"
 
+#include <bdpt/isa.h>
 #include <bdpt/scene_desc.h>
 
 #include <memory>
@@ -20,13 +21,16 @@ class EmbreeScene {
 public:
     /// `placed[i]` belongs to `instances[i]`; both must outlive this object, and meshes that went
     /// into the top level are told so (PlacedMesh::use_world_positions). `spheres` must outlive it,
-    /// too, and so must the owner of `pass_rule`. Throws `Error` when Embree fails.
+    /// too, and so must the owner of `pass_rule`. Throws `Error` when Embree fails, or (usage) when
+    /// the CPU lacks `isa`.
     EmbreeScene(std::span<const InstanceDesc> instances, std::span<PlacedMesh> placed,
                 std::size_t mesh_count, std::span<const Sphere> spheres = {},
-                const PassRule& pass_rule = {});
+                const PassRule& pass_rule = {}, Isa isa = Isa::native);
     EmbreeScene(EmbreeScene&&) noexcept;
     ~EmbreeScene();
 
+    /// What rays are traced with.
+    [[nodiscard]] Isa isa() const noexcept;
     /// The first surface that the ray does not pass.
     [[nodiscard]] std::optional<RayHit> intersect(const Ray& ray) const noexcept;
     /// Anything in (0, ray.t_max) that the ray does not pass?

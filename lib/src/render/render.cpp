@@ -13,7 +13,6 @@
 #include <tbb/blocked_range2d.h>
 #include <tbb/combinable.h>
 #include <tbb/global_control.h>
-#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -79,6 +78,47 @@ void render_pass(const Work& work, const RenderOptions& options, SampleRange sam
     result.strategies.count_samples(samples.end - samples.begin);
 }
 
+/// The threads of one render.
+class Threads {
+public:
+    /// `wanted` 0: those that the caller's thread would use for any work with oneTBB. That makes no
+    /// arena, and before version 2021.9 oneTBB frees arenas late when they come in quick
+    /// succession.
+    explicit Threads(int wanted)
+    {
+        if (wanted == 0) {
+            return;
+        }
+        // More than there are processors must be allowed. The least of all allowances counts in a
+        // process, so nobody takes one that is not needed.
+        if (wanted > allowed()) {
+            allowance_.emplace(parallelism, static_cast<std::size_t>(wanted));
+        }
+        arena_.emplace(std::min(wanted, allowed()));
+    }
+
+    /// Does `work`, and nothing else that the calling thread may have to do.
+    template <typename Work>
+    void execute(const Work& work)
+    {
+        if (arena_) {
+            arena_->execute(work);
+        } else {
+            tbb::this_task_arena::isolate(work);
+        }
+    }
+
+private:
+    static constexpr auto parallelism = tbb::global_control::max_allowed_parallelism;
+    static int allowed()
+    {
+        return static_cast<int>(tbb::global_control::active_value(parallelism));
+    }
+
+    std::optional<tbb::global_control> allowance_;
+    std::optional<tbb::task_arena> arena_;
+};
+
 }  // namespace
 
 RenderResult render(const Scene& scene, const CameraDesc& camera_desc, const RenderOptions& options,
@@ -97,13 +137,7 @@ RenderResult render(const Scene& scene, const CameraDesc& camera_desc, const Ren
     const auto integrator = make_integrator(scene.world(), camera, options);
     const AovPass aov_pass(scene.world(), camera, options);
 
-    const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
-    // More threads than cores are allowed only while somebody asks for them.
-    const tbb::global_control allowance(
-        tbb::global_control::max_allowed_parallelism,
-        std::max(static_cast<std::size_t>(threads),
-                 tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)));
-    tbb::task_arena arena(threads);
+    Threads threads(options.threads);
 
     const FilmLayout layout{
         .width = options.width,
@@ -123,7 +157,7 @@ RenderResult render(const Scene& scene, const CameraDesc& camera_desc, const Ren
         const std::int64_t begin = result.samples.end;
         const std::int64_t end = std::min(begin + pass_size, options.samples.end);
         const double before = seconds_since(start);
-        arena.execute([&] {
+        threads.execute([&] {
             render_pass({*integrator, aov_pass}, options, {.begin = begin, .end = end}, result);
         });
         result.samples.end = end;

@@ -6,7 +6,8 @@
 
 namespace bdpt {
 
-Scene::Scene(SceneDesc desc) : world_(std::make_unique<const World>(std::move(desc))) {}
+Scene::Scene(SceneDesc desc, Isa isa) : world_(std::make_unique<const World>(std::move(desc), isa))
+{}
 Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;
 Scene::~Scene() = default;
@@ -19,6 +20,11 @@ Bounds Scene::bounds() const
 SceneCounts Scene::counts() const
 {
     return world_->counts();
+}
+
+Isa Scene::isa() const
+{
+    return world_->isa();
 }
 
 }  // namespace bdpt

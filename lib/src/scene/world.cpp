@@ -43,7 +43,7 @@ BoundingSphere sphere_around(const Bounds& bounds)
 
 }  // namespace
 
-World::World(SceneDesc desc) : desc_(std::move(desc))
+World::World(SceneDesc desc, Isa isa) : desc_(std::move(desc))
 {
     validate(desc_);
     for (const MaterialDesc& material : desc_.materials) {
@@ -62,7 +62,7 @@ World::World(SceneDesc desc) : desc_(std::move(desc))
     bounds_ = bounds_of(placed_, spheres_);
     sphere_ = sphere_around(bounds_);
     embree_ = std::make_unique<const EmbreeScene>(desc_.instances, placed_, desc_.meshes.size(),
-                                                  spheres_, pass_rule());
+                                                  spheres_, pass_rule(), isa);
     lights_ = std::make_unique<const LightSet>(desc_.instances, placed_, materials_, desc_.lights,
                                                sphere_);
     counts_ = count(desc_);

@@ -30,8 +30,8 @@ struct SurfacePoint {
 /// The scene as rays see it: geometry, materials and lights, validated and immutable.
 class World {
 public:
-    /// Throws `Error` (invalid_input).
-    explicit World(SceneDesc desc);
+    /// Throws `Error`: invalid_input, or what `EmbreeScene` throws.
+    explicit World(SceneDesc desc, Isa isa = Isa::native);
     World(const World&) = delete;
     World& operator=(const World&) = delete;
 
@@ -53,6 +53,7 @@ public:
     [[nodiscard]] const BoundingSphere& bounding_sphere() const { return sphere_; }
     [[nodiscard]] const Bounds& bounds() const { return bounds_; }
     [[nodiscard]] const SceneCounts& counts() const { return counts_; }
+    [[nodiscard]] Isa isa() const noexcept { return embree_->isa(); }
 
 private:
     [[nodiscard]] const Material& material_of(std::uint32_t instance) const noexcept;

@@ -1,5 +1,7 @@
 #include "geometry/embree_scene.h"
 
+#include <bdpt/error.h>
+
 #include "catch.hpp"
 #include "geometry/rounding.h"
 #include "scene_builder.h"
@@ -7,6 +9,9 @@
 
 #include <glm/geometric.hpp>
 
+#include <memory>
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace bdpt {
@@ -15,13 +20,14 @@ namespace {
 using test::SceneBuilder;
 
 struct Traced {
-    explicit Traced(SceneDesc d) : desc(std::move(d))
+    explicit Traced(SceneDesc d, Isa isa = Isa::native) : desc(std::move(d))
     {
         for (const InstanceDesc& instance : desc.instances) {
             placed.emplace_back(desc.meshes[static_cast<std::size_t>(instance.mesh)],
                                 instance.world_from_object);
         }
-        embree = std::make_unique<EmbreeScene>(desc.instances, placed, desc.meshes.size());
+        embree = std::make_unique<EmbreeScene>(desc.instances, placed, desc.meshes.size(),
+                                               std::span<const Sphere>{}, PassRule{}, isa);
     }
 
     SceneDesc desc;
@@ -62,6 +68,59 @@ TEST_CASE("a hit names instance, triangle and barycentrics, also for shared mesh
         CHECK(p.y == Approx(0.5f));
         CHECK_FALSE(scene.embree->intersect(
             {.origin = {3.0f, 0.5f, 3.0f}, .direction = {0.0f, 0.0f, -1.0f}}));
+    }
+}
+
+TEST_CASE("where a triangle is hit does not depend on the instruction set", "[geometry][purity]")
+{
+    // What an instruction set and a maker of CPUs do differ in: Embree's approximate reciprocals.
+    for (const bool shared : {false, true}) {
+        SceneBuilder builder;
+        const MeshId mesh = builder.sphere_mesh(24);
+        const Mat4 placed = glm::rotate(glm::translate(Mat4(1.0f), Vec3(3.0f, -2.0f, 1.0f)), 0.7f,
+                                        Vec3(0.6f, 0.0f, 0.8f));
+        builder.place(mesh, test::lambertian(Rgb(0.5f)), placed);
+        if (shared) {
+            builder.place(mesh, test::lambertian(Rgb(0.5f)),
+                          glm::translate(Mat4(1.0f), Vec3(50.0f)));
+        }
+        const Traced base(builder.desc, Isa::sse2);
+        for (const Isa isa : {Isa::avx2, Isa::avx512}) {
+            CAPTURE(shared, isa_name(isa));
+            std::unique_ptr<Traced> other;
+            try {
+                other = std::make_unique<Traced>(builder.desc, isa);
+            } catch (const Error&) {
+                continue;  // this CPU lacks it
+            }
+            test::Random random(8);
+            int hits = 0;
+            int other_triangle = 0;
+            int other_place = 0;
+            for (int i = 0; i < 5000; ++i) {
+                const Vec3 target = Vec3(3.0f, -2.0f, 1.0f) + 0.95f * random.direction();
+                const Vec3 origin = 6.0f * random.direction();
+                const Ray ray{.origin = origin, .direction = normalize(target - origin)};
+                const auto a = base.embree->intersect(ray);
+                const auto b = other->embree->intersect(ray);
+                if (!a || !b) {
+                    other_triangle += a.has_value() == b.has_value() ? 0 : 1;
+                    continue;
+                }
+                ++hits;
+                if (a->triangle != b->triangle) {
+                    ++other_triangle;  // within rounding of an edge
+                } else {
+                    other_place +=
+                        a->barycentrics == b->barycentrics && a->normal == b->normal ? 0 : 1;
+                    const Vec3 p = base.placed[0].point(a->triangle, a->barycentrics).p;
+                    REQUIRE(glm::length(cross(p - origin, ray.direction)) < 1e-5f);
+                }
+            }
+            CHECK(hits > 4000);
+            CHECK(other_triangle <= 2);
+            CHECK(other_place == 0);
+        }
     }
 }
 

@@ -1,36 +1,22 @@
 #include <bdpt/render.h>
 
 #include "catch.hpp"
+#include "room.h"
 #include "scene_builder.h"
 
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
 #include <cstddef>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
 namespace bdpt {
 namespace {
 
+using test::room;
 using test::SceneBuilder;
-
-Scene room()
-{
-    SceneBuilder builder;
-    builder.walls(test::lambertian(Rgb(0.7f)), test::plastic(Rgb(0.6f), 0.3f));
-    builder.lamp(0.9f, 0.4f, Rgb(5.0f));
-    // Two surfaces in the same place: which one is hit must not depend on the thread.
-    builder.quad({-0.5f, -0.5f, 0.0f}, {0.5f, -0.5f, 0.0f}, {0.5f, 0.0f, 0.0f}, {-0.5f, 0.0f, 0.0f},
-                 test::lambertian({0.8f, 0.1f, 0.1f}));
-    builder.quad({-0.5f, -0.5f, 0.0f}, {0.5f, -0.5f, 0.0f}, {0.5f, 0.0f, 0.0f}, {-0.5f, 0.0f, 0.0f},
-                 test::lambertian({0.1f, 0.1f, 0.8f}));
-    builder.sphere({0.4f, -0.7f, 0.4f}, 0.3f, test::glass(0.0f), 16);
-    // Which rays pass must not depend on it either, nor on what other rays did.
-    MaterialDesc pane = test::plastic({0.2f, 0.7f, 0.3f}, 0.4f);
-    pane.base_color.w = 0.4f;
-    pane.alpha_mode = AlphaMode::blend;
-    builder.sphere({-0.3f, 0.3f, 0.3f}, 0.5f, pane, 12);
-    builder.light(PointLightDesc{.position = {-0.5f, 0.0f, 0.5f}, .intensity = Rgb(0.3f)});
-    return Scene(std::move(builder.desc));
-}
 
 RenderOptions options(IntegratorKind integrator)
 {
@@ -115,6 +101,54 @@ TEST_CASE("the same bits for a scene that is built again", "[purity]")
 {
     CHECK(film_of(room(), options(IntegratorKind::bdpt)) ==
           film_of(room(), options(IntegratorKind::bdpt)));
+}
+
+TEST_CASE("the same bits with a pinned instruction set, too", "[purity]")
+{
+    for (const Isa isa : test::isas_of_this_cpu()) {
+        CAPTURE(isa_name(isa));
+        const Scene scene = room(isa);
+        REQUIRE(scene.isa() == isa);
+        RenderOptions o = options(IntegratorKind::bdpt);
+        o.threads = 1;
+        const Film expected = film_of(scene, o);
+        o.threads = 8;
+        o.tile_size = 64;
+        CHECK(film_of(scene, o) == expected);
+        CHECK(film_of(room(isa), o) == expected);
+        o.threads = 2;
+        o.tile_size = 8;
+        o.samples = {.begin = 3, .end = 8};
+        Film parts = film_of(scene, o);
+        o.samples = {.begin = 0, .end = 3};
+        parts.merge(film_of(scene, o));
+        CHECK(parts == expected);
+        o.samples = {.begin = 0, .end = 8};
+        o.crop = PixelRect{5, 3, 24, 20};
+        check_region(film_of(scene, o).develop(), expected.develop(), *o.crop);
+    }
+}
+
+TEST_CASE("the same bits however many threads the scene is built with", "[purity]")
+{
+    // Large enough for Embree to build in parallel, and twice in the same place, so that the order
+    // of the triangles in its tree decides which one is hit.
+    const auto build = [](int threads) {
+        SceneBuilder builder;
+        for (const Rgb color : {Rgb(0.9f, 0.1f, 0.1f), Rgb(0.1f, 0.1f, 0.9f)}) {
+            builder.sphere({0.0f, 0.0f, 0.0f}, 0.9f, test::lambertian(color), 160);
+        }
+        builder.light(PointLightDesc{.position = {2.0f, 2.0f, 3.0f}, .intensity = Rgb(9.0f)});
+        std::optional<Scene> scene;
+        const tbb::global_control allowance(tbb::global_control::max_allowed_parallelism, 16);
+        tbb::task_arena arena(threads);
+        arena.execute([&] { scene.emplace(std::move(builder.desc)); });
+        return std::move(*scene);
+    };
+    const RenderOptions o = options(IntegratorKind::mis);
+    const Film expected = film_of(build(1), o);
+    CHECK(film_of(build(2), o) == expected);
+    CHECK(film_of(build(16), o) == expected);
 }
 
 TEST_CASE("a range rendered in parts and merged is the whole", "[purity]")

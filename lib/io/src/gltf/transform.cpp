@@ -41,6 +41,24 @@ glm::dmat4 rotation(const std::vector<double>& xyzw, const std::string& place, W
     return length > 0.0 ? glm::mat4_cast(given / length) : glm::dmat4(1.0);
 }
 
+/// Of x >= 0. That of the C library may differ between machines.
+double cube_root(double x)
+{
+    if (!(x > 0.0) || !std::isfinite(x)) {
+        return x;
+    }
+    int exponent = 0;
+    double rest = std::frexp(x, &exponent);
+    const int third = exponent / 3;
+    rest = std::ldexp(rest, exponent - 3 * third);  // in [1/8, 4)
+    // Newton's method: from 1.2 eight steps are enough for all of that range.
+    double root = 1.2;
+    for (int step = 0; step < 8; ++step) {
+        root = (2.0 * root + rest / (root * root)) / 3.0;
+    }
+    return std::ldexp(root, third);
+}
+
 }  // namespace
 
 glm::dmat4 local_transform(const tinygltf::Model& model, std::size_t node, Warnings& warnings)
@@ -75,7 +93,7 @@ Vec3 transform_direction(const glm::dmat4& world_from_node, const glm::dvec3& di
 
 double mean_scale(const glm::dmat4& world_from_node)
 {
-    return std::cbrt(std::abs(glm::determinant(glm::dmat3(world_from_node))));
+    return cube_root(std::abs(glm::determinant(glm::dmat3(world_from_node))));
 }
 
 }  // namespace bdpt::io

@@ -1,0 +1,53 @@
+#!/usr/bin/env python3
+"""Fails when our objects call functions of the C library whose last bits depend on the CPU or on the library's version:
+check_math.py NM OBJECT...
+
+Pictures are equal to the bit on all machines, so what reaches the film uses lib/src/math/elementary.h instead.
+"""
+
+import pathlib
+import re
+import subprocess
+import sys
+
+# Functions of <math.h>, with the suffixes of float and long double; and vectors of them, as compilers call them.
+INEXACT = re.compile(r"(?:a?(?:sin|cos|tan)h?|atan2|sincos|exp(?:2|10|m1)?|log(?:2|10|1p)?|pow|cbrt|hypot|erfc?|[lt]gamma"
+                     r"|j[01n]|y[01n])(?:f|l|f32x?|f64x?|f128)?(?:_finite)?|_ZGV\w+")
+# Source files that need them for what is not in the film.
+ALLOWED = {
+    "camera_matrices.cpp": "matrices among the metadata of files",
+    "tone_map.cpp": "the preview, 8 bits a channel",
+}
+
+
+def inexact_calls(symbols):
+    """The functions among the lines of `nm --undefined-only` that may differ."""
+    names = [line.split()[-1].partition("@")[0] for line in symbols.splitlines() if line.strip()]
+    return sorted({name for name in names if INEXACT.fullmatch(re.sub(r"^__", "", name))})
+
+
+def check(symbols_of):
+    """All findings, by a table of objects and what nm says of each."""
+    errors, used = [], set()
+    for path, symbols in symbols_of.items():
+        source = re.sub(r"\.o(bj)?$", "", pathlib.Path(path).name)
+        calls = inexact_calls(symbols)
+        if calls and source in ALLOWED:
+            used.add(source)
+        elif calls:
+            errors.append(f"{source} calls {', '.join(calls)}: use math/elementary.h, or say in check_math.py why not")
+    errors += [f"{source} is allowed to call what it does not call" for source in sorted(ALLOWED.keys() - used)]
+    return errors
+
+
+def main():
+    nm, *objects = sys.argv[1:]
+    symbols_of = {path: subprocess.run([nm, "--undefined-only", path], check=True, capture_output=True, text=True).stdout
+                  for path in objects}
+    errors = check(symbols_of)
+    print("\n".join(errors) or f"{len(objects)} objects call exact functions only")
+    sys.exit(bool(errors) or not objects)
+
+
+if __name__ == "__main__":
+    main()

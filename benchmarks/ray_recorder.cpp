@@ -103,7 +103,7 @@ using OccludedFunction = void(RTCScene, RTCRay*, RTCOccludedArguments*);
 {
     static IntersectFunction* const intersect = bdpt::original<IntersectFunction>("rtcIntersect1");
     bdpt::trace_and_record(
-        scene, query->ray, bdpt::embree::segment_of(arguments->context),
+        scene, query->ray, bdpt::embree::ray_of(arguments->context).segment,
         bdpt::RayQuery::closest_hit, [=] { intersect(scene, query, arguments); },
         [=] { return query->hit.geomID != RTC_INVALID_GEOMETRY_ID; });
 }
@@ -113,7 +113,7 @@ using OccludedFunction = void(RTCScene, RTCRay*, RTCOccludedArguments*);
 {
     static OccludedFunction* const occluded = bdpt::original<OccludedFunction>("rtcOccluded1");
     bdpt::trace_and_record(
-        scene, *ray, bdpt::embree::segment_of(arguments->context), bdpt::RayQuery::any_hit,
+        scene, *ray, bdpt::embree::ray_of(arguments->context).segment, bdpt::RayQuery::any_hit,
         [=] { occluded(scene, ray, arguments); }, [=] { return ray->tfar < 0.0f; });
 }
 #else
@@ -125,7 +125,7 @@ using OccludedFunction = void(RTCScene, RTCIntersectContext*, RTCRay*);
 {
     static IntersectFunction* const intersect = bdpt::original<IntersectFunction>("rtcIntersect1");
     bdpt::trace_and_record(
-        scene, query->ray, bdpt::embree::segment_of(context), bdpt::RayQuery::closest_hit,
+        scene, query->ray, bdpt::embree::ray_of(context).segment, bdpt::RayQuery::closest_hit,
         [=] { intersect(scene, context, query); },
         [=] { return query->hit.geomID != RTC_INVALID_GEOMETRY_ID; });
 }
@@ -135,7 +135,7 @@ using OccludedFunction = void(RTCScene, RTCIntersectContext*, RTCRay*);
 {
     static OccludedFunction* const occluded = bdpt::original<OccludedFunction>("rtcOccluded1");
     bdpt::trace_and_record(
-        scene, *ray, bdpt::embree::segment_of(context), bdpt::RayQuery::any_hit,
+        scene, *ray, bdpt::embree::ray_of(context).segment, bdpt::RayQuery::any_hit,
         [=] { occluded(scene, context, ray); }, [=] { return ray->tfar < 0.0f; });
 }
 #endif

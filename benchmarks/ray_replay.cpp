@@ -45,18 +45,28 @@ RTCRay to_embree(const RecordedRay& ray)
     return out;
 }
 
+/// As callbacks get to know it.
+Ray as_ray(const RecordedRay& ray)
+{
+    return {.origin = ray.origin,
+            .direction = ray.direction,
+            .t_max = ray.t_far,
+            .ignored_sphere = ray.id,
+            .segment = ray.segment};
+}
+
 bool hits(RTCScene scene, const RecordedRay& ray)
 {
     if (ray.query == RayQuery::any_hit) {
         RTCRay query = to_embree(ray);
-        embree::occluded(scene, query, ray.segment);
+        embree::occluded(scene, query, as_ray(ray));
         return query.tfar < 0.0f;
     }
     RTCRayHit query{};
     query.ray = to_embree(ray);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    embree::intersect(scene, query, ray.segment);
+    embree::intersect(scene, query, as_ray(ray));
     return query.hit.geomID != RTC_INVALID_GEOMETRY_ID;
 }
 

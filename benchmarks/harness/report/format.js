@@ -16,8 +16,11 @@ function digits(value, count = 3) {
     : String(text);
 }
 
-/** "1.2·10⁻³" */
+/** "1.2·10⁻³", and "0.12" for what is easily read */
 function scientific(value, decimals = 1) {
+  if (Math.abs(value) >= 0.1 && Math.abs(value) < 1000) {
+    return String(Number(value.toPrecision(decimals + 1)));
+  }
   if (!Number.isFinite(value) || value === 0) {
     return value === 0 ? "0" : "–";
   }

@@ -110,19 +110,19 @@ async function sceneSection(scene) {
   const viewer = new Viewer(scene, heat);
   await viewer.load();
   viewers.push(viewer);
-  const bars = speedUpBars(scene);
   const section = html("section", { class: "wrap scene", id: `scene-${scene.name}`, "aria-labelledby": `title-${scene.name}` },
     html("h2", { id: `title-${scene.name}` }, scene.name),
-    html("p", { class: "note" }, `${scene.width} × ${scene.height} pixels, camera ${scene.camera}` +
+    html("p", { class: "note" }, `${scene.width} × ${scene.height} pixels, camera “${scene.camera}”` +
       (scene.environment && scene.environment !== "none" ? `, environment ${scene.environment}` : "") +
       `. Reference: ${scene.reference.origin}; its own relMSE is ${scientific(scene.reference.noise_relmse)}.`),
-    cautions(scene), viewer.element(),
+    cautions(scene), viewer.element(speedUpBars(scene)),
     scene.integrators.length ? html("div", { class: "plots" },
       convergencePlot(scene, "Error over CPU time", "CPU time [s]", (point) => point.cpu_seconds, `clip-time-${scene.name}`),
       convergencePlot(scene, "Error over samples", "samples per pixel", (point) => point.samples, `clip-samples-${scene.name}`)) : null,
     html("p", { class: "note" }, "Median of the seeds; the band reaches from the least to the greatest. Dashed: error falls with the inverse."),
     scene.integrators.length ? curveTable(scene) : null,
-    html("div", { class: "figures" }, bars), sceneTable(scene), await strategySection(scene, heat));
+    sceneTable(scene), await strategySection(scene, heat),
+    html("div", { class: "figures" }, await lengthMap(scene, heat), rayBars(scene)));
   byId("scenes").append(section);
 }
 

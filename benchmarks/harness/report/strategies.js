@@ -41,6 +41,9 @@ async function pyramid(scene, kind, title) {
 
 /** Mean length of the paths that bring each pixel its light. */
 async function lengthMap(scene, heat) {
+  if (!scene.strategies) {
+    return null;
+  }
   const map = await unpackBytes(scene.strategies.lengths);
   const canvas = html("canvas", { width: scene.width, height: scene.height, class: "map", role: "img",
     "aria-label": "Mean length of the paths that bring each pixel its light" });
@@ -67,6 +70,5 @@ async function strategySection(scene, heat) {
     html("span", { class: "key energy" }, "share of the picture's energy"), " ",
     html("span", { class: "key variance" }, "share of the variance of all")),
     html("div", { class: "pyramids" }, await pyramid(scene, "weighted", "Weighted: their part of the picture"),
-      await pyramid(scene, "unweighted", "Unweighted: what each finds by itself")),
-    await lengthMap(scene, heat));
+      await pyramid(scene, "unweighted", "Unweighted: what each finds by itself")));
 }

@@ -38,7 +38,8 @@ class Viewer {
     return Math.min(display.shown, this.names.length - 1);
   }
 
-  element() {
+  /** `more` comes beside the large picture. */
+  element(more) {
     const redraw = (cursor) => {
       this.cursor = cursor && cursor[0] >= 0 && cursor[1] >= 0 && cursor[0] < this.scene.width &&
         cursor[1] < this.scene.height ? cursor : null;
@@ -58,11 +59,11 @@ class Viewer {
     const buttons = html("div", { class: "zoom" },
       html("button", { type: "button", title: "Zoom in", "aria-label": "Zoom in", onclick: zoomTo(2) }, "+"),
       html("button", { type: "button", title: "Zoom out", "aria-label": "Zoom out", onclick: zoomTo(0.5) }, "−"),
-      html("button", { type: "button", title: "Whole picture", onclick: () => { this.view.reset(); this.requestDraw(); } }, "1:1"));
+      html("button", { type: "button", title: "Whole picture", onclick: () => { this.view.reset(); this.requestDraw(); } }, "Fit"));
     const root = html("div", { class: "viewer" },
       html("div", { class: "stage-box" }, this.stage.canvas, html("div", { class: "stage-label" }, this.title, this.hint),
         buttons),
-      html("div", { class: "side" }, this.readout(), this.legend),
+      html("div", { class: "side" }, this.readout(), this.legend, more),
       html("div", { class: "strip", style: `--tiles:${this.names.length}` },
         this.names.map((name, i) => this.tile(name, i))));
     new IntersectionObserver((entries) => {
@@ -174,7 +175,7 @@ class Viewer {
     const metric = METRICS[display.metric];
     const content = {
       picture: () => html("p", { class: "note" },
-        `Shown at ${digits(this.scene.pictures.exposure + display.exposure)} EV. Drag to pan, double-click or Ctrl + wheel to zoom.`),
+        `Shown at ${digits(this.scene.pictures.exposure + display.exposure)} EV. Drag to pan, double-click or Ctrl + wheel to zoom; keys 1 to ${this.names.length} flip, P, E, V choose what is shown, comma and full stop the exposure.`),
       error: () => colorBar(this.heat, `Error of this picture, ${metric.label}`, metric.ticks),
       variance: () => colorBar(this.heat, "Variance between seeds, relative", METRICS.relative.ticks),
     };

@@ -45,22 +45,29 @@ MetricScale bench_scale(const Image& reference)
 
 CombinedReference combine(const HalvedImage& all_light, const HalvedImage& most_light)
 {
-    const Image base = mix(all_light.image, most_light.image, 0.5);
-    const double epsilon = bench_scale(base).squared_epsilon;
     // The squared difference of two halves has four times the variance of their mean.
-    const double noise_a =
-        relative_difference(all_light.first, all_light.second, base, epsilon) / 4.0;
-    const double noise_b =
-        relative_difference(most_light.first, most_light.second, base, epsilon) / 4.0;
+    const auto noise_of = [](const HalvedImage& image, const Image& base, double epsilon) {
+        return relative_difference(image.first, image.second, base, epsilon) / 4.0;
+    };
+    const Image middle = mix(all_light.image, most_light.image, 0.5);
+    const double epsilon = bench_scale(middle).squared_epsilon;
+    const double noise_a = noise_of(all_light, middle, epsilon);
+    const double noise_b = noise_of(most_light, middle, epsilon);
     const double noise = noise_a + noise_b;
-    const double difference = relative_difference(all_light.image, most_light.image, base, epsilon);
+    const double difference =
+        relative_difference(all_light.image, most_light.image, middle, epsilon);
     // Two pictures without noise agree only if they are the same but for rounding.
     const double agreement = difference / std::max(noise, 1e-10);
     const double share = agreement > most_disagreement ? 1.0 : noise > 0.0 ? noise_b / noise : 0.5;
-    return {.image = mix(all_light.image, most_light.image, share),
-            .noise = share * share * noise_a + (1.0 - share) * (1.0 - share) * noise_b,
-            .share = share,
-            .agreement = agreement};
+    CombinedReference result{.image = mix(all_light.image, most_light.image, share),
+                             .noise = 0.0,
+                             .share = share,
+                             .agreement = agreement};
+    const double final_epsilon = bench_scale(result.image).squared_epsilon;
+    const double rest = 1.0 - share;
+    result.noise = share * share * noise_of(all_light, result.image, final_epsilon) +
+                   rest * rest * noise_of(most_light, result.image, final_epsilon);
+    return result;
 }
 
 }  // namespace bdpt::harness

@@ -6,13 +6,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "bench/bench_files.h"
 #include "bench/hasher.h"
 #include "bench/meter.h"
+#include "bench/plan.h"
 #include "bench/reference_cache.h"
 #include "bench/strategy_shares.h"
 #include "bench/trial.h"
@@ -22,118 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
-
-/// Of a run's time, what finding out its samples takes at most.
-constexpr double calibration_share = 1.0 / 3.0;
-
-/// What all runs in a folder have in common.
-ordered_json plan_settings(const BenchScene& scene, const BenchOptions& options,
-                           const std::string& reference)
-{
-    ordered_json settings = render_settings(scene, options.render);
-    settings["threads"] = options.render.threads;
-    settings["cpu_seconds"] = options.seconds;
-    settings["equal_samples"] = options.samples ? ordered_json(*options.samples) : ordered_json();
-    settings["reference"] = reference;
-    return settings;
-}
-
-/// Throws the `Error` for a folder that holds something else, with what differs.
-void check_same(const ordered_json& ours, const ordered_json& kept, const fs::path& file)
-{
-    for (const auto& [name, value] : ours.items()) {
-        const ordered_json other =
-            kept.is_object() ? kept.value(name, ordered_json()) : ordered_json();
-        if (other != value) {
-            throw Error(ErrorCode::usage, file.string() + ": holds runs with " + name + " " +
-                                              other.dump() + ", not " + value.dump() +
-                                              "; choose another folder, or delete this one");
-        }
-    }
-}
-
-/// The samples of each integrator, found out once and then kept.
-class Plan {
-public:
-    Plan(const BenchScene& scene, const BenchOptions& options, const BenchFiles& files,
-         const std::string& reference)
-        : file_(files.plan()), json_{{"settings", plan_settings(scene, options, reference)}}
-    {
-        std::optional<ordered_json> kept = read_json(file_);
-        if (kept) {
-            check_same(json_["settings"], kept->value("settings", ordered_json()), file_);
-            json_ = std::move(*kept);
-        }
-    }
-
-    /// False if stopped.
-    bool complete(const BenchScene& scene, const BenchOptions& options, Meter& meter,
-                  const BenchControl& control)
-    {
-        for (const IntegratorKind kind : options.integrators) {
-            const double seconds = options.seconds * calibration_share;
-            if (known(kind)) {
-                meter.skip(seconds);
-                continue;
-            }
-            meter.begin("how many samples take " + std::string(to_string(kind)) + " that long",
-                        seconds);
-            const auto samples =
-                samples_in(make_setup(scene, options.render, kind, 0, control), options.seconds);
-            if (!samples) {
-                return false;
-            }
-            meter.end();
-            json_["equal_time_samples"][to_string(kind)] = *samples;
-        }
-        if (!json_.contains("equal_samples")) {
-            json_["equal_samples"] = options.samples.value_or(power_of_two_for_all(options));
-        }
-        write_json(file_, json_);
-        return true;
-    }
-
-    [[nodiscard]] BenchGoals goals(IntegratorKind kind) const
-    {
-        return {.integrator = kind,
-                .equal_time = number(json_["equal_time_samples"], std::string(to_string(kind))),
-                .equal_samples = number(json_, "equal_samples")};
-    }
-
-private:
-    [[nodiscard]] bool known(IntegratorKind kind) const
-    {
-        return json_.contains("equal_time_samples") &&
-               json_["equal_time_samples"].contains(to_string(kind));
-    }
-    [[nodiscard]] std::int64_t power_of_two_for_all(const BenchOptions& options) const
-    {
-        std::int64_t least = std::numeric_limits<std::int64_t>::max();
-        for (const IntegratorKind kind : options.integrators) {
-            least =
-                std::min(least, number(json_["equal_time_samples"], std::string(to_string(kind))));
-        }
-        std::int64_t power = 1;
-        while (2 * power <= least) {
-            power *= 2;
-        }
-        return power;
-    }
-    [[nodiscard]] std::int64_t number(const ordered_json& object, const std::string& name) const
-    {
-        const auto found = object.find(name);
-        if (found == object.end() || !found->is_number_integer() || *found < 1 ||
-            *found > most_samples) {
-            throw Error(ErrorCode::invalid_input, file_.string() + ": " + name +
-                                                      " is no number of samples; delete the folder "
-                                                      "to start anew");
-        }
-        return found->get<std::int64_t>();
-    }
-
-    fs::path file_;
-    ordered_json json_;
-};
 
 bool reaches(const BenchRun& run, const BenchGoals& goals)
 {
@@ -245,6 +133,11 @@ std::optional<SceneResult> run_scene(const BenchScene& scene, const BenchOptions
     const BenchFiles files(folder, scene.name);
     files.create();
     Meter meter(planned_seconds(options), control);
+    // A folder that does not fit is refused before a reference is rendered for it.
+    std::optional<Plan> plan;
+    if (!options.reference) {
+        plan.emplace(scene, options, files, reference_key(scene, options));
+    }
     const auto keyed = reference_for(scene, options, files, meter, control);
     if (!keyed) {
         return std::nullopt;
@@ -267,12 +160,14 @@ std::optional<SceneResult> run_scene(const BenchScene& scene, const BenchOptions
                        .goals = {},
                        .runs = {},
                        .complete = false};
-    Plan plan(scene, options, files, keyed->key);
-    if (!plan.complete(scene, options, meter, control)) {
+    if (!plan) {
+        plan.emplace(scene, options, files, keyed->key);
+    }
+    if (!plan->complete(scene, options, meter, control)) {
         return result;
     }
     for (const IntegratorKind kind : options.integrators) {
-        result.goals.push_back(plan.goals(kind));
+        result.goals.push_back(plan->goals(kind));
     }
     if (!run_all(scene, options, files, reference, meter, control, result)) {
         return result;

@@ -16,7 +16,7 @@ class Viewer {
     this.cursor = null;
     this.visible = false;
     this.stale = true;
-    this.stage = new Pane(this.view, scene.width, scene.height, "");
+    this.stage = new Pane(this.view, scene.width, scene.height, `${scene.name}: the picture that is shown`);
     this.stage.canvas.tabIndex = 0;
     this.stage.canvas.classList.add("stage");
     this.tiles = this.names.map((name) => new Pane(this.view, scene.width, scene.height, `${scene.name} by ${name}`));

@@ -53,6 +53,11 @@ Plan::Plan(const BenchScene& scene, const BenchOptions& options, const BenchFile
     if (kept) {
         check_same(json_["settings"], kept->value("settings", ordered_json()), file_);
         json_ = std::move(*kept);
+        if (json_.contains(samples_member) && !json_[samples_member].is_object()) {
+            throw Error(ErrorCode::invalid_input, file_.string() + ": " + samples_member +
+                                                      " is no object; delete the folder to start "
+                                                      "anew");
+        }
     }
 }
 

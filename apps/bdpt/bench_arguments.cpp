@@ -35,7 +35,7 @@ struct Effort {
     int pixels;
 };
 constexpr Effort quick_effort{.seconds = 0.5, .pixels = 9216};
-constexpr Effort normal_effort{.seconds = 5.0, .pixels = 40000};
+constexpr Effort normal_effort{.seconds = 5.0, .pixels = 36864};
 
 /// Time of each of the two renders of a reference, in times that of a run: its noise is then a
 /// small part of the error of most runs.
@@ -147,7 +147,7 @@ void add_scene_options(CLI::App& command, RenderWords& words)
     const auto group = "How to render";
     command
         .add_option("--size", words.size,
-                    "Picture size; if not given, about 40 000 pixels (9 216 with --quick) with the "
+                    "Picture size; if not given, about 37 000 pixels (9 216 with --quick) with the "
                     "camera's aspect ratio")
         ->type_name("WxH")
         ->group(group);

@@ -23,7 +23,9 @@ std::string bench_text(const harness::SceneResult& scene, double seconds)
         result += fmt::format("  {:<6}{:>8}{:>11.2e}{:>24}{:>12.3g}{:>12}{}\n",
                               harness::to_string(one.integrator), one.equal_time.samples,
                               error.median, range, one.efficiency, factor,
-                              one.equal_time.near_noise ? "  reference too noisy" : "");
+                              one.equal_time.near_noise ? "  reference too noisy"
+                              : one.floor               ? "  cannot find all light"
+                                                        : "");
     }
     return result;
 }

@@ -61,7 +61,8 @@ def check_loading(browser, page):
     browser.open(page.as_uri())
     ready = browser.wait("document.documentElement.dataset.ready")
     expect(ready == "true", "the page draws itself")
-    expect(browser.messages() == [], "the console is empty")
+    messages = browser.messages()
+    expect(messages == [], f"the console is empty {messages}")
     resources = browser.run("return performance.getEntriesByType('resource').map((one) => one.name)"
                             ".filter((name) => !name.startsWith('data:'));")
     expect(resources == [], "nothing is fetched")
@@ -195,7 +196,8 @@ def check(page):
         check_figures(browser, data)
         check_access(browser)
         check_narrow(browser)
-        expect(browser.messages() == [], "the console is still empty")
+        messages = browser.messages()
+        expect(messages == [], f"the console is still empty {messages}")
 
 
 def photograph(page, target):

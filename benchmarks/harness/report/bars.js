@@ -21,7 +21,8 @@ function speedUpBars(scene) {
       svg("text", { x: 52, y: y + 15, class: `label series-${row.integrator}`, "text-anchor": "end" }, row.integrator),
       svg("rect", { x: Math.min(x, one), y, width: Math.max(Math.abs(x - one), 1.5), height: 20, rx: 3,
         class: `bar series-${row.integrator}${row.speed_up.extrapolated ? " guessed" : ""}` }),
-      svg("text", { x: ahead ? x + 7 : Math.max(one, x) + 7, y: y + 15, class: "value" }, times(row.speed_up)));
+      svg("text", { x: ahead ? x + 7 : Math.max(one, x) + 7, y: y + 15, class: "value" },
+        `${times(row.speed_up)}${row.relmse_floor === null ? "" : " †"}`));
   });
   const spoken = rows.map((row) => `${row.integrator} ${times(row.speed_up)}`).join(", ");
   return html("figure", { class: "plot-box" }, html("figcaption", null, "Speed-up at equal error, over pt"),

@@ -13,7 +13,9 @@ function overviewTable(data) {
   const names = [...new Set(data.scenes.flatMap((scene) => scene.integrators.map((one) => one.integrator)))];
   const rows = data.scenes.map((scene) => [html("a", { href: `#scene-${scene.name}` }, scene.name), ...names.map((name) => {
     const one = scene.integrators.find((candidate) => candidate.integrator === name);
-    return html("span", { class: "factor", style: tint(one && one.speed_up) }, times(one && one.speed_up));
+    const missing = one && one.relmse_floor !== null;
+    return html("span", { class: "factor", style: missing ? "" : tint(one && one.speed_up) }, times(one && one.speed_up),
+      missing ? html("abbr", { title: "cannot find all light" }, " †") : null);
   })]);
   return table("Speed-up over pt at equal error, by scene", ["Scene", ...names.map((name) => html("span", { class: `series-${name}` }, name))],
     rows, { class: "overview" });
@@ -28,7 +30,7 @@ function sceneTable(scene) {
   const rows = scene.integrators.map((one) => [
     html("span", { class: `series-${one.integrator}` }, html("span", { class: "dot" }), one.integrator),
     thousands(one.equal_time.samples), range(one.equal_time.relmse), range(one.equal_samples.relmse),
-    seconds(one.equal_samples.cpu_seconds), digits(one.efficiency), times(one.speed_up), digits(one.samples_per_second),
+    seconds(one.equal_samples.cpu_seconds), digits(one.efficiency), html("span", null, times(one.speed_up), one.relmse_floor === null ? "" : " †"), digits(one.samples_per_second),
     thousands(one.rays_per_second.camera), thousands(one.rays_per_second.light), thousands(one.rays_per_second.shadow),
     bytes(one.peak_memory_bytes)]);
   const spp = scene.integrators.length ? thousands(scene.integrators[0].equal_samples.samples) : "–";
@@ -47,6 +49,9 @@ function cautions(scene) {
   }
   if (noisy.length) {
     lines.push(`The reference is not much better than ${noisy.map((one) => one.integrator).join(", ")}: errors there are not sure.`);
+  }
+  for (const one of scene.integrators.filter((candidate) => candidate.relmse_floor !== null)) {
+    lines.push(`† ${one.integrator} cannot find all light here: ${scientific(one.relmse_floor)} of its relMSE stays however long it runs.`);
   }
   if (broken.length) {
     lines.push(`Samples that were NaN, infinite or negative were dropped: ${broken.map((one) => one.integrator).join(", ")}.`);

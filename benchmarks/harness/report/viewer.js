@@ -156,7 +156,7 @@ class Viewer {
 
   /** Paints the picture with number `i` as `display` says. */
   develop(i) {
-    const context = this.sources[i].getContext("2d");
+    const context = this.sources[i].getContext("2d", { willReadFrequently: true });
     const image = context.createImageData(this.scene.width, this.scene.height);
     const { epsilon, exposure } = this.scene.pictures;
     const isReference = this.names[i] === REFERENCE;

@@ -1,4 +1,5 @@
 #include <bdpt/harness/bench/bench_scene.h>
+#include <bdpt/harness/bench/error_floor.h>
 #include <bdpt/harness/bench/integrator_name.h>
 #include <bdpt/harness/bench/reference.h>
 #include <bdpt/harness/report/packed_image.h>
@@ -138,6 +139,33 @@ TEST_CASE("two renders count by the inverse of their noise")
         CHECK(same.share == 0.5);
         CHECK(same.noise == 0.0);
     }
+}
+
+TEST_CASE("what all renders lack is found, noise is not taken for it")
+{
+    const Image reference = flat(40, 40, Rgb(1.0f));
+    std::vector<Image> pictures;
+    for (const std::uint64_t seed : {1u, 11u, 21u, 31u}) {
+        pictures.push_back(noisy(1.0f, 0.6f, seed).image);
+    }
+    CHECK_FALSE(error_floor(pictures, reference, 0.0));
+    CHECK_FALSE(error_floor(std::span(pictures).first(2), reference, 0.0));
+
+    for (Image& picture : pictures) {
+        for (std::size_t i = 0; i < 400; ++i) {  // a quarter is too dark by a half
+            picture.pixels[i] -= Rgb(0.5f);
+        }
+    }
+    const double lacking = 0.25 * 0.25 / 1.01;
+    const auto floor = error_floor(pictures, reference, 0.0);
+    REQUIRE(floor);
+    CHECK(*floor == Approx(lacking).epsilon(0.1));
+    CHECK(error_floor(std::span(pictures).first(2), reference, 0.0).has_value());
+    // What the reference's noise explains does not count.
+    const auto less = error_floor(pictures, reference, 0.4 * lacking);
+    REQUIRE(less);
+    CHECK(*less == Approx(*floor - 0.4 * lacking));
+    CHECK_FALSE(error_floor(pictures, reference, 0.9 * lacking));
 }
 
 TEST_CASE("pixels of the page keep nine bits of their greatest component")

@@ -257,7 +257,7 @@ TEST_CASE("a given reference counts, and has to fit")
     CHECK(result.reference_file == file);
 
     io::write_exr(file, test::flat(9, 12, Rgb(0.5f)), {});
-    CHECK(bench.failure().find("has 9 x 12 pixels, but floor is rendered with 12 x 9") !=
+    CHECK(bench.failure().find("has 9 x 12 pixels, but the scene is rendered with 12 x 9") !=
           std::string::npos);
     io::write_exr(file, test::flat(12, 9, Rgb(0.6f)), {});
     CHECK(bench.failure().find("holds runs with reference") != std::string::npos);

@@ -1,7 +1,9 @@
 #include <bdpt/harness/bench/bench.h>
 
 #include <bdpt/error.h>
+#include <bdpt/harness/bench/error_floor.h>
 #include <bdpt/io/exr.h>
+#include <bdpt/io/read_image.h>
 #include <bdpt/version.h>
 
 #include <algorithm>
@@ -96,6 +98,30 @@ bool run_all(const BenchScene& scene, const BenchOptions& options, const BenchFi
     return true;
 }
 
+/// What the pictures of each integrator have in common beside the reference.
+std::vector<ErrorFloor> find_floors(const SceneResult& result, const BenchFiles& files,
+                                    const Reference& reference)
+{
+    std::vector<ErrorFloor> floors;
+    for (const BenchGoals& goals : result.goals) {
+        std::vector<Image> pictures;
+        for (const BenchRun& run : result.runs) {
+            if (run.integrator == goals.integrator) {
+                const fs::path file = files.picture(run.integrator, run.seed);
+                pictures.push_back(io::read_image(file).image);
+                check_size(pictures.back(), result.width, result.height, file);
+            }
+        }
+        const auto floor = pictures.size() < 2
+                               ? std::nullopt
+                               : error_floor(pictures, reference.image, reference.noise);
+        if (floor) {
+            floors.push_back({.integrator = goals.integrator, .relmse = *floor});
+        }
+    }
+    return floors;
+}
+
 }  // namespace
 
 double planned_seconds(const BenchOptions& options)
@@ -169,11 +195,9 @@ std::optional<SceneResult> run_scene(const BenchScene& scene, const BenchOptions
     for (const IntegratorKind kind : options.integrators) {
         result.goals.push_back(plan->goals(kind));
     }
-    if (!run_all(scene, options, files, reference, meter, control, result)) {
-        return result;
-    }
-    result.complete = true;
-    if (options.strategy_depth > 0) {
+    result.complete = run_all(scene, options, files, reference, meter, control, result);
+    result.floors = find_floors(result, files, reference);
+    if (result.complete && options.strategy_depth > 0) {
         measure_strategies(scene, options, files, reference, meter, control);
     }
     return result;

@@ -137,6 +137,16 @@ void write_json(const fs::path& file, const ordered_json& json)
     output.commit();
 }
 
+void check_size(const Image& image, int width, int height, const fs::path& file)
+{
+    if (image.width != width || image.height != height) {
+        throw Error(ErrorCode::invalid_input,
+                    file.string() + ": has " + std::to_string(image.width) + " x " +
+                        std::to_string(image.height) + " pixels, but the scene is rendered with " +
+                        std::to_string(width) + " x " + std::to_string(height));
+    }
+}
+
 ordered_json run_json(const BenchRun& run)
 {
     ordered_json checkpoints = ordered_json::array();

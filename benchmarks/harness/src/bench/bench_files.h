@@ -45,6 +45,9 @@ private:
 /// Atomically. Throws `Error` (output).
 void write_json(const std::filesystem::path& file, const nlohmann::ordered_json& json);
 
+/// Throws `Error` (invalid_input) for a picture of another size.
+void check_size(const Image& image, int width, int height, const std::filesystem::path& file);
+
 /// A run as JSON and back. The latter throws `Error` (invalid_input) that names `file`.
 [[nodiscard]] nlohmann::ordered_json run_json(const BenchRun& run);
 [[nodiscard]] BenchRun parse_run(const nlohmann::ordered_json& json,

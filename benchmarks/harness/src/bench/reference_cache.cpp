@@ -23,17 +23,6 @@ using nlohmann::ordered_json;
 /// No run has it.
 constexpr std::uint64_t reference_seed = 1'000'003;
 
-void check_size(const Image& image, const BenchScene& scene, const fs::path& file)
-{
-    if (image.width != scene.width || image.height != scene.height) {
-        throw Error(ErrorCode::invalid_input,
-                    file.string() + ": has " + std::to_string(image.width) + " x " +
-                        std::to_string(image.height) + " pixels, but " + scene.name +
-                        " is rendered with " + std::to_string(scene.width) + " x " +
-                        std::to_string(scene.height));
-    }
-}
-
 void check_finite(const Image& image, const fs::path& file)
 {
     for (const Rgb& pixel : image.pixels) {
@@ -70,7 +59,7 @@ KeyedReference given_reference(const BenchScene& scene, const fs::path& given)
     std::error_code missing;
     const fs::path file = fs::is_directory(given, missing) ? given / (scene.name + ".exr") : given;
     Reference reference{.image = io::read_image(file).image, .noise = 0.0, .origin = file.string()};
-    check_size(reference.image, scene, file);
+    check_size(reference.image, scene.width, scene.height, file);
     check_finite(reference.image, file);
     reference.noise = noise_by_layer(file, reference.image);
     Hasher hasher;
@@ -156,7 +145,7 @@ std::optional<KeyedReference> kept_reference(const std::string& key, const Bench
     Reference reference{.image = io::read_image(file).image,
                         .noise = noise->get<double>(),
                         .origin = origin->get<std::string>()};
-    check_size(reference.image, scene, file);
+    check_size(reference.image, scene.width, scene.height, file);
     check_finite(reference.image, file);
     return KeyedReference{.reference = std::move(reference), .key = key, .file = file};
 }

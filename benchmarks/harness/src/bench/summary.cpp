@@ -158,6 +158,11 @@ std::vector<IntegratorSummary> summarize(const SceneResult& result, double secon
         summary.curve = curve_of(runs, result.reference_noise);
         summary.efficiency = 1.0 / (summary.equal_time.error.median * seconds);
         add_rates(runs, summary);
+        for (const ErrorFloor& floor : result.floors) {
+            if (floor.integrator == goals.integrator) {
+                summary.floor = floor.relmse;
+            }
+        }
         summaries.push_back(std::move(summary));
     }
     add_speed_ups(summaries);

@@ -80,6 +80,7 @@ ordered_json summary_json(const IntegratorSummary& summary)
         result["speed_up"] = {{"factor", summary.speed_up->factor},
                               {"extrapolated", summary.speed_up->extrapolated}};
     }
+    result["relmse_floor"] = summary.floor ? ordered_json(*summary.floor) : ordered_json();
     result["samples_per_second"] = summary.samples_per_second;
     result["rays_per_second"] = {{"camera", summary.camera_rays_per_second},
                                  {"light", summary.light_rays_per_second},

@@ -29,6 +29,12 @@ struct BenchControl {
     std::function<void(const std::string&)> on_note;  ///< one line for people
 };
 
+/// What stays of an integrator's error however long it renders.
+struct ErrorFloor {
+    IntegratorKind integrator = IntegratorKind::bdpt;
+    double relmse = 0.0;
+};
+
 /// What is known about a scene after its benchmark, be it finished or stopped.
 struct SceneResult {
     std::string name;
@@ -43,8 +49,9 @@ struct SceneResult {
     std::string reference_origin;
     std::filesystem::path reference_file;
     std::vector<BenchGoals> goals;
-    std::vector<BenchRun> runs;  ///< by seed, then in the order of the integrators
-    bool complete = false;       ///< all runs were made
+    std::vector<BenchRun> runs;        ///< by seed, then in the order of the integrators
+    std::vector<ErrorFloor> floors{};  ///< of integrators that cannot find all light
+    bool complete = false;             ///< all runs were made
 };
 
 /// CPU time that a scene takes at about, with its reference [s].

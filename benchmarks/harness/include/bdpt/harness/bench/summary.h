@@ -47,7 +47,9 @@ struct IntegratorSummary {
     std::vector<CurvePoint> curve;
     double efficiency = 0.0;            ///< 1 / (error x CPU time) at equal time [1/s]
     std::optional<SpeedUp> speed_up{};  ///< none without runs of pt
-    double samples_per_second = 0.0;    ///< of all pixels, in time on the wall
+    /// What stays of the error however long it renders; none: it finds all light.
+    std::optional<double> floor{};
+    double samples_per_second = 0.0;  ///< of all pixels, in time on the wall
     double camera_rays_per_second = 0.0;
     double light_rays_per_second = 0.0;
     double shadow_rays_per_second = 0.0;

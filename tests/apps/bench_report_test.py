@@ -201,7 +201,7 @@ def check(page):
 
 
 def photograph(page, target):
-    with Browser(1320, 2150) as browser:
+    with Browser(1320, 1500) as browser:
         browser.open(page.as_uri())
         browser.wait("document.documentElement.dataset.ready")
         browser.press("5")

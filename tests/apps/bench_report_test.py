@@ -57,6 +57,12 @@ def picture(browser, selector):
     return browser.run(f"return {selector}.toDataURL();")
 
 
+def number(text):
+    """What the page wrote, "0.0123" or "1.2·10⁻³"."""
+    digits = "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"
+    return float(re.sub(f"[{digits}]", lambda found: "-0123456789"[digits.index(found[0])], text).replace("·10", "e"))
+
+
 def check_loading(browser, page):
     browser.open(page.as_uri())
     ready = browser.wait("document.documentElement.dataset.ready")
@@ -130,12 +136,11 @@ def check_values(browser, data):
     reference = pixel(pictures, "reference", x, y)
     for name, row in zip([*INTEGRATORS, "reference"], rows):
         wanted = pixel(pictures, name, x, y)
-        read = [0.0 if text == "0" else float(text) for text in row[:3]]
+        read = [number(text) for text in row[:3]]
         expect(all(abs(a - b) <= 6e-3 * abs(b) for a, b in zip(read, wanted)), f"the value of {name} under the pointer")
         if name != "reference":
             error = sum((v - r)**2 / (r * r + pictures["epsilon"]) for v, r in zip(wanted, reference)) / 3
-            text = re.sub("[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]", lambda found: "-0123456789"["⁻⁰¹²³⁴⁵⁶⁷⁸⁹".index(found[0])], row[3]).replace("·10", "e")
-            expect(abs(float(text) - error) <= 0.06 * error + 1e-12, f"its error")
+            expect(abs(number(row[3]) - error) <= 0.06 * error + 1e-12, "its error")
 
 
 def check_figures(browser, data):

@@ -17,7 +17,7 @@ std::string bench_text(const harness::SceneResult& scene, double seconds)
         const harness::Spread& error = one.equal_time.error;
         const std::string range = fmt::format("({:.2e} .. {:.2e})", error.least, error.greatest);
         const std::string factor =
-            one.speed_up ? fmt::format("{}{:.2f}x", one.speed_up->extrapolated ? "~" : "",
+            one.speed_up ? fmt::format("{}{:.3g}x", one.speed_up->extrapolated ? "~" : "",
                                        one.speed_up->factor)
                          : "-";
         result += fmt::format("  {:<6}{:>8}{:>11.2e}{:>24}{:>12.3g}{:>12}{}\n",

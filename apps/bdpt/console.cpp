@@ -125,7 +125,7 @@ void Console::progress(const Progress& progress, const Goal& goal)
 {
     const std::lock_guard lock(mutex_);
     const std::optional<double> left = time_left(progress, goal);
-    if (verbosity_ == Verbosity::quiet || !left || !is_due(progress)) {
+    if (verbosity_ == Verbosity::quiet || !left || !is_due(progress.seconds)) {
         return;
     }
     const double fraction = fraction_done(progress, goal);
@@ -137,9 +137,34 @@ void Console::progress(const Progress& progress, const Goal& goal)
         put_event("progress", fields);
         return;
     }
-    const std::string text =
-        fmt::format("{:3.0f}%  {}  {}  ETA {}", 100.0 * fraction, samples_text(progress, goal),
-                    clock_time(progress.seconds), clock_time(*left));
+    draw_progress(fraction, fmt::format("{:3.0f}%  {}  {}  ETA {}", 100.0 * fraction,
+                                        samples_text(progress, goal), clock_time(progress.seconds),
+                                        clock_time(*left)));
+}
+
+void Console::task(const TaskProgress& progress)
+{
+    const std::lock_guard lock(mutex_);
+    if (verbosity_ == Verbosity::quiet || !is_due(progress.seconds)) {
+        return;
+    }
+    const double fraction = std::clamp(progress.fraction, 0.0, 1.0);
+    if (format_ == Format::json) {
+        ordered_json fields{{"fraction", fraction}, {"seconds", progress.seconds}};
+        fields["eta_seconds"] =
+            progress.seconds_left ? ordered_json(*progress.seconds_left) : ordered_json();
+        fields["activity"] = one_line(progress.activity);
+        put_event("progress", fields);
+        return;
+    }
+    const std::string left = progress.seconds_left ? clock_time(*progress.seconds_left) : "-";
+    draw_progress(fraction,
+                  fmt::format("{:3.0f}%  {}  ETA {}  {}", 100.0 * fraction,
+                              clock_time(progress.seconds), left, one_line(progress.activity)));
+}
+
+void Console::draw_progress(double fraction, const std::string& text)
+{
     if (!terminal_) {
         put(stderr, fmt::format("bdpt: {}\n", text));
         return;
@@ -169,16 +194,16 @@ void Console::erase_progress()
     }
 }
 
-bool Console::is_due(const Progress& progress)
+bool Console::is_due(double seconds)
 {
     const double interval = format_ == Format::json ? 0.5 : terminal_ ? 0.1 : 5.0;
-    const bool due = progress.seconds - last_shown_ >= interval;
+    const bool due = seconds - last_shown_ >= interval;
     // A log that nobody watches starts after the first interval: short renders leave no line.
-    const bool too_early = format_ == Format::text && !terminal_ && progress.seconds < interval;
+    const bool too_early = format_ == Format::text && !terminal_ && seconds < interval;
     if (!due || too_early) {
         return false;
     }
-    last_shown_ = progress.seconds;
+    last_shown_ = seconds;
     return true;
 }
 

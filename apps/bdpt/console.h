@@ -26,6 +26,14 @@ struct Goal {
     double seconds = std::numeric_limits<double>::infinity();
 };
 
+/// How far a task of many parts is.
+struct TaskProgress {
+    double fraction = 0.0;  ///< [0, 1]
+    double seconds = 0.0;   ///< that have passed
+    std::optional<double> seconds_left{};
+    std::string activity;  ///< what is being done
+};
+
 /// Seconds that are left until `goal`, judged by `progress`; none when nothing is done yet.
 [[nodiscard]] std::optional<double> time_left(const Progress& progress, const Goal& goal);
 
@@ -44,13 +52,16 @@ public:
     void warning(std::string_view message);
     /// Shows how far a render is; as often as suits the reader, however often it is called.
     void progress(const Progress& progress, const Goal& goal);
+    /// The same for a task of many parts.
+    void task(const TaskProgress& progress);
     /// Ends a progress line, so that whatever prints next starts on its own.
     void end_progress();
 
 private:
     void print_line(std::string_view prefix, std::string_view message);
     void erase_progress();
-    [[nodiscard]] bool is_due(const Progress& progress);
+    [[nodiscard]] bool is_due(double seconds);
+    void draw_progress(double fraction, const std::string& text);
 
     Format format_;
     Verbosity verbosity_;

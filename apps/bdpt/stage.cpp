@@ -65,14 +65,22 @@ struct BuiltScene {
 };
 
 /// Builds the scene; a second time, with a lamp, when only the default sky lights a closed room.
-BuiltScene build(LitScene& lit, const RenderArguments& arguments, float aspect)
+BuiltScene build(LitScene& lit, const RenderArguments& arguments, float aspect,
+                 const std::function<void(const SceneDesc&)>& look)
 {
+    const auto show = [&] {
+        if (look) {
+            look(lit.desc);
+        }
+    };
     if (lit.sky != Sky::fallback) {
+        show();
         return {Scene(std::move(lit.desc), arguments.isa), std::nullopt};
     }
     Scene scene(lit.desc, arguments.isa);
     const FramedView framed = frame_scene(scene, aspect);
     if (!framed.enclosed) {
+        show();
         return {std::move(scene), framed};
     }
     lit.warnings.push_back(fmt::format(
@@ -81,6 +89,7 @@ BuiltScene build(LitScene& lit, const RenderArguments& arguments, float aspect)
         arguments.file.string(), framed.lamp_position.x, framed.lamp_position.y,
         framed.lamp_position.z));
     lit.desc.lights.emplace_back(default_lamp(framed));
+    show();
     return {Scene(std::move(lit.desc), arguments.isa), framed};
 }
 
@@ -113,7 +122,8 @@ std::optional<CameraDesc> camera_in_file(const std::vector<CameraDesc>& cameras,
 
 }  // namespace
 
-Stage prepare_stage(const RenderArguments& arguments)
+Stage prepare_stage(const RenderArguments& arguments,
+                    const std::function<void(const SceneDesc&)>& look)
 {
     const auto start = std::chrono::steady_clock::now();
     const std::string file = arguments.file.string();
@@ -138,7 +148,7 @@ Stage prepare_stage(const RenderArguments& arguments)
 
     LitScene lit = add_environment(std::move(loaded.scene), arguments);
     const auto loading_end = std::chrono::steady_clock::now();
-    BuiltScene built = build(lit, arguments, aspect);
+    BuiltScene built = build(lit, arguments, aspect, look);
     const auto building_end = std::chrono::steady_clock::now();
     warnings.insert(warnings.end(), lit.warnings.begin(), lit.warnings.end());
     if (!from_file && !arguments.camera && !arguments.view.from) {

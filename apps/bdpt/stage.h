@@ -3,6 +3,7 @@
 #include <bdpt/io/gltf.h>
 #include <bdpt/scene.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,9 @@ struct Stage {
     double build_seconds = 0.0;         ///< for making the scene ready
 };
 
-/// Loads the file, and fills in what it lacks by the rules that `bdpt render --help` states. Throws
-/// `Error`.
-[[nodiscard]] Stage prepare_stage(const RenderArguments& arguments);
+/// Loads the file, and fills in what it lacks by the rules that `bdpt render --help` states.
+/// `look` is shown what the scene will be built from. Throws `Error`.
+[[nodiscard]] Stage prepare_stage(const RenderArguments& arguments,
+                                  const std::function<void(const SceneDesc&)>& look = {});
 
 }  // namespace bdpt::app

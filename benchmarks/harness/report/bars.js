@@ -1,0 +1,63 @@
+// Speed-up at equal error as bars on a logarithmic scale around 1; rays by what they are for.
+
+function speedUpBars(scene) {
+  const rows = scene.integrators.filter((one) => one.speed_up);
+  if (rows.length < 2) {
+    return null;
+  }
+  const width = 560;
+  const rowHeight = 30;
+  const height = rowHeight * rows.length + 34;
+  const axis = new LogAxis([0.5, 2, ...rows.map((one) => one.speed_up.factor)], 60, width - 80);
+  const one = axis.at(1);
+  const ticks = axis.ticks().filter((tick) => tick.labelled).map((tick) => svg("g", null,
+    svg("line", { x1: axis.at(tick.value), x2: axis.at(tick.value), y1: 4, y2: height - 26, class: tick.value === 1 ? "one" : "grid" }),
+    svg("text", { x: axis.at(tick.value), y: height - 10, class: "tick", "text-anchor": "middle" }, `${tickText(tick.value)}×`)));
+  const bars = rows.map((row, i) => {
+    const y = 8 + i * rowHeight;
+    const x = axis.at(row.speed_up.factor);
+    const ahead = x >= one;
+    return svg("g", null,
+      svg("text", { x: 52, y: y + 15, class: `label series-${row.integrator}`, "text-anchor": "end" }, row.integrator),
+      svg("rect", { x: Math.min(x, one), y, width: Math.max(Math.abs(x - one), 1.5), height: 20, rx: 3,
+        class: `bar series-${row.integrator}${row.speed_up.extrapolated ? " guessed" : ""}` }),
+      svg("text", { x: ahead ? x + 7 : Math.max(one, x) + 7, y: y + 15, class: "value" },
+        `${times(row.speed_up)}${row.relmse_floor === null ? "" : " †"}`));
+  });
+  const spoken = rows.map((row) => `${row.integrator} ${times(row.speed_up)}`).join(", ");
+  return html("figure", { class: "plot-box" }, html("figcaption", null, "Speed-up at equal error, over pt"),
+    svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "plot bars", role: "img",
+      "aria-label": `Speed-up at equal error over pt in ${scene.name}: ${spoken}` }, ticks, bars));
+}
+
+const RAY_KINDS = [["camera", "from the camera"], ["light", "from lights"], ["shadow", "between two points"]];
+
+/** Rays that a sample of a pixel takes, by kind. */
+function rayBars(scene) {
+  const pixels = scene.width * scene.height;
+  const rows = scene.integrators.map((one) => ({ name: one.integrator,
+    rays: RAY_KINDS.map(([kind]) => one.rays_per_second[kind] / one.samples_per_second / pixels) }));
+  const most = Math.max(...rows.map((row) => row.rays.reduce((a, b) => a + b, 0)));
+  if (!(most > 0)) {
+    return null;
+  }
+  const [width, rowHeight, left] = [620, 30, 60];
+  const unit = (width - left - 70) / most;
+  const bars = rows.map((row, i) => {
+    let x = left;
+    const total = row.rays.reduce((a, b) => a + b, 0);
+    const parts = row.rays.map((count, k) => {
+      const part = svg("rect", { x, y: 6 + i * rowHeight, width: count * unit, height: 20, class: `ray-${RAY_KINDS[k][0]}` },
+        svg("title", null, `${row.name}: ${digits(count)} rays ${RAY_KINDS[k][1]}`));
+      x += count * unit;
+      return part;
+    });
+    return svg("g", null, svg("text", { x: left - 8, y: 21 + i * rowHeight, class: `label series-${row.name}`, "text-anchor": "end" }, row.name),
+      parts, svg("text", { x: x + 7, y: 21 + i * rowHeight, class: "value" }, digits(total)));
+  });
+  const spoken = rows.map((row) => `${row.name} ${row.rays.map((count, k) => `${digits(count)} ${RAY_KINDS[k][1]}`).join(", ")}`);
+  return html("figure", { class: "plot-box" }, html("figcaption", null, "Rays for a sample of a pixel"),
+    svg("svg", { viewBox: `0 0 ${width} ${rowHeight * rows.length + 8}`, class: "plot", role: "img",
+      "aria-label": `Rays for a sample of a pixel in ${scene.name}: ${spoken.join("; ")}` }, bars),
+    html("p", { class: "sub" }, RAY_KINDS.map(([kind, text]) => html("span", { class: `ray-key ray-${kind}` }, text))));
+}

@@ -1,0 +1,27 @@
+// Colours of errors, which C++ made evenly spaced in CIE L*a*b*.
+
+/** 256 colours as bytes: red, green, blue, red ... */
+function readHeat(text) {
+  const result = new Uint8ClampedArray(text.length / 2);
+  for (let i = 0; i < result.length; ++i) {
+    result[i] = parseInt(text.slice(2 * i, 2 * i + 2), 16);
+  }
+  return result;
+}
+
+/** The colours from left to right, with what they stand for below. */
+function colorBar(heat, label, ticks) {
+  const count = heat.length / 3;
+  const canvas = html("canvas", { width: count, height: 1, class: "colors", "aria-hidden": "true" });
+  const context = canvas.getContext("2d");
+  const row = context.createImageData(count, 1);
+  for (let i = 0; i < count; ++i) {
+    row.data.set([heat[3 * i], heat[3 * i + 1], heat[3 * i + 2], 255], 4 * i);
+  }
+  context.putImageData(row, 0, 0);
+  const marks = ticks.map(([place, text]) => html("span", { style: `left:${100 * place}%` }, text));
+  return html("div", { class: "colorbar", role: "img",
+    "aria-label": `${label}: from ${ticks[0][1]} (dark) to ${ticks[ticks.length - 1][1]} (bright)` },
+  html("span", { class: "what" }, label), html("div", { class: "scale" }, canvas,
+    html("div", { class: "ticks", "aria-hidden": "true" }, marks)));
+}

@@ -1,0 +1,121 @@
+// Canvases that show one of a scene's pictures, all through the same window.
+
+const MOST_ZOOM = 64;
+
+/** Which part of a picture is seen: the centre [0, 1] and how many times the whole is magnified. */
+class View {
+  constructor() {
+    this.reset();
+  }
+
+  reset() {
+    this.x = 0.5;
+    this.y = 0.5;
+    this.zoom = 1;
+  }
+
+  /** Magnifies by `factor`; the place (x, y) of the picture stays where it is. */
+  zoomAt(factor, x, y) {
+    const zoom = Math.min(Math.max(this.zoom * factor, 1), MOST_ZOOM);
+    this.x = x + (this.x - x) * this.zoom / zoom;
+    this.y = y + (this.y - y) * this.zoom / zoom;
+    this.zoom = zoom;
+    this.clamp();
+  }
+
+  pan(dx, dy) {
+    this.x += dx;
+    this.y += dy;
+    this.clamp();
+  }
+
+  clamp() {
+    const margin = 0.5 / this.zoom;
+    this.x = Math.min(Math.max(this.x, margin), 1 - margin);
+    this.y = Math.min(Math.max(this.y, margin), 1 - margin);
+  }
+}
+
+/** A canvas on the page that a picture is seen through. */
+class Pane {
+  constructor(view, width, height, label) {
+    this.view = view;
+    this.size = [width, height];
+    this.canvas = html("canvas", { class: "pane", role: "img", "aria-label": label,
+      style: `aspect-ratio:${width}/${height}` });
+  }
+
+  /** Draws the picture `source`, a canvas, and a mark at `cursor`, a place in it. */
+  draw(source, cursor) {
+    const ratio = window.devicePixelRatio || 1;
+    const width = Math.max(Math.round(this.canvas.clientWidth * ratio), 1);
+    const height = Math.max(Math.round(width * this.size[1] / this.size[0]), 1);
+    if (this.canvas.width !== width || this.canvas.height !== height) {
+      this.canvas.width = width;
+      this.canvas.height = height;
+    }
+    const context = this.canvas.getContext("2d");
+    const { x, y, zoom } = this.view;
+    const scale = zoom * width / this.size[0];
+    context.imageSmoothingEnabled = scale < 1;
+    context.setTransform(scale, 0, 0, zoom * height / this.size[1], width / 2 - x * zoom * width,
+      height / 2 - y * zoom * height);
+    context.drawImage(source, 0, 0);
+    context.setTransform(1, 0, 0, 1, 0, 0);
+    if (cursor) {
+      this.mark(context, cursor, width, height, scale);
+    }
+  }
+
+  mark(context, [px, py], width, height, scale) {
+    const { x, y, zoom } = this.view;
+    const left = (((px + 0.5) / this.size[0] - x) * zoom + 0.5) * width;
+    const top = (((py + 0.5) / this.size[1] - y) * zoom + 0.5) * height;
+    const half = Math.max(scale / 2, 3);
+    for (const [color, line] of [["#000", 3], ["#fff", 1.2]]) {
+      context.strokeStyle = color;
+      context.lineWidth = line;
+      context.strokeRect(left - half, top - half, 2 * half, 2 * half);
+    }
+  }
+
+  /** The place in [0, 1] of the picture that is under the pointer. */
+  place(event) {
+    const box = this.canvas.getBoundingClientRect();
+    const { x, y, zoom } = this.view;
+    return [x + ((event.clientX - box.left) / box.width - 0.5) / zoom,
+      y + ((event.clientY - box.top) / box.height - 0.5) / zoom];
+  }
+
+  /** Zoom, pan and the pixel under the pointer: `changed(cursor)` is called after each of them. */
+  listen(changed) {
+    const canvas = this.canvas;
+    const pixel = ([x, y]) => [Math.floor(x * this.size[0]), Math.floor(y * this.size[1])];
+    let drag = null;
+    canvas.addEventListener("pointerdown", (event) => {
+      drag = this.place(event);
+      canvas.setPointerCapture(event.pointerId);
+    });
+    canvas.addEventListener("pointermove", (event) => {
+      if (drag && event.buttons) {
+        const now = this.place(event);
+        this.view.pan(drag[0] - now[0], drag[1] - now[1]);
+      }
+      changed(pixel(this.place(event)));
+    });
+    canvas.addEventListener("pointerup", () => { drag = null; });
+    canvas.addEventListener("pointerleave", () => changed(null));
+    canvas.addEventListener("dblclick", (event) => {
+      this.view.zoomAt(event.shiftKey ? 0.5 : 2, ...this.place(event));
+      changed(pixel(this.place(event)));
+    });
+    canvas.addEventListener("wheel", (event) => {
+      // Without a key the wheel is for the page, unless the picture has the focus.
+      if (event.ctrlKey || event.metaKey || document.activeElement === canvas) {
+        event.preventDefault();
+        this.view.zoomAt(2 ** (-event.deltaY / 240), ...this.place(event));
+        changed(pixel(this.place(event)));
+      }
+    }, { passive: false });
+  }
+}

@@ -1,0 +1,73 @@
+#include <bdpt/harness/bench/reference.h>
+
+#include <algorithm>
+#include <cstddef>
+
+#include <bdpt/harness/metrics/metric.h>
+
+namespace bdpt::harness {
+namespace {
+
+/// Above this, noise does not explain the difference of two pictures.
+constexpr double most_disagreement = 2.0;
+
+/// Mean of (a - b)^2 / (r^2 + e), where r is `base`.
+double relative_difference(const Image& a, const Image& b, const Image& base, double epsilon)
+{
+    double sum = 0.0;
+    for (std::size_t i = 0; i < base.pixels.size(); ++i) {
+        for (int c = 0; c < 3; ++c) {
+            const double r = static_cast<double>(base.pixels[i][c]);
+            const double d =
+                static_cast<double>(a.pixels[i][c]) - static_cast<double>(b.pixels[i][c]);
+            sum += d * d / (r * r + epsilon);
+        }
+    }
+    return sum / (3.0 * static_cast<double>(base.pixels.size()));
+}
+
+Image mix(const Image& a, const Image& b, double share)
+{
+    Image result = a;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+        result.pixels[i] =
+            static_cast<float>(share) * a.pixels[i] + static_cast<float>(1.0 - share) * b.pixels[i];
+    }
+    return result;
+}
+
+}  // namespace
+
+MetricScale bench_scale(const Image& reference)
+{
+    return make_scale(reference, {.epsilon = 0.01, .epsilon_unit = EpsilonUnit::reference_mean});
+}
+
+CombinedReference combine(const HalvedImage& all_light, const HalvedImage& most_light)
+{
+    // The squared difference of two halves has four times the variance of their mean.
+    const auto noise_of = [](const HalvedImage& image, const Image& base, double epsilon) {
+        return relative_difference(image.first, image.second, base, epsilon) / 4.0;
+    };
+    const Image middle = mix(all_light.image, most_light.image, 0.5);
+    const double epsilon = bench_scale(middle).squared_epsilon;
+    const double noise_a = noise_of(all_light, middle, epsilon);
+    const double noise_b = noise_of(most_light, middle, epsilon);
+    const double noise = noise_a + noise_b;
+    const double difference =
+        relative_difference(all_light.image, most_light.image, middle, epsilon);
+    // Two pictures without noise agree only if they are the same but for rounding.
+    const double agreement = difference / std::max(noise, 1e-10);
+    const double share = agreement > most_disagreement ? 1.0 : noise > 0.0 ? noise_b / noise : 0.5;
+    CombinedReference result{.image = mix(all_light.image, most_light.image, share),
+                             .noise = 0.0,
+                             .share = share,
+                             .agreement = agreement};
+    const double final_epsilon = bench_scale(result.image).squared_epsilon;
+    const double rest = 1.0 - share;
+    result.noise = share * share * noise_of(all_light, result.image, final_epsilon) +
+                   rest * rest * noise_of(most_light, result.image, final_epsilon);
+    return result;
+}
+
+}  // namespace bdpt::harness

@@ -21,6 +21,8 @@
 #include "info_command.h"
 #include "render_arguments.h"
 #include "render_command.h"
+#include "verify_arguments.h"
+#include "verify_command.h"
 
 namespace bdpt::app {
 namespace {
@@ -30,6 +32,7 @@ constexpr const char* footer = R"(Examples:
   bdpt render scene.glb -o out.exr -o preview.png --spp 256
   bdpt info scene.glb
   bdpt compare out.exr reference.exr
+  bdpt verify scene.gltf
 
 "bdpt render --help" has all options and the exit codes.)";
 
@@ -39,9 +42,11 @@ struct CommandLine {
     RenderWords render_words;
     InfoArguments info_arguments;
     CompareWords compare_words;
+    VerifyWords verify_words;
     CLI::App* render = nullptr;
     CLI::App* info = nullptr;
     CLI::App* compare = nullptr;
+    CLI::App* verify = nullptr;
 };
 
 void describe(CommandLine& line)
@@ -56,6 +61,8 @@ void describe(CommandLine& line)
     add_info_options(*line.info, line.info_arguments);
     line.compare = line.app.add_subcommand("compare", "Say how far pictures are from a reference");
     add_compare_options(*line.compare, line.compare_words);
+    line.verify = line.app.add_subcommand("verify", "Prove the estimators on a scene");
+    add_verify_options(*line.verify, line.verify_words);
 }
 
 /// All long names of the options of `command`.
@@ -76,6 +83,7 @@ std::string explain(const CommandLine& line, const CLI::ParseError& error)
     const CLI::App* command = line.render->parsed()    ? line.render
                               : line.info->parsed()    ? line.info
                               : line.compare->parsed() ? line.compare
+                              : line.verify->parsed()  ? line.verify
                                                        : nullptr;
     const std::string help =
         command != nullptr ? fmt::format("bdpt {} --help", command->get_name()) : "bdpt --help";
@@ -85,8 +93,9 @@ std::string explain(const CommandLine& line, const CLI::ParseError& error)
     }
     const std::string& word = extras.front();
     if (command == nullptr && !word.starts_with("-")) {
-        return fmt::format("unknown command \"{}\": there are render, info and compare; see \"{}\"",
-                           word, help);
+        return fmt::format(
+            "unknown command \"{}\": there are render, info, compare and verify; see \"{}\"", word,
+            help);
     }
     if (!word.starts_with("-")) {
         return fmt::format("unexpected argument \"{}\"; see \"{}\"", word, help);
@@ -113,6 +122,9 @@ int run(int argc, char** argv, Format format)
     }
     if (line.compare->parsed()) {
         return run_compare(understand(line.compare_words));
+    }
+    if (line.verify->parsed()) {
+        return run_verify(understand(line.verify_words));
     }
     return line.info->parsed() ? run_info(line.info_arguments)
                                : run_render(understand(line.render_words));

@@ -17,15 +17,19 @@ struct Difference {
     double expected = 0.0;
     /// Variance of the difference, as the spread of the batches says.
     double sample_variance = 0.0;
-    /// Variance of the difference, as second moments say that were estimated from other strategies.
-    /// Rare bright samples that have not turned up yet are missing in the first, not in this one.
-    double predicted_variance = 0.0;
+    /// What samples add to that which are so bright that they may not have turned up yet, as all
+    /// strategies together say. Of those that have it is there twice, which errs on the safe side.
+    double rare_variance = 0.0;
     double freedom = 1.0;  ///< degrees of freedom of `sample_variance`
 };
 
-/// Welch's t-test [Welch 1947] with the greater of the two variances. p is that of Student's t or
-/// the bound 2 exp(-z^2 / 2), which means of numbers that are not negative keep below their
-/// expectation whatever their distribution [Maurer 2003], if that is greater. No correction yet.
+/// Samples are rare if a single one moves the mean by more than this fraction of its standard
+/// error: the spread of 400 equal ones is about as sure as the test needs it to be.
+constexpr double rare_fraction = 0.05;
+
+/// Welch's t-test [Welch 1947]. p is that of Student's t, or the bound 2 exp(-z^2 / 2) if that is
+/// greater; means of numbers that are not negative keep it below their expectation whatever their
+/// distribution [Maurer 2003]. No correction for other tests yet.
 [[nodiscard]] Comparison compare_means(const Difference& difference);
 
 /// Degrees of freedom of the difference of two independent means [Welch 1947].

@@ -8,7 +8,8 @@ Evidence::Evidence(const TileGrid& grid, int max_depth)
     : grid_(grid),
       row_(max_depth),
       strategies_((grid.size() + 1) * row_.size()),
-      lengths_((grid.size() + 1) * static_cast<std::size_t>(max_depth))
+      lengths_((grid.size() + 1) * static_cast<std::size_t>(max_depth)),
+      finders_(row_.pairs())
 {}
 
 void Evidence::add(const Batch& batch)
@@ -37,6 +38,14 @@ void Evidence::add_strategies(const Batch& batch)
             all += batch.bdpt.strategy(tile, index);
         }
         add(whole(), index, all);
+    }
+    for (int edges = 1; edges <= row_.max_depth(); ++edges) {
+        const auto count = static_cast<std::size_t>(edges + 2);
+        for (std::size_t u = 0; u < count; ++u) {
+            for (std::size_t finder = 0; finder < count; ++finder) {
+                finders_[row_.pair(edges, u, finder)] += batch.bdpt.expected_from(edges, u, finder);
+            }
+        }
     }
 }
 

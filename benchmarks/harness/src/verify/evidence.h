@@ -65,6 +65,11 @@ public:
         return lengths_[cell * static_cast<std::size_t>(row_.max_depth()) +
                         static_cast<std::size_t>(edges - 1)];
     }
+    /// Sum over all batches of `PathSums::expected_from`.
+    [[nodiscard]] double expected_from(int edges, std::size_t u, std::size_t finder) const
+    {
+        return finders_[row_.pair(edges, u, finder)];
+    }
     /// Over all lengths: bdpt, then `other_integrators`.
     [[nodiscard]] const std::array<Moments, 5>& pictures() const { return pictures_; }
     [[nodiscard]] const std::array<PictureCheck, 5>& checks() const { return checks_; }
@@ -85,6 +90,7 @@ private:
     std::int64_t batches_ = 0;
     std::vector<StrategyEvidence> strategies_;  // by cell, then by index
     std::vector<LengthEvidence> lengths_;       // by cell, then by length
+    std::vector<double> finders_;               // by pair
     std::array<Moments, 5> pictures_;
     std::array<PictureCheck, 5> checks_;
     WeightFinding weights_;

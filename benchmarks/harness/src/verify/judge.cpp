@@ -22,28 +22,38 @@ double samples_in(const Evidence& evidence, std::size_t cell)
     return bdpt_samples * evidence.pixels(cell) * static_cast<double>(evidence.batches());
 }
 
+/// What rare samples add to a variance: those of which one of `samples` moves the mean too much.
+/// `moment` is a sum over all of them.
+double rare_variance(const SecondMoment& moment, double sample_variance, double samples)
+{
+    const double size = rare_fraction * std::sqrt(sample_variance) * samples;
+    return moment.above(size) / (samples * samples);
+}
+
 Comparison compare_strategy(const Evidence& evidence, std::size_t cell, std::size_t index)
 {
     const StrategyEvidence& found = evidence.strategy(cell, index);
     const double samples = samples_in(evidence, cell);
-    return compare_means({.found = found.sums.tested / samples,
-                          .expected = found.sums.expected / samples,
-                          .sample_variance = squared_error(found.difference),
-                          .predicted_variance = found.sums.second_moment / (samples * samples),
-                          .freedom = static_cast<double>(found.difference.count() - 1)});
+    const double variance = squared_error(found.difference);
+    return compare_means(
+        {.found = found.sums.tested / samples,
+         .expected = found.sums.expected / samples,
+         .sample_variance = variance,
+         .rare_variance = rare_variance(found.sums.second_moment, variance, samples),
+         .freedom = static_cast<double>(found.difference.count() - 1)});
 }
 
-double second_moment(const LengthSums& sums, IntegratorKind integrator)
+const SecondMoment& second_moment(const LengthSums& sums, IntegratorKind integrator)
 {
     switch (integrator) {
         case IntegratorKind::pt:
-            return sums.second_moment_pt;
+            return sums.pt;
         case IntegratorKind::nee:
-            return sums.second_moment_nee;
+            return sums.nee;
         case IntegratorKind::mis:
-            return sums.second_moment_mis;
+            return sums.mis;
         default:
-            return sums.second_moment_lt;
+            return sums.lt;
     }
 }
 
@@ -56,14 +66,17 @@ Comparison compare_integrator(const Evidence& evidence, std::size_t cell, int ed
     const ReachSums& reach = from_light ? length.sums.from_light : length.sums.from_camera;
     const Moments& expected = from_light ? length.from_light : length.from_camera;
     const Moments& found = length.others[integrator];
+    const double variance = squared_error(found) + squared_error(expected);
     const double samples = samples_in(evidence, cell);
-    constexpr double ratio = static_cast<double>(bdpt_samples) / other_samples;
-    const double own = second_moment(length.sums, kind) / (samples * samples) * ratio;
-    const double reference = reach.second_moment / (samples * samples);
+    // Sums over the samples of bdpt stand for as many of the other's.
+    constexpr double ratio = static_cast<double>(other_samples) / bdpt_samples;
+    const double rare =
+        rare_variance(second_moment(length.sums, kind), variance / ratio, samples) / ratio +
+        rare_variance(reach.second_moment, variance, samples);
     return compare_means({.found = found.mean(),
                           .expected = reach.radiance / samples,
-                          .sample_variance = squared_error(found) + squared_error(expected),
-                          .predicted_variance = own + reference,
+                          .sample_variance = variance,
+                          .rare_variance = rare,
                           .freedom = welch_freedom(found, expected)});
 }
 
@@ -155,18 +168,49 @@ void correct(const std::vector<Comparison*>& tests)
     }
 }
 
-/// A wrong factor 1 + c of strategy u moves what u found by c times that, and what is expected by c
-/// times what u found of it: their difference by c times what the others found. The picture moves
-/// by c times what u brings to it.
-double detectable_by_strategies(const StrategyFinding& finding, double by_others, double distance,
-                                double radiance)
+/// What can hide behind the noise if strategy v of paths of `edges` edges is wrong by a factor 1 +
+/// c, as a fraction of the picture. That moves what is expected of each strategy u by c times what
+/// of it v has found, but for v itself, of whose difference c times what the others found remains.
+double detectable_by_strategies(const Evidence& evidence, const VerifyReport& report,
+                                const StrategyFinding& v, double distance)
 {
-    const double brought = finding.weighted - finding.solitary;
+    const double brought = v.weighted - v.solitary;
     if (!(brought > 0.0)) {
         return 0.0;
     }
-    return by_others > 0.0 ? distance * finding.whole.error / by_others * brought / radiance
-                           : std::numeric_limits<double>::infinity();
+    const int edges = v.strategy.s + v.strategy.t - 1;
+    const auto finder = static_cast<std::size_t>(v.strategy.s);
+    const std::size_t first = evidence.row().begin(edges);
+    double least = std::numeric_limits<double>::infinity();  // c
+    for (std::size_t u = 0; u < static_cast<std::size_t>(edges + 2); ++u) {
+        const Comparison& test = report.strategies[first + u].whole;
+        double moved = evidence.expected_from(edges, u, finder);
+        if (u == finder) {
+            moved = 0.0;
+            for (std::size_t other = 0; other < static_cast<std::size_t>(edges + 2); ++other) {
+                moved += other == finder ? 0.0 : evidence.expected_from(edges, u, other);
+            }
+        }
+        moved /= samples_in(evidence, evidence.whole());
+        // Without an error there was no test: u has found nothing that differs.
+        if (moved > 0.0 && test.error > 0.0) {
+            least = std::min(least, distance * test.error / moved);
+        }
+    }
+    return least * brought / report.radiance;
+}
+
+/// The same for the light that no other strategy of bdpt makes, and as what pt, nee and mis say of
+/// paths of this length.
+double detectable_by_integrators(const VerifyReport& report, int edges)
+{
+    double least = std::numeric_limits<double>::infinity();
+    for (const IntegratorFinding& other : report.integrators) {
+        if (other.edges == edges && other.integrator != IntegratorKind::lt) {
+            least = std::min(least, other.whole.detectable);
+        }
+    }
+    return least;
 }
 
 /// Fills in what could be detected, and returns the worst of all strategies.
@@ -177,23 +221,16 @@ double find_detectable(const Evidence& evidence, VerifyReport& report, double di
     }
     double worst = 0.0;
     for (StrategyFinding& finding : report.strategies) {
+        const int edges = finding.strategy.s + finding.strategy.t - 1;
         const std::size_t index = evidence.row().index(finding.strategy);
         const StrategySums& sums = evidence.strategy(evidence.whole(), index).sums;
-        const double samples = samples_in(evidence, evidence.whole());
-        const double by_others = sums.expected_by_others / samples;
-        // Light that no one else in bdpt can make is checked by the path tracers alone.
-        double by_integrators = std::numeric_limits<double>::infinity();
-        for (const IntegratorFinding& other : report.integrators) {
-            if (other.edges == finding.strategy.s + finding.strategy.t - 1 &&
-                other.integrator != IntegratorKind::lt) {
-                by_integrators = std::min(by_integrators, other.whole.detectable);
-            }
-        }
-        const double alone = (sums.solitary - sums.unchecked) / samples;
-        const double by_strategies =
-            std::max(detectable_by_strategies(finding, by_others, distance, report.radiance),
-                     alone / report.radiance);
-        finding.whole.detectable = std::min(by_strategies, by_integrators);
+        // What only this strategy can make is all at stake, unless path tracers check it.
+        const double alone =
+            (sums.solitary - sums.unchecked) / samples_in(evidence, evidence.whole());
+        const double by_strategies = std::max(
+            detectable_by_strategies(evidence, report, finding, distance), alone / report.radiance);
+        finding.whole.detectable =
+            std::min(by_strategies, detectable_by_integrators(report, edges));
         worst = std::max(worst, finding.whole.detectable);
     }
     return worst;

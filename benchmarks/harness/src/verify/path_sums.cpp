@@ -6,9 +6,6 @@
 namespace bdpt::harness {
 namespace {
 
-/// Above this, which no scene reaches, sums of second moments could overflow.
-constexpr double most = 1e150;
-
 double mean_channel(Rgb c)
 {
     return (static_cast<double>(c.r) + static_cast<double>(c.g) + static_cast<double>(c.b)) / 3.0;
@@ -19,17 +16,20 @@ double square(double x)
     return x * x;
 }
 
-/// Second moment, relative to `all`, what all strategies together make of a path, of a pair of
-/// strategies with these shares that the power heuristic weighs; infinite without any.
-double pair_second_moment(double all, double a, double b)
+/// The samples of two strategies with these shares, weighed by the power heuristic, along a path of
+/// which all strategies together make `all`; none without a share.
+void add_pair(SecondMoment& moment, double weighted, double all, double a, double b)
 {
     const double greater = std::max(a, b);
     if (!(greater > 0.0)) {
-        return most;
+        return;
     }
+    // Divided by the greater first: squares of small shares would be lost.
     const double x = a / greater;
     const double y = b / greater;
-    return all / greater * (x * x * x + y * y * y) / square(x * x + y * y);
+    const double sum = x * x + y * y;
+    const double size = all / greater / sum;
+    moment.add(size * std::max(x, y), weighted * size / sum * (x * x * x + y * y * y));
 }
 
 double share_of(const FoundPath& path, std::size_t s)
@@ -43,7 +43,6 @@ StrategySums& StrategySums::operator+=(const StrategySums& other)
 {
     tested += other.tested;
     expected += other.expected;
-    expected_by_others += other.expected_by_others;
     second_moment += other.second_moment;
     reach += other.reach;
     weighted += other.weighted;
@@ -65,10 +64,10 @@ LengthSums& LengthSums::operator+=(const LengthSums& other)
     radiance += other.radiance;
     from_camera += other.from_camera;
     from_light += other.from_light;
-    second_moment_pt += other.second_moment_pt;
-    second_moment_nee += other.second_moment_nee;
-    second_moment_mis += other.second_moment_mis;
-    second_moment_lt += other.second_moment_lt;
+    pt += other.pt;
+    nee += other.nee;
+    mis += other.mis;
+    lt += other.lt;
     return *this;
 }
 
@@ -76,7 +75,8 @@ PathSums::PathSums(const TileGrid& grid, int max_depth)
     : grid_(grid),
       row_(max_depth),
       strategies_(grid.size() * row_.size()),
-      lengths_(grid.size() * static_cast<std::size_t>(max_depth))
+      lengths_(grid.size() * static_cast<std::size_t>(max_depth)),
+      finders_(row_.pairs())
 {}
 
 void PathSums::check_weight(const FoundPath& path, double definition)
@@ -108,17 +108,39 @@ void PathSums::add(const FoundPath& path)
     if (!(squares > 0.0)) {
         return;
     }
-    const double weighted = static_cast<double>(path.weight) * unweighted;
-    // What the balance heuristic makes of the path, the same whoever finds it.
-    const double all = std::min(own_share * unweighted, most);
-    double variance = 0.0;  // second moment of a sample of bdpt along this path
+    const double all = own_share * unweighted;
+    Measure measure{.weighted = static_cast<double>(path.weight) * unweighted,
+                    .all = all,
+                    .squares = squares,
+                    .moment = 0.0,
+                    .largest = 0.0};
     for (const float share : path.shares) {
-        const auto b = static_cast<double>(share);
-        variance += b > 0.0 ? square(b * b / squares) * all / b : 0.0;
+        // w / b with w = b^2 / squares
+        const double sample = static_cast<double>(share) / squares * all;
+        measure.moment += sample * square(static_cast<double>(share)) / squares;
+        measure.largest = std::max(measure.largest, sample);
     }
-
     const std::size_t tile = grid_.tile_at(path.raster);
     const std::size_t first = tile * row_.size() + row_.begin(edges);
+    add_to_strategies(path, measure, first);
+    StrategySums& sums = strategies_[first + own];
+    sums.tested += std::min(1.0, own_share / full_share) * unweighted;
+    sums.weighted += measure.weighted;
+    sums.unweighted += unweighted;
+    const bool alone = own_share > 1.0 - 1e-6;
+    const bool from_camera = own <= 1 || share_of(path, 0) > 0.0 || share_of(path, 1) > 0.0;
+    sums.solitary += alone ? measure.weighted : 0.0;
+    sums.unchecked += alone && !from_camera ? measure.weighted : 0.0;
+    add_to_length(lengths_[tile * static_cast<std::size_t>(row_.max_depth()) +
+                           static_cast<std::size_t>(edges - 1)],
+                  path, measure);
+}
+
+void PathSums::add_to_strategies(const FoundPath& path, const Measure& measure, std::size_t first)
+{
+    const auto& [weighted, all, squares, moment, largest] = measure;
+    const auto own = static_cast<std::size_t>(path.strategy.s);
+    const int edges = path.strategy.s + path.strategy.t - 1;
     for (std::size_t u = 0; u < path.shares.size(); ++u) {
         const double share = share_of(path, u);
         if (!(share > 0.0)) {
@@ -128,29 +150,18 @@ void PathSums::add(const FoundPath& path)
         const double g = std::min(1.0, share / full_share);
         const double weight = square(share) / squares;
         sums.expected += g * weighted;
-        sums.expected_by_others += u == own ? 0.0 : g * weighted;
+        finders_[row_.pair(edges, u, own)] += g * weighted;
         sums.reach += weighted;
-        // Found by u the path brings (1 - w_u) / b_u, found by v it takes w_v / b_v.
-        const double difference =
-            square(1.0 - weight) * all / share + variance - square(weight) * all / share;
-        sums.second_moment += weighted * square(g) * std::clamp(difference, 0.0, most);
+        // Found by u, the path adds g (1 - w_u) / b_u to the difference; found by v, it takes g w_v
+        // / b_v from it.
+        const double by_own = (1.0 - weight) * g * all / share;
+        sums.second_moment.add(by_own, weighted * by_own * (1.0 - weight) * g);
+        const double by_others = moment - square(weight) * all / share;
+        sums.second_moment.add(g * largest, weighted * square(g) * std::max(by_others, 0.0));
     }
-    StrategySums& sums = strategies_[first + own];
-    sums.tested += std::min(1.0, own_share / full_share) * unweighted;
-    sums.weighted += weighted;
-    sums.unweighted += unweighted;
-    const bool alone = own_share > 1.0 - 1e-6;
-    const bool from_camera = own <= 1 || share_of(path, 0) > 0.0 || share_of(path, 1) > 0.0;
-    sums.solitary += alone ? weighted : 0.0;
-    sums.unchecked += alone && !from_camera ? weighted : 0.0;
-
-    add_to_length(lengths_[tile * static_cast<std::size_t>(row_.max_depth()) +
-                           static_cast<std::size_t>(edges - 1)],
-                  path, weighted, all, variance);
 }
 
-void PathSums::add_to_length(LengthSums& sums, const FoundPath& path, double weighted, double all,
-                             double variance) const
+void PathSums::add_to_length(LengthSums& sums, const FoundPath& path, const Measure& measure)
 {
     const std::size_t n = path.shares.size() - 1;  // vertices
     const double hit = share_of(path, 0);
@@ -158,21 +169,22 @@ void PathSums::add_to_length(LengthSums& sums, const FoundPath& path, double wei
     const double next_event = n > 2 ? share_of(path, 1) : 0.0;
     const double to_lens = share_of(path, n - 1);
     const double hit_lens = share_of(path, n);
-    const auto add = [weighted](double& sum, double second_moment) {
-        sum += weighted * std::min(second_moment, most);
-    };
+    const double weighted = measure.weighted;
+    const double all = measure.all;
     sums.radiance += weighted;
+    const auto reach = [&](ReachSums& reached) {
+        reached.radiance += weighted;
+        reached.second_moment.add(measure.largest, weighted * measure.moment);
+    };
     if (hit > 0.0 || next_event > 0.0) {
-        sums.from_camera.radiance += weighted;
-        add(sums.from_camera.second_moment, variance);
-        add(sums.second_moment_pt, all / (hit > 0.0 ? hit : next_event));
-        add(sums.second_moment_nee, all / (next_event > 0.0 ? next_event : hit));
-        add(sums.second_moment_mis, pair_second_moment(all, hit, next_event));
+        reach(sums.from_camera);
+        add_pair(sums.pt, weighted, all, hit > 0.0 ? hit : next_event, 0.0);
+        add_pair(sums.nee, weighted, all, next_event > 0.0 ? next_event : hit, 0.0);
+        add_pair(sums.mis, weighted, all, hit, next_event);
     }
     if (to_lens > 0.0 || hit_lens > 0.0) {
-        sums.from_light.radiance += weighted;
-        add(sums.from_light.second_moment, variance);
-        add(sums.second_moment_lt, pair_second_moment(all, to_lens, hit_lens));
+        reach(sums.from_light);
+        add_pair(sums.lt, weighted, all, to_lens, hit_lens);
     }
 }
 

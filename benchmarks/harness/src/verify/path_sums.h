@@ -1,5 +1,6 @@
 #pragma once
 
+#include "verify/second_moment.h"
 #include "verify/tile_grid.h"
 
 #include <bdpt/found_path.h>
@@ -27,7 +28,20 @@ public:
         return begin(strategy.s + strategy.t - 1) + static_cast<std::size_t>(strategy.s);
     }
 
+    /// Pairs of strategies of the same length stand in a row as well.
+    [[nodiscard]] std::size_t pairs() const { return pair(max_depth_ + 1, 0, 0); }
+    [[nodiscard]] std::size_t pair(int edges, std::size_t u, std::size_t v) const
+    {
+        std::size_t first = 0;
+        for (int shorter = 1; shorter < edges; ++shorter) {
+            first += square(shorter + 2);
+        }
+        return first + u * static_cast<std::size_t>(edges + 2) + v;
+    }
+
 private:
+    [[nodiscard]] static std::size_t square(int x) { return static_cast<std::size_t>(x * x); }
+
     int max_depth_;
 };
 
@@ -40,10 +54,9 @@ constexpr double full_share = 1.0 / 16.0;
 /// channels [nit]. Tested are the paths in which u has a share, each multiplied by g = min(1, share
 /// / `full_share`); g is a function of the path, so whoever finds it takes the same.
 struct StrategySums {
-    double tested = 0.0;              ///< g times the unweighted paths that u found
-    double expected = 0.0;            ///< g times the weighted paths that anyone found
-    double expected_by_others = 0.0;  ///< of these, those that u did not find
-    double second_moment = 0.0;  ///< of a sample's `tested - expected`, estimated from all paths
+    double tested = 0.0;         ///< g times the unweighted paths that u found
+    double expected = 0.0;       ///< g times the weighted paths that anyone found
+    SecondMoment second_moment;  ///< of a sample's `tested - expected`, estimated from all paths
     double reach = 0.0;          ///< weighted paths that u can make, found by anyone
     double weighted = 0.0;       ///< paths that u found
     double unweighted = 0.0;
@@ -56,7 +69,7 @@ struct StrategySums {
 /// Weighted paths that an integrator can make, and the second moment of a sample of them.
 struct ReachSums {
     double radiance = 0.0;
-    double second_moment = 0.0;
+    SecondMoment second_moment;
     ReachSums& operator+=(const ReachSums& other);
 };
 
@@ -66,10 +79,10 @@ struct LengthSums {
     ReachSums from_camera;  ///< pt, nee and mis can make them
     ReachSums from_light;   ///< lt can make them
     /// Of a sample of the integrators themselves, estimated from the paths of bdpt.
-    double second_moment_pt = 0.0;
-    double second_moment_nee = 0.0;
-    double second_moment_mis = 0.0;
-    double second_moment_lt = 0.0;
+    SecondMoment pt;
+    SecondMoment nee;
+    SecondMoment mis;
+    SecondMoment lt;
 
     LengthSums& operator+=(const LengthSums& other);
 };
@@ -92,17 +105,32 @@ public:
         return lengths_[tile * static_cast<std::size_t>(row_.max_depth()) +
                         static_cast<std::size_t>(edges - 1)];
     }
+    /// In the whole picture, for paths of `edges` edges: how much the estimate `expected` of the
+    /// strategy with `u` light vertices owes to paths that the one with `finder` has found.
+    [[nodiscard]] double expected_from(int edges, std::size_t u, std::size_t finder) const
+    {
+        return finders_[row_.pair(edges, u, finder)];
+    }
     [[nodiscard]] const WeightFinding& weights() const { return weights_; }
 
 private:
     void check_weight(const FoundPath& path, double definition);
-    void add_to_length(LengthSums& sums, const FoundPath& path, double weighted, double all,
-                       double variance) const;
+    /// What a path is to any strategy, by the balance and the power heuristic.
+    struct Measure {
+        double weighted;  // as it was found
+        double all;       // by the balance heuristic, the same whoever finds it
+        double squares;   // sum of squared shares
+        double moment;    // second moment of a sample of bdpt along this path
+        double largest;   // greatest such sample
+    };
+    void add_to_strategies(const FoundPath& path, const Measure& measure, std::size_t first);
+    static void add_to_length(LengthSums& sums, const FoundPath& path, const Measure& measure);
 
     const TileGrid& grid_;
     StrategyRow row_;
     std::vector<StrategySums> strategies_;  // by tile, then by index
     std::vector<LengthSums> lengths_;       // by tile, then by length
+    std::vector<double> finders_;           // by length, tested strategy, finder
     WeightFinding weights_;
 };
 

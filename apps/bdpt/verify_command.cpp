@@ -57,7 +57,7 @@ int run_verify(const VerifyArguments& arguments)
     harness::VerifyControl control;
     control.stop = interrupt.stop_token();
     control.on_progress = [&](const harness::VerifyProgress& progress) {
-        console.progress({.samples_done = progress.batches * harness::samples_a_batch,
+        console.progress({.samples_done = progress.batches * harness::bdpt_samples,
                           .samples_total = 0,
                           .seconds = progress.seconds},
                          {.samples = std::nullopt, .seconds = arguments.options.seconds});

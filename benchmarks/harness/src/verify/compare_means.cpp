@@ -18,8 +18,8 @@ Comparison compare_means(const Difference& difference)
         return result;
     }
     const double tolerance = indifference * std::abs(difference.expected);
-    result.error = std::sqrt(difference.sample_variance + difference.rare_variance +
-                             tolerance * tolerance);
+    result.error =
+        std::sqrt(difference.sample_variance + difference.rare_variance + tolerance * tolerance);
     result.z = result.error > 0.0
                    ? distance / result.error
                    : std::copysign(std::numeric_limits<double>::infinity(), distance);

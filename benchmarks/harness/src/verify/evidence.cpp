@@ -4,6 +4,17 @@
 
 namespace bdpt::harness {
 
+PictureCheck& PictureCheck::operator+=(const PictureCheck& later)
+{
+    if (!defects.first_invalid) {
+        defects.first_invalid = later.defects.first_invalid;
+    }
+    defects.invalid += later.defects.invalid;
+    defects.saturated += later.defects.saturated;
+    lost = std::max(lost, later.lost);
+    return *this;
+}
+
 Evidence::Evidence(const TileGrid& grid, int max_depth)
     : grid_(grid),
       row_(max_depth),
@@ -61,7 +72,8 @@ void Evidence::add_lengths(const Batch& batch)
         evidence.from_camera.add(sums.from_camera.radiance / samples);
         evidence.from_light.add(sums.from_light.radiance / samples);
         for (std::size_t i = 0; i < others.size(); ++i) {
-            evidence.others[i].add(others[i] / (other_samples * pixels(cell)));
+            evidence.others[i].add(others[i] /
+                                   (samples_of(other_integrators[i], edges) * pixels(cell)));
         }
     };
     for (int edges = 1; edges <= row_.max_depth(); ++edges) {
@@ -85,22 +97,16 @@ void Evidence::add_pictures(const Batch& batch)
     std::array<double, 5> sums{};
     for (std::size_t tile = 0; tile < grid_.size(); ++tile) {
         for (int edges = 1; edges <= row_.max_depth(); ++edges) {
-            sums[0] += batch.bdpt.length(tile, edges).radiance;
+            sums[0] += batch.bdpt.length(tile, edges).radiance / bdpt_samples;
             for (std::size_t i = 0; i < batch.others.size(); ++i) {
-                sums[i + 1] += batch.others[i].at(tile, edges);
+                sums[i + 1] +=
+                    batch.others[i].at(tile, edges) / samples_of(other_integrators[i], edges);
             }
         }
     }
     for (std::size_t i = 0; i < sums.size(); ++i) {
-        pictures_[i].add(sums[i] / (grid_.pixels() * (i == 0 ? bdpt_samples : other_samples)));
-        PictureCheck& check = checks_[i];
-        const PictureCheck& more = batch.pictures[i];
-        if (!check.defects.first_invalid) {  // batches come in the order of their samples
-            check.defects.first_invalid = more.defects.first_invalid;
-        }
-        check.defects.invalid += more.defects.invalid;
-        check.defects.saturated += more.defects.saturated;
-        check.lost = std::max(check.lost, more.lost);
+        pictures_[i].add(sums[i] / grid_.pixels());
+        checks_[i] += batch.pictures[i];
     }
 }
 

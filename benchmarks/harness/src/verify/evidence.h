@@ -18,10 +18,21 @@ namespace bdpt::harness {
 constexpr std::array<IntegratorKind, 4> other_integrators{IntegratorKind::pt, IntegratorKind::nee,
                                                           IntegratorKind::mis, IntegratorKind::lt};
 
+/// Samples a pixel that a batch takes of paths of this length.
+[[nodiscard]] constexpr int samples_of(IntegratorKind integrator, int edges)
+{
+    return integrator == IntegratorKind::bdpt               ? bdpt_samples
+           : integrator == IntegratorKind::pt && edges == 1 ? direct_samples
+                                                            : other_samples;
+}
+
 /// What one integrator said about itself in a batch.
 struct PictureCheck {
     FilmDefects defects;
     double lost = 0.0;  ///< as `PictureFinding::lost`
+
+    /// Adds what a later render said.
+    PictureCheck& operator+=(const PictureCheck& later);
 };
 
 /// One batch: independent samples of all integrators.

@@ -69,7 +69,7 @@ Comparison compare_integrator(const Evidence& evidence, std::size_t cell, int ed
     const double variance = squared_error(found) + squared_error(expected);
     const double samples = samples_in(evidence, cell);
     // Sums over the samples of bdpt stand for as many of the other's.
-    constexpr double ratio = static_cast<double>(other_samples) / bdpt_samples;
+    const double ratio = static_cast<double>(samples_of(kind, edges)) / bdpt_samples;
     const double rare =
         rare_variance(second_moment(length.sums, kind), variance / ratio, samples) / ratio +
         rare_variance(reach.second_moment, variance, samples);

@@ -34,11 +34,11 @@ public:
     }
 
     [[nodiscard]] double at(std::size_t tile, int edges) const { return sums_[index(tile, edges)]; }
-    /// Over all lengths.
-    [[nodiscard]] double at(std::size_t tile) const
+    /// Over lengths from `shortest` to `longest`.
+    [[nodiscard]] double between(std::size_t tile, int shortest, int longest) const
     {
         double sum = 0.0;
-        for (int edges = 1; edges <= max_depth_; ++edges) {
+        for (int edges = shortest; edges <= longest; ++edges) {
             sum += at(tile, edges);
         }
         return sum;

@@ -8,26 +8,29 @@
 namespace bdpt::harness {
 namespace {
 
-/// Seeds of different integrators are far apart, or they would trace the same camera paths.
-std::uint64_t seed_of(const VerifyOptions& options, IntegratorKind integrator)
+/// One for each integrator and batch, or they would trace the same camera paths.
+std::uint64_t seed_of(const VerifyOptions& options, IntegratorKind integrator, std::int64_t number)
 {
-    constexpr std::uint64_t odd = 0x9e3779b97f4a7c15U;
-    return options.seed + odd * (1 + static_cast<std::uint64_t>(integrator));
+    constexpr std::uint64_t odd = 0x9e3779b97f4a7c15U;  // spreads consecutive numbers
+    constexpr std::uint64_t integrators = 8;
+    return options.seed + odd * (integrators * static_cast<std::uint64_t>(number) +
+                                 static_cast<std::uint64_t>(integrator) + 1);
 }
 
+/// Paths of `shortest` to `longest` edges.
 RenderOptions render_options(const VerifyOptions& options, IntegratorKind integrator,
-                             std::int64_t number)
+                             std::int64_t number, int shortest, int longest)
 {
-    const std::int64_t samples = integrator == IntegratorKind::bdpt ? bdpt_samples : other_samples;
     RenderOptions result;
     result.integrator = integrator;
-    result.sampler = SamplerKind::independent;
     result.width = options.width;
     result.height = options.height;
-    result.max_depth = options.max_depth;
-    result.samples = {.begin = number * samples, .end = (number + 1) * samples};
+    result.min_depth = shortest;
+    result.max_depth = longest;
+    // Sobol points of one sequence depend on each other; those of other seeds do not.
+    result.samples = {.begin = 0, .end = samples_of(integrator, shortest)};
     result.threads = 1;
-    result.seed = seed_of(options, integrator);
+    result.seed = seed_of(options, integrator, number) + static_cast<std::uint64_t>(shortest);
     return result;
 }
 
@@ -69,24 +72,38 @@ Batch render_batch(const Scene& scene, const CameraDesc& camera, const VerifyOpt
     Batch batch{.bdpt = PathSums(grid, options.max_depth),
                 .others = {none, none, none, none},
                 .pictures = {}};
-    RenderControl control;
-    control.on_path = [&](const FoundPath& path) { batch.bdpt.add(path); };
-    const RenderResult bdpt =
-        render(scene, camera, render_options(options, IntegratorKind::bdpt, number), control);
+    const int longest = options.max_depth;
+    RenderControl to_bdpt;
+    to_bdpt.on_path = [&](const FoundPath& path) { batch.bdpt.add(path); };
+    const RenderResult bdpt = render(
+        scene, camera, render_options(options, IntegratorKind::bdpt, number, 1, longest), to_bdpt);
     batch.pictures[0] = check_picture(bdpt.film, grid, [&](std::size_t tile) {
         double sum = 0.0;
-        for (int edges = 1; edges <= options.max_depth; ++edges) {
+        for (int edges = 1; edges <= longest; ++edges) {
             sum += batch.bdpt.length(tile, edges).radiance;
         }
         return sum;
     });
     for (std::size_t i = 0; i < other_integrators.size(); ++i) {
+        const IntegratorKind kind = other_integrators[i];
         RadianceSums& sums = batch.others[i];
-        control.on_path = [&](const FoundPath& path) { sums.add(path); };
-        const RenderResult other =
-            render(scene, camera, render_options(options, other_integrators[i], number), control);
-        batch.pictures[i + 1] =
-            check_picture(other.film, grid, [&](std::size_t tile) { return sums.at(tile); });
+        PictureCheck& check = batch.pictures[i + 1];
+        RenderControl to_sums;
+        to_sums.on_path = [&](const FoundPath& path) { sums.add(path); };
+        // Lengths that take the same number of samples are rendered together.
+        int shortest = 1;
+        while (shortest <= longest) {
+            int last = shortest;
+            while (last < longest && samples_of(kind, last + 1) == samples_of(kind, shortest)) {
+                ++last;
+            }
+            const RenderResult other = render(
+                scene, camera, render_options(options, kind, number, shortest, last), to_sums);
+            check += check_picture(other.film, grid, [&](std::size_t tile) {
+                return sums.between(tile, shortest, last);
+            });
+            shortest = last + 1;
+        }
     }
     return batch;
 }

@@ -68,7 +68,7 @@ VerifyReport verify(const Scene& scene, const CameraDesc& camera, const VerifyOp
 
     // Sharpness is looked at each time that the number of batches has doubled, and what it asks is
     // how much noise there is, not how much difference: p-values know of one look only.
-    std::int64_t next_look = 64;
+    std::int64_t next_look = 32;
     double detectable = 1.0;
     while (evidence.batches() < options.most_batches) {
         const std::int64_t first = evidence.batches();

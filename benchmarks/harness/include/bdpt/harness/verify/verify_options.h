@@ -7,11 +7,12 @@
 
 namespace bdpt::harness {
 
-/// Samples a pixel of a batch: of bdpt, and of the other integrators.
-constexpr int bdpt_samples = 4;
-constexpr int other_samples = 8;
-/// Of all integrators together.
-constexpr int samples_a_batch = bdpt_samples + 4 * other_samples;
+/// Samples a pixel of a batch: of bdpt, and of the other integrators, which are cheaper and
+/// noisier.
+constexpr int bdpt_samples = 8;
+constexpr int other_samples = 16;
+/// Of pt for paths of one edge: a single ray each, and lamps that are seen are often small.
+constexpr int direct_samples = 256;
 
 /// What `verify` does, and how sure and how sharp it is to be.
 struct VerifyOptions {

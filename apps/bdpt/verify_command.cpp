@@ -22,6 +22,8 @@ void print(const std::string& text)
     }
 }
 
+}  // namespace
+
 int exit_code(harness::Verdict verdict)
 {
     switch (verdict) {
@@ -34,8 +36,6 @@ int exit_code(harness::Verdict verdict)
     }
     return verify_failed;
 }
-
-}  // namespace
 
 int run_verify(const VerifyArguments& arguments)
 {

@@ -10,8 +10,8 @@
 namespace bdpt::app {
 namespace {
 
-using harness::Comparison;
 using harness::IntegratorFinding;
+using harness::MeanComparison;
 using harness::StrategyFinding;
 using harness::VerifyReport;
 
@@ -56,7 +56,7 @@ std::string lengths_text(const VerifyReport& report)
     return result;
 }
 
-std::string comparison_text(const Comparison& test)
+std::string comparison_text(const MeanComparison& test)
 {
     return fmt::format("{:>12}{:>12}{:>8.2f}{:>10.2g}",
                        percent(test.found - test.expected, test.expected),
@@ -96,11 +96,11 @@ std::string integrators_text(const VerifyReport& report)
     return result;
 }
 
-void add_failures(const std::string& name, const Comparison& whole,
-                  const std::vector<Comparison>& tiles, const VerifyReport& report,
+void add_failures(const std::string& name, const MeanComparison& whole,
+                  const std::vector<MeanComparison>& tiles, const VerifyReport& report,
                   std::vector<std::string>& lines)
 {
-    const auto line = [&](const std::string& where, const Comparison& test) {
+    const auto line = [&](const std::string& where, const MeanComparison& test) {
         return fmt::format("{}, {}: {:.6g} nit, but {:.6g} expected (z = {:.2f}, p = {:.2g})", name,
                            where, test.found, test.expected, test.z, test.p_adjusted);
     };
@@ -131,7 +131,7 @@ std::vector<std::string> failures(const VerifyReport& report)
                                         picture.defects.saturated));
         }
         if (loses_light(picture)) {
-            lines.push_back(fmt::format("{}: the paths of a tile add up to {} more or less than it",
+            lines.push_back(fmt::format("{}: the paths and the picture of a tile differ by {}",
                                         harness::to_string(picture.integrator),
                                         percent(picture.lost)));
         }

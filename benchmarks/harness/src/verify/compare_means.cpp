@@ -8,9 +8,9 @@
 
 namespace bdpt::harness {
 
-Comparison compare_means(const Difference& difference)
+MeanComparison compare_means(const Difference& difference)
 {
-    Comparison result;
+    MeanComparison result;
     result.found = difference.found;
     result.expected = difference.expected;
     const double distance = difference.found - difference.expected;

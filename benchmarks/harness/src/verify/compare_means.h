@@ -30,7 +30,7 @@ constexpr double rare_fraction = 0.05;
 /// Welch's t-test [Welch 1947]. p is that of Student's t, or the bound 2 exp(-z^2 / 2) if that is
 /// greater; means of numbers that are not negative keep it below their expectation whatever their
 /// distribution [Maurer 2003]. No correction for other tests yet.
-[[nodiscard]] Comparison compare_means(const Difference& difference);
+[[nodiscard]] MeanComparison compare_means(const Difference& difference);
 
 /// Degrees of freedom of the difference of two independent means [Welch 1947].
 [[nodiscard]] double welch_freedom(const Moments& a, const Moments& b);

@@ -30,7 +30,7 @@ double rare_variance(const SecondMoment& moment, double sample_variance, double 
     return moment.above(size) / (samples * samples);
 }
 
-Comparison compare_strategy(const Evidence& evidence, std::size_t cell, std::size_t index)
+MeanComparison compare_strategy(const Evidence& evidence, std::size_t cell, std::size_t index)
 {
     const StrategyEvidence& found = evidence.strategy(cell, index);
     const double samples = samples_in(evidence, cell);
@@ -57,8 +57,8 @@ const SecondMoment& second_moment(const LengthSums& sums, IntegratorKind integra
     }
 }
 
-Comparison compare_integrator(const Evidence& evidence, std::size_t cell, int edges,
-                              std::size_t integrator)
+MeanComparison compare_integrator(const Evidence& evidence, std::size_t cell, int edges,
+                                  std::size_t integrator)
 {
     const LengthEvidence& length = evidence.length(cell, edges);
     const IntegratorKind kind = other_integrators[integrator];
@@ -127,9 +127,9 @@ IntegratorFinding describe_integrator(const Evidence& evidence, int edges, std::
     return result;
 }
 
-std::vector<Comparison*> tests_of_pictures(VerifyReport& report)
+std::vector<MeanComparison*> tests_of_pictures(VerifyReport& report)
 {
-    std::vector<Comparison*> tests;
+    std::vector<MeanComparison*> tests;
     for (StrategyFinding& finding : report.strategies) {
         tests.push_back(&finding.whole);
     }
@@ -139,11 +139,11 @@ std::vector<Comparison*> tests_of_pictures(VerifyReport& report)
     return tests;
 }
 
-std::vector<Comparison*> tests_of_tiles(VerifyReport& report)
+std::vector<MeanComparison*> tests_of_tiles(VerifyReport& report)
 {
-    std::vector<Comparison*> tests;
-    const auto add = [&tests](std::vector<Comparison>& tiles) {
-        for (Comparison& tile : tiles) {
+    std::vector<MeanComparison*> tests;
+    const auto add = [&tests](std::vector<MeanComparison>& tiles) {
+        for (MeanComparison& tile : tiles) {
             tests.push_back(&tile);
         }
     };
@@ -156,10 +156,10 @@ std::vector<Comparison*> tests_of_tiles(VerifyReport& report)
     return tests;
 }
 
-void correct(const std::vector<Comparison*>& tests)
+void correct(const std::vector<MeanComparison*>& tests)
 {
     std::vector<double> p;
-    for (const Comparison* test : tests) {
+    for (const MeanComparison* test : tests) {
         p.push_back(test->p);
     }
     const std::vector<double> adjusted = holm_adjusted(p);
@@ -183,7 +183,7 @@ double detectable_by_strategies(const Evidence& evidence, const VerifyReport& re
     const std::size_t first = evidence.row().begin(edges);
     double least = std::numeric_limits<double>::infinity();  // c
     for (std::size_t u = 0; u < static_cast<std::size_t>(edges + 2); ++u) {
-        const Comparison& test = report.strategies[first + u].whole;
+        const MeanComparison& test = report.strategies[first + u].whole;
         double moved = evidence.expected_from(edges, u, finder);
         if (u == finder) {
             moved = 0.0;
@@ -238,7 +238,7 @@ double find_detectable(const Evidence& evidence, VerifyReport& report, double di
 
 bool has_failed(const VerifyReport& report)
 {
-    const auto fail = [&report](const Comparison& test) { return fails(test, report); };
+    const auto fail = [&report](const MeanComparison& test) { return fails(test, report); };
     const auto any = [&](const auto& finding) {
         return fail(finding.whole) || std::any_of(finding.tiles.begin(), finding.tiles.end(), fail);
     };
@@ -284,7 +284,7 @@ VerifyReport judge(const Evidence& evidence, const VerifyOptions& options)
             report.integrators.push_back(describe_integrator(evidence, edges, i));
         }
     }
-    const std::vector<Comparison*> pictures = tests_of_pictures(report);
+    const std::vector<MeanComparison*> pictures = tests_of_pictures(report);
     correct(pictures);
     correct(tests_of_tiles(report));
     if (report.radiance > 0.0) {

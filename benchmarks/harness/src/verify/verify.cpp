@@ -6,12 +6,14 @@
 
 #include <bdpt/error.h>
 
+#include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <utility>
@@ -64,6 +66,11 @@ VerifyReport verify(const Scene& scene, const CameraDesc& camera, const VerifyOp
     const TileGrid grid(options.width, options.height, options.grid);
     Evidence evidence(grid, options.max_depth);
     const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
+    // More threads than cores are allowed only while somebody asks for them.
+    const tbb::global_control allowance(
+        tbb::global_control::max_allowed_parallelism,
+        std::max(static_cast<std::size_t>(threads),
+                 tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)));
     tbb::task_arena arena(threads);
 
     // Sharpness is looked at each time that the number of batches has doubled, and what it asks is

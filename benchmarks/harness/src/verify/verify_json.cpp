@@ -20,7 +20,7 @@ ordered_json to_json(const PixelRect& rect)
     return {rect.x0, rect.y0, rect.x1, rect.y1};
 }
 
-ordered_json to_json(const Comparison& test, const VerifyReport& report)
+ordered_json to_json(const MeanComparison& test, const VerifyReport& report)
 {
     return {{"found", number(test.found)},
             {"expected", number(test.expected)},

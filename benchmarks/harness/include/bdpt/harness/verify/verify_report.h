@@ -19,7 +19,7 @@ enum class Verdict : std::uint8_t {
 };
 
 /// Two estimates of the same light.
-struct Comparison {
+struct MeanComparison {
     double found = 0.0;       ///< [nit]
     double expected = 0.0;    ///< [nit]
     double error = 0.0;       ///< standard error of `found - expected` [nit]
@@ -40,16 +40,16 @@ struct StrategyFinding {
     double unweighted = 0.0;  ///< what it finds by itself, on average [nit]; may be very noisy
     /// Part of `weighted` along paths that no other strategy can make [nit].
     double solitary = 0.0;
-    Comparison whole;               ///< in the whole picture
-    std::vector<Comparison> tiles;  ///< in rows
+    MeanComparison whole;               ///< in the whole picture
+    std::vector<MeanComparison> tiles;  ///< in rows
 };
 
 /// An integrator held against those paths of bdpt that it can make, at one length.
 struct IntegratorFinding {
     IntegratorKind integrator = IntegratorKind::pt;
     int edges = 0;
-    Comparison whole;
-    std::vector<Comparison> tiles;
+    MeanComparison whole;
+    std::vector<MeanComparison> tiles;
 };
 
 /// The light of all paths of one length.
@@ -106,7 +106,7 @@ struct VerifyReport {
 
 /// Does this comparison fail? Each of the two families of tests, whole pictures and tiles, has half
 /// of the false alarms.
-[[nodiscard]] inline bool fails(const Comparison& comparison, const VerifyReport& report)
+[[nodiscard]] inline bool fails(const MeanComparison& comparison, const VerifyReport& report)
 {
     return comparison.p_adjusted <= 0.5 * report.false_alarm;
 }

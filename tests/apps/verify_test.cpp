@@ -37,7 +37,7 @@ public:
     {
         Words words{"verify", scene_, "--size", "8x8", "--grid", "2", "--max-depth", "3"};
         words.insert(words.end(), more.begin(), more.end());
-        return run_bdpt(words);
+        return run(words);
     }
 
 private:
@@ -109,8 +109,8 @@ TEST_CASE("verify: what makes no sense is refused")
         CHECK(contains(outcome.err, words.front()));
         CHECK(outcome.out.empty());
     }
-    CHECK(run_bdpt({"verify", "/no/such/file.gltf"}).exit_code == 3);
-    CHECK(run_bdpt({"verify"}).exit_code == 2);
+    CHECK(run({"verify", "/no/such/file.gltf"}).exit_code == 3);
+    CHECK(run(Words{"verify"}).exit_code == 2);
 }
 
 TEST_CASE("verify: each verdict has its exit code")

@@ -30,8 +30,8 @@ struct RenderControl {
     /// Called between passes on the thread that called render(). What it throws ends the render and
     /// reaches the caller.
     std::function<void(const Progress&)> on_progress;
-    /// Called for each path that brings light, on many threads at once, and slows the render down.
-    /// Must not throw.
+    /// Called for each path that brings light to the film's region, on many threads at once; slows
+    /// the render down.
     std::function<void(const FoundPath&)> on_path;
     /// No pass starts that would probably end after this [s].
     double time_limit = std::numeric_limits<double>::infinity();

@@ -6,6 +6,7 @@
 #include "scene/world.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 namespace bdpt {
@@ -201,7 +202,9 @@ void BdptIntegrator::add_splat(Strategy strategy, const Splat& splat, std::uint3
             strategy, target.raster,
             {.weighted = weighted, .unweighted = target.weight / count * unweighted});
     }
-    if (sample.films.on_path) {
+    const auto x = static_cast<int>(std::floor(target.raster.x));
+    const auto y = static_cast<int>(std::floor(target.raster.y));
+    if (sample.films.on_path && sample.films.film.region().contains(x, y)) {
         sample.films.on_path({.strategy = strategy,
                               .raster = target.raster,
                               .unweighted = target.weight / count * unweighted,

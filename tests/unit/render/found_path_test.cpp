@@ -7,7 +7,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <mutex>
 #include <numeric>
 #include <vector>
 
@@ -35,7 +34,7 @@ RenderOptions options(IntegratorKind integrator)
     result.samples = {.begin = 0, .end = 8};
     result.max_depth = 5;
     result.min_depth = 1;
-    result.threads = 2;
+    result.threads = 1;  // Catch's assertions are not for several threads
     return result;
 }
 
@@ -61,14 +60,15 @@ TEST_CASE("found paths add up to the picture, and telling of them does not chang
             RenderOptions what = options(integrator);
             what.min_depth = min_depth;
             what.filter = {.kind = FilterKind::gaussian};
-            std::vector<Vec3> sums(96, Vec3(0.0f));
-            std::mutex mutex;
+            what.crop = PixelRect{.x0 = 2, .y0 = 0, .x1 = 12, .y1 = 7};
+            std::vector<Vec3> sums(70, Vec3(0.0f));
             RenderControl control;
             control.on_path = [&](const FoundPath& path) {
-                const std::lock_guard lock(mutex);
                 const auto x = static_cast<std::size_t>(path.raster.x);
                 const auto y = static_cast<std::size_t>(path.raster.y);
-                sums[y * 12 + x] += path.weight * path.unweighted / 8.0f;
+                REQUIRE(what.crop->contains(static_cast<int>(std::floor(path.raster.x)),
+                                            static_cast<int>(std::floor(path.raster.y))));
+                sums[y * 10 + x - 2] += path.weight * path.unweighted / 8.0f;
                 CHECK(path.strategy.s + path.strategy.t > min_depth);
             };
             const RenderResult told = render(scene, lens(), what, control);
@@ -91,12 +91,10 @@ TEST_CASE("shares of all strategies sum to one and are those behind the weight",
                 RenderOptions what = options(integrator);
                 what.heuristic = heuristic;
                 what.light_paths = 2;
-                std::mutex mutex;
                 int paths = 0;
                 int blind = 0;
                 RenderControl control;
                 control.on_path = [&](const FoundPath& path) {
-                    const std::lock_guard lock(mutex);
                     const auto& shares = path.shares;
                     REQUIRE(shares.size() ==
                             static_cast<std::size_t>(path.strategy.s + path.strategy.t + 1));
@@ -130,12 +128,10 @@ TEST_CASE("path tracers tell strategies with at most one vertex from the light",
     const Scene scene = room();
     for (const IntegratorKind integrator :
          {IntegratorKind::pt, IntegratorKind::mis, IntegratorKind::nee}) {
-        std::mutex mutex;
         int hits = 0;
         int joins = 0;
         RenderControl control;
         control.on_path = [&](const FoundPath& path) {
-            const std::lock_guard lock(mutex);
             REQUIRE(path.strategy.s <= 1);
             REQUIRE(path.shares.empty());
             REQUIRE(path.weight == 1.0f);

@@ -23,6 +23,8 @@
 #include "info_command.h"
 #include "render_arguments.h"
 #include "render_command.h"
+#include "verify_arguments.h"
+#include "verify_command.h"
 
 namespace bdpt::app {
 namespace {
@@ -33,6 +35,7 @@ constexpr const char* footer = R"(Examples:
   bdpt info scene.glb
   bdpt compare out.exr reference.exr
   bdpt bench scene.gltf -o bench --quick
+  bdpt verify scene.gltf
 
 "bdpt render --help" has all options and the exit codes.)";
 
@@ -43,10 +46,12 @@ struct CommandLine {
     InfoArguments info_arguments;
     CompareWords compare_words;
     BenchWords bench_words;
+    VerifyWords verify_words;
     CLI::App* render = nullptr;
     CLI::App* info = nullptr;
     CLI::App* compare = nullptr;
     CLI::App* bench = nullptr;
+    CLI::App* verify = nullptr;
 };
 
 void describe(CommandLine& line)
@@ -63,6 +68,8 @@ void describe(CommandLine& line)
     add_compare_options(*line.compare, line.compare_words);
     line.bench = line.app.add_subcommand("bench", "Hold integrators against each other");
     add_bench_options(*line.bench, line.bench_words);
+    line.verify = line.app.add_subcommand("verify", "Prove the estimators on a scene");
+    add_verify_options(*line.verify, line.verify_words);
 }
 
 /// All long names of the options of `command`.
@@ -84,6 +91,7 @@ std::string explain(const CommandLine& line, const CLI::ParseError& error)
                               : line.info->parsed()    ? line.info
                               : line.compare->parsed() ? line.compare
                               : line.bench->parsed()   ? line.bench
+                              : line.verify->parsed()  ? line.verify
                                                        : nullptr;
     const std::string help =
         command != nullptr ? fmt::format("bdpt {} --help", command->get_name()) : "bdpt --help";
@@ -94,7 +102,7 @@ std::string explain(const CommandLine& line, const CLI::ParseError& error)
     const std::string& word = extras.front();
     if (command == nullptr && !word.starts_with("-")) {
         return fmt::format(
-            "unknown command \"{}\": there are render, info, compare and bench; see \"{}\"", word,
+            "unknown command \"{}\": there are render, info, compare, bench and verify; see \"{}\"", word,
             help);
     }
     if (!word.starts_with("-")) {
@@ -125,6 +133,9 @@ int run(int argc, char** argv, Format format)
     }
     if (line.bench->parsed()) {
         return run_bench(understand(line.bench_words), {argv, argv + argc});
+    }
+    if (line.verify->parsed()) {
+        return run_verify(understand(line.verify_words));
     }
     return line.info->parsed() ? run_info(line.info_arguments)
                                : run_render(understand(line.render_words));

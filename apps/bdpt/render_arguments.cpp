@@ -107,34 +107,6 @@ Isa to_isa(const std::string& name)
                          [&](Isa isa) { return isa_name(isa) == name; });
 }
 
-void add_what(CLI::App& command, RenderWords& words)
-{
-    const auto group = "What to render";
-    command.add_option("--scene", words.scene, "Scene of the file; the default one if not given")
-        ->type_name("NAME|INDEX")
-        ->group(group);
-    command
-        .add_option("--camera", words.camera,
-                    "Camera of the scene, or auto to frame it all. The first one if not given")
-        ->type_name("NAME|INDEX|auto")
-        ->group(group);
-    command.add_option("--from", words.from, "Move the camera here [m]")
-        ->type_name("X,Y,Z")
-        ->group(group);
-    command.add_option("--look-at", words.look_at, "Turn the camera to this point [m]")
-        ->type_name("X,Y,Z")
-        ->group(group);
-    command.add_option("--fov", words.fov, "Vertical field of view [degrees]")
-        ->type_name("DEG")
-        ->group(group);
-    command
-        .add_option("--env", words.environment,
-                    "Light from all around: an equirectangular .exr or .hdr, none, or the default "
-                    "sky, which scenes without light get by themselves")
-        ->type_name("FILE|none|default")
-        ->group(group);
-}
-
 void add_how(CLI::App& command, RenderWords& words)
 {
     const auto group = "How to render";
@@ -161,15 +133,7 @@ void add_how(CLI::App& command, RenderWords& words)
         ->check(CLI::IsMember({"sobol", "independent"}))
         ->type_name("sobol|independent")
         ->group(group);
-    command.add_option("--seed", words.seed, "Another number gives other noise. 0 if not given")
-        ->type_name("N")
-        ->group(group);
-    command
-        .add_option("--threads", words.threads,
-                    "Threads to use; the picture does not depend on it. All if not given")
-        ->check(CLI::Range(0, 4096))
-        ->type_name("N")
-        ->group(group);
+    add_seed_and_threads(command, words, group);
     command
         .add_option("--isa", words.isa,
                     "Instruction set to trace rays with. Pictures are equal to the bit for the "
@@ -218,6 +182,48 @@ void add_output(CLI::App& command, RenderWords& words)
 
 }  // namespace
 
+void add_scene_options(CLI::App& command, RenderWords& words)
+{
+    const auto group = "What to render";
+    command.add_option("--scene", words.scene, "Scene of the file; the default one if not given")
+        ->type_name("NAME|INDEX")
+        ->group(group);
+    command
+        .add_option("--camera", words.camera,
+                    "Camera of the scene, or auto to frame it all. The first one if not given")
+        ->type_name("NAME|INDEX|auto")
+        ->group(group);
+    command.add_option("--from", words.from, "Move the camera here [m]")
+        ->type_name("X,Y,Z")
+        ->group(group);
+    command.add_option("--look-at", words.look_at, "Turn the camera to this point [m]")
+        ->type_name("X,Y,Z")
+        ->group(group);
+    command.add_option("--fov", words.fov, "Vertical field of view [degrees]")
+        ->type_name("DEG")
+        ->group(group);
+    command
+        .add_option("--env", words.environment,
+                    "Light from all around: an equirectangular .exr or .hdr, none, or the default "
+                    "sky, which scenes without light get by themselves")
+        ->type_name("FILE|none|default")
+        ->group(group);
+    add_lens_options(command, words.lens);
+}
+
+void add_seed_and_threads(CLI::App& command, RenderWords& words, const char* group)
+{
+    command.add_option("--seed", words.seed, "Another number gives other noise. 0 if not given")
+        ->type_name("N")
+        ->group(group);
+    command
+        .add_option("--threads", words.threads,
+                    "Threads to use; the picture does not depend on it. All if not given")
+        ->check(CLI::Range(0, 4096))
+        ->type_name("N")
+        ->group(group);
+}
+
 void add_render_options(CLI::App& command, RenderWords& words)
 {
     command.add_option("file", words.file, "The scene: .gltf or .glb")
@@ -227,8 +233,7 @@ void add_render_options(CLI::App& command, RenderWords& words)
     add_how(command, words);
     add_transport_options(command, words.transport);
     add_film_options(command, words.film);
-    add_what(command, words);
-    add_lens_options(command, words.lens);
+    add_scene_options(command, words);
     command.footer(footer);
 }
 

@@ -79,6 +79,11 @@ struct RenderArguments {
 /// Describes the options of `bdpt render` to the parser, which will store into `words`.
 void add_render_options(CLI::App& command, RenderWords& words);
 
+/// Of these, those that say what to render and through which lens: for other commands, too.
+void add_scene_options(CLI::App& command, RenderWords& words);
+/// --seed and --threads.
+void add_seed_and_threads(CLI::App& command, RenderWords& words, const char* group);
+
 /// Throws `Error` (usage) that names the option and the value.
 [[nodiscard]] RenderArguments understand(const RenderWords& words);
 

@@ -3,6 +3,7 @@
 #include <bdpt/aov_film.h>
 #include <bdpt/export.h>
 #include <bdpt/film.h>
+#include <bdpt/found_path.h>
 #include <bdpt/render_options.h>
 #include <bdpt/render_stats.h>
 #include <bdpt/scene.h>
@@ -29,6 +30,9 @@ struct RenderControl {
     /// Called between passes on the thread that called render(). What it throws ends the render and
     /// reaches the caller.
     std::function<void(const Progress&)> on_progress;
+    /// Called for each path that brings light to the film's region, on many threads at once; slows
+    /// the render down.
+    std::function<void(const FoundPath&)> on_path;
     /// No pass starts that would probably end after this [s].
     double time_limit = std::numeric_limits<double>::infinity();
 };

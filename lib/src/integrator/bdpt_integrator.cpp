@@ -6,6 +6,7 @@
 #include "scene/world.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 namespace bdpt {
@@ -41,6 +42,9 @@ RenderStats BdptIntegrator::render_tile(const Tile& tile, SampleRange samples,
                     .weigher = PathWeigher(world_, camera_, strategies_, options_.heuristic,
                                            options_.max_depth + 1),
                     .stats = {}};
+    if (films.on_path) {
+        scratch.weigher.keep_paths();
+    }
     const WalkLimits light_limits{.max_vertices = strategies_.light_vertices(),
                                   .rr_start = options_.rr_start};
     for (int y = tile.y_begin; y < tile.y_end; ++y) {
@@ -90,7 +94,7 @@ Rgb BdptIntegrator::estimate_camera_path(Sample& sample, Scratch& scratch) const
     Rgb radiance(0.0f);
     const auto add = [&](Strategy strategy, const std::optional<Contribution>& found) {
         if (found) {
-            radiance += measure(strategy, *found, sample);
+            radiance += measure(strategy, *found, sample, scratch);
         }
     };
     for (int t = 2; t <= scratch.camera_path.size(); ++t) {
@@ -119,7 +123,7 @@ Rgb BdptIntegrator::join_paths(const Sample& sample, Scratch& scratch) const
                 world_, scratch.light_path.first(s), scratch.camera_path.first(t),
                 sample.sampler.segment_key(s, t), scratch.weigher, scratch.stats.rays);
             if (found) {
-                radiance += measure({.s = s, .t = t}, *found, sample);
+                radiance += measure({.s = s, .t = t}, *found, sample, scratch);
             }
         }
     }
@@ -137,7 +141,7 @@ void BdptIntegrator::splat_light_path(Sample& sample, Scratch& scratch) const
         const auto splat = connect_to_lens(world_, camera_, path.first(s), sample.sampler,
                                            scratch.weigher, scratch.stats.rays);
         if (splat) {
-            add_splat({.s = s, .t = 1}, *splat, static_cast<std::uint32_t>(2 * s), sample);
+            add_splat({.s = s, .t = 1}, *splat, static_cast<std::uint32_t>(2 * s), sample, scratch);
         }
     }
     for (const LensCrossing& crossing : path.crossings()) {
@@ -146,7 +150,8 @@ void BdptIntegrator::splat_light_path(Sample& sample, Scratch& scratch) const
             continue;
         }
         if (const auto splat = hit_lens(world_, path, crossing, scratch.weigher)) {
-            add_splat({.s = s, .t = 0}, *splat, static_cast<std::uint32_t>(2 * s + 1), sample);
+            add_splat({.s = s, .t = 0}, *splat, static_cast<std::uint32_t>(2 * s + 1), sample,
+                      scratch);
         }
     }
 }
@@ -159,12 +164,12 @@ void BdptIntegrator::splat_light(Sample& sample, Scratch& scratch) const
     const auto splat =
         connect_light_to_lens(world_, camera_, sample.sampler, scratch.weigher, scratch.stats.rays);
     if (splat) {
-        add_splat({.s = 1, .t = 1}, *splat, 1, sample);
+        add_splat({.s = 1, .t = 1}, *splat, 1, sample, scratch);
     }
 }
 
-Rgb BdptIntegrator::measure(Strategy strategy, const Contribution& found,
-                            const Sample& sample) const
+Rgb BdptIntegrator::measure(Strategy strategy, const Contribution& found, const Sample& sample,
+                            Scratch& scratch) const
 {
     const float count = strategies_.count(strategy.s, strategy.t);
     const Rgb weighted = found.weight / count * found.unweighted;
@@ -172,11 +177,18 @@ Rgb BdptIntegrator::measure(Strategy strategy, const Contribution& found,
         sample.films.strategies.add(strategy, sample.pixel,
                                     {.weighted = weighted, .unweighted = found.unweighted / count});
     }
+    if (sample.films.on_path) {
+        sample.films.on_path({.strategy = strategy,
+                              .raster = sample.pixel,
+                              .unweighted = found.unweighted / count,
+                              .weight = found.weight,
+                              .shares = scratch.weigher.shares()});
+    }
     return weighted;
 }
 
 void BdptIntegrator::add_splat(Strategy strategy, const Splat& splat, std::uint32_t dimension,
-                               Sample& sample) const
+                               Sample& sample, Scratch& scratch) const
 {
     SplatTarget target{.raster = splat.raster};
     if (!filter_.is_pixel()) {
@@ -191,6 +203,18 @@ void BdptIntegrator::add_splat(Strategy strategy, const Splat& splat, std::uint3
         sample.films.strategies.add(
             strategy, target.raster,
             {.weighted = weighted, .unweighted = target.weight / count * unweighted});
+    }
+    if (!sample.films.on_path) {
+        return;
+    }
+    const auto x = static_cast<int>(std::floor(target.raster.x));
+    const auto y = static_cast<int>(std::floor(target.raster.y));
+    if (sample.films.film.region().contains(x, y)) {
+        sample.films.on_path({.strategy = strategy,
+                              .raster = target.raster,
+                              .unweighted = target.weight / count * unweighted,
+                              .weight = mis_weight,
+                              .shares = scratch.weigher.shares()});
     }
 }
 

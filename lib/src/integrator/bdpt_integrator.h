@@ -40,12 +40,13 @@ private:
     void splat_light_path(Sample& sample, Scratch& scratch) const;
     /// s = t = 1
     void splat_light(Sample& sample, Scratch& scratch) const;
-    /// What `found` counts in the pixel of the sample; notes it in the strategy's images.
-    [[nodiscard]] Rgb measure(Strategy strategy, const Contribution& found,
-                              const Sample& sample) const;
-    /// `dimension` tells the splats of one light path apart.
-    void add_splat(Strategy strategy, const Splat& splat, std::uint32_t dimension,
-                   Sample& sample) const;
+    /// What `found`, which `scratch` has just weighed, counts in the pixel of the sample; notes it
+    /// in the strategy's images.
+    [[nodiscard]] Rgb measure(Strategy strategy, const Contribution& found, const Sample& sample,
+                              Scratch& scratch) const;
+    /// The same for a splat; `dimension` tells those of one light path apart.
+    void add_splat(Strategy strategy, const Splat& splat, std::uint32_t dimension, Sample& sample,
+                   Scratch& scratch) const;
 
     const World& world_;
     const Camera& camera_;

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <bdpt/film.h>
+#include <bdpt/found_path.h>
 #include <bdpt/render_options.h>
 #include <bdpt/render_stats.h>
 #include <bdpt/strategy_film.h>
 
+#include <functional>
 #include <memory>
 
 namespace bdpt {
@@ -24,6 +26,8 @@ struct Tile {
 struct Films {
     Film& film;
     StrategyFilm& strategies;  ///< empty unless images of strategies are asked for
+    /// Told of each path that brings light, if there is one.
+    const std::function<void(const FoundPath&)>& on_path;
 };
 
 /// A light transport algorithm. Const while rendering: every thread calls the same object.

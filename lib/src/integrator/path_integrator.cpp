@@ -42,7 +42,12 @@ RenderStats PathIntegrator::render_tile(const Tile& tile, SampleRange samples,
                 Sampler sampler(options_.sampler, options_.seed, x, y, index);
                 sampler.start(SampleUse::film);
                 const Vec2 raster = filter_.sample_raster(x, y, sampler.next_2d());
-                films.film.add_sample(x, y, index, estimate(raster, sampler, stats.rays));
+                Sample sample{.pixel = Vec2(x, y) + 0.5f,
+                              .raster = raster,
+                              .sampler = sampler,
+                              .films = films,
+                              .rays = stats.rays};
+                films.film.add_sample(x, y, index, estimate(sample));
                 ++stats.paths.camera;
             }
         }
@@ -50,15 +55,26 @@ RenderStats PathIntegrator::render_tile(const Tile& tile, SampleRange samples,
     return stats;
 }
 
-Rgb PathIntegrator::estimate(Vec2 raster, Sampler& sampler, RayCounts& rays) const
+Rgb PathIntegrator::estimate(Sample& sample) const
 {
+    Sampler& sampler = sample.sampler;
+    RayCounts& rays = sample.rays;
     sampler.start(SampleUse::lens);
     const Vec2 u_lens = camera_.has_finite_lens() ? sampler.next_2d() : Vec2(0.0f);
-    const CameraRay first = camera_.generate_ray(raster, u_lens);
+    const CameraRay first = camera_.generate_ray(sample.raster, u_lens);
     Ray ray{.origin = first.lens, .direction = first.direction, .pdf = first.pdf_direction};
     Rgb radiance(0.0f);
     Rgb beta(1.0f);
-    const auto measured = [&](int edges) { return edges >= options_.min_depth ? 1.0f : 0.0f; };
+    const auto measure = [&](Strategy strategy, Rgb value) {
+        if (strategy.s + strategy.t <= options_.min_depth || is_black(value)) {
+            return;
+        }
+        radiance += value;
+        if (sample.films.on_path) {
+            sample.films.on_path(
+                {.strategy = strategy, .raster = sample.pixel, .unweighted = value});
+        }
+    };
     for (int depth = 1; depth <= options_.max_depth; ++depth) {
         ++rays.camera;
         const auto point =
@@ -68,8 +84,9 @@ Rgb PathIntegrator::estimate(Vec2 raster, Sampler& sampler, RayCounts& rays) con
                 const auto& light = std::get<EnvironmentLight>(world_.lights()[*id].model());
                 const Rgb open = medium_transmittance(ray.origin, {}, ray.direction,
                                                       std::numeric_limits<float>::max());
-                radiance += measured(depth) * beta * open *
-                            emission(ray, *id, {.p = ray.direction}, light.radiance(ray.direction));
+                measure({.s = 0, .t = depth + 1}, beta * open *
+                                                      emission(ray, *id, {.p = ray.direction},
+                                                               light.radiance(ray.direction)));
             }
             break;
         }
@@ -83,7 +100,8 @@ Rgb PathIntegrator::estimate(Vec2 raster, Sampler& sampler, RayCounts& rays) con
         if (point->light) {
             const LightPoint hit{
                 .p = point->end.p, .ng = point->end.ng, .barycentrics = point->barycentrics};
-            radiance += measured(depth) * beta * emission(ray, *point->light, hit, point->emission);
+            measure({.s = 0, .t = depth + 1},
+                    beta * emission(ray, *point->light, hit, point->emission));
         }
         if (depth == options_.max_depth) {
             break;
@@ -91,8 +109,8 @@ Rgb PathIntegrator::estimate(Vec2 raster, Sampler& sampler, RayCounts& rays) con
         const auto vertex = static_cast<std::uint32_t>(depth + 1);
         if (point->bsdf.connectible() && depth + 1 >= options_.min_depth) {
             sampler.start(SampleUse::next_event, vertex);
-            radiance +=
-                beta * sample_light(*point, sampler.segment_key(1, depth + 1), sampler, rays);
+            measure({.s = 1, .t = depth + 1},
+                    beta * sample_light(*point, sampler.segment_key(1, depth + 1), sampler, rays));
         }
         sampler.start(SampleUse::camera_walk, vertex);
         const Vec2 u_direction = sampler.next_2d();

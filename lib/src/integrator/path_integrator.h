@@ -21,7 +21,15 @@ public:
 
 private:
     struct Ray;
-    [[nodiscard]] Rgb estimate(Vec2 raster, Sampler& sampler, RayCounts& rays) const;
+    /// The sample at work.
+    struct Sample {
+        Vec2 pixel;   // centre [pixels]
+        Vec2 raster;  // where the camera ray goes through [pixels]
+        Sampler& sampler;
+        const Films& films;
+        RayCounts& rays;
+    };
+    [[nodiscard]] Rgb estimate(Sample& sample) const;
     /// Radiance that the ray brings from a light it hit, weighed against light sampling.
     [[nodiscard]] Rgb emission(const Ray& ray, LightId light, const LightPoint& hit,
                                Rgb radiance) const;

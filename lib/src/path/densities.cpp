@@ -47,7 +47,8 @@ PathWeigher::PathWeigher(const World& world, const Camera& camera, const Strateg
       heuristic_(heuristic),
       from_light_(static_cast<std::size_t>(max_vertices)),
       from_camera_(static_cast<std::size_t>(max_vertices)),
-      sample_counts_(static_cast<std::size_t>(max_vertices) + 1)
+      sample_counts_(static_cast<std::size_t>(max_vertices) + 1),
+      shares_(static_cast<std::size_t>(max_vertices) + 1)
 {
     if (WeightSums::applies(strategies, heuristic)) {
         sums_.emplace(world, camera, strategies, heuristic);
@@ -73,12 +74,15 @@ float PathWeigher::weight(std::span<const PathVertex> light, std::span<const Pat
                           const JoinDensities& join)
 {
     size_ = light.size() + camera.size();
-    if (uses_sums_ && size_ > 2) {
+    const bool summed = uses_sums_ && size_ > 2;
+    if (!summed || keeps_paths_) {
+        gather_densities(light, camera, join);
+        gather_sample_counts(light, camera, light.empty() ? Joined::no : Joined::yes);
+        next_event_ = join.next_event;
+    }
+    if (summed) {
         return sums_->weight(light, camera, join);
     }
-    gather_densities(light, camera, join);
-    gather_sample_counts(light, camera, light.empty() ? Joined::no : Joined::yes);
-    next_event_ = join.next_event;
     return mis_weight(last_path(), static_cast<int>(light.size()), heuristic_);
 }
 
@@ -98,6 +102,19 @@ PathDensities PathWeigher::last_path() const
             .from_camera = std::span(from_camera_).first(size_),
             .next_event = next_event_,
             .sample_counts = std::span(sample_counts_).first(size_ + 1)};
+}
+
+std::span<const float> PathWeigher::shares()
+{
+    const PathDensities path = last_path();
+    long double sum = 0.0L;
+    for (std::size_t s = 0; s <= size_; ++s) {
+        sum += strategy_density(path, s);
+    }
+    for (std::size_t s = 0; s <= size_; ++s) {
+        shares_[s] = sum > 0.0L ? static_cast<float>(strategy_density(path, s) / sum) : 0.0f;
+    }
+    return std::span(shares_).first(size_ + 1);
 }
 
 void PathWeigher::gather_densities(std::span<const PathVertex> light,

@@ -6,6 +6,7 @@
 #include "path/weight_sums.h"
 
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace bdpt {
@@ -46,6 +47,9 @@ public:
     void begin_camera_path(std::span<const PathVertex> path);
     void begin_light_path(std::span<const PathVertex> path);
 
+    /// From now on `shares()` may be called.
+    void keep_paths() { keeps_paths_ = true; }
+
     /// Weight of having joined the first s light vertices to the first t camera vertices. For s = 0
     /// the last camera vertex is x_0.
     [[nodiscard]] float weight(std::span<const PathVertex> light,
@@ -54,8 +58,11 @@ public:
     [[nodiscard]] float weight_of_hit(std::span<const PathVertex> light, const PathVertex& lens,
                                       const JoinDensities& join);
 
-    /// The densities behind the last weight(), if no subpath was begun: for tests.
+    /// The densities behind the last weight(), if no subpath was begun or paths are kept.
     [[nodiscard]] PathDensities last_path() const;
+    /// Balance heuristic of all strategies of the last path, by their number of light vertices,
+    /// straight from the definition [Veach 1997, eq. 9.8]. Valid until the next path.
+    [[nodiscard]] std::span<const float> shares();
 
     [[nodiscard]] EnvironmentSampling environment_sampling() const
     {
@@ -82,6 +89,8 @@ private:
     std::size_t size_ = 0;
     std::optional<WeightSums> sums_;
     bool uses_sums_ = false;
+    bool keeps_paths_ = false;
+    std::vector<float> shares_;
 };
 
 }  // namespace bdpt

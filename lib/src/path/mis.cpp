@@ -1,28 +1,17 @@
 #include "path/mis.h"
 
 #include <cassert>
-#include <cstddef>
 
 namespace bdpt {
 
 namespace {
 
 /// Weights of the heuristics that compare all strategies with the best one. The densities of all
-/// are products in the same order whoever asks, so that ties are broken alike for all; long double
-/// has the range for the products of long paths.
+/// are products in the same order whoever asks, so that ties are broken alike for all.
 float compared_weight(const PathDensities& path, std::size_t used, Heuristic heuristic)
 {
     const std::size_t n = path.from_light.size();
-    const auto density = [&](std::size_t s) {
-        auto product = static_cast<long double>(path.sample_counts[s]);
-        for (std::size_t i = 0; i < n && product > 0.0L; ++i) {
-            const AreaPdf pdf = i >= s             ? path.from_camera[i]
-                                : i == 0 && s == 1 ? path.next_event
-                                                   : path.from_light[i];
-            product *= static_cast<long double>(pdf.value);
-        }
-        return product;
-    };
+    const auto density = [&](std::size_t s) { return strategy_density(path, s); };
     long double greatest = 0.0L;
     std::size_t first_greatest = 0;
     for (std::size_t s = 0; s <= n; ++s) {
@@ -49,6 +38,18 @@ float compared_weight(const PathDensities& path, std::size_t used, Heuristic heu
 }
 
 }  // namespace
+
+long double strategy_density(const PathDensities& path, std::size_t s)
+{
+    auto product = static_cast<long double>(path.sample_counts[s]);
+    for (std::size_t i = 0; i < path.from_light.size() && product > 0.0L; ++i) {
+        const AreaPdf pdf = i >= s             ? path.from_camera[i]
+                            : i == 0 && s == 1 ? path.next_event
+                                               : path.from_light[i];
+        product *= static_cast<long double>(pdf.value);
+    }
+    return product;
+}
 
 float mis_weight(const PathDensities& path, int s, Heuristic heuristic)
 {

@@ -4,6 +4,7 @@
 
 #include <bdpt/render_options.h>
 
+#include <cstddef>
 #include <span>
 
 namespace bdpt {
@@ -19,6 +20,10 @@ struct PathDensities {
     /// when it cannot make this path.
     std::span<const float> sample_counts;
 };
+
+/// N_s p_s of the strategy with `s` light vertices: the product of all densities, in long double
+/// for its range. Has the same rounding whoever asks.
+[[nodiscard]] long double strategy_density(const PathDensities& path, std::size_t s);
 
 /// Weight of the strategy that sampled the first `s` vertices from the light [Veach 1997,
 /// sec. 10.2]. A pure function of the path: the weights of all possible strategies of a path add up

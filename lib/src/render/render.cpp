@@ -41,6 +41,7 @@ PixelRect whole_image(const RenderOptions& options)
 struct Work {
     const Integrator& integrator;
     const AovPass& aov_pass;
+    const RenderControl& control;
 };
 
 void render_pass(const Work& work, const RenderOptions& options, SampleRange samples,
@@ -63,7 +64,9 @@ void render_pass(const Work& work, const RenderOptions& options, SampleRange sam
                                     .x_end = std::min(x + options.tile_size, area.x1),
                                     .y_begin = y,
                                     .y_end = std::min(y + options.tile_size, area.y1)};
-                    const Films films{.film = result.film, .strategies = result.strategies};
+                    const Films films{.film = result.film,
+                                      .strategies = result.strategies,
+                                      .on_path = work.control.on_path};
                     RenderStats& stats = stats_of_threads.local();
                     stats += work.integrator.render_tile(tile, samples, films);
                     if (result.aovs.needs_hits()) {
@@ -158,7 +161,8 @@ RenderResult render(const Scene& scene, const CameraDesc& camera_desc, const Ren
         const std::int64_t end = std::min(begin + pass_size, options.samples.end);
         const double before = seconds_since(start);
         threads.execute([&] {
-            render_pass({*integrator, aov_pass}, options, {.begin = begin, .end = end}, result);
+            render_pass({*integrator, aov_pass, control}, options, {.begin = begin, .end = end},
+                        result);
         });
         result.samples.end = end;
         result.seconds = seconds_since(start);

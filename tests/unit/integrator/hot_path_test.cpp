@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <utility>
@@ -146,7 +147,8 @@ void check(const World& world, const CameraDesc& desc, const RenderOptions& opti
                          .splats = SplatImage::present,
                          .clamp = options.clamp});
     StrategyFilm strategies;
-    const Films films{.film = film, .strategies = strategies};
+    const std::function<void(const FoundPath&)> nobody;
+    const Films films{.film = film, .strategies = strategies, .on_path = nobody};
     std::uint64_t rays = 0;
     check_costs_nothing_a_sample([&](std::int64_t samples) {
         rays = integrator->render_tile(whole, {.begin = 0, .end = samples}, films).rays.total();

@@ -1,0 +1,154 @@
+#include "verify_command.h"
+
+#include <bdpt/harness/verify/verify_options.h>
+#include <bdpt/harness/verify/verify_report.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "scene_files.h"
+#include "scratch_folder.h"
+#include "subprocess.h"
+#include "verify_text.h"
+
+namespace bdpt::test {
+namespace {
+
+using nlohmann::json;
+using Words = std::vector<std::string>;
+
+/// A room that shines, seen through a pinhole (camera 0) and from outside (1).
+class Room {
+public:
+    Room()
+        : scene_(write_cube(folder_, "room",
+                            {.material = R"({"pbrMetallicRoughness": {"metallicFactor": 0,
+                                 "baseColorFactor": [0.5, 0.4, 0.3, 1]},
+                                 "emissiveFactor": [1, 1, 1]})",
+                             .cameras = R"({"camera": 0, "translation": [0, 0, 0.9]},
+                                           {"camera": 1},)",
+                             .inside_out = true})
+                     .string())
+    {}
+
+    Outcome verify(const Words& more) const
+    {
+        Words words{"verify", scene_, "--size", "8x8", "--grid", "2", "--max-depth", "3"};
+        words.insert(words.end(), more.begin(), more.end());
+        return run(words);
+    }
+
+private:
+    ScratchFolder folder_;
+    std::string scene_;
+};
+
+bool contains(const std::string& text, const std::string& part)
+{
+    return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("verify: a sound renderer passes")
+{
+    const Room room;
+    // Time for it on any machine; it ends when it is sharp enough.
+    const Outcome outcome = room.verify({"--bias", "20", "--time", "1h"});
+    CHECK(outcome.exit_code == 0);
+    CHECK(contains(outcome.out, "PASS: all agree"));
+    CHECK(contains(outcome.out, "s=2 t=2"));
+    CHECK_FALSE(contains(outcome.out, "s=4 t=0"));  // a pinhole is never hit
+    CHECK(contains(outcome.err, "8x8"));
+}
+
+TEST_CASE("verify: too little time is inconclusive")
+{
+    const Room room;
+    const Outcome outcome = room.verify({"--bias", "0.001", "--time", "0.001s", "--json"});
+    CHECK(outcome.exit_code == 11);
+    const json report = json::parse(outcome.out);
+    CHECK(report["verdict"] == "inconclusive");
+    CHECK(report["batches"].get<int>() >= 8);
+    CHECK(report["strategies"].size() == 3 + 4 + 5);
+    CHECK(room.verify({"--bias", "0.001", "--time", "0.001s", "-q"}).out.empty());
+}
+
+TEST_CASE("verify: options choose camera, light and seed as in render")
+{
+    const Room room;
+    const auto radiance = [&](const Words& more) {
+        Words words{"--time", "0.001s", "--json", "--bias", "0.001"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Outcome outcome = room.verify(words);
+        REQUIRE(outcome.exit_code == 11);
+        return json::parse(outcome.out)["radiance"].get<double>();
+    };
+    const double plain = radiance({});
+    CHECK(radiance({"--seed", "5"}) != plain);
+    CHECK(radiance({"--camera", "1", "--seed", "0"}) != plain);
+    CHECK(radiance({"--from", "0,0,0.5"}) != plain);
+    CHECK(radiance({"--from", "0,0,5", "--look-at", "0,0,9", "--env", "default"}) <
+          0.9 * plain);  // the sky alone
+}
+
+TEST_CASE("verify: what makes no sense is refused")
+{
+    const Room room;
+    for (const Words& words :
+         {Words{"--bias", "0"}, Words{"--bias", "101"}, Words{"--bias", "x"},
+          Words{"--false-alarm", "-1"}, Words{"--time", "soon"}, Words{"--max-depth", "0"},
+          Words{"--max-depth", "65"}, Words{"--grid", "0"}, Words{"--size", "5000x4"},
+          Words{"--size", "big"}, Words{"--seed", "-1"}, Words{"--fov", "200"},
+          Words{"--integrator", "pt"}}) {
+        CAPTURE(words.front(), words.back());
+        const Outcome outcome = room.verify(words);
+        CHECK(outcome.exit_code == 2);
+        CHECK(contains(outcome.err, words.front()));
+        CHECK(outcome.out.empty());
+    }
+    CHECK(run({"verify", "/no/such/file.gltf"}).exit_code == 3);
+    CHECK(run(Words{"verify"}).exit_code == 2);
+}
+
+TEST_CASE("verify: each verdict has its exit code")
+{
+    CHECK(app::exit_code(harness::Verdict::pass) == 0);
+    CHECK(app::exit_code(harness::Verdict::fail) == 10);
+    CHECK(app::exit_code(harness::Verdict::inconclusive) == 11);
+}
+
+TEST_CASE("verify: the text says what has failed, and where")
+{
+    harness::VerifyReport report;
+    report.verdict = harness::Verdict::fail;
+    report.radiance = 1.0;
+    report.false_alarm = 1e-3;
+    report.tiles = {{.x0 = 0, .y0 = 0, .x1 = 8, .y1 = 4}, {.x0 = 0, .y0 = 4, .x1 = 8, .y1 = 8}};
+    report.lengths = {{.edges = 1, .radiance = 1.0}};
+    const harness::MeanComparison sound{.found = 1.0, .expected = 1.0};
+    const harness::MeanComparison wrong{
+        .found = 1.5, .expected = 1.0, .error = 0.05, .z = 10.0, .p = 1e-20, .p_adjusted = 1e-18};
+    report.strategies = {{.strategy = {.s = 0, .t = 2}, .whole = sound, .tiles = {sound, wrong}}};
+    report.integrators = {
+        {.integrator = IntegratorKind::lt, .edges = 1, .whole = wrong, .tiles = {sound, sound}}};
+    report.pictures[2].integrator = IntegratorKind::nee;
+    report.pictures[2].defects = {
+        .invalid = 3, .saturated = 0, .first_invalid = FilmDefects::Place{4, 5, 6}};
+    report.pictures[3].lost = 0.02;
+    report.weights = {.paths = 1000, .wrong = 7, .worst = 0.25};
+    const std::string text = app::verify_text(report, {});
+    CHECK(contains(text, "FAIL"));
+    CHECK(contains(text, "strategy s=0 t=2, tile 0,4,8,8: 1.5 nit, but 1 expected"));
+    CHECK_FALSE(contains(text, "tile 0,0,8,4"));
+    CHECK(contains(text, "lt against bdpt, 1 edges, whole picture"));
+    CHECK(contains(text,
+                   "nee: 3 contributions were NaN, infinite or negative; the first at pixel "
+                   "(4, 5), sample 6"));
+    CHECK(contains(text, "differ by 2 %"));
+    CHECK(contains(text, "7 of 1000 paths"));
+}
+
+}  // namespace bdpt::test

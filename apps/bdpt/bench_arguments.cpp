@@ -142,7 +142,7 @@ void add_effort(CLI::App& command, BenchWords& words)
         ->group(group);
 }
 
-void add_scene_options(CLI::App& command, RenderWords& words)
+void add_picture_options(CLI::App& command, RenderWords& words)
 {
     const auto group = "How to render";
     command
@@ -164,21 +164,6 @@ void add_scene_options(CLI::App& command, RenderWords& words)
         ->check(CLI::Range(0, 4096))
         ->type_name("N")
         ->group(group);
-    command.add_option("--camera", words.camera, "Camera of each scene, or auto. The first one")
-        ->type_name("NAME|INDEX|auto")
-        ->group(group);
-    command.add_option("--from", words.from, "Move the camera here [m]")
-        ->type_name("X,Y,Z")
-        ->group(group);
-    command.add_option("--look-at", words.look_at, "Turn the camera to this point [m]")
-        ->type_name("X,Y,Z")
-        ->group(group);
-    command.add_option("--fov", words.fov, "Vertical field of view [degrees]")
-        ->type_name("DEG")
-        ->group(group);
-    command.add_option("--env", words.environment, "Light from all around, as of bdpt render")
-        ->type_name("FILE|none|default")
-        ->group(group);
 }
 
 }  // namespace
@@ -198,6 +183,7 @@ void add_bench_options(CLI::App& command, BenchWords& words)
         .add_flag("--json", words.json, "One JSON object a line on stdout: progress, scene, done")
         ->group(group);
     add_effort(command, words);
+    add_picture_options(command, words.render);
     add_scene_options(command, words.render);
     command.footer(footer);
 }

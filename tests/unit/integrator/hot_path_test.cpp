@@ -9,7 +9,6 @@
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <utility>

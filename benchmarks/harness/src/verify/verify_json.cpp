@@ -1,3 +1,4 @@
+#include <bdpt/harness/bench/integrator_name.h>
 #include <bdpt/harness/verify/verify_json.h>
 
 #include <nlohmann/json.hpp>
@@ -72,23 +73,6 @@ std::string_view to_string(Verdict verdict)
             return "fail";
         case Verdict::inconclusive:
             return "inconclusive";
-    }
-    return "";
-}
-
-std::string_view to_string(IntegratorKind integrator)
-{
-    switch (integrator) {
-        case IntegratorKind::bdpt:
-            return "bdpt";
-        case IntegratorKind::pt:
-            return "pt";
-        case IntegratorKind::mis:
-            return "mis";
-        case IntegratorKind::nee:
-            return "nee";
-        case IntegratorKind::lt:
-            return "lt";
     }
     return "";
 }

@@ -11,9 +11,6 @@ namespace bdpt::harness {
 /// "pass", "fail" or "inconclusive".
 [[nodiscard]] BDPT_EXPORT std::string_view to_string(Verdict verdict);
 
-/// "bdpt", "pt", "mis", "nee" or "lt".
-[[nodiscard]] BDPT_EXPORT std::string_view to_string(IntegratorKind integrator);
-
 /// The report as one line of JSON, as docs/verify.md describes it, with a line break. Numbers that
 /// are not finite are null; bytes of `scene` that are not UTF-8 are replaced.
 [[nodiscard]] BDPT_EXPORT std::string verify_json(const VerifyReport& report,

@@ -46,8 +46,8 @@ TEST_CASE("words about transport become options")
     CHECK(options.disabled == std::vector{Strategy{3, 0}});
     const auto json = transport_json(options);
     CHECK(json == nlohmann::ordered_json::parse(R"({"integrator": "lt", "heuristic": "cutoff",
-        "max_depth": 5, "min_depth": 1, "light_paths": 2, "max_camera_depth": 3,
-        "max_light_depth": 0, "rr_start": 4, "disabled": ["s3t0"]})"));
+        "max_depth": 5, "min_depth": 1, "light_paths": 2, "rr_start": 4,
+        "max_camera_depth": 3, "max_light_depth": 0, "disabled": ["s3t0"]})"));
 }
 
 TEST_CASE("direct and indirect light share the lengths of paths")

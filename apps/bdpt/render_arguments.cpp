@@ -17,6 +17,7 @@ constexpr const char* footer = R"(Examples:
   bdpt render scene.gltf -o out.exr
   bdpt render scene.glb -o out.exr -o out.png --spp 256 --size 1920x1080
   bdpt render room.glb -o out.exr --time 90s --camera "Camera 2"
+  bdpt render walk.glb -o out.png --animation run --frame-time 0.25
   bdpt render model.glb -o out.png --env sky.hdr --from 3,2,4 --look-at 0,1,0 --fov 40
 
 A file without a camera is framed as a whole, one without light gets a soft sky (and a lamp, if it
@@ -93,9 +94,7 @@ std::optional<float> to_exposure(const std::optional<double>& word)
 void add_what(CLI::App& command, RenderWords& words)
 {
     const auto group = "What to render";
-    command.add_option("--scene", words.scene, "Scene of the file; the default one if not given")
-        ->type_name("NAME|INDEX")
-        ->group(group);
+    add_scene_options(command, words.scene, group);
     command
         .add_option("--camera", words.camera,
                     "Camera of the scene, or auto to frame it all. The first one if not given")
@@ -232,7 +231,7 @@ RenderArguments understand(const RenderWords& words)
     result.view = to_view(words);
     check_lens(words.lens);
     result.lens = words.lens;
-    result.scene = words.scene;
+    result.scene = to_gltf_options(words.scene);
     result.environment = words.environment;
     result.exposure = to_exposure(words.exposure);
     result.channel_type =

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bdpt/io/exr.h>
+#include <bdpt/io/gltf.h>
 #include <bdpt/render_options.h>
 
 #include <cstdint>
@@ -13,6 +14,7 @@
 #include "console.h"
 #include "film_arguments.h"
 #include "lens_arguments.h"
+#include "scene_arguments.h"
 #include "strategy_files.h"
 #include "transport_arguments.h"
 #include "view.h"
@@ -37,7 +39,7 @@ struct RenderWords {
     std::optional<std::string> from;
     std::optional<double> fov;  // [deg]
     LensWords lens;
-    std::optional<std::string> scene;
+    SceneWords scene;
     std::optional<std::string> environment;
     std::optional<double> exposure;  // [EV]
     int threads = 0;
@@ -62,7 +64,7 @@ struct RenderArguments {
     std::optional<std::string> camera;  ///< name, index or "auto"
     ViewOverrides view;
     LensWords lens;                          ///< checked
-    std::optional<std::string> scene;        ///< name or index
+    io::GltfOptions scene;                   ///< what of the file is rendered
     std::optional<std::string> environment;  ///< file, "none" or "default"
     std::optional<float> exposure;           ///< [EV]
     io::ExrChannelType channel_type = io::ExrChannelType::single_float;

@@ -72,8 +72,16 @@ ordered_json settings_of(const RenderArguments& arguments, const Stage& stage)
     if (std::isfinite(options.clamp)) {
         settings["clamp"] = options.clamp;
     }
-    if (arguments.scene) {
-        settings["scene"] = *arguments.scene;
+    const auto add_word = [&settings](const char* name, const std::optional<std::string>& word) {
+        if (word) {
+            settings[name] = *word;
+        }
+    };
+    add_word("scene", arguments.scene.scene);
+    add_word("variant", arguments.scene.variant);
+    add_word("animation", arguments.scene.animation);
+    if (arguments.scene.time) {
+        settings["frame_time"] = *arguments.scene.time;
     }
     if (arguments.goal.samples) {
         settings["spp"] = *arguments.goal.samples;

@@ -27,19 +27,30 @@ target_sources(bdpt_io PRIVATE
   src/gltf/tinygltf.cpp
   # glTF: structs to SceneDesc
   src/gltf/accessor.cpp
+  src/gltf/animation.cpp
   src/gltf/attributes.cpp
   src/gltf/camera.cpp
+  src/gltf/data_budget.cpp
   src/gltf/facts.cpp
   src/gltf/gltf.cpp
   src/gltf/image_table.cpp
+  src/gltf/instancing.cpp
+  src/gltf/keyframes.cpp
   src/gltf/light.cpp
   src/gltf/material.cpp
   src/gltf/mesh.cpp
+  src/gltf/mesh_table.cpp
+  src/gltf/morph.cpp
+  src/gltf/node_transforms.cpp
   src/gltf/placement.cpp
+  src/gltf/primitive_reader.cpp
   src/gltf/scene_builder.cpp
   src/gltf/select_scene.cpp
+  src/gltf/selection.cpp
+  src/gltf/skin.cpp
   src/gltf/texture.cpp
   src/gltf/transform.cpp
+  src/gltf/variants.cpp
 )
 target_include_directories(bdpt_io SYSTEM PRIVATE ${BDPT_TINYGLTF_INCLUDE_DIR})
 target_link_libraries(bdpt_io PRIVATE

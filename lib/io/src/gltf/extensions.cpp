@@ -20,17 +20,20 @@ constexpr std::array table{
     ExtensionSupport{"KHR_materials_specular", supported, ""},
     ExtensionSupport{"KHR_materials_transmission", supported, ""},
     ExtensionSupport{"KHR_materials_unlit", supported, "shines with its base colour"},
+    ExtensionSupport{"KHR_materials_variants", supported, "chosen by --variant"},
     ExtensionSupport{"KHR_materials_volume", supported,
                      "thickness tells solid from thin bodies only"},
     ExtensionSupport{"KHR_mesh_quantization", supported, ""},
+    ExtensionSupport{"KHR_node_visibility", supported, ""},
     ExtensionSupport{"KHR_texture_transform", supported, ""},
+    ExtensionSupport{"EXT_mesh_gpu_instancing", supported, ""},
     ExtensionSupport{"EXT_texture_webp", supported, ""},
     // Supported by doing nothing: they have no influence on a picture.
     ExtensionSupport{"FB_ngon_encoding", supported, "no influence on the picture"},
     ExtensionSupport{"KHR_xmp", supported, "no influence on the picture"},
     ExtensionSupport{"KHR_xmp_json_ld", supported, "no influence on the picture"},
-    ExtensionSupport{"KHR_materials_variants", supported, "the default variant is shown"},
-    ExtensionSupport{"KHR_animation_pointer", supported, "animations are not played"},
+    ExtensionSupport{"KHR_animation_pointer", supported,
+                     "only what the core specification animates moves"},
     ExtensionSupport{"MSFT_packing_normalRoughnessMetallic", supported,
                      "the core textures are used"},
     ExtensionSupport{"MSFT_packing_occlusionRoughnessMetallic", supported,
@@ -51,9 +54,7 @@ constexpr std::array table{
     ExtensionSupport{"KHR_draco_mesh_compression", ignored, "only uncompressed data is read"},
     ExtensionSupport{"EXT_meshopt_compression", ignored, "only uncompressed data is read"},
     ExtensionSupport{"KHR_meshopt_compression", ignored, "only uncompressed data is read"},
-    ExtensionSupport{"EXT_mesh_gpu_instancing", ignored, "shown once instead of many times"},
     ExtensionSupport{"EXT_lights_image_based", ignored, "give an environment by --env"},
-    ExtensionSupport{"KHR_node_visibility", ignored, "hidden nodes are shown"},
 };
 
 ExtensionUse describe(const JsonPlace& place)

@@ -1,5 +1,7 @@
 #include "gltf/facts.h"
 
+#include "gltf/selection.h"
+
 #include <string>
 
 namespace bdpt::io {
@@ -42,11 +44,12 @@ GltfFacts collect_facts(const CheckedGltf& checked)
             facts.primitives += mesh.at("primitives").size();
         }
     }
-    if (count(document, "scenes") > 0) {
-        for (const Json& scene : document["scenes"]) {
-            facts.scene_names.push_back(text_or_empty(scene, "name"));
-        }
-    }
+    const auto names = [&document](const char* place) {
+        return names_in(array_at(document, Json::json_pointer(place)));
+    };
+    facts.scene_names = names("/scenes");
+    facts.variant_names = names("/extensions/KHR_materials_variants/variants");
+    facts.animation_names = names("/animations");
     const auto extensions = document.find("extensions");
     if (extensions != document.end() && extensions->contains("KHR_lights_punctual")) {
         facts.lights = count((*extensions)["KHR_lights_punctual"], "lights");

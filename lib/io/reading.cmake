@@ -15,10 +15,13 @@ target_sources(bdpt_io PRIVATE
   src/image/read_image.cpp
   src/image/texels.cpp
   # glTF: checks before tinygltf
+  src/gltf/decoded_size.cpp
+  src/gltf/draco_primitives.cpp
   src/gltf/extensions.cpp
   src/gltf/glb.cpp
   src/gltf/layout.cpp
   src/gltf/lens.cpp
+  src/gltf/meshopt_views.cpp
   src/gltf/node_graph.cpp
   src/gltf/prepass.cpp
   src/gltf/schema.cpp
@@ -52,6 +55,19 @@ target_sources(bdpt_io PRIVATE
   src/gltf/transform.cpp
   src/gltf/variants.cpp
 )
+# Decoders of compressed meshes, as far as they are installed (cmake/Dependencies.cmake).
+if(BDPT_HAS_DRACO)
+  target_sources(bdpt_io PRIVATE src/gltf/draco_decoder.cpp)
+  target_link_libraries(bdpt_io PRIVATE draco::draco)
+else()
+  target_sources(bdpt_io PRIVATE src/gltf/draco_absent.cpp)
+endif()
+if(BDPT_HAS_MESHOPT)
+  target_sources(bdpt_io PRIVATE src/gltf/meshopt_decoder.cpp)
+  target_link_libraries(bdpt_io PRIVATE meshoptimizer::meshoptimizer)
+else()
+  target_sources(bdpt_io PRIVATE src/gltf/meshopt_absent.cpp)
+endif()
 target_include_directories(bdpt_io SYSTEM PRIVATE ${BDPT_TINYGLTF_INCLUDE_DIR})
 target_link_libraries(bdpt_io PRIVATE
   OpenEXR::OpenEXR Imath::Imath $<BUILD_INTERFACE:nlohmann_json::nlohmann_json> fmt::fmt

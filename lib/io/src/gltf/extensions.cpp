@@ -1,6 +1,8 @@
 #include "gltf/extensions.h"
 
 #include "file/uri.h"
+#include "gltf/draco_decoder.h"
+#include "gltf/meshopt_decoder.h"
 
 #include <fmt/format.h>
 
@@ -14,6 +16,7 @@ namespace {
 using enum ExtensionStatus;
 
 constexpr std::array table{
+    ExtensionSupport{"KHR_draco_mesh_compression", supported, "where Draco is installed"},
     ExtensionSupport{"KHR_lights_punctual", supported, "range is ignored"},
     ExtensionSupport{"KHR_materials_emissive_strength", supported, ""},
     ExtensionSupport{"KHR_materials_ior", supported, ""},
@@ -24,9 +27,12 @@ constexpr std::array table{
     ExtensionSupport{"KHR_materials_volume", supported,
                      "thickness tells solid from thin bodies only"},
     ExtensionSupport{"KHR_mesh_quantization", supported, ""},
+    ExtensionSupport{"KHR_meshopt_compression", supported,
+                     "where meshoptimizer is installed; not the filter COLOR"},
     ExtensionSupport{"KHR_node_visibility", supported, ""},
     ExtensionSupport{"KHR_texture_transform", supported, ""},
     ExtensionSupport{"EXT_mesh_gpu_instancing", supported, ""},
+    ExtensionSupport{"EXT_meshopt_compression", supported, "where meshoptimizer is installed"},
     ExtensionSupport{"EXT_texture_webp", supported, ""},
     // Supported by doing nothing: they have no influence on a picture.
     ExtensionSupport{"FB_ngon_encoding", supported, "no influence on the picture"},
@@ -51,11 +57,15 @@ constexpr std::array table{
     ExtensionSupport{"KHR_texture_basisu", ignored, "only fallback pictures are read"},
     ExtensionSupport{"MSFT_texture_dds", ignored, "only fallback pictures are read"},
     ExtensionSupport{"EXT_texture_avif", ignored, "only fallback pictures are read"},
-    ExtensionSupport{"KHR_draco_mesh_compression", ignored, "only uncompressed data is read"},
-    ExtensionSupport{"EXT_meshopt_compression", ignored, "only uncompressed data is read"},
-    ExtensionSupport{"KHR_meshopt_compression", ignored, "only uncompressed data is read"},
     ExtensionSupport{"EXT_lights_image_based", ignored, "give an environment by --env"},
 };
+
+/// Does this build lack the library for an extension?
+bool is_missing(std::string_view name)
+{
+    return (name == "KHR_draco_mesh_compression" && !has_draco()) ||
+           (name.ends_with("_meshopt_compression") && !has_meshopt());
+}
 
 ExtensionUse describe(const JsonPlace& place)
 {
@@ -67,6 +77,10 @@ ExtensionUse describe(const JsonPlace& place)
                                      [&name](const auto& known) { return known.name == name; });
     if (found == table.end()) {
         return {name, unknown, false, ""};
+    }
+    if (is_missing(name)) {
+        return {name, ignored, false,
+                "this build cannot decode it; only uncompressed data is read"};
     }
     return {name, found->status, false, std::string(found->note)};
 }
@@ -91,7 +105,9 @@ std::vector<ExtensionUse> check_extensions(const JsonPlace& root, Warnings& warn
             const JsonPlace place = required.element(i);
             ExtensionUse use = describe(place);
             if (use.status != supported) {
-                place.fail("the file requires " + quote(use.name) + ", which is not supported",
+                place.fail(fmt::format("the file requires {}, which {}", quote(use.name),
+                                       is_missing(use.name) ? "this build cannot decode"
+                                                            : "is not supported"),
                            ErrorCode::unsupported);
             }
             use.required = true;

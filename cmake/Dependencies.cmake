@@ -15,6 +15,8 @@ endif()
 
 find_package(TBB CONFIG REQUIRED)
 
+set(BDPT_HAS_DRACO OFF)
+set(BDPT_HAS_MESHOPT OFF)
 if(BDPT_BUILD_IO)
   find_package(OpenEXR CONFIG REQUIRED)
   find_package(Imath CONFIG REQUIRED)
@@ -25,14 +27,12 @@ if(BDPT_BUILD_IO)
   find_path(BDPT_TINYGLTF_INCLUDE_DIR tiny_gltf.h REQUIRED)
 
   # Decoders of compressed meshes: without them such files are refused by name.
-  set(BDPT_HAS_DRACO OFF)
   if(BDPT_WITH_DRACO)
     find_package(draco CONFIG QUIET)
     if(TARGET draco::draco)
       set(BDPT_HAS_DRACO ON)
     endif()
   endif()
-  set(BDPT_HAS_MESHOPT OFF)
   if(BDPT_WITH_MESHOPT)
     find_package(meshoptimizer CONFIG QUIET)
     if(TARGET meshoptimizer::meshoptimizer)

@@ -354,6 +354,28 @@ TEST_CASE("any changed byte of compressed data is an error or another mesh")
     }
 }
 
+TEST_CASE("a build without a decoder says so")
+{
+    const auto check = [](const char* name, const char* library, bool here) {
+        CAPTURE(name);
+        Glb glb(name);
+        const Error required = glb.error();
+        glb.document.erase("extensionsRequired");
+        const Error used = glb.error();
+        if (here) {
+            CHECK(std::string(required.what()).empty());
+            CHECK(std::string(used.what()).empty());
+            return;
+        }
+        CHECK(required.code() == ErrorCode::unsupported);
+        CHECK(contains(required.what(), "_compression\", which this build cannot decode"));
+        CHECK(used.code() == ErrorCode::unsupported);
+        CHECK(contains(used.what(), std::string("this build of bdpt has no ") + library));
+    };
+    check("wave-draco.glb", "Draco", has_draco());
+    check("wave-meshopt.glb", "meshoptimizer", has_meshopt());
+}
+
 TEST_CASE("truncated compressed data is refused")
 {
     for (const char* name : {"wave-draco.glb", "wave-draco-sequential.glb"}) {

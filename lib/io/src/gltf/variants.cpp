@@ -8,13 +8,10 @@ int variant_material(const tinygltf::Primitive& primitive, std::size_t variant)
     if (found == primitive.extensions.end() || !found->second.Has("mappings")) {
         return primitive.material;
     }
-    const tinygltf::Value& mappings = found->second.Get("mappings");
-    for (std::size_t i = 0; i < mappings.ArrayLen(); ++i) {
-        const tinygltf::Value& mapping = mappings.Get(static_cast<int>(i));
-        const tinygltf::Value& variants = mapping.Get("variants");
-        for (std::size_t k = 0; k < variants.ArrayLen(); ++k) {
-            if (static_cast<std::size_t>(variants.Get(static_cast<int>(k)).GetNumberAsInt()) ==
-                variant) {
+    using Array = tinygltf::Value::Array;
+    for (const tinygltf::Value& mapping : found->second.Get("mappings").Get<Array>()) {
+        for (const tinygltf::Value& index : mapping.Get("variants").Get<Array>()) {
+            if (static_cast<std::size_t>(index.GetNumberAsInt()) == variant) {
                 return mapping.Get("material").GetNumberAsInt();
             }
         }

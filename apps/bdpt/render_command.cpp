@@ -186,6 +186,7 @@ PictureOptions picture_options(const RenderArguments& arguments, const Stage& st
     metadata.render_seconds = result.seconds;
     metadata.camera = stage.camera;
     metadata.created = std::chrono::system_clock::now();
+    metadata.xmp = stage.xmp;
     const PixelRect& region = result.film.region();
     const io::ExrPlacement placement{.x = region.x0,
                                      .y = region.y0,

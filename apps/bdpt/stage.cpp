@@ -165,7 +165,8 @@ Stage prepare_stage(const RenderArguments& arguments)
             size,
             std::move(warnings),
             seconds(loading_end - start),
-            seconds(building_end - loading_end)};
+            seconds(building_end - loading_end),
+            std::move(loaded.facts.xmp)};
 }
 
 }  // namespace bdpt::app

@@ -1,9 +1,11 @@
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "catch.hpp"
+#include "picture_files.h"
 #include "scene_files.h"
 #include "scratch_folder.h"
 #include "subprocess.h"
@@ -38,6 +40,31 @@ TEST_CASE("a variant, an animation or a time that there is not is refused")
     check({"--animation", "run"}, 3, "no animation \"run\"; there are none");
     check({"--frame-time", "nan"}, 2, "--frame-time");
     check({"--frame-time", "soon"}, 2, "--frame-time");
+}
+
+TEST_CASE("pictures say which part of a file they show, and what the file says about itself")
+{
+    const ScratchFolder folder;
+    const std::string more = R"("extensionsUsed": ["KHR_materials_variants", "KHR_xmp_json_ld"],
+        "extensions": {"KHR_materials_variants": {"variants": [{"name": "day"}]},
+                       "KHR_xmp_json_ld": {"packets": [{"dc:title": "none"}, {"dc:title": "Box"}]}},)";
+    const std::filesystem::path scene =
+        write_cube(folder, "cube", {.cameras = two_cameras, .more = more});
+    nlohmann::json document = nlohmann::json::parse(std::ifstream(scene));
+    document["asset"]["extensions"]["KHR_xmp_json_ld"]["packet"] = 1;
+    write_text(scene, document.dump());
+    const Outcome outcome =
+        run({"render", scene.string(), "-o", (folder / "out.exr").string(), "--spp", "1", "--size",
+             "8x4", "--variant", "day", "--frame-time", "0.5"});
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.exit_code == 0);
+    CHECK(outcome.err.find("the file has no animations") != std::string::npos);
+    const ExrFile exr = read_exr(folder / "out.exr");
+    const auto settings = nlohmann::json::parse(exr.text("bdpt.settings"));
+    CHECK(settings["variant"] == "day");
+    CHECK(settings["frame_time"] == 0.5);
+    CHECK_FALSE(settings.contains("animation"));
+    CHECK(exr.text("bdpt.xmp") == R"({"dc:title":"Box"})");
 }
 
 TEST_CASE("info lists variants and animations")

@@ -36,8 +36,9 @@ constexpr std::array table{
     ExtensionSupport{"EXT_texture_webp", supported, ""},
     // Supported by doing nothing: they have no influence on a picture.
     ExtensionSupport{"FB_ngon_encoding", supported, "no influence on the picture"},
-    ExtensionSupport{"KHR_xmp", supported, "no influence on the picture"},
-    ExtensionSupport{"KHR_xmp_json_ld", supported, "no influence on the picture"},
+    ExtensionSupport{"KHR_xmp", supported, "what is said about the file goes into pictures"},
+    ExtensionSupport{"KHR_xmp_json_ld", supported,
+                     "what is said about the file goes into pictures"},
     ExtensionSupport{"KHR_animation_pointer", supported,
                      "only what the core specification animates moves"},
     ExtensionSupport{"MSFT_packing_normalRoughnessMetallic", supported,

@@ -2,6 +2,8 @@
 
 #include "gltf/selection.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 
 namespace bdpt::io {
@@ -18,6 +20,30 @@ std::size_t count(const Json& document, const char* section)
 {
     const auto found = document.find(section);
     return found != document.end() && found->is_array() ? found->size() : 0;
+}
+
+/// The packet that the asset refers to; none where anything about it is odd.
+std::string find_xmp(const Json& document)
+{
+    constexpr std::size_t longest = std::size_t{1} << 20;
+    for (const std::string extension : {"KHR_xmp_json_ld", "KHR_xmp"}) {
+        const Json::json_pointer reference("/asset/extensions/" + extension + "/packet");
+        const Json& packets =
+            array_at(document, Json::json_pointer("/extensions/" + extension + "/packets"));
+        if (!document.contains(reference) || !packets.is_array()) {
+            continue;
+        }
+        const Json& index = document.at(reference);
+        if (!index.is_number_unsigned() || index.get<std::uint64_t>() >= packets.size()) {
+            continue;
+        }
+        std::string text =
+            packets[index.get<std::size_t>()].dump(-1, ' ', false, Json::error_handler_t::replace);
+        if (text.size() <= longest) {
+            return text;
+        }
+    }
+    return {};
 }
 
 }  // namespace
@@ -39,6 +65,7 @@ GltfFacts collect_facts(const CheckedGltf& checked)
     facts.skins = count(document, "skins");
     facts.animations = count(document, "animations");
     facts.extensions = checked.extensions;
+    facts.xmp = find_xmp(document);
     if (count(document, "meshes") > 0) {
         for (const Json& mesh : document["meshes"]) {
             facts.primitives += mesh.at("primitives").size();

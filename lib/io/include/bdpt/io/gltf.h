@@ -65,6 +65,9 @@ struct GltfFacts {
     std::size_t skins = 0;
     std::size_t animations = 0;
     std::vector<ExtensionUse> extensions;
+    /// The packet of KHR_xmp_json_ld or KHR_xmp that the file has about itself, JSON-LD; empty: none
+    /// of up to 1 MiB.
+    std::string xmp;
 };
 
 /// What `load_gltf` read.

@@ -30,7 +30,7 @@ std::vector<Limit> list(const io::ReadLimits& limits)
             {"nodes", nodes, "nodes of a scene"},
             {"node_depth", node_depth, "nested nodes"},
             {"instances", instances, "meshes placed in a scene"},
-            {"mesh_bytes", mesh_bytes, "bytes of vertices, triangles and key frames, decoded"},
+            {"mesh_bytes", mesh_bytes, "bytes of vertices, key frames and instances, decoded"},
             {"triangles", triangles, "triangles, each mesh once"},
             {"image_side", static_cast<std::uint64_t>(image_side), "pixels a side of a picture"},
             {"image_bytes", image_bytes, "bytes of one picture, decoded"},

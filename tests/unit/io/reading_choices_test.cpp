@@ -146,6 +146,13 @@ TEST_CASE("attributes of instances must fit")
     CHECK(contains(fixture.error().what(),
                    "/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes/TRANSLATION: index 9"));
 
+    attributes = {{"TRANSLATION", 0}};
+    GltfOptions little;
+    little.limits.mesh_bytes = 3000;
+    CHECK(std::string(fixture.error(little).what()).empty());
+    fixture.json["nodes"][0]["name"] = std::string(1000, 'n');
+    CHECK(contains(fixture.error(little).what(), "/nodes/0: vertices, key frames and instances"));
+
     GltfFixture many = instanced({{"TRANSLATION", 2}});
     many.json["accessors"].push_back(
         {{"componentType", 5126}, {"count", 50'000'000}, {"type", "VEC3"}});

@@ -137,6 +137,11 @@ void apply_channel(GltfModel& model, const JsonPlace& animation, const JsonPlace
     tinygltf::Node& node =
         model.structs.nodes[static_cast<std::size_t>(target.member("node").as_unsigned())];
     const bool weights = path->name == "weights";
+    if (weights && node.mesh >= 0) {
+        // Each channel looks at all of them.
+        const auto& mesh = model.structs.meshes[static_cast<std::size_t>(node.mesh)];
+        budget.spend(target.pointer(), mesh.primitives.size(), sizeof(double));
+    }
     const std::size_t width = weights ? count_targets(model.structs, node) : path->width;
     if (weights && width == 0) {
         warnings.add("weights of a node without morph targets are not animated", target.pointer());

@@ -7,7 +7,7 @@
 
 namespace bdpt::io {
 
-/// What the decoded vertices, triangles and key frames of one file cost. An accessor counts each
+/// What the decoded vertices, triangles, key frames and instances of one file cost. An accessor counts each
 /// time it is used: a few bytes of JSON may name one of gigabytes a thousand times.
 class DataBudget {
 public:

@@ -132,6 +132,8 @@ private:
         const tinygltf::Node& source = model_.nodes[node];
         InstanceDesc instance;
         instance.name = source.name.empty() ? model_.meshes[id.mesh].name : source.name;
+        // Thousands of instances have one name, which may be of any length.
+        budget_.spend(fmt::format("/nodes/{}", node), 1, sizeof instance + instance.name.size());
         instance.mesh = mesh;
         instance.material = get_material(id);
         instance.world_from_object = Mat4(world);

@@ -15,6 +15,8 @@ endif()
 
 find_package(TBB CONFIG REQUIRED)
 
+set(BDPT_HAS_DRACO OFF)
+set(BDPT_HAS_MESHOPT OFF)
 if(BDPT_BUILD_IO)
   find_package(OpenEXR CONFIG REQUIRED)
   find_package(Imath CONFIG REQUIRED)
@@ -23,6 +25,21 @@ if(BDPT_BUILD_IO)
 
   # Only the header of tinygltf is used, with the system's JSON library and without its image code.
   find_path(BDPT_TINYGLTF_INCLUDE_DIR tiny_gltf.h REQUIRED)
+
+  # Decoders of compressed meshes: without them such files are refused by name.
+  if(BDPT_WITH_DRACO)
+    find_package(draco CONFIG QUIET)
+    if(TARGET draco::draco)
+      set(BDPT_HAS_DRACO ON)
+    endif()
+  endif()
+  if(BDPT_WITH_MESHOPT)
+    find_package(meshoptimizer CONFIG QUIET)
+    if(TARGET meshoptimizer::meshoptimizer)
+      set(BDPT_HAS_MESHOPT ON)
+    endif()
+  endif()
+  message(STATUS "Compressed meshes: Draco ${BDPT_HAS_DRACO}, meshoptimizer ${BDPT_HAS_MESHOPT}")
 
   find_package(OpenImageIO CONFIG REQUIRED)
   # Debian's package exports include directories that its dependencies do not install.

@@ -184,7 +184,7 @@ void add_bench_options(CLI::App& command, BenchWords& words)
         ->group(group);
     add_effort(command, words);
     add_picture_options(command, words.render);
-    add_scene_options(command, words.render);
+    add_view_options(command, words.render);
     command.footer(footer);
 }
 

@@ -1,5 +1,6 @@
 #include "info_command.h"
 
+#include <bdpt/error.h>
 #include <bdpt/framing.h>
 #include <bdpt/io/gltf.h>
 #include <bdpt/scene.h>
@@ -10,6 +11,7 @@
 #include <utility>
 
 #include "default_lights.h"
+#include "limits_text.h"
 #include "scene_report.h"
 
 namespace bdpt::app {
@@ -18,6 +20,7 @@ namespace {
 constexpr const char* footer = R"(Examples:
   bdpt info scene.gltf
   bdpt info scene.glb --json
+  bdpt info --limits
 
 Exit codes: as those of bdpt render.)";
 
@@ -44,28 +47,35 @@ void complete(SceneReport& report, SceneDesc desc)
 
 void add_info_options(CLI::App& command, InfoArguments& arguments)
 {
-    command.add_option("file", arguments.file, "The scene: .gltf or .glb")
-        ->required()
-        ->type_name("FILE");
-    command
-        .add_option("--scene", arguments.scene, "Scene of the file; the default one if not given")
-        ->type_name("NAME|INDEX");
+    command.add_option("file", arguments.file, "The scene: .gltf or .glb")->type_name("FILE");
+    add_scene_options(command, arguments.scene, "What to look at");
+    command.add_flag("--limits", arguments.limits, "Print what a file may hold at most");
     command.add_flag("--json", arguments.json, "One JSON object instead of text");
     command.footer(footer);
 }
 
 int run_info(const InfoArguments& arguments)
 {
-    io::GltfOptions options;
-    options.scene = arguments.scene;
-    io::LoadedScene loaded = io::load_gltf(arguments.file, options);
-    SceneReport report = make_report(arguments.file, loaded);
-    complete(report, std::move(loaded.scene));
     using nlohmann::ordered_json;
-    const std::string text =
-        arguments.json
-            ? to_json(report).dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n"
-            : to_text(report);
+    const io::GltfOptions options = to_gltf_options(arguments.scene);
+    std::string text;
+    ordered_json json = ordered_json::object();
+    if (!arguments.file.empty()) {
+        io::LoadedScene loaded = io::load_gltf(arguments.file, options);
+        SceneReport report = make_report(arguments.file, loaded);
+        complete(report, std::move(loaded.scene));
+        text = to_text(report);
+        json = to_json(report);
+    } else if (!arguments.limits) {
+        throw Error(ErrorCode::usage, "file is required; see \"bdpt info --help\"");
+    }
+    if (arguments.limits) {
+        text += limits_text(options.limits);
+        json["limits"] = limits_json(options.limits);
+    }
+    if (arguments.json) {
+        text = json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+    }
     if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() ||
         std::fflush(stdout) != 0) {
         throw Error(ErrorCode::output, "stdout: cannot write the report");

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <optional>
 #include <string>
 
-#include "console.h"
+#include "scene_arguments.h"
 
 namespace CLI {
 class App;
@@ -12,8 +11,9 @@ class App;
 namespace bdpt::app {
 
 struct InfoArguments {
-    std::string file;
-    std::optional<std::string> scene;  ///< name or index
+    std::string file;  ///< empty: only the limits
+    SceneWords scene;
+    bool limits = false;  ///< print those that files are read with
     bool json = false;
 };
 

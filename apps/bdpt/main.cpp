@@ -102,8 +102,8 @@ std::string explain(const CommandLine& line, const CLI::ParseError& error)
     const std::string& word = extras.front();
     if (command == nullptr && !word.starts_with("-")) {
         return fmt::format(
-            "unknown command \"{}\": there are render, info, compare, bench and verify; see \"{}\"", word,
-            help);
+            "unknown command \"{}\": there are render, info, compare, bench and verify; see \"{}\"",
+            word, help);
     }
     if (!word.starts_with("-")) {
         return fmt::format("unexpected argument \"{}\"; see \"{}\"", word, help);

@@ -18,6 +18,7 @@ constexpr const char* footer = R"(Examples:
   bdpt render scene.gltf -o out.exr
   bdpt render scene.glb -o out.exr -o out.png --spp 256 --size 1920x1080
   bdpt render room.glb -o out.exr --time 90s --camera "Camera 2"
+  bdpt render walk.glb -o out.png --animation run --frame-time 0.25
   bdpt render model.glb -o out.png --env sky.hdr --from 3,2,4 --look-at 0,1,0 --fov 40
 
 A file without a camera is framed as a whole, one without light gets a soft sky (and a lamp, if it
@@ -182,12 +183,10 @@ void add_output(CLI::App& command, RenderWords& words)
 
 }  // namespace
 
-void add_scene_options(CLI::App& command, RenderWords& words)
+void add_view_options(CLI::App& command, RenderWords& words)
 {
     const auto group = "What to render";
-    command.add_option("--scene", words.scene, "Scene of the file; the default one if not given")
-        ->type_name("NAME|INDEX")
-        ->group(group);
+    add_scene_options(command, words.scene, group);
     command
         .add_option("--camera", words.camera,
                     "Camera of the scene, or auto to frame it all. The first one if not given")
@@ -233,7 +232,7 @@ void add_render_options(CLI::App& command, RenderWords& words)
     add_how(command, words);
     add_transport_options(command, words.transport);
     add_film_options(command, words.film);
-    add_scene_options(command, words);
+    add_view_options(command, words);
     command.footer(footer);
 }
 
@@ -263,7 +262,7 @@ RenderArguments understand(const RenderWords& words)
     result.view = to_view(words);
     check_lens(words.lens);
     result.lens = words.lens;
-    result.scene = words.scene;
+    result.scene = to_gltf_options(words.scene);
     result.environment = words.environment;
     result.exposure = to_exposure(words.exposure);
     result.channel_type =

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bdpt/io/exr.h>
+#include <bdpt/io/gltf.h>
 #include <bdpt/isa.h>
 #include <bdpt/render_options.h>
 
@@ -14,6 +15,7 @@
 #include "console.h"
 #include "film_arguments.h"
 #include "lens_arguments.h"
+#include "scene_arguments.h"
 #include "strategy_files.h"
 #include "transport_arguments.h"
 #include "view.h"
@@ -38,7 +40,7 @@ struct RenderWords {
     std::optional<std::string> from;
     std::optional<double> fov;  // [deg]
     LensWords lens;
-    std::optional<std::string> scene;
+    SceneWords scene;
     std::optional<std::string> environment;
     std::optional<double> exposure;  // [EV]
     int threads = 0;
@@ -65,7 +67,7 @@ struct RenderArguments {
     ViewOverrides view;
     LensWords lens;  ///< checked
     Isa isa = Isa::native;
-    std::optional<std::string> scene;        ///< name or index
+    io::GltfOptions scene;                   ///< what of the file is rendered
     std::optional<std::string> environment;  ///< file, "none" or "default"
     std::optional<float> exposure;           ///< [EV]
     io::ExrChannelType channel_type = io::ExrChannelType::single_float;
@@ -80,7 +82,7 @@ struct RenderArguments {
 void add_render_options(CLI::App& command, RenderWords& words);
 
 /// Of these, those that say what to render and through which lens: for other commands, too.
-void add_scene_options(CLI::App& command, RenderWords& words);
+void add_view_options(CLI::App& command, RenderWords& words);
 /// --seed and --threads.
 void add_seed_and_threads(CLI::App& command, RenderWords& words, const char* group);
 

@@ -73,8 +73,16 @@ ordered_json settings_of(const RenderArguments& arguments, const Stage& stage)
     if (std::isfinite(options.clamp)) {
         settings["clamp"] = options.clamp;
     }
-    if (arguments.scene) {
-        settings["scene"] = *arguments.scene;
+    const auto add_word = [&settings](const char* name, const std::optional<std::string>& word) {
+        if (word) {
+            settings[name] = *word;
+        }
+    };
+    add_word("scene", arguments.scene.scene);
+    add_word("variant", arguments.scene.variant);
+    add_word("animation", arguments.scene.animation);
+    if (arguments.scene.time) {
+        settings["frame_time"] = *arguments.scene.time;
     }
     if (arguments.goal.samples) {
         settings["spp"] = *arguments.goal.samples;
@@ -179,6 +187,7 @@ PictureOptions picture_options(const RenderArguments& arguments, const Stage& st
     metadata.render_seconds = result.seconds;
     metadata.camera = stage.camera;
     metadata.created = std::chrono::system_clock::now();
+    metadata.xmp = stage.xmp;
     const PixelRect& region = result.film.region();
     const io::ExrPlacement placement{.x = region.x0,
                                      .y = region.y0,

@@ -148,6 +148,16 @@ std::vector<std::string> scene_lines(const io::GltfFacts& facts)
     return lines;
 }
 
+/// 0 "first", 1 "second" ...
+std::vector<std::string> numbered(const std::vector<std::string>& names)
+{
+    std::vector<std::string> lines;
+    for (const std::string& name : names) {
+        lines.push_back(fmt::format("{} \"{}\"", lines.size(), name));
+    }
+    return lines;
+}
+
 ordered_json camera_json(const CameraDesc& camera)
 {
     ordered_json result{{"name", camera.name},
@@ -250,9 +260,10 @@ std::string to_text(const SceneReport& report)
     lines.add_list("cameras", camera_lines(report.cameras));
     lines.add_list("lights", report.lights);
     lines.add_list("extensions", extension_lines(facts.extensions));
-    if (facts.skins > 0 || facts.animations > 0) {
-        lines.add("not shown",
-                  fmt::format("{} skins, {} animations", facts.skins, facts.animations));
+    lines.add_list("variants", numbered(facts.variant_names));
+    lines.add_list("animations", numbered(facts.animation_names));
+    if (facts.skins > 0) {
+        lines.add("skins", fmt::format("{}", facts.skins));
     }
     lines.add_list("warnings", report.warnings);
     lines.add_list("defaults", report.defaults);
@@ -282,6 +293,8 @@ ordered_json to_json(const SceneReport& report)
     result["bounds"] = report.bounds ? ordered_json{{"min", to_json(report.bounds->min)},
                                                     {"max", to_json(report.bounds->max)}}
                                      : ordered_json();
+    result["variants"] = facts.variant_names;
+    result["animations"] = facts.animation_names;
     result["materials"] = report.materials;
     result["emissive_materials"] = report.emissive;
     result["texture_sizes"] = report.texture_sizes;

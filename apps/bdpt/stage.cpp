@@ -127,9 +127,7 @@ Stage prepare_stage(const RenderArguments& arguments,
 {
     const auto start = std::chrono::steady_clock::now();
     const std::string file = arguments.file.string();
-    io::GltfOptions options;
-    options.scene = arguments.scene;
-    io::LoadedScene loaded = io::load_gltf(arguments.file, options);
+    io::LoadedScene loaded = io::load_gltf(arguments.file, arguments.scene);
 
     std::vector<std::string> warnings;
     for (const std::string& warning : loaded.warnings) {
@@ -170,7 +168,8 @@ Stage prepare_stage(const RenderArguments& arguments,
             size,
             std::move(warnings),
             seconds(loading_end - start),
-            seconds(building_end - loading_end)};
+            seconds(building_end - loading_end),
+            std::move(loaded.facts.xmp)};
 }
 
 }  // namespace bdpt::app

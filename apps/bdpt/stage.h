@@ -21,6 +21,7 @@ struct Stage {
     std::vector<std::string> warnings;  ///< one line each
     double load_seconds = 0.0;          ///< for reading files
     double build_seconds = 0.0;         ///< for making the scene ready
+    std::string xmp{};                  ///< what the file says about itself
 };
 
 /// Loads the file, and fills in what it lacks by the rules that `bdpt render --help` states.

@@ -86,7 +86,7 @@ void add_verify_options(CLI::App& command, VerifyWords& words)
         ->required()
         ->type_name("FILE");
     add_how(command, words);
-    add_scene_options(command, words.render);
+    add_view_options(command, words.render);
     const auto group = "Output";
     command.add_flag("--json", words.render.json, "One JSON object on stdout instead of text")
         ->group(group);

@@ -15,10 +15,13 @@ target_sources(bdpt_io PRIVATE
   src/image/read_image.cpp
   src/image/texels.cpp
   # glTF: checks before tinygltf
+  src/gltf/decoded_size.cpp
+  src/gltf/draco_primitives.cpp
   src/gltf/extensions.cpp
   src/gltf/glb.cpp
   src/gltf/layout.cpp
   src/gltf/lens.cpp
+  src/gltf/meshopt_views.cpp
   src/gltf/node_graph.cpp
   src/gltf/prepass.cpp
   src/gltf/schema.cpp
@@ -27,20 +30,44 @@ target_sources(bdpt_io PRIVATE
   src/gltf/tinygltf.cpp
   # glTF: structs to SceneDesc
   src/gltf/accessor.cpp
+  src/gltf/animation.cpp
   src/gltf/attributes.cpp
   src/gltf/camera.cpp
+  src/gltf/data_budget.cpp
   src/gltf/facts.cpp
   src/gltf/gltf.cpp
   src/gltf/image_table.cpp
+  src/gltf/instancing.cpp
+  src/gltf/keyframes.cpp
   src/gltf/light.cpp
   src/gltf/material.cpp
   src/gltf/mesh.cpp
+  src/gltf/mesh_table.cpp
+  src/gltf/morph.cpp
+  src/gltf/node_transforms.cpp
   src/gltf/placement.cpp
+  src/gltf/primitive_reader.cpp
   src/gltf/scene_builder.cpp
   src/gltf/select_scene.cpp
+  src/gltf/selection.cpp
+  src/gltf/skin.cpp
   src/gltf/texture.cpp
   src/gltf/transform.cpp
+  src/gltf/variants.cpp
 )
+# Decoders of compressed meshes, as far as they are installed (cmake/Dependencies.cmake).
+if(BDPT_HAS_DRACO)
+  target_sources(bdpt_io PRIVATE src/gltf/draco_decoder.cpp)
+  target_link_libraries(bdpt_io PRIVATE draco::draco)
+else()
+  target_sources(bdpt_io PRIVATE src/gltf/draco_absent.cpp)
+endif()
+if(BDPT_HAS_MESHOPT)
+  target_sources(bdpt_io PRIVATE src/gltf/meshopt_decoder.cpp)
+  target_link_libraries(bdpt_io PRIVATE meshoptimizer::meshoptimizer)
+else()
+  target_sources(bdpt_io PRIVATE src/gltf/meshopt_absent.cpp)
+endif()
 target_include_directories(bdpt_io SYSTEM PRIVATE ${BDPT_TINYGLTF_INCLUDE_DIR})
 target_link_libraries(bdpt_io PRIVATE
   OpenEXR::OpenEXR Imath::Imath $<BUILD_INTERFACE:nlohmann_json::nlohmann_json> fmt::fmt

@@ -5,11 +5,16 @@ namespace bdpt::io {
 std::vector<std::pair<std::string, std::string>> text_entries(const PictureMetadata& metadata)
 {
     // The seed has 64 bits, more than the integers of the formats hold.
-    return {{"bdpt.version", metadata.version},
-            {"bdpt.scene", metadata.scene},
-            {"bdpt.settings", metadata.settings},
-            {"bdpt.integrator", metadata.integrator},
-            {"bdpt.seed", std::to_string(metadata.seed)}};
+    std::vector<std::pair<std::string, std::string>> entries{
+        {"bdpt.version", metadata.version},
+        {"bdpt.scene", metadata.scene},
+        {"bdpt.settings", metadata.settings},
+        {"bdpt.integrator", metadata.integrator},
+        {"bdpt.seed", std::to_string(metadata.seed)}};
+    if (!metadata.xmp.empty()) {
+        entries.emplace_back("bdpt.xmp", metadata.xmp);
+    }
+    return entries;
 }
 
 std::string software_name(const PictureMetadata& metadata)

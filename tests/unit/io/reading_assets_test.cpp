@@ -1,7 +1,12 @@
 #include "catch.hpp"
+#include "gltf/draco_decoder.h"
+#include "gltf/meshopt_decoder.h"
 #include "gltf_fixture.h"
 
 #include <bdpt/io/environment.h>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 
 #include <cstdlib>
 #include <filesystem>
@@ -22,6 +27,37 @@ std::optional<std::filesystem::path> assets()
     return folder;
 }
 
+/// What does not depend on the order of triangles, in world space.
+struct Sums {
+    std::size_t triangles = 0;
+    double area = 0.0;
+    glm::dvec3 centre{0.0};    // of the surface
+    glm::dvec3 outwards{0.0};  // mean of normal times position: the sign tells the front
+};
+
+Sums sums_of(const LoadedScene& loaded)
+{
+    Sums sums;
+    for (const InstanceDesc& instance : loaded.scene.instances) {
+        const MeshDesc& mesh = loaded.scene.meshes.at(static_cast<std::size_t>(instance.mesh));
+        for (const UVec3& triangle : mesh.triangles) {
+            const auto corner = [&](int c) {
+                return glm::dvec3(instance.world_from_object *
+                                  Vec4(mesh.positions[triangle[c]], 1.0f));
+            };
+            const glm::dvec3 normal = cross(corner(1) - corner(0), corner(2) - corner(0)) / 2.0;
+            const glm::dvec3 centre = (corner(0) + corner(1) + corner(2)) / 3.0;
+            ++sums.triangles;
+            sums.area += length(normal);
+            sums.centre += length(normal) * centre;
+            sums.outwards += normal * centre;
+        }
+    }
+    sums.centre /= sums.area;
+    sums.outwards /= sums.area;
+    return sums;
+}
+
 struct Asset {
     const char* file;
     std::size_t triangles;  // each mesh once
@@ -34,16 +70,20 @@ constexpr Asset known_assets[] = {
     {"AttenuationTest/AttenuationTest.glb", 232, 2},
     {"BoxWithSpaces/Box With Spaces.gltf", 12, 3},
     {"Cameras/Cameras.gltf", 2, 0, 0, 2},
+    {"CesiumMan/CesiumMan.glb", 4672, 1},
     {"CornellBox_bevy/CornellBox.glb", 36},
     {"CornellBox_kajiya/scene.gltf", 32},
     {"Duck/Duck.glb", 4212, 1, 0, 1},
     {"EmissiveTriangle/triangle.glb", 1},
     {"EnvironmentTest/EnvironmentTest.gltf", 25344, 2, 0, 1},
+    {"Fox/Fox.gltf", 576, 1},
     {"Garage/garage.gltf", 11358},
     {"GodotLivingRoom/living_room.glb", 5088},
     {"LightsPunctual_playcanvas/Lights.glb", 12, 0, 4, 1},
     {"ManyCubes/many-cubes.gltf", 6012, 0, 0, 1},
     {"RoughnessScale/scene.gltf", 51200, 5},
+    {"SimpleInstancing/simple-instancing.glb", 12},
+    {"SimpleSparseAccessor/SimpleSparseAccessor.gltf", 12},
     {"ShaderBall_nvidia/shader_ball.gltf", 9450, 0, 0, 1},
     {"Suzi/suzi.glb", 15744},
     {"TextureTransformTest/TextureTransformTest.gltf", 18, 5},
@@ -73,6 +113,49 @@ TEST_CASE("real files load with what is in them")
         CHECK(loaded.scene.lights.size() == asset.lights);
         CHECK(loaded.cameras.size() == asset.cameras);
     }
+}
+
+TEST_CASE("real compressed files are equal to their plain twins")
+{
+    const std::optional<std::filesystem::path> folder = assets();
+    if (!folder) {
+        return;
+    }
+    struct Pair {
+        const char* packed;
+        const char* plain;
+        bool possible;
+    };
+    const Pair pairs[] = {
+        {"BoxDraco/Box_Draco.glb", "Box/Box.glb", has_draco()},
+        {"BoxMeshopt/BoxMeshopt.glb", "Box/Box.glb", has_meshopt()},
+        {"DuckMeshoptQuantized/Duck-vp-12-vt-12-vn-12.glb", "Duck/Duck.glb", has_meshopt()}};
+    for (const Pair& pair : pairs) {
+        CAPTURE(pair.packed);
+        if (!pair.possible) {
+            WARN("skipped: this build cannot read " << pair.packed);
+            continue;
+        }
+        const Sums packed = sums_of(load_gltf(*folder / pair.packed));
+        const Sums plain = sums_of(load_gltf(*folder / pair.plain));
+        CHECK(packed.triangles == plain.triangles);
+        CHECK(packed.area == Approx(plain.area).epsilon(2e-3));
+        for (int c = 0; c < 3; ++c) {
+            CHECK(packed.centre[c] == Approx(plain.centre[c]).margin(1e-3));
+            CHECK(packed.outwards[c] == Approx(plain.outwards[c]).margin(1e-3));
+        }
+    }
+}
+
+TEST_CASE("instances of real files are placed")
+{
+    const std::optional<std::filesystem::path> folder = assets();
+    if (!folder) {
+        return;
+    }
+    const LoadedScene loaded = load_gltf(*folder / "SimpleInstancing/simple-instancing.glb");
+    CHECK(loaded.scene.meshes.size() == 1);
+    CHECK(loaded.scene.instances.size() == 125);
 }
 
 TEST_CASE("real environments load")

@@ -168,6 +168,8 @@ TEST_CASE("facts count the whole file")
     fixture.json["extensionsUsed"] = {"KHR_materials_ior", "KHR_materials_sheen", "EXT_unheard_of"};
     fixture.json["extensionsRequired"] = {"KHR_materials_ior"};
     fixture.json["animations"] = {nlohmann::json::object()};
+    fixture.json["extensions"]["KHR_xmp"]["packets"] = {{{"dc:creator", "nobody"}}};
+    fixture.json["asset"]["extensions"]["KHR_xmp"]["packet"] = 0;
     const LoadedScene loaded = fixture.load();
     const GltfFacts& facts = loaded.facts;
     CHECK(facts.version == "2.0");
@@ -177,6 +179,7 @@ TEST_CASE("facts count the whole file")
     CHECK(facts.meshes == 1);
     CHECK(facts.primitives == 1);
     CHECK(facts.animations == 1);
+    CHECK(facts.xmp == R"({"dc:creator":"nobody"})");
     REQUIRE(facts.extensions.size() == 3);
     CHECK(facts.extensions[0].name == "KHR_materials_ior");
     CHECK(facts.extensions[0].required);
@@ -186,4 +189,9 @@ TEST_CASE("facts count the whole file")
     CHECK(facts.extensions[2].status == ExtensionStatus::unknown);
     CHECK(warns(loaded.warnings, {"/extensionsUsed/1", "KHR_materials_sheen", "ignored"}));
     CHECK(warns(loaded.warnings, {"/extensionsUsed/2", "EXT_unheard_of", "unknown"}));
+    // What is odd about it does no harm.
+    for (const nlohmann::json& packet : {nlohmann::json(1), nlohmann::json("0")}) {
+        fixture.json["asset"]["extensions"]["KHR_xmp"]["packet"] = packet;
+        CHECK(fixture.load().facts.xmp.empty());
+    }
 }

@@ -106,18 +106,66 @@ float to_float(const unsigned char* bytes, bool normalized)
     }
 }
 
-template <typename V, typename T>
-std::vector<V> read_as(const tinygltf::Model& model, int accessor, bool normalized)
+/// Reads `components` numbers of each element to where element(i) points.
+template <typename T, typename Element>
+void read_components(const tinygltf::Model& model, int accessor, bool normalized,
+                     std::size_t components, const Element& element)
 {
-    std::vector<V> values(model.accessors[static_cast<std::size_t>(accessor)].count, V(0.0f));
-    for_each_element(model, accessor,
-                     [&values, normalized](std::size_t i, const unsigned char* bytes) {
-                         for (int c = 0; c < V::length(); ++c) {
-                             const auto offset = static_cast<std::size_t>(c) * sizeof(T);
-                             values[i][c] = to_float<T>(bytes + offset, normalized);
-                         }
-                     });
-    return values;
+    for_each_element(model, accessor, [&](std::size_t i, const unsigned char* bytes) {
+        float* const values = element(i);
+        for (std::size_t c = 0; c < components; ++c) {
+            values[c] = to_float<T>(bytes + c * sizeof(T), normalized);
+        }
+    });
+}
+
+template <typename Element>
+void read_floats(const tinygltf::Model& model, int accessor, Integers integers,
+                 std::size_t components, const Element& element)
+{
+    const auto& described = model.accessors[static_cast<std::size_t>(accessor)];
+    const bool normalized = integers == Integers::normalized ||
+                            (integers == Integers::as_declared && described.normalized);
+    const auto read = [&]<typename T>(T) {
+        read_components<T>(model, accessor, normalized, components, element);
+    };
+    switch (described.componentType) {
+        case TINYGLTF_COMPONENT_TYPE_BYTE:
+            return read(std::int8_t{});
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            return read(std::uint8_t{});
+        case TINYGLTF_COMPONENT_TYPE_SHORT:
+            return read(std::int16_t{});
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            return read(std::uint16_t{});
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+            return read(std::uint32_t{});
+        default:
+            return read(float{});
+    }
+}
+
+const char* name_of_type(int type)
+{
+    switch (type) {
+        case TINYGLTF_TYPE_SCALAR:
+            return "SCALAR";
+        case TINYGLTF_TYPE_VEC2:
+            return "VEC2";
+        case TINYGLTF_TYPE_VEC3:
+            return "VEC3";
+        case TINYGLTF_TYPE_VEC4:
+            return "VEC4";
+        default:
+            return "MAT4";
+    }
+}
+
+void check_type(const tinygltf::Model& model, int accessor, int type)
+{
+    if (model.accessors[static_cast<std::size_t>(accessor)].type != type) {
+        fail(accessor, fmt::format("/type: must be {}", name_of_type(type)));
+    }
 }
 
 }  // namespace
@@ -125,39 +173,35 @@ std::vector<V> read_as(const tinygltf::Model& model, int accessor, bool normaliz
 template <typename V>
 std::vector<V> read_vectors(const tinygltf::Model& model, int accessor, Integers integers)
 {
-    const auto& described = model.accessors[static_cast<std::size_t>(accessor)];
-    if (tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(described.type)) !=
-            V::length() ||
-        described.type == TINYGLTF_TYPE_MAT2) {
-        fail(accessor, fmt::format("/type: must be VEC{}", V::length()));
-    }
-    const bool normalized = described.normalized || integers == Integers::normalized;
-    switch (described.componentType) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE:
-            return read_as<V, std::int8_t>(model, accessor, normalized);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-            return read_as<V, std::uint8_t>(model, accessor, normalized);
-        case TINYGLTF_COMPONENT_TYPE_SHORT:
-            return read_as<V, std::int16_t>(model, accessor, normalized);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-            return read_as<V, std::uint16_t>(model, accessor, normalized);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-            return read_as<V, std::uint32_t>(model, accessor, normalized);
-        default:
-            return read_as<V, float>(model, accessor, normalized);
-    }
+    // In tinygltf a type of vectors is the number of their components.
+    check_type(model, accessor, V::length());
+    std::vector<V> values(model.accessors[static_cast<std::size_t>(accessor)].count, V(0.0f));
+    read_floats(model, accessor, integers, static_cast<std::size_t>(V::length()),
+                [&values](std::size_t i) { return &values[i][0]; });
+    return values;
 }
 
 template std::vector<Vec2> read_vectors<Vec2>(const tinygltf::Model&, int, Integers);
 template std::vector<Vec3> read_vectors<Vec3>(const tinygltf::Model&, int, Integers);
 template std::vector<Vec4> read_vectors<Vec4>(const tinygltf::Model&, int, Integers);
 
+std::vector<float> read_numbers(const tinygltf::Model& model, int accessor, int type,
+                                Integers integers)
+{
+    check_type(model, accessor, type);
+    const auto components = static_cast<std::size_t>(
+        tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type)));
+    std::vector<float> values(
+        model.accessors[static_cast<std::size_t>(accessor)].count * components, 0.0f);
+    read_floats(model, accessor, integers, components,
+                [&](std::size_t i) { return values.data() + i * components; });
+    return values;
+}
+
 std::vector<std::uint32_t> read_indices(const tinygltf::Model& model, int accessor)
 {
     const auto& described = model.accessors[static_cast<std::size_t>(accessor)];
-    if (described.type != TINYGLTF_TYPE_SCALAR) {
-        fail(accessor, "/type: must be SCALAR for indices");
-    }
+    check_type(model, accessor, TINYGLTF_TYPE_SCALAR);
     std::vector<std::uint32_t> indices(described.count, 0);
     const auto read = [&](auto type) {
         for_each_element(model, accessor, [&indices](std::size_t i, const unsigned char* bytes) {

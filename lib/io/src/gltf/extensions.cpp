@@ -1,6 +1,8 @@
 #include "gltf/extensions.h"
 
 #include "file/uri.h"
+#include "gltf/draco_decoder.h"
+#include "gltf/meshopt_decoder.h"
 
 #include <fmt/format.h>
 
@@ -14,23 +16,31 @@ namespace {
 using enum ExtensionStatus;
 
 constexpr std::array table{
+    ExtensionSupport{"KHR_draco_mesh_compression", supported, "where Draco is installed"},
     ExtensionSupport{"KHR_lights_punctual", supported, "range is ignored"},
     ExtensionSupport{"KHR_materials_emissive_strength", supported, ""},
     ExtensionSupport{"KHR_materials_ior", supported, ""},
     ExtensionSupport{"KHR_materials_specular", supported, ""},
     ExtensionSupport{"KHR_materials_transmission", supported, ""},
     ExtensionSupport{"KHR_materials_unlit", supported, "shines with its base colour"},
+    ExtensionSupport{"KHR_materials_variants", supported, "chosen by --variant"},
     ExtensionSupport{"KHR_materials_volume", supported,
                      "thickness tells solid from thin bodies only"},
     ExtensionSupport{"KHR_mesh_quantization", supported, ""},
+    ExtensionSupport{"KHR_meshopt_compression", supported,
+                     "where meshoptimizer is installed; not the filter COLOR"},
+    ExtensionSupport{"KHR_node_visibility", supported, ""},
     ExtensionSupport{"KHR_texture_transform", supported, ""},
+    ExtensionSupport{"EXT_mesh_gpu_instancing", supported, ""},
+    ExtensionSupport{"EXT_meshopt_compression", supported, "where meshoptimizer is installed"},
     ExtensionSupport{"EXT_texture_webp", supported, ""},
     // Supported by doing nothing: they have no influence on a picture.
     ExtensionSupport{"FB_ngon_encoding", supported, "no influence on the picture"},
-    ExtensionSupport{"KHR_xmp", supported, "no influence on the picture"},
-    ExtensionSupport{"KHR_xmp_json_ld", supported, "no influence on the picture"},
-    ExtensionSupport{"KHR_materials_variants", supported, "the default variant is shown"},
-    ExtensionSupport{"KHR_animation_pointer", supported, "animations are not played"},
+    ExtensionSupport{"KHR_xmp", supported, "what is said about the file goes into pictures"},
+    ExtensionSupport{"KHR_xmp_json_ld", supported,
+                     "what is said about the file goes into pictures"},
+    ExtensionSupport{"KHR_animation_pointer", supported,
+                     "only what the core specification animates moves"},
     ExtensionSupport{"MSFT_packing_normalRoughnessMetallic", supported,
                      "the core textures are used"},
     ExtensionSupport{"MSFT_packing_occlusionRoughnessMetallic", supported,
@@ -48,13 +58,15 @@ constexpr std::array table{
     ExtensionSupport{"KHR_texture_basisu", ignored, "only fallback pictures are read"},
     ExtensionSupport{"MSFT_texture_dds", ignored, "only fallback pictures are read"},
     ExtensionSupport{"EXT_texture_avif", ignored, "only fallback pictures are read"},
-    ExtensionSupport{"KHR_draco_mesh_compression", ignored, "only uncompressed data is read"},
-    ExtensionSupport{"EXT_meshopt_compression", ignored, "only uncompressed data is read"},
-    ExtensionSupport{"KHR_meshopt_compression", ignored, "only uncompressed data is read"},
-    ExtensionSupport{"EXT_mesh_gpu_instancing", ignored, "shown once instead of many times"},
     ExtensionSupport{"EXT_lights_image_based", ignored, "give an environment by --env"},
-    ExtensionSupport{"KHR_node_visibility", ignored, "hidden nodes are shown"},
 };
+
+/// Does this build lack the library for an extension?
+bool is_missing(std::string_view name)
+{
+    return (name == "KHR_draco_mesh_compression" && !has_draco()) ||
+           (name.ends_with("_meshopt_compression") && !has_meshopt());
+}
 
 ExtensionUse describe(const JsonPlace& place)
 {
@@ -66,6 +78,10 @@ ExtensionUse describe(const JsonPlace& place)
                                      [&name](const auto& known) { return known.name == name; });
     if (found == table.end()) {
         return {name, unknown, false, ""};
+    }
+    if (is_missing(name)) {
+        return {name, ignored, false,
+                "this build cannot decode it; only uncompressed data is read"};
     }
     return {name, found->status, false, std::string(found->note)};
 }
@@ -90,7 +106,9 @@ std::vector<ExtensionUse> check_extensions(const JsonPlace& root, Warnings& warn
             const JsonPlace place = required.element(i);
             ExtensionUse use = describe(place);
             if (use.status != supported) {
-                place.fail("the file requires " + quote(use.name) + ", which is not supported",
+                place.fail(fmt::format("the file requires {}, which {}", quote(use.name),
+                                       is_missing(use.name) ? "this build cannot decode"
+                                                            : "is not supported"),
                            ErrorCode::unsupported);
             }
             use.required = true;

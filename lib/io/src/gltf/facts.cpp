@@ -1,5 +1,9 @@
 #include "gltf/facts.h"
 
+#include "gltf/selection.h"
+
+#include <cstddef>
+#include <cstdint>
 #include <string>
 
 namespace bdpt::io {
@@ -16,6 +20,30 @@ std::size_t count(const Json& document, const char* section)
 {
     const auto found = document.find(section);
     return found != document.end() && found->is_array() ? found->size() : 0;
+}
+
+/// The packet that the asset refers to; none where anything about it is odd.
+std::string find_xmp(const Json& document)
+{
+    constexpr std::size_t longest = std::size_t{1} << 20;
+    for (const std::string extension : {"KHR_xmp_json_ld", "KHR_xmp"}) {
+        const Json::json_pointer reference("/asset/extensions/" + extension + "/packet");
+        const Json& packets =
+            array_at(document, Json::json_pointer("/extensions/" + extension + "/packets"));
+        if (!document.contains(reference) || !packets.is_array()) {
+            continue;
+        }
+        const Json& index = document.at(reference);
+        if (!index.is_number_unsigned() || index.get<std::uint64_t>() >= packets.size()) {
+            continue;
+        }
+        std::string text =
+            packets[index.get<std::size_t>()].dump(-1, ' ', false, Json::error_handler_t::replace);
+        if (text.size() <= longest) {
+            return text;
+        }
+    }
+    return {};
 }
 
 }  // namespace
@@ -37,16 +65,18 @@ GltfFacts collect_facts(const CheckedGltf& checked)
     facts.skins = count(document, "skins");
     facts.animations = count(document, "animations");
     facts.extensions = checked.extensions;
+    facts.xmp = find_xmp(document);
     if (count(document, "meshes") > 0) {
         for (const Json& mesh : document["meshes"]) {
             facts.primitives += mesh.at("primitives").size();
         }
     }
-    if (count(document, "scenes") > 0) {
-        for (const Json& scene : document["scenes"]) {
-            facts.scene_names.push_back(text_or_empty(scene, "name"));
-        }
-    }
+    const auto names = [&document](const char* place) {
+        return names_in(array_at(document, Json::json_pointer(place)));
+    };
+    facts.scene_names = names("/scenes");
+    facts.variant_names = names("/extensions/KHR_materials_variants/variants");
+    facts.animation_names = names("/animations");
     const auto extensions = document.find("extensions");
     if (extensions != document.end() && extensions->contains("KHR_lights_punctual")) {
         facts.lights = count((*extensions)["KHR_lights_punctual"], "lights");

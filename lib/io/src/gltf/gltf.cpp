@@ -2,9 +2,11 @@
 #include <bdpt/io/gltf.h>
 
 #include "file/warnings.h"
+#include "gltf/animation.h"
 #include "gltf/facts.h"
 #include "gltf/prepass.h"
 #include "gltf/scene_builder.h"
+#include "gltf/selection.h"
 
 #include <exception>
 #include <new>
@@ -23,7 +25,14 @@ LoadedScene load(const std::filesystem::path& file, const GltfOptions& options)
     if (!facts.scene) {
         warnings.add("the file has no scene; all its nodes are shown", "/scenes");
     }
-    LoadedScene loaded = build_scene(std::move(checked), facts.scene, options.limits, warnings);
+    SceneChoice choice;
+    choice.scene = facts.scene;
+    if (options.variant) {
+        choice.variant = select("variant", facts.variant_names, *options.variant);
+    }
+    choice.animations = select_animations(facts.animation_names, options, warnings);
+    choice.time = options.time.value_or(0.0);
+    LoadedScene loaded = build_scene(std::move(checked), choice, options.limits, warnings);
     loaded.facts = std::move(facts);
     loaded.warnings = warnings.lines();
     return loaded;

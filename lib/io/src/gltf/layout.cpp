@@ -19,22 +19,6 @@ constexpr std::uint64_t unsigned_int = 5125;
 // checks in product().
 constexpr std::uint64_t most_bytes = std::uint64_t{1} << 56;
 
-std::uint64_t component_count(std::string_view type)
-{
-    struct Type {
-        std::string_view name;
-        std::uint64_t components;
-    };
-    constexpr Type types[] = {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4},
-                              {"MAT2", 4},   {"MAT3", 9}, {"MAT4", 16}};
-    for (const Type& known : types) {
-        if (known.name == type) {
-            return known.components;
-        }
-    }
-    return 0;
-}
-
 /// count * size, or nothing where that is more than any machine has.
 std::uint64_t product(const JsonPlace& place, std::uint64_t count, std::uint64_t size)
 {
@@ -165,6 +149,22 @@ void check_accessor(const JsonPlace& accessor, const JsonPlace& views, const Rea
 }
 
 }  // namespace
+
+std::uint64_t component_count(std::string_view type)
+{
+    struct Type {
+        std::string_view name;
+        std::uint64_t components;
+    };
+    constexpr Type types[] = {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4},
+                              {"MAT2", 4},   {"MAT3", 9}, {"MAT4", 16}};
+    for (const Type& known : types) {
+        if (known.name == type) {
+            return known.components;
+        }
+    }
+    return 0;
+}
 
 std::uint64_t component_size(std::uint64_t component_type)
 {

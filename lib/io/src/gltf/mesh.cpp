@@ -1,74 +1,27 @@
 #include "gltf/mesh.h"
 
-#include "file/uri.h"
 #include "gltf/accessor.h"
 #include "gltf/attributes.h"
 #include "gltf/model.h"
+#include "gltf/morph.h"
+#include "gltf/primitive_reader.h"
+#include "gltf/skin.h"
 
 #include <bdpt/error.h>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <string_view>
-#include <utility>
 
 namespace bdpt::io {
 
 namespace {
 
-struct Primitive {
-    const tinygltf::Model& model;
-    const tinygltf::Primitive& source;
-    PrimitiveId id;
-    std::string name;  // of the mesh
-
-    [[noreturn]] void fail(std::string_view where, const std::string& what) const
-    {
-        throw Error(ErrorCode::invalid_input, fmt::format("{}/{}: {}{}{}", id.pointer(), where,
-                                                          name.empty() ? "" : "mesh " + quote(name),
-                                                          name.empty() ? "" : ": ", what));
-    }
-
-    /// The attribute's accessor if it is there.
-    [[nodiscard]] std::optional<int> attribute(const std::string& semantic) const
-    {
-        const auto found = source.attributes.find(semantic);
-        if (found == source.attributes.end()) {
-            return std::nullopt;
-        }
-        return found->second;
-    }
-
-    /// As many values as there are vertices; none if the attribute is not there.
-    template <typename V>
-    [[nodiscard]] std::vector<V> read(const std::string& semantic, std::size_t vertices,
-                                      Warnings& warnings,
-                                      Integers integers = Integers::as_declared) const
-    {
-        const std::optional<int> accessor = attribute(semantic);
-        if (!accessor) {
-            return {};
-        }
-        std::vector<V> values = read_vectors<V>(model, *accessor, integers);
-        if (values.size() < vertices) {
-            fail("attributes/" + semantic,
-                 fmt::format("{} values, but there are {} vertices", values.size(), vertices));
-        }
-        if (values.size() > vertices) {
-            warnings.add("more values than vertices; the rest is ignored",
-                         id.pointer() + "/attributes/" + semantic);
-            values.resize(vertices);
-        }
-        return values;
-    }
-};
-
-std::vector<Vec3> read_positions(const Primitive& primitive, int accessor)
+void check_finite(const PrimitiveReader& primitive, const std::vector<Vec3>& positions)
 {
-    std::vector<Vec3> positions = read_vectors<Vec3>(primitive.model, accessor);
     for (std::size_t i = 0; i < positions.size(); ++i) {
         for (int c = 0; c < 3; ++c) {
             if (!std::isfinite(positions[i][c])) {
@@ -77,10 +30,10 @@ std::vector<Vec3> read_positions(const Primitive& primitive, int accessor)
             }
         }
     }
-    return positions;
 }
 
-std::vector<std::uint32_t> read_checked_indices(const Primitive& primitive, std::size_t vertices)
+std::vector<std::uint32_t> read_checked_indices(const PrimitiveReader& primitive,
+                                                std::size_t vertices)
 {
     const std::optional<int> accessor = primitive.attribute(indices_attribute);
     if (!accessor) {
@@ -88,7 +41,7 @@ std::vector<std::uint32_t> read_checked_indices(const Primitive& primitive, std:
         std::iota(indices.begin(), indices.end(), 0u);
         return indices;
     }
-    std::vector<std::uint32_t> indices = read_indices(primitive.model, *accessor);
+    std::vector<std::uint32_t> indices = read_indices(primitive.model(), *accessor);
     for (std::size_t i = 0; i < indices.size(); ++i) {
         if (indices[i] >= vertices) {
             primitive.fail("indices", fmt::format("element {} is {}, but there are {} vertices", i,
@@ -99,14 +52,15 @@ std::vector<std::uint32_t> read_checked_indices(const Primitive& primitive, std:
 }
 
 /// COLOR_0 has three or four components; integers are fractions, whether they say so or not.
-std::vector<Vec4> read_colors(const Primitive& primitive, std::size_t vertices, Warnings& warnings)
+std::vector<Vec4> read_colors(const PrimitiveReader& primitive, std::size_t vertices,
+                              Warnings& warnings)
 {
     const std::string semantic = "COLOR_0";
     const std::optional<int> accessor = primitive.attribute(semantic);
     if (!accessor) {
         return {};
     }
-    const auto& described = primitive.model.accessors[static_cast<std::size_t>(*accessor)];
+    const auto& described = primitive.model().accessors[static_cast<std::size_t>(*accessor)];
     if (described.type == TINYGLTF_TYPE_VEC4) {
         return primitive.read<Vec4>(semantic, vertices, warnings, Integers::normalized);
     }
@@ -118,6 +72,38 @@ std::vector<Vec4> read_colors(const Primitive& primitive, std::size_t vertices, 
         colors.emplace_back(color, 1.0f);
     }
     return colors;
+}
+
+/// What reading all attributes takes, morph targets too.
+void spend(const PrimitiveReader& primitive, DataBudget& budget)
+{
+    constexpr std::uint64_t element_bytes = sizeof(Vec4);
+    const auto spend_all = [&](const std::map<std::string, int>& attributes) {
+        for (const auto& [semantic, accessor] : attributes) {
+            const auto& described = primitive.model().accessors[static_cast<std::size_t>(accessor)];
+            budget.spend(primitive.id().pointer(), described.count, element_bytes);
+        }
+    };
+    spend_all(primitive.source().attributes);
+    for (const auto& target : primitive.source().targets) {
+        spend_all(target);
+    }
+}
+
+/// They stay, since tracing leaves them out, but one should know of them: often they are what is
+/// left of a part that went wrong.
+void warn_of_no_area(const MeshDesc& mesh, PrimitiveId id, Warnings& warnings)
+{
+    const auto flat =
+        std::count_if(mesh.triangles.begin(), mesh.triangles.end(), [&mesh](const UVec3& triangle) {
+            const Vec3& a = mesh.positions[triangle.x];
+            return glm::cross(mesh.positions[triangle.y] - a, mesh.positions[triangle.z] - a) ==
+                   Vec3(0.0f);
+        });
+    if (flat > 0) {
+        warnings.add("triangles without area are not rendered",
+                     fmt::format("{}: {} of {}", id.pointer(), flat, mesh.triangles.size()));
+    }
 }
 
 }  // namespace
@@ -155,11 +141,11 @@ std::vector<UVec3> to_triangles(const std::vector<std::uint32_t>& indices, int m
 }
 
 std::optional<MeshDesc> read_primitive(const tinygltf::Model& model, PrimitiveId id,
+                                       const Deformation& deformation, DataBudget& budget,
                                        Warnings& warnings)
 {
-    const tinygltf::Mesh& mesh = model.meshes[id.mesh];
-    const Primitive primitive{model, mesh.primitives[id.primitive], id, mesh.name};
-    const int mode = primitive.source.mode;
+    const PrimitiveReader primitive(model, id);
+    const int mode = primitive.source().mode;
     if (mode < TINYGLTF_MODE_POINTS || mode > TINYGLTF_MODE_TRIANGLE_FAN) {
         primitive.fail("mode", fmt::format("{} is no mode", mode));
     }
@@ -173,10 +159,12 @@ std::optional<MeshDesc> read_primitive(const tinygltf::Model& model, PrimitiveId
         warnings.add("primitive without POSITION is not rendered", id.pointer());
         return std::nullopt;
     }
+    spend(primitive, budget);
 
     MeshDesc desc;
-    desc.name = mesh.name;
-    desc.positions = read_positions(primitive, *position_accessor);
+    desc.name = model.meshes[id.mesh].name;
+    desc.positions = read_vectors<Vec3>(model, *position_accessor);
+    check_finite(primitive, desc.positions);
     const std::size_t vertices = desc.positions.size();
     const std::vector<std::uint32_t> indices = read_checked_indices(primitive, vertices);
     desc.triangles = to_triangles(indices, mode);
@@ -192,7 +180,11 @@ std::optional<MeshDesc> read_primitive(const tinygltf::Model& model, PrimitiveId
     desc.uvs[0] = primitive.read<Vec2>("TEXCOORD_0", vertices, warnings);
     desc.uvs[1] = primitive.read<Vec2>("TEXCOORD_1", vertices, warnings);
     desc.colors = read_colors(primitive, vertices, warnings);
+    apply_morph(desc, primitive, deformation.weights, warnings);
+    apply_skin(desc, primitive, deformation.joints, warnings);
+    check_finite(primitive, desc.positions);
     repair_attributes(desc, id.pointer(), warnings);
+    warn_of_no_area(desc, id, warnings);
     return desc;
 }
 

@@ -58,12 +58,21 @@ std::vector<ImageSource> take_images(Json& document)
     return images;
 }
 
+Json take_motion(Json& document)
+{
+    Json motion = Json::object();
+    for (const char* section : {"skins", "animations"}) {
+        const auto found = document.find(section);
+        motion[section] = found != document.end() ? std::move(*found) : Json::array();
+        document.erase(section);
+    }
+    return motion;
+}
+
 /// What tinygltf sees: buffers are named by their index and come from memory; what the loader does
 /// not read is taken away; what tinygltf insists on, but the loader does not need, is put in.
 void simplify(Json& document)
 {
-    document.erase("animations");
-    document.erase("skins");
     std::size_t index = 0;
     for_each(document, "buffers",
              [&index](Json& buffer) { buffer["uri"] = std::to_string(index++); });
@@ -141,6 +150,7 @@ GltfModel build_model(CheckedGltf checked)
     GltfModel model;
     model.folder = std::move(checked.folder);
     model.images = take_images(checked.document);
+    model.motion = take_motion(checked.document);
     std::size_t index = 0;
     for_each(checked.document, "buffers", [&](const Json& buffer) {
         checked.buffers[index++].resize(buffer["byteLength"].get<std::size_t>());

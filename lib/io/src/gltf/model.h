@@ -1,5 +1,6 @@
 #pragma once
 
+#include "file/json.h"
 #include "gltf/prepass.h"
 #include "gltf/tinygltf.h"
 
@@ -25,6 +26,7 @@ inline constexpr const char* indices_attribute = "INDICES";
 struct GltfModel {
     tinygltf::Model structs;  ///< without images, skins and animations; see indices_attribute
     std::vector<ImageSource> images;
+    Json motion;  ///< an object with the arrays "skins" and "animations" of the document
     std::filesystem::path folder;
 };
 

@@ -2,9 +2,11 @@
 
 #include "file/read_file.h"
 #include "file/uri.h"
+#include "gltf/draco_primitives.h"
 #include "gltf/extensions.h"
 #include "gltf/glb.h"
 #include "gltf/layout.h"
+#include "gltf/meshopt_views.h"
 #include "gltf/node_graph.h"
 #include "gltf/schema.h"
 
@@ -68,10 +70,15 @@ std::vector<Bytes> read_buffers(const JsonPlace& root, std::optional<Bytes> bin,
                                 Warnings& warnings)
 {
     std::vector<Bytes> buffers;
+    const std::vector<bool> fallback = find_fallback_buffers(root);
     const std::size_t count = root.has("buffers") ? root.member("buffers").size() : 0;
     for (std::size_t i = 0; i < count; ++i) {
         const JsonPlace all = root.member("buffers");
         const JsonPlace buffer = all.element(i);
+        if (fallback[i]) {
+            buffers.emplace_back();
+            continue;
+        }
         const bool in_bin = i == 0 && bin && !buffer.has("uri");
         if (!in_bin && !buffer.has("uri")) {
             buffer.fail(i == 0 ? "no \"uri\", and there is no BIN chunk" : "no \"uri\"");
@@ -155,6 +162,11 @@ CheckedGltf read_checked_gltf(const std::filesystem::path& file, const ReadLimit
     check_node_graph(root, limits);
     check_image_uris(root, result.folder);
     result.buffers = read_buffers(root, std::move(bin), result.folder, limits, warnings);
+    decode_meshopt_views(result.document, result.buffers, limits);
+    decode_draco_primitives(result.document, result.buffers, limits);
+    // What was decoded is trusted no more than what was read.
+    Warnings known;
+    check_layout(JsonPlace(result.document), limits, known);
     return result;
 }
 

@@ -1,21 +1,24 @@
 #include "gltf/scene_builder.h"
 
+#include "gltf/animation.h"
 #include "gltf/camera.h"
+#include "gltf/data_budget.h"
 #include "gltf/image_table.h"
+#include "gltf/instancing.h"
 #include "gltf/light.h"
 #include "gltf/material.h"
-#include "gltf/mesh.h"
+#include "gltf/mesh_table.h"
 #include "gltf/model.h"
-#include "gltf/placement.h"
+#include "gltf/node_transforms.h"
 #include "gltf/texture.h"
 #include "gltf/transform.h"
+#include "gltf/variants.h"
 
 #include <bdpt/error.h>
 
 #include <fmt/format.h>
 #include <glm/matrix.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -25,20 +28,28 @@ namespace bdpt::io {
 
 namespace {
 
-bool any_not_zero(const std::vector<double>& weights)
+/// Is the node and what is below it to be seen [KHR_node_visibility]?
+bool is_visible(const tinygltf::Node& node)
 {
-    return std::any_of(weights.begin(), weights.end(), [](double w) { return w != 0.0; });
+    const auto found = node.extensions.find("KHR_node_visibility");
+    return found == node.extensions.end() || !found->second.Has("visible") ||
+           found->second.Get("visible").Get<bool>();
 }
 
 /// Flattens the node hierarchy of one scene.
 class SceneBuilder {
 public:
-    SceneBuilder(const GltfModel& model, const ReadLimits& limits, Warnings& warnings)
+    SceneBuilder(const GltfModel& model, std::optional<std::size_t> variant,
+                 const ReadLimits& limits, DataBudget& budget, Warnings& warnings)
         : model_(model.structs),
+          variant_(variant),
           limits_(limits),
+          budget_(budget),
           warnings_(warnings),
           images_(model, limits, result_.scene.images, warnings),
           textures_(model.structs, images_, warnings),
+          transforms_(model.structs, warnings),
+          meshes_(model, limits, transforms_, budget, result_.scene.meshes, warnings),
           visited_(model.structs.nodes.size(), false)
     {}
 
@@ -46,11 +57,11 @@ public:
     {
         struct Pending {
             std::size_t node;
-            glm::dmat4 world_from_parent;
+            bool visible;
         };
         std::vector<Pending> stack;
         for (std::size_t i = roots.size(); i-- > 0;) {
-            stack.push_back({roots[i], glm::dmat4(1.0)});
+            stack.push_back({roots[i], true});
         }
         while (!stack.empty()) {
             const Pending next = stack.back();
@@ -61,64 +72,59 @@ public:
                 continue;
             }
             visited_[next.node] = true;
-            const glm::dmat4 world =
-                next.world_from_parent * local_transform(model_, next.node, warnings_);
-            check_finite(world, next.node);
-            add_node(next.node, world);
-            const std::vector<int>& children = model_.nodes[next.node].children;
+            const tinygltf::Node& source = model_.nodes[next.node];
+            const bool visible = next.visible && is_visible(source);
+            add_camera(next.node);
+            if (visible) {
+                add_visible(next.node);
+            }
+            const std::vector<int>& children = source.children;
             for (std::size_t i = children.size(); i-- > 0;) {
-                stack.push_back({static_cast<std::size_t>(children[i]), world});
+                stack.push_back({static_cast<std::size_t>(children[i]), visible});
             }
         }
         return std::move(result_);
     }
 
 private:
-    static void check_finite(const glm::dmat4& world, std::size_t node)
+    /// Cameras can be looked through even when their nodes are not seen.
+    void add_camera(std::size_t node)
     {
-        const Mat4 narrow(world);
-        for (int column = 0; column < 4; ++column) {
-            for (int row = 0; row < 4; ++row) {
-                if (!std::isfinite(narrow[column][row])) {
-                    throw Error(
-                        ErrorCode::invalid_input,
-                        fmt::format("/nodes/{}: the transform to world space is not finite", node));
-                }
-            }
+        if (std::optional<CameraDesc> camera =
+                read_camera(model_, node, transforms_.world(node), warnings_)) {
+            result_.cameras.push_back(std::move(*camera));
         }
     }
 
-    void add_node(std::size_t node, const glm::dmat4& world)
+    void add_visible(std::size_t node)
     {
+        const glm::dmat4& world = transforms_.world(node);
         if (std::optional<LightDesc> light = read_light(model_, node, world, warnings_)) {
             result_.scene.lights.push_back(std::move(*light));
-        }
-        if (std::optional<CameraDesc> camera = read_camera(model_, node, world, warnings_)) {
-            result_.cameras.push_back(std::move(*camera));
         }
         const tinygltf::Node& source = model_.nodes[node];
         if (source.mesh < 0) {
             return;
         }
+        const std::vector<glm::dmat4> places = instance_transforms(model_, node, budget_);
         const auto mesh = static_cast<std::size_t>(source.mesh);
-        if (source.skin >= 0) {
-            warnings_.add("a skinned mesh is shown in its bind pose",
-                          fmt::format("/nodes/{}", node));
-        }
-        if (any_not_zero(source.weights) || any_not_zero(model_.meshes[mesh].weights)) {
-            warnings_.add("morph targets are ignored", fmt::format("/nodes/{}", node));
-        }
         for (std::size_t i = 0; i < model_.meshes[mesh].primitives.size(); ++i) {
-            add_instance(node, {mesh, i}, world);
+            const std::optional<ShownMesh> shown = meshes_.get(node, i);
+            if (!shown) {
+                continue;
+            }
+            if (shown->in_world) {
+                add_instance(node, {mesh, i}, shown->mesh, glm::dmat4(1.0));
+                continue;
+            }
+            for (const glm::dmat4& place : places) {
+                add_instance(node, {mesh, i}, shown->mesh, world * place);
+            }
         }
     }
 
-    void add_instance(std::size_t node, PrimitiveId id, const glm::dmat4& world)
+    void add_instance(std::size_t node, PrimitiveId id, MeshId mesh, const glm::dmat4& world)
     {
-        const std::optional<MeshId> mesh = get_mesh(id);
-        if (!mesh) {
-            return;
-        }
         if (result_.scene.instances.size() >= limits_.instances) {
             throw Error(ErrorCode::invalid_input,
                         fmt::format("/nodes: more than {} instances", limits_.instances));
@@ -126,13 +132,19 @@ private:
         const tinygltf::Node& source = model_.nodes[node];
         InstanceDesc instance;
         instance.name = source.name.empty() ? model_.meshes[id.mesh].name : source.name;
-        instance.mesh = *mesh;
+        // Thousands of instances have one name, which may be of any length.
+        budget_.spend(fmt::format("/nodes/{}", node), 1, sizeof instance + instance.name.size());
+        instance.mesh = mesh;
         instance.material = get_material(id);
         instance.world_from_object = Mat4(world);
-        if (!std::isnormal(glm::determinant(Mat3(instance.world_from_object)))) {
+        const float determinant = glm::determinant(Mat3(instance.world_from_object));
+        if (!is_finite(instance.world_from_object)) {
+            throw Error(ErrorCode::invalid_input,
+                        fmt::format("/nodes/{}: the transform of an instance is not finite", node));
+        }
+        if (!std::isnormal(determinant)) {
             // A scale of zero flattens the mesh: its triangles may still be seen.
-            std::optional<MeshDesc> flat =
-                place_mesh(result_.scene.meshes[static_cast<std::size_t>(*mesh)], world);
+            const std::optional<MeshId> flat = meshes_.flatten(mesh, id, world);
             if (!flat) {
                 warnings_.add("a mesh that is scaled to nothing is left out",
                               fmt::format("/nodes/{}", node));
@@ -140,37 +152,16 @@ private:
             }
             warnings_.add("a mesh that is scaled flat gets the normals of its faces",
                           fmt::format("/nodes/{}", node));
-            instance.mesh = add_mesh(std::move(*flat), id);
+            instance.mesh = *flat;
             instance.world_from_object = Mat4(1.0f);
         }
         result_.scene.instances.push_back(std::move(instance));
     }
 
-    [[nodiscard]] MeshId add_mesh(MeshDesc mesh, PrimitiveId id)
-    {
-        triangles_ += mesh.triangles.size();
-        if (triangles_ > limits_.triangles) {
-            throw Error(ErrorCode::invalid_input,
-                        fmt::format("{}: more than {} triangles", id.pointer(), limits_.triangles));
-        }
-        result_.scene.meshes.push_back(std::move(mesh));
-        return static_cast<MeshId>(result_.scene.meshes.size() - 1);
-    }
-
-    [[nodiscard]] std::optional<MeshId> get_mesh(PrimitiveId id)
-    {
-        const auto [found, is_new] = meshes_.try_emplace({id.mesh, id.primitive});
-        if (is_new) {
-            if (std::optional<MeshDesc> mesh = read_primitive(model_, id, warnings_)) {
-                found->second = add_mesh(std::move(*mesh), id);
-            }
-        }
-        return found->second;
-    }
-
     [[nodiscard]] MaterialId get_material(PrimitiveId id)
     {
-        const int index = model_.meshes[id.mesh].primitives[id.primitive].material;
+        const tinygltf::Primitive& primitive = model_.meshes[id.mesh].primitives[id.primitive];
+        const int index = variant_ ? variant_material(primitive, *variant_) : primitive.material;
         const auto next = static_cast<MaterialId>(result_.scene.materials.size());
         const auto [found, is_new] = materials_.try_emplace(index, next);
         if (is_new) {
@@ -184,15 +175,17 @@ private:
     }
 
     const tinygltf::Model& model_;
+    std::optional<std::size_t> variant_;
     const ReadLimits& limits_;
+    DataBudget& budget_;
     Warnings& warnings_;
     LoadedScene result_;
     ImageTable images_;
     TextureResolver textures_;
+    NodeTransforms transforms_;
+    MeshTable meshes_;
     std::vector<bool> visited_;
-    std::map<std::pair<std::size_t, std::size_t>, std::optional<MeshId>> meshes_;
     std::map<int, MaterialId> materials_;
-    std::uint64_t triangles_ = 0;
 };
 
 std::vector<std::size_t> find_roots(const tinygltf::Model& model, std::optional<std::size_t> scene)
@@ -218,11 +211,16 @@ std::vector<std::size_t> find_roots(const tinygltf::Model& model, std::optional<
 
 }  // namespace
 
-LoadedScene build_scene(CheckedGltf checked, std::optional<std::size_t> scene,
-                        const ReadLimits& limits, Warnings& warnings)
+LoadedScene build_scene(CheckedGltf checked, const SceneChoice& choice, const ReadLimits& limits,
+                        Warnings& warnings)
 {
-    const GltfModel model = build_model(std::move(checked));
-    return SceneBuilder(model, limits, warnings).build(find_roots(model.structs, scene));
+    GltfModel model = build_model(std::move(checked));
+    DataBudget budget(limits);
+    for (const std::size_t animation : choice.animations) {
+        apply_animation(model, animation, choice.time, budget, warnings);
+    }
+    return SceneBuilder(model, choice.variant, limits, budget, warnings)
+        .build(find_roots(model.structs, choice.scene));
 }
 
 }  // namespace bdpt::io

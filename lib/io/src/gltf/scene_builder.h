@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace bdpt::io {
 
@@ -16,9 +17,17 @@ namespace bdpt::io {
 [[nodiscard]] std::optional<std::size_t> select_scene(const Json& document,
                                                       const std::optional<std::string>& wanted);
 
-/// Turns one scene of a document (none: all its root nodes) into a description and cameras; meshes,
-/// materials and pictures that it does not use are left out. Throws `Error`.
-[[nodiscard]] LoadedScene build_scene(CheckedGltf checked, std::optional<std::size_t> scene,
+/// What of a document is wanted, by indices.
+struct SceneChoice {
+    std::optional<std::size_t> scene;     ///< none: all root nodes
+    std::optional<std::size_t> variant;   ///< none: the materials of the primitives
+    std::vector<std::size_t> animations;  ///< that play, one after the other; empty: nodes rest
+    double time = 0.0;                    ///< of the animations [s]
+};
+
+/// Turns one scene of a document into a description and cameras; meshes, materials and pictures
+/// that it does not use are left out. Throws `Error`.
+[[nodiscard]] LoadedScene build_scene(CheckedGltf checked, const SceneChoice& choice,
                                       const ReadLimits& limits, Warnings& warnings);
 
 }  // namespace bdpt::io

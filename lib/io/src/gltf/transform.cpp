@@ -91,6 +91,18 @@ Vec3 transform_direction(const glm::dmat4& world_from_node, const glm::dvec3& di
     return Vec3(turned / length);
 }
 
+bool is_finite(const Mat4& matrix)
+{
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 4; ++row) {
+            if (!std::isfinite(matrix[column][row])) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
 double mean_scale(const glm::dmat4& world_from_node)
 {
     return cube_root(std::abs(glm::determinant(glm::dmat3(world_from_node))));

@@ -21,6 +21,9 @@ namespace bdpt::io {
 [[nodiscard]] Vec3 transform_direction(const glm::dmat4& world_from_node,
                                        const glm::dvec3& direction);
 
+/// Are all elements finite?
+[[nodiscard]] bool is_finite(const Mat4& matrix);
+
 /// By how much the transform scales lengths: the geometric mean over all axes.
 [[nodiscard]] double mean_scale(const glm::dmat4& world_from_node);
 

@@ -17,8 +17,14 @@ namespace bdpt::io {
 /// What to load of a file, and how much at most.
 struct GltfOptions {
     /// Name or index of the scene; none: the file's default scene, else its first.
-    std::optional<std::string> scene;
-    ReadLimits limits;
+    std::optional<std::string> scene{};
+    /// Name or index of a variant of KHR_materials_variants; none: the materials of the primitives.
+    std::optional<std::string> variant{};
+    /// Name or index of the animation that plays, or "all"; none: the first one if there is a time.
+    std::optional<std::string> animation{};
+    /// Moment of the animation to show [s]; none: its start, or with no animation the nodes rest.
+    std::optional<double> time{};
+    ReadLimits limits{};
 };
 
 /// What we make of a glTF extension.
@@ -44,8 +50,10 @@ struct GltfFacts {
     std::string version;  ///< of glTF
     std::string generator;
     std::string copyright;
-    std::vector<std::string> scene_names;  ///< one for each scene; may be empty strings
-    std::optional<std::size_t> scene;      ///< index of the loaded scene; none: the file has none
+    std::vector<std::string> scene_names;    ///< one for each scene; may be empty strings
+    std::optional<std::size_t> scene;        ///< index of the loaded scene; none: the file has none
+    std::vector<std::string> variant_names;  ///< of KHR_materials_variants
+    std::vector<std::string> animation_names;  ///< one for each animation; may be empty strings
     std::size_t nodes = 0;
     std::size_t meshes = 0;
     std::size_t primitives = 0;
@@ -57,6 +65,9 @@ struct GltfFacts {
     std::size_t skins = 0;
     std::size_t animations = 0;
     std::vector<ExtensionUse> extensions;
+    /// The packet of KHR_xmp_json_ld or KHR_xmp that the file has about itself, JSON-LD; empty: none
+    /// of up to 1 MiB.
+    std::string xmp;
 };
 
 /// What `load_gltf` read.
@@ -71,9 +82,9 @@ struct LoadedScene {
 /// first bytes say. A scene without meshes loads with zero instances.
 ///
 /// Throws `Error`, whose message starts with the file's path and names the place as a JSON pointer:
-/// not_found (a file that is missing or unreadable; no such scene), invalid_input (broken, unsafe
-/// or ambiguous, or over a limit), unsupported (a required extension, or a glTF version, that we do
-/// not have). What is merely not conforming becomes a warning.
+/// not_found (a file that is missing or unreadable; no such scene, variant or animation),
+/// invalid_input (broken, unsafe or ambiguous, or over a limit), unsupported (a required extension,
+/// or a glTF version, that we do not have). What is merely not conforming becomes a warning.
 [[nodiscard]] BDPT_EXPORT LoadedScene load_gltf(const std::filesystem::path& file,
                                                 const GltfOptions& options = {});
 

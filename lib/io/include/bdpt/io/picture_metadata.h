@@ -22,10 +22,11 @@ struct PictureMetadata {
     double render_seconds = 0.0;
     CameraDesc camera;
     std::chrono::system_clock::time_point created{};
+    std::string xmp{};  ///< what the scene says about itself, JSON-LD; empty: nothing
 };
 
 /// The text entries that all formats share: "bdpt.version", "bdpt.scene", "bdpt.settings",
-/// "bdpt.integrator" and "bdpt.seed".
+/// "bdpt.integrator" and "bdpt.seed"; "bdpt.xmp" if there is any.
 [[nodiscard]] BDPT_EXPORT std::vector<std::pair<std::string, std::string>> text_entries(
     const PictureMetadata& metadata);
 

@@ -1,0 +1,24 @@
+#include "gltf/data_budget.h"
+
+#include "file/read_file.h"
+
+#include <bdpt/error.h>
+
+#include <fmt/format.h>
+
+namespace bdpt::io {
+
+void DataBudget::spend(const std::string& place, std::uint64_t count, std::uint64_t size)
+{
+    const std::uint64_t left = limit_ - spent_;
+    if (size != 0 && count > left / size) {
+        const long double need = static_cast<long double>(count) * static_cast<long double>(size) +
+                                 static_cast<long double>(spent_);
+        throw Error(ErrorCode::invalid_input,
+                    fmt::format("{}: vertices, key frames and instances need {}, but the limit is {}", place,
+                                human_bytes(need), human_bytes(static_cast<long double>(limit_))));
+    }
+    spent_ += count * size;
+}
+
+}  // namespace bdpt::io

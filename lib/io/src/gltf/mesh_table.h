@@ -1,0 +1,70 @@
+#pragma once
+
+#include "file/warnings.h"
+#include "gltf/data_budget.h"
+#include "gltf/mesh.h"
+#include "gltf/model.h"
+#include "gltf/node_transforms.h"
+
+#include <bdpt/io/read_limits.h>
+#include <bdpt/scene_desc.h>
+
+#include <glm/mat4x4.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <tuple>
+#include <vector>
+
+namespace bdpt::io {
+
+/// A mesh as a node shows it.
+struct ShownMesh {
+    MeshId mesh{};
+    bool in_world = false;  ///< skinned: where it is, no node moves it
+};
+
+/// Reads primitives, each deformation of each only once.
+class MeshTable {
+public:
+    /// The arguments must outlive the table. Meshes are added to `meshes`.
+    MeshTable(const GltfModel& model, const ReadLimits& limits, NodeTransforms& transforms,
+              DataBudget& budget, std::vector<MeshDesc>& meshes, Warnings& warnings)
+        : model_(model),
+          limits_(limits),
+          transforms_(transforms),
+          budget_(budget),
+          meshes_(meshes),
+          warnings_(warnings)
+    {}
+
+    /// Primitive `primitive` of the mesh that `node` has, with the node's skin and weights of morph
+    /// targets; none if it has no triangles. Throws `Error` (invalid_input).
+    [[nodiscard]] std::optional<ShownMesh> get(std::size_t node, std::size_t primitive);
+
+    /// A mesh flattened by a transform that has no inverse, in world space; none if nothing is left
+    /// to see of it. Throws `Error` (invalid_input) over the limits.
+    [[nodiscard]] std::optional<MeshId> flatten(MeshId mesh, PrimitiveId id,
+                                                const glm::dmat4& world_from_object);
+
+private:
+    /// Mesh, primitive, skin (-1: none), weights of morph targets.
+    using Key = std::tuple<std::size_t, std::size_t, int, std::vector<double>>;
+
+    [[nodiscard]] MeshId add(MeshDesc mesh, PrimitiveId id);
+    [[nodiscard]] const std::vector<glm::dmat4>& joints(int skin);
+
+    const GltfModel& model_;
+    const ReadLimits& limits_;
+    NodeTransforms& transforms_;
+    DataBudget& budget_;
+    std::vector<MeshDesc>& meshes_;
+    Warnings& warnings_;
+    std::map<Key, std::optional<MeshId>> known_;
+    std::map<int, std::vector<glm::dmat4>> joints_;  // by skin
+    std::uint64_t triangles_ = 0;
+};
+
+}  // namespace bdpt::io

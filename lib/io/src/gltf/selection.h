@@ -1,0 +1,24 @@
+#pragma once
+
+#include "file/json.h"
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace bdpt::io {
+
+/// The `name` of each element of `array`; empty where there is none. An array that is null or
+/// missing has no elements.
+[[nodiscard]] std::vector<std::string> names_in(const Json& array);
+
+/// The array at members `path` of `document`, or null.
+[[nodiscard]] const Json& array_at(const Json& document, const Json::json_pointer& path);
+
+/// The index of what is called `wanted`, else `wanted` as an index. Throws `Error` (not_found) that
+/// says which `what` ("scene") there are.
+[[nodiscard]] std::size_t select(std::string_view what, const std::vector<std::string>& names,
+                                 const std::string& wanted);
+
+}  // namespace bdpt::io

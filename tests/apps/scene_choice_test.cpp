@@ -1,0 +1,100 @@
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "picture_files.h"
+#include "scene_files.h"
+#include "scratch_folder.h"
+#include "subprocess.h"
+
+namespace bdpt::test {
+namespace {
+
+/// A cube with two variants, the second of which shines.
+std::string with_variants(const ScratchFolder& folder)
+{
+    const std::string more = R"("extensionsUsed": ["KHR_materials_variants"],
+        "extensions": {"KHR_materials_variants": {"variants": [{"name": "day"}, {"name": "night"}]}},)";
+    return write_cube(folder, "variants", {.cameras = two_cameras, .more = more}).string();
+}
+
+TEST_CASE("a variant, an animation or a time that there is not is refused")
+{
+    const ScratchFolder folder;
+    const std::string scene = with_variants(folder);
+    const std::string out = (folder / "out.exr").string();
+    const auto check = [&](const std::vector<std::string>& words, int code,
+                           const std::string& text) {
+        std::vector<std::string> all{"render", scene, "-o", out};
+        all.insert(all.end(), words.begin(), words.end());
+        const Outcome outcome = run(all);
+        CAPTURE(words, outcome.err);
+        CHECK(outcome.exit_code == code);
+        CHECK(outcome.err.find(text) != std::string::npos);
+        CHECK_FALSE(std::filesystem::exists(out));
+    };
+    check({"--variant", "dusk"}, 3, "no variant \"dusk\"; there are 0 \"day\", 1 \"night\"");
+    check({"--animation", "run"}, 3, "no animation \"run\"; there are none");
+    check({"--frame-time", "nan"}, 2, "--frame-time");
+    check({"--frame-time", "soon"}, 2, "--frame-time");
+}
+
+TEST_CASE("pictures say which part of a file they show, and what the file says about itself")
+{
+    const ScratchFolder folder;
+    const std::string more = R"("extensionsUsed": ["KHR_materials_variants", "KHR_xmp_json_ld"],
+        "extensions": {"KHR_materials_variants": {"variants": [{"name": "day"}]},
+                       "KHR_xmp_json_ld": {"packets": [{"dc:title": "none"}, {"dc:title": "Box"}]}},)";
+    const std::filesystem::path scene =
+        write_cube(folder, "cube", {.cameras = two_cameras, .more = more});
+    nlohmann::json document = nlohmann::json::parse(std::ifstream(scene));
+    document["asset"]["extensions"]["KHR_xmp_json_ld"]["packet"] = 1;
+    write_text(scene, document.dump());
+    const Outcome outcome =
+        run({"render", scene.string(), "-o", (folder / "out.exr").string(), "--spp", "1", "--size",
+             "8x4", "--variant", "day", "--frame-time", "0.5"});
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.exit_code == 0);
+    CHECK(outcome.err.find("the file has no animations") != std::string::npos);
+    const ExrFile exr = read_exr(folder / "out.exr");
+    const auto settings = nlohmann::json::parse(exr.text("bdpt.settings"));
+    CHECK(settings["variant"] == "day");
+    CHECK(settings["frame_time"] == 0.5);
+    CHECK_FALSE(settings.contains("animation"));
+    CHECK(exr.text("bdpt.xmp") == R"({"dc:title":"Box"})");
+}
+
+TEST_CASE("info lists variants and animations")
+{
+    const ScratchFolder folder;
+    const std::string scene = with_variants(folder);
+    const Outcome outcome = run({"info", scene, "--variant", "night"});
+    CAPTURE(outcome.out, outcome.err);
+    CHECK(outcome.exit_code == 0);
+    CHECK(outcome.out.find("variants    0 \"day\"") != std::string::npos);
+    const auto info = nlohmann::json::parse(run({"info", scene, "--json"}).out);
+    CHECK(info["variants"] == nlohmann::json::array({"day", "night"}));
+    CHECK(info["animations"].empty());
+    CHECK(run({"info", scene, "--variant", "dusk"}).exit_code == 3);
+}
+
+TEST_CASE("info tells the limits, with and without a file")
+{
+    const Outcome outcome = run({"info", "--limits"});
+    CHECK(outcome.exit_code == 0);
+    CHECK(outcome.out.find("triangles            500000000") != std::string::npos);
+    const auto alone = nlohmann::json::parse(run({"info", "--limits", "--json"}).out);
+    CHECK(alone["limits"]["node_depth"] == 512);
+    CHECK(alone.size() == 1);
+    const ScratchFolder folder;
+    const auto both =
+        nlohmann::json::parse(run({"info", with_variants(folder), "--limits", "--json"}).out);
+    CHECK(both["limits"] == alone["limits"]);
+    CHECK(both.contains("triangles"));
+}
+
+}  // namespace
+}  // namespace bdpt::test

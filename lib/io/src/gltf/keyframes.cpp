@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
+#include <numeric>
 
 namespace bdpt::io {
 
@@ -50,6 +52,22 @@ Values linear(const Values& a, const Values& b, double u)
     return result;
 }
 
+/// Along the shorter great circle between unit quaternions, at constant speed. Halves the arc until
+/// `u` is met, for the sine and arccosine of the C library may differ between machines.
+Values slerp(Values a, Values b, double u)
+{
+    if (std::inner_product(a.begin(), a.end(), b.begin(), 0.0) < 0.0) {
+        std::transform(b.begin(), b.end(), b.begin(), std::negate<>());
+    }
+    constexpr int bits = 52;
+    for (int bit = 0; bit < bits; ++bit) {
+        const Values middle = normalized(linear(a, b, 0.5));
+        (u < 0.5 ? b : a) = middle;
+        u = u < 0.5 ? 2.0 * u : 2.0 * u - 1.0;
+    }
+    return a;
+}
+
 /// Hermite's spline; tangents are per second, so they count times the seconds between the keys.
 Values hermite(const KeyFrames& frames, std::size_t key, double u, double seconds)
 {
@@ -80,8 +98,7 @@ Values between(const KeyFrames& frames, Quantity quantity, std::size_t key, doub
     }
     const Values a = row(frames, key, Row::value);
     const Values b = row(frames, key + 1, Row::value);
-    return quantity == Quantity::rotation ? to_values(glm::slerp(to_quaternion(normalized(a)),
-                                                                 to_quaternion(normalized(b)), u))
+    return quantity == Quantity::rotation ? slerp(normalized(a), normalized(b), u)
                                           : linear(a, b, u);
 }
 

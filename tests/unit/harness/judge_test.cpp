@@ -226,6 +226,57 @@ TEST_CASE("light that only one strategy can make is at stake, or unchecked")
     }
 }
 
+TEST_CASE("what is said to be detectable is detected nine times out of ten")
+{
+    constexpr int batches = 40;
+    constexpr int runs = 30;
+    const VerifyReport sound = judge_toy({}, batches);
+    for (int s = 0; s < 3; ++s) {
+        const StrategyFinding& claimed = finding(sound, {.s = s, .t = 3 - s});
+        ToyFault fault;
+        // So that the mean of the picture changes by that.
+        fault.factors[static_cast<std::size_t>(s)] =
+            1.0 + claimed.whole.detectable * sound.radiance / claimed.weighted;
+        int found = 0;
+        for (std::uint64_t seed = 0; seed < runs; ++seed) {
+            const Evidence evidence = gather(fault, batches, 5000 + seed);
+            found += judge(evidence, toy_options()).verdict == Verdict::fail ? 1 : 0;
+        }
+        CAPTURE(s, claimed.whole.detectable);
+        CHECK(found >= 23);  // fewer with a chance of 0.3 %
+    }
+}
+
+TEST_CASE("the tests of a family are corrected for their number")
+{
+    ToyFault fault;
+    fault.factors[2] = 1.1;
+    const VerifyReport report = judge_toy(fault, 40);
+    const MeanComparison* least_whole = nullptr;
+    const MeanComparison* least_tile = nullptr;
+    std::size_t wholes = 0;
+    std::size_t tiles = 0;
+    const auto look = [&](const auto& finding) {
+        ++wholes;
+        tiles += finding.tiles.size();
+        if (least_whole == nullptr || finding.whole.p < least_whole->p) {
+            least_whole = &finding.whole;
+        }
+        for (const MeanComparison& tile : finding.tiles) {
+            least_tile = least_tile == nullptr || tile.p < least_tile->p ? &tile : least_tile;
+        }
+    };
+    std::for_each(report.strategies.begin(), report.strategies.end(), look);
+    std::for_each(report.integrators.begin(), report.integrators.end(), look);
+    CHECK(wholes == 15);
+    CHECK(tiles == 60);
+    CHECK(least_whole->p_adjusted ==
+          Approx(std::min(1.0, least_whole->p * static_cast<double>(wholes))));
+    CHECK(least_tile->p_adjusted ==
+          Approx(std::min(1.0, least_tile->p * static_cast<double>(tiles))));
+    CHECK(least_tile->p < least_tile->p_adjusted);
+}
+
 TEST_CASE("false alarms are as rare as promised")
 {
     constexpr int runs = 300;

@@ -117,7 +117,7 @@ def light_paths():
 
 def direct_indirect():
     scene = "cornell-spheres.gltf"
-    parts = {"direct and indirect": (), "direct only": ("--only", "direct"), "indirect only": ("--only", "indirect")}
+    parts = {"direct only": ("--only", "direct"), "indirect only": ("--only", "indirect"), "direct and indirect": ()}
     return tuple(Cell(label, scene, part + depth(6), 64, reference=part + depth(6)) for label, part in parts.items())
 
 

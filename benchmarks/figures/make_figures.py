@@ -200,7 +200,9 @@ def main():
         try:
             make(name, renderer, arguments.scale, arguments.output)
         except subprocess.CalledProcessError as error:
-            sys.exit(f"make_figures: {name}: {error.stderr or shlex.join(error.cmd)}")
+            sys.exit(f"make_figures: {name}: failed: {shlex.join(error.cmd)}\n{error.stderr or ''}".rstrip())
+        except OSError as error:
+            sys.exit(f"make_figures: {name}: {error}")
 
 
 if __name__ == "__main__":

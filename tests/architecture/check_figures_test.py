@@ -3,7 +3,9 @@
 
 import dataclasses
 import pathlib
+import shutil
 import sys
+import tempfile
 import unittest
 
 sys.dont_write_bytecode = True
@@ -11,6 +13,7 @@ import check_figures
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "benchmarks" / "figures"))
 import make_figures
+import sheet
 from figures import Cell, Figure, strategies
 
 HELP = """Options:
@@ -84,6 +87,53 @@ class Table(unittest.TestCase):
         self.assertEqual(make_figures.scaled(Figure("Rows", 2, repeated), scale), (list(repeated), 2))
         timed = Figure("Time", 1, (dataclasses.replace(cells[0], spp=None, seconds=9.0),))
         self.assertEqual(make_figures.scaled(timed, scale)[0][0].seconds, 0.5)
+
+    def test_sums_of_lengths(self):
+        """Each cell of the grid has the reference of all paths that its subpaths can make, and no splats."""
+        for cell in make_figures.FIGURES["lengths-grid"].cells:
+            words = dict(zip(cell.options[::2], cell.options[1::2]))
+            m, w = int(words["--max-camera-depth"]), int(words["--max-light-depth"])
+            self.assertEqual(cell.reference, ("--max-depth", str(m + w + 1)) if m else None)
+            disabled = set(words["--disable"].split(","))
+            self.assertTrue({f"s{s}t1" for s in range(1, w + 2)} <= disabled, cell.label)
+            self.assertFalse([name for name in disabled if not name.endswith(("t0", "t1"))], cell.label)
+
+    def test_ends(self):
+        """End to end only: a single strategy is left, and the reference has all others of that length."""
+        cell = next(c for c in make_figures.FIGURES["lamp-box"].cells if c.label == "2-3 end to end only")
+        everything = {f"s{s}t{t}" for s in range(8) for t in range(8) if 2 <= s + t <= 7}
+        within = {f"s{s}t{t}" for s in range(5) for t in range(4) if s + t >= 2}
+        self.assertEqual(within - set(cell.options[-1].split(",")), {"s4t3"})
+        left = everything - set(cell.reference[-1].split(","))
+        self.assertEqual(left - {"s0t7", "s7t0"}, {f"s{s}t{7 - s}" for s in range(1, 7)})
+
+
+@unittest.skipUnless(shutil.which("oiiotool"), "oiiotool is not there")
+class Pictures(unittest.TestCase):
+    def test_means_and_maxima(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            files = []
+            for value in (1, 3, 4, 2):
+                files.append(folder / f"{value}.exr")
+                sheet.oiiotool("--pattern", f"constant:color={value},{2 * value},0", "4x3", 3, "-d", "float",
+                               "-o", files[-1])
+            sheet.mean_of_maxima([files[:2], files[2:]], folder / "out.exr")
+            self.assertEqual(sheet.mean(folder / "out.exr"), [3.5, 7.0, 0.0])
+
+    def test_sheet(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            sheet.oiiotool("--pattern", "constant:color=0.25,0.5,4", "52x26", 3, "-d", "float", "-o", folder / "a.exr")
+            sheet.shown(folder / "a.exr", (52, 26), 1.0, ("", ""), folder / "a.png")
+            sheet.mosaic([folder / "a.png"] * 3, 2, folder / "sheet.png")
+            height = 104 + (sheet.CAPTION if sheet.font() else 0)
+            self.assertIn(f"{2 * 208 + 4} x {2 * height + 4}, 3 channel", " ".join(
+                sheet.oiiotool("--info", folder / "sheet.png").split()).replace(" x  ", " x "))
+            sheet.oiiotool(folder / "a.png", "--cut", "208x104", "-d", "float", "-o", folder / "cut.exr")
+            red, green, blue = sheet.mean(folder / "cut.exr")  # of 0.5, 1 and 8 as sRGB
+            self.assertAlmostEqual(red, 188 / 255, delta=0.01)
+            self.assertEqual((green, blue), (1.0, 1.0))
 
 
 if __name__ == "__main__":

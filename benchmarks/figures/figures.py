@@ -1,0 +1,159 @@
+"""The figures: for each its cells, that is scenes and options of `bdpt render`. make_figures.py renders them."""
+
+import dataclasses
+
+
+@dataclasses.dataclass(frozen=True)
+class Cell:
+    """One picture of a sheet. It has either samples (`spp`) or a time to render for (`seconds`)."""
+
+    label: str
+    scene: str  # a file of scenes/
+    options: tuple  # of `bdpt render`
+    spp: int = None
+    seconds: float = None
+    reference: tuple = None  # options of a long render of the same light by bdpt, or None: there is none
+    rival: tuple = None  # options of a second estimate: the picture is the mean of maxima of the two (biased!)
+    rounds: int = 1  # how many maxima, each of pictures of spp / rounds samples
+
+
+@dataclasses.dataclass(frozen=True)
+class Figure:
+    """One sheet, `columns` cells wide."""
+
+    title: str
+    columns: int
+    cells: tuple
+    reference_spp: int = 2048
+    exposure: float = None  # [EV]; None: the automatic one of the scene's last reference
+
+
+def strategies(max_light, max_camera, keep):
+    """`--disable` with all strategies of at most that many vertices for which `keep(s, t)` does not hold."""
+    pairs = ((s, t) for s in range(max_light + 1) for t in range(max_camera + 1) if s + t >= 2)
+    names = [f"s{s}t{t}" for s, t in pairs if not keep(s, t)]
+    return ("--disable", ",".join(names)) if names else ()
+
+
+def depth(edges):
+    return ("--max-depth", str(edges))
+
+
+def by(integrator):
+    return ("--integrator", integrator)
+
+
+def lengths_grid(splats):
+    """Camera subpaths of up to m edges and light subpaths of up to w. Together they make all paths of up to m + w + 1
+    edges, which is what the reference shows; without splats (t = 1) camera subpaths of 0 edges make none."""
+    cells = []
+    for m in range(6):
+        for w in range(6):
+            options = ("--max-camera-depth", str(m), "--max-light-depth", str(w)) + depth(11)
+            options += () if splats else strategies(w + 1, 1, lambda s, t: t > 1)
+            reference = depth(m + w + 1) if m > 0 or (splats and w > 0) else None
+            cells.append(Cell(f"m = {m}, w = {w}", "cornell-lambertian-hidden.gltf", options, 4, reference=reference))
+    return tuple(cells)
+
+
+def light_lengths():
+    """All columns estimate the same picture, that of paths of up to 6 edges."""
+    cells = []
+    for scene in ("cornell-spheres.gltf", "cornell-spheres-hidden.gltf"):
+        cells.append(Cell("path tracing (mis)", scene, by("mis") + depth(6), 16, reference=depth(6)))
+        cells += [Cell(f"w = {w}", scene, ("--max-light-depth", str(w)) + depth(6), 16, reference=depth(6))
+                  for w in range(6)]
+    return tuple(cells)
+
+
+def greater_of_two():
+    cells = []
+    for scene in ("cornell-spheres-hidden.gltf", "cornell-lambertian-hidden.gltf"):
+        paths, both = by("mis") + depth(6), depth(6)
+        cells += [Cell("path tracing", scene, paths, 16, reference=both),
+                  Cell("bdpt, weighted: unbiased", scene, both, 16, reference=both),
+                  Cell("BIASED: greater per sample", scene, both, 16, reference=both, rival=paths, rounds=16),
+                  Cell("BIASED: greater picture", scene, both, 16, reference=both, rival=paths)]
+    return tuple(cells)
+
+
+def single_scatter():
+    cells = []
+    for scene in ("cornell-box.gltf", "lamp-box.gltf"):
+        three_edges = depth(3) + strategies(3, 4, lambda s, t: s + t == 4)
+        alone = depth(3) + strategies(3, 4, lambda s, t: (s, t) == (2, 2))
+        cells += [Cell("1 x 1 connection (s2t2)", scene, alone, 16, reference=three_edges),
+                  Cell("all of three edges", scene, three_edges, 16, reference=three_edges)]
+    return tuple(cells)
+
+
+def lamp_box():
+    """A row for each pair of lengths e-l: subpaths of e edges from the camera and of l from the light."""
+    cells = []
+    for camera, light in ((2, 3), (2, 4), (3, 3)):
+        edges, scene, spp = camera + light + 1, "lamp-box.gltf", 16
+        whole = depth(edges)
+        cells += [Cell(f"{name.upper()}, {edges} edges", scene, by(name) + whole, spp, reference=whole)
+                  for name in ("pt", "nee", "mis")]
+        limits = ("--max-camera-depth", str(camera), "--max-light-depth", str(light)) + whole
+        ends = strategies(light + 1, camera + 1, lambda s, t: (s, t) == (light + 1, camera + 1))
+        same = strategies(edges, edges, lambda s, t: s + t == edges + 1)
+        cells += [Cell(f"{camera}-{light} end to end only", scene, limits + ends, spp, reference=whole + same),
+                  Cell(f"{camera}-{light} all connections", scene,
+                       limits + strategies(light + 1, camera + 1, lambda s, t: t > 1), spp, reference=whole),
+                  Cell(f"bdpt, {edges} edges", scene, whole, spp, reference=whole)]
+    return tuple(cells)
+
+
+def light_paths():
+    cells = []
+    for scene in ("fourteen-specular.gltf", "cornell-spheres-hidden.gltf"):
+        for limit in ({"spp": 16}, {"seconds": 10.0}):
+            cells += [Cell(f"{count} light path{'s' if count > 1 else ''}", scene,
+                           ("--light-paths", str(count)) + depth(6), reference=depth(6), **limit)
+                      for count in (1, 2, 5, 10)]
+    return tuple(cells)
+
+
+def direct_indirect():
+    scene = "cornell-spheres.gltf"
+    parts = {"direct only": ("--only", "direct"), "indirect only": ("--only", "indirect"), "direct and indirect": ()}
+    return tuple(Cell(label, scene, part + depth(6), 64, reference=part + depth(6)) for label, part in parts.items())
+
+
+def sweep(scene, integrators, counts, edges):
+    """A row for each integrator, a column for each number of samples."""
+    return tuple(Cell(f"{name}, {count} spp", scene, by(name) + depth(edges), count, reference=depth(edges))
+                 for name in integrators for count in counts)
+
+
+FIGURES = {
+    "lengths-grid": Figure("6 x 6 lengths of camera (m) and light (w) subpaths, without splats", 6,
+                           lengths_grid(splats=False)),
+    "lengths-grid-splats": Figure("The same with splats (t = 1), which the reports did not have", 6,
+                                  lengths_grid(splats=True)),
+    "light-lengths": Figure("Light subpaths of 0 to 5 edges, beside plain path tracing", 7, light_lengths()),
+    "greater-of-two": Figure("The greater of two estimates is biased; the weighted sum is not", 4, greater_of_two()),
+    "single-scatter": Figure("One point of the camera joined to one of the light", 2, single_scatter()),
+    "lamp-box": Figure("PT, NEE, MIS, end to end only and all connections: 2-3, 2-4, 3-3", 6, lamp_box()),
+    "veach-plates": Figure("Veach's plates by BSDF sampling, light sampling and both", 4,
+                           sweep("veach-plates.gltf", ("pt", "nee", "mis", "bdpt"), (16,), 2), exposure=-5.0),
+    "fourteen-specular": Figure("PT and BDPT after 2, 10, 100, 1000 iterations", 4,
+                                sweep("fourteen-specular.gltf", ("pt", "bdpt"), (2, 10, 100, 1000), 5), 8192),
+    "depth-of-field": Figure("A thin lens at equal time", 3, tuple(
+        Cell(name, "nine-spheres-dof.gltf", by(name) + depth(5), seconds=20.0, reference=depth(5))
+        for name in ("pt", "mis", "bdpt"))),
+    "light-paths": Figure("1, 2, 5, 10 light paths for each camera path, at equal samples, then at equal time", 4,
+                          light_paths()),
+    "hemisphere-light": Figure("Hemisphere (pt) against light sampling (nee), direct light", 4,
+                               sweep("cornell-box.gltf", ("pt", "nee"), (1, 4, 16, 64), 2)),
+    "direct-indirect": Figure("Direct only and indirect only", 3, direct_indirect()),
+    "depths": Figure("Depth 0, 1, 2, 3, 100 of the reports", 5, tuple(
+        Cell(f"depth {bounces}", "cornell-spheres.gltf", depth(bounces + 1), 64, reference=depth(bounces + 1))
+        for bounces in (0, 1, 2, 3, 100))),
+    "samples": Figure("1 to 1024 samples per pixel", 11, sweep(
+        "cornell-box-hidden.gltf", ("mis", "bdpt"), tuple(2 ** k for k in range(11)), 6), 8192),
+    "rays": Figure("What each integrator spends its rays on", 5, tuple(
+        Cell(name, "fourteen-specular.gltf", by(name) + depth(5), 16, reference=None if name == "lt" else depth(5))
+        for name in ("pt", "nee", "mis", "lt", "bdpt"))),
+}

@@ -1,0 +1,209 @@
+#!/usr/bin/env python3
+"""Renders figures: for each a sheet of labelled pictures and their numbers.
+
+make_figures.py --list
+make_figures.py NAME... -o DIR [--scale quick|full] [--bdpt PATH]    (or all for NAME)
+
+Writes DIR/NAME.png, NAME.json and NAME.csv, and the pictures as DIR/NAME/NN.exr. Needs oiiotool."""
+
+import argparse
+import csv
+import dataclasses
+import json
+import pathlib
+import shlex
+import shutil
+import subprocess
+import sys
+
+sys.dont_write_bytecode = True
+import sheet
+from figures import FIGURES
+
+SCENES = pathlib.Path(__file__).resolve().parents[2] / "scenes"
+REFERENCE_SEED = 1000  # other numbers than any cell: errors of the same numbers would cancel
+
+
+@dataclasses.dataclass(frozen=True)
+class Scale:
+    """How large pictures are, and the most that cells may take."""
+
+    width: int
+    most_spp: int
+    most_reference_spp: int
+    most_seconds: float
+
+
+SCALES = {"quick": Scale(52, 64, 256, 0.3), "full": Scale(256, 1 << 20, 1 << 20, 1e9)}
+
+
+def aspect_ratio(scene):
+    """That of the first camera of the file."""
+    cameras = json.loads((SCENES / scene).read_text(encoding="utf-8"))["cameras"]
+    return cameras[0]["perspective"]["aspectRatio"]
+
+
+def size_of(scene, scale):
+    return scale.width, round(scale.width / aspect_ratio(scene))
+
+
+def scaled(figure, scale):
+    """Cells with what the scale allows, and columns. Cells that come out as one before because of it are left out."""
+    cells = []
+    for cell in figure.cells:
+        small = dataclasses.replace(cell, spp=cell.spp and min(cell.spp, scale.most_spp),
+                                    seconds=cell.seconds and min(cell.seconds, scale.most_seconds))
+        if cell.spp != small.spp:
+            small = dataclasses.replace(small, label=cell.label.replace(f"{cell.spp} spp", f"{small.spp} spp"))
+        if small == cell or small not in cells:
+            cells.append(small)
+    rows = len(figure.cells) // figure.columns
+    return cells, len(cells) // rows if len(cells) % rows == 0 else figure.columns
+
+
+class Renderer:
+    """Calls bdpt. References are made once for all figures."""
+
+    def __init__(self, bdpt, scale):
+        self.bdpt, self.scale, self.references = bdpt, scale, {}
+
+    def render(self, scene, options, limits, output, extra=()):
+        """What the command said when it was done, its statistics and itself."""
+        width, height = size_of(scene, self.scale)
+        stats = output.with_suffix(".stats.json")
+        command = [self.bdpt, "render", str(SCENES / scene), *options, "--size", f"{width}x{height}", *limits,
+                   "-o", str(output), "--stats", str(stats), "--json", *extra]
+        lines = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout.splitlines()
+        done = next(event for event in map(json.loads, lines) if event["event"] == "done")
+        rays = json.loads(stats.read_text(encoding="utf-8"))["rays"]
+        stats.unlink()
+        return {"samples": done["samples"], "seconds": done["seconds"], "exposure": done["exposure"], "rays": rays,
+                "command": shlex.join(["bdpt", *command[1:]])}
+
+    def reference(self, cell, spp, folder):
+        """File and report of the long render for a cell; None if it has none."""
+        if cell.reference is None:
+            return None
+        spp = min(spp, self.scale.most_reference_spp)
+        key = cell.scene, cell.reference, spp
+        if key not in self.references:
+            name = f"{pathlib.Path(cell.scene).stem}-{len(self.references):02}"
+            file, preview = folder / f"{name}.exr", folder / f"{name}.png"  # whose exposure is the automatic one
+            limits = ("--spp", str(spp), "--seed", str(REFERENCE_SEED))
+            self.references[key] = file, self.render(cell.scene, cell.reference, limits, file, ("-o", str(preview)))
+        return self.references[key]
+
+    def cell(self, cell, output):
+        """Renders a cell. Returns its numbers."""
+        if cell.rival is None:
+            limits = ("--spp", str(cell.spp)) if cell.spp else ("--time", f"{cell.seconds}s")
+            return self.render(cell.scene, cell.options, limits, output)
+        rounds = min(cell.rounds, cell.spp)
+        pairs, reports = [], []
+        for seed in range(rounds):
+            limits = ("--spp", str(cell.spp // rounds), "--seed", str(seed))
+            pair = [output.with_suffix(f".{seed}{letter}.exr") for letter in "ab"]
+            reports += [self.render(cell.scene, options, limits, file)
+                        for options, file in zip((cell.options, cell.rival), pair)]
+            pairs.append(pair)
+        sheet.mean_of_maxima(pairs, output)
+        for file in sum(pairs, []):
+            file.unlink()
+        total = {kind: sum(report["rays"][kind] for report in reports) for kind in ("camera", "light", "shadow")}
+        return {"samples": rounds * (cell.spp // rounds), "seconds": sum(report["seconds"] for report in reports),
+                "rays": total, "command": "; ".join(report["command"] for report in reports)}
+
+    def compare(self, picture, reference):
+        """Error and bias of a picture. The error has the noise of the reference in it."""
+        done = subprocess.run([self.bdpt, "compare", str(picture), str(reference), "--relative", "--json", "--metrics",
+                               "relmse"], check=True, stdout=subprocess.PIPE, text=True)
+        report = json.loads(done.stdout)
+        bias = report["bias"]["mean"]
+        return {"relmse": report["metrics"]["relmse"]["mean"], "bias": bias["value"],
+                "bias_standard_error": bias["standard_error"]}
+
+
+def write_numbers(name, figure, scale_name, rows, folder):
+    document = {"figure": name, "title": figure.title, "scale": scale_name, "cells": rows}
+    (folder / f"{name}.json").write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
+    keys = ("label", "scene", "samples", "seconds", "mean", "relmse", "bias", "bias_standard_error", "camera_rays",
+            "light_rays", "shadow_rays")
+    with open(folder / f"{name}.csv", "w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        writer.writerow(keys)
+        for row in rows:
+            flat = dict(row, mean=sum(row["mean"]) / 3, **{f"{kind}_rays": row["rays"][kind]
+                                                            for kind in ("camera", "light", "shadow")})
+            writer.writerow([flat.get(key, "") for key in keys])
+
+
+def caption(row):
+    """The line below the label."""
+    error = f"relMSE {row['relmse']:.3g}, " if "relmse" in row else ""
+    return f"{error}{row['samples']} spp, {row['seconds']:.2g} s"
+
+
+def make(name, renderer, scale_name, folder):
+    """Renders all cells of a figure and writes its files."""
+    figure = FIGURES[name]
+    cells, columns = scaled(figure, renderer.scale)
+    pictures = folder / name
+    pictures.mkdir(parents=True, exist_ok=True)
+    references = folder / "references"
+    references.mkdir(exist_ok=True)
+    rows, exposures = [], {}
+    for number, cell in enumerate(cells):
+        picture = pictures / f"{number:02}.exr"
+        row = {"label": cell.label, "scene": cell.scene, **renderer.cell(cell, picture)}
+        row["mean"] = sheet.mean(picture)
+        reference = renderer.reference(cell, figure.reference_spp, references)
+        if reference:
+            file, report = reference
+            exposures[cell.scene] = report["exposure"]  # that of the last is for all pictures of the scene
+            row.update(renderer.compare(picture, file))
+            row["reference"] = report["command"]
+        row.pop("exposure", None)
+        rows.append(row)
+        print(f"{name} {number + 1}/{len(cells)}: {cell.label}: {caption(row)}", flush=True)
+    shown = []
+    for number, (cell, row) in enumerate(zip(cells, rows)):
+        shown.append(pictures / f"{number:02}.png")
+        sheet.shown(pictures / f"{number:02}.exr", size_of(cell.scene, renderer.scale),
+                    exposures[cell.scene] if figure.exposure is None else figure.exposure,
+                    (cell.label, caption(row)), shown[-1])
+    sheet.mosaic(shown, columns, folder / f"{name}.png")
+    write_numbers(name, figure, scale_name, rows, folder)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("names", nargs="*", metavar="NAME", help="figures, or all")
+    parser.add_argument("--list", action="store_true", help="print all figures")
+    parser.add_argument("-o", "--output", type=pathlib.Path, metavar="DIR")
+    parser.add_argument("--scale", choices=SCALES, default="quick", help="size and samples; quick if not given")
+    parser.add_argument("--bdpt", default="bdpt", metavar="PATH", help="the command; found in PATH if not given")
+    arguments = parser.parse_args()
+    if arguments.list:
+        print("\n".join(f"{name:20} {len(figure.cells):3} cells  {figure.title}" for name, figure in FIGURES.items()))
+        return
+    names = list(FIGURES) if arguments.names == ["all"] else arguments.names
+    unknown = [name for name in names if name not in FIGURES]
+    if unknown or not names or not arguments.output:
+        parser.error(f"no such figure: {', '.join(unknown)}" if unknown else "NAME and -o DIR are required")
+    for tool in ("oiiotool", arguments.bdpt):
+        if not shutil.which(tool):
+            parser.error(f"{tool}: no such program")
+    if not sheet.font():
+        print("make_figures: oiiotool finds no font; labels are in the .json files only", file=sys.stderr)
+    renderer = Renderer(arguments.bdpt, SCALES[arguments.scale])
+    for name in names:
+        try:
+            make(name, renderer, arguments.scale, arguments.output)
+        except subprocess.CalledProcessError as error:
+            sys.exit(f"make_figures: {name}: failed: {shlex.join(error.cmd)}\n{error.stderr or ''}".rstrip())
+        except OSError as error:
+            sys.exit(f"make_figures: {name}: {error}")
+
+
+if __name__ == "__main__":
+    main()

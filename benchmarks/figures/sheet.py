@@ -1,0 +1,68 @@
+"""Pictures by oiiotool: mean values, maxima, and sheets of cells with captions."""
+
+import functools
+import glob
+import math
+import re
+import subprocess
+import tempfile
+
+CELL = 208  # least width of a cell on a sheet [px]
+CAPTION = 36  # height of its two lines of text [px]
+
+
+def oiiotool(*arguments):
+    """What it prints. Throws CalledProcessError."""
+    done = subprocess.run(["oiiotool", *map(str, arguments)], check=True, capture_output=True, text=True)
+    return done.stdout
+
+
+def mean(picture):
+    """Means of red, green and blue [nit]."""
+    line = re.search(r"Stats Avg: (.*) \(float\)", oiiotool("--stats", picture, "--ch", "R,G,B"))
+    return [float(word) for word in line[1].split()[:3]]
+
+
+def mean_of_maxima(pairs, output):
+    """Writes the mean of the greater values of pairs of pictures."""
+    arguments = []
+    for number, (first, second) in enumerate(pairs):
+        arguments += [first, second, "--max"] + (["--add"] if number else [])
+    oiiotool(*arguments, "--divc", len(pairs), "-d", "float", "-o", output)
+
+
+@functools.lru_cache(maxsize=None)
+def font():
+    """The first font that oiiotool can write with; None if there is none."""
+    files = glob.glob("/usr/share/fonts/**/*.ttf", recursive=True) + glob.glob("/Library/Fonts/*.ttf")
+    favourites = ("DejaVuSans.ttf", "LiberationSans-Regular.ttf", "NotoSans-Regular.ttf", "Arial.ttf")
+    files.sort(key=lambda file: (not file.endswith(favourites), file))
+    for file in files[:8]:
+        try:
+            with tempfile.NamedTemporaryFile(suffix=".png") as probe:
+                oiiotool("--create", "32x16", 3, f"--text:font={file}:size=8:x=1:y=12", "a", "-o", probe.name)
+            return file
+        except subprocess.CalledProcessError:
+            continue
+    return None
+
+
+def shown(picture, size, exposure, lines, output):
+    """Writes a cell: the picture times 2^exposure as sRGB, and lines of text below it if there is a font."""
+    width, height = size
+    factor = math.ceil(CELL / width)
+    width, height = width * factor, height * factor
+    caption = CAPTION if font() else 0
+    text = []
+    for number, line in enumerate(lines if font() else ()):
+        text += [f"--text:font={font()}:size=12:x=4:y={height + 15 + 16 * number}:color=1,1,1", line]
+    oiiotool(picture, "--ch", "R,G,B", "--resample:interp=0", f"{width}x{height}", "--mulc", 2 ** exposure,
+             "--clamp:min=0:max=1", "--colorconvert", "linear", "sRGB", "--create", f"{width}x{height + caption}", 3,
+             "--paste", "+0+0", *text, "-d", "uint8", "-o", output)
+
+
+def mosaic(cells, columns, output):
+    """Writes all cells row by row, the rest of the last row black."""
+    rows = math.ceil(len(cells) / columns)
+    oiiotool(*cells, *[argument for _ in range(rows * columns - len(cells)) for argument in ("--create", "1x1", 3)],
+             "--mosaic:pad=4", f"{columns}x{rows}", "-d", "uint8", "-o", output)

@@ -28,8 +28,8 @@ std::string find_xmp(const Json& document)
     constexpr std::size_t longest = std::size_t{1} << 20;
     for (const std::string extension : {"KHR_xmp_json_ld", "KHR_xmp"}) {
         const Json::json_pointer reference("/asset/extensions/" + extension + "/packet");
-        const Json& packets =
-            array_at(document, Json::json_pointer("/extensions/" + extension + "/packets"));
+        const Json::json_pointer place("/extensions/" + extension + "/packets");
+        const Json& packets = array_at(document, place);
         if (!document.contains(reference) || !packets.is_array()) {
             continue;
         }

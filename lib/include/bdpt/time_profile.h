@@ -41,8 +41,9 @@ inline constexpr std::array all_phases{Phase::walk, Phase::shade, Phase::connect
     return "splat";
 }
 
-/// Where the time of a render's samples went, added up over all threads. AOVs are not in it. Time
-/// that a thread had to wait for a processor counts as well. All zero when no sample was clocked.
+/// Where the time of a render's samples went, added up over all threads. AOVs are not in it, nor is
+/// time in which a thread had no processor, as far as the system tells. All zero when no sample was
+/// clocked.
 struct TimeProfile {
     /// Of all samples [s], by phase. Every sixteenth sample or so, chosen by chance, is clocked in
     /// phases, and what reading the clock takes is subtracted from each; the sum is what all

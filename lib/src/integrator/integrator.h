@@ -30,7 +30,7 @@ struct Films {
     /// Told of each path that brings light, if there is one.
     const std::function<void(const FoundPath&)>& on_path;
     /// Where the time of samples is noted, if it is to be.
-    const TimeSheet* times = nullptr;
+    TimeSheet* times = nullptr;
 };
 
 /// A light transport algorithm. Const while rendering: every thread calls the same object.

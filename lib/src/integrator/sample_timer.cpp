@@ -34,26 +34,39 @@ void SampleTimer::start(std::int64_t index) noexcept
 
 void SampleTimer::finish() noexcept
 {
-    std::uint64_t reads = 1;  // that are between begin_ and the end
+    double reads = 1.0;  // of the clock, between begin_ and the end
     if (clock_) {
         clock_->enter(Phase::walk);
-    }
-    const std::uint64_t ticks = read_ticks() - begin_;
-    PhaseTicks& kind = clock_ ? sheet_->samples.clocked : sheet_->samples.others;
-    kind.ticks += ticks;
-    ++kind.pieces;
-    if (clock_) {
         ++reads;
-        for (std::size_t i = 0; i < all_phases.size(); ++i) {
-            sheet_->samples.phases[i].ticks += clock_->spent()[i].ticks;
-            sheet_->samples.phases[i].pieces += clock_->spent()[i].pieces;
-            reads += clock_->spent()[i].pieces;
+        for (const PhaseTicks& phase : clock_->spent()) {
+            reads += static_cast<double>(phase.pieces);
         }
     }
-    sheet_->pixels.add(
-        x_, y_,
-        std::max(static_cast<double>(ticks) - static_cast<double>(reads) * sheet_->clock_ticks,
-                 0.0));
+    const auto elapsed = static_cast<double>(read_ticks() - begin_);
+    const double lost = elapsed > sheet_->suspicious_ticks ? sheet_->wait.lost_ticks() : 0.0;
+    const double ticks = std::max(elapsed - lost, 0.0);
+    // What is lost to the clocks themselves and to interrupts is far less.
+    constexpr double least_interruption = 0.1;
+    SampleTicks& samples = sheet_->samples;
+    if (!clock_) {
+        samples.others.ticks += static_cast<std::uint64_t>(ticks);
+        ++samples.others.pieces;
+    } else if (lost > least_interruption * elapsed) {
+        ++samples.interrupted;
+    } else {
+        note_phases();
+        samples.clocked.ticks += static_cast<std::uint64_t>(ticks);
+        ++samples.clocked.pieces;
+    }
+    sheet_->pixels.add(x_, y_, std::max(ticks - reads * sheet_->clock_ticks, 0.0));
+}
+
+void SampleTimer::note_phases() noexcept
+{
+    for (std::size_t i = 0; i < all_phases.size(); ++i) {
+        sheet_->samples.phases[i].ticks += clock_->spent()[i].ticks;
+        sheet_->samples.phases[i].pieces += clock_->spent()[i].pieces;
+    }
 }
 
 }  // namespace bdpt

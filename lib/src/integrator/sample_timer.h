@@ -1,5 +1,6 @@
 #pragma once
 
+#include "integrator/wait_watch.h"
 #include "math/probe.h"
 
 #include <bdpt/pixel_rect.h>
@@ -16,6 +17,9 @@ struct SampleTicks {
     std::array<PhaseTicks, all_phases.size()> phases{};  ///< of clocked samples
     PhaseTicks clocked;  ///< samples that are clocked in phases, a piece each
     PhaseTicks others;   ///< the others
+    /// Samples that should have been clocked, but whose thread lost the processor meanwhile: nobody
+    /// knows in which phase.
+    std::uint64_t interrupted = 0;
 };
 
 /// Ticks of all samples of each pixel of a region. A pixel is one thread's at a time.
@@ -48,13 +52,15 @@ private:
 struct TimeSheet {
     PixelTicks& pixels;
     SampleTicks& samples;
-    double clock_ticks;  ///< what reading the clock takes
+    double clock_ticks;       ///< what reading the clock takes
+    double suspicious_ticks;  ///< samples above may have waited for a processor
+    WaitWatch wait{};
 };
 
 /// Times one sample of a pixel, from here to its end, if there is a sheet to note it on.
 class SampleTimer {
 public:
-    SampleTimer(const TimeSheet* sheet, int x, int y, std::int64_t index) noexcept
+    SampleTimer(TimeSheet* sheet, int x, int y, std::int64_t index) noexcept
         : sheet_(sheet), x_(x), y_(y)
     {
         if (sheet_ != nullptr) {
@@ -76,8 +82,9 @@ public:
 private:
     void start(std::int64_t index) noexcept;
     void finish() noexcept;
+    void note_phases() noexcept;
 
-    const TimeSheet* sheet_;
+    TimeSheet* sheet_;
     int x_;
     int y_;
     std::optional<PhaseClock> clock_;

@@ -58,8 +58,7 @@ void render_pass(const Work& work, const RenderOptions& options, SampleRange sam
         tbb::blocked_range2d<int>(0, rows, 1, 0, columns, 1),
         [&](const tbb::blocked_range2d<int>& range) {
             const FlushDenormals flush;
-            const auto times =
-                work.times != nullptr ? std::optional(work.times->sheet()) : std::nullopt;
+            auto times = work.times != nullptr ? std::optional(work.times->sheet()) : std::nullopt;
             const Films films{.film = result.film,
                               .strategies = result.strategies,
                               .on_path = work.control.on_path,

@@ -6,6 +6,9 @@
 namespace bdpt {
 namespace {
 
+/// Threads that lose their processor do not get it back sooner.
+constexpr double suspicious_seconds = 30e-6;
+
 /// Ticks that PhaseClock::enter() takes: the least mean of several batches, as nothing makes it
 /// faster than it is.
 double measure_clock()
@@ -46,6 +49,7 @@ SampleTicks sum_of(tbb::combinable<SampleTicks>& parts)
         }
         add(sum.clocked, part.clocked);
         add(sum.others, part.others);
+        sum.interrupted += part.interrupted;
     });
     return sum;
 }
@@ -64,7 +68,7 @@ TimeProfile profile_of(const SampleTicks& samples, double clock_ticks, double ti
         pieces += read;
     }
     TimeProfile result;
-    result.samples = samples.clocked.pieces + samples.others.pieces;
+    result.samples = samples.clocked.pieces + samples.others.pieces + samples.interrupted;
     result.clocked_samples = samples.clocked.pieces;
     const auto all = static_cast<double>(result.samples);
     // Two reads for each sample, one more for each piece.
@@ -86,18 +90,27 @@ TimeRecorder::TimeRecorder(const PixelRect& region)
     : start_ticks_(read_ticks()),
       start_(std::chrono::steady_clock::now()),
       clock_ticks_(measure_clock()),
+      suspicious_ticks_(suspicious_seconds / seconds_a_tick()),
       pixels_(region)
 {}
 
+double TimeRecorder::seconds_a_tick() const
+{
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
+    return passed.count() / static_cast<double>(read_ticks() - start_ticks_);
+}
+
 TimeSheet TimeRecorder::sheet()
 {
-    return {.pixels = pixels_, .samples = samples_.local(), .clock_ticks = clock_ticks_};
+    return {.pixels = pixels_,
+            .samples = samples_.local(),
+            .clock_ticks = clock_ticks_,
+            .suspicious_ticks = suspicious_ticks_};
 }
 
 TimeProfile TimeRecorder::profile(std::int64_t samples_of_pixel)
 {
-    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
-    const double tick_seconds = passed.count() / static_cast<double>(read_ticks() - start_ticks_);
+    const double tick_seconds = seconds_a_tick();
     TimeProfile result = profile_of(sum_of(samples_), clock_ticks_, tick_seconds);
     result.region = pixels_.region();
     result.pixel_seconds.reserve(pixels_.ticks().size());

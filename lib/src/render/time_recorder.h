@@ -27,9 +27,13 @@ public:
     [[nodiscard]] TimeProfile profile(std::int64_t samples_of_pixel);
 
 private:
+    /// As well as it is known by now.
+    [[nodiscard]] double seconds_a_tick() const;
+
     std::uint64_t start_ticks_;
     std::chrono::steady_clock::time_point start_;
     double clock_ticks_;
+    double suspicious_ticks_;
     PixelTicks pixels_;
     tbb::combinable<SampleTicks> samples_;
 };

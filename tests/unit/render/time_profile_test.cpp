@@ -9,8 +9,10 @@
 #include "catch.hpp"
 #include "scene_builder.h"
 
+#include <chrono>
 #include <cmath>
 #include <functional>
+#include <thread>
 
 namespace bdpt {
 namespace {
@@ -73,7 +75,8 @@ int for_clocked_samples(const RenderOptions& options,
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
             SampleTicks ticks;
-            const TimeSheet sheet{.pixels = pixels, .samples = ticks, .clock_ticks = 0.0};
+            TimeSheet sheet{
+                .pixels = pixels, .samples = ticks, .clock_ticks = 0.0, .suspicious_ticks = 1e30};
             const RenderStats stats = integrator->render_tile(
                 {x, x + 1, y, y + 1}, {.begin = 0, .end = 1},
                 {.film = film, .strategies = strategies, .on_path = nobody, .times = &sheet});
@@ -161,6 +164,26 @@ TEST_CASE("ticks are kept by pixel", "[profile]")
     CHECK(pixels.ticks() == std::vector<double>{0.0, 5.0, 8.0, 0.0});
 }
 
+TEST_CASE("time without a processor does not count", "[profile]")
+{
+    constexpr PixelRect one{.x0 = 0, .y0 = 0, .x1 = 1, .y1 = 1};
+    PixelTicks pixels(one);
+    SampleTicks ticks;
+    TimeSheet sheet{
+        .pixels = pixels, .samples = ticks, .clock_ticks = 0.0, .suspicious_ticks = 0.0};
+    const std::uint64_t begin = read_ticks();
+    for (std::int64_t index = 0; index < 64; ++index) {
+        const SampleTimer timer(&sheet, 0, 0, index);
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    const auto passed = static_cast<double>(read_ticks() - begin);
+    CHECK(pixels.ticks().front() < 0.5 * passed);
+    CHECK(static_cast<double>(ticks.others.ticks) < 0.5 * passed);
+    CHECK(ticks.clocked.pieces == 0);
+    CHECK(ticks.interrupted >= 1);
+    CHECK(ticks.others.pieces + ticks.interrupted == 64);
+}
+
 TEST_CASE("phases are the pieces that a path is made of", "[profile]")
 {
     SECTION("pt: rays and surfaces take turns, then the film")
@@ -219,21 +242,23 @@ TEST_CASE("what reading the clock takes is not in a profile", "[profile]")
                     PhaseTicks{.ticks = 30, .pieces = 10}, PhaseTicks{}, PhaseTicks{}};
     ticks.clocked = {.ticks = 2000, .pieces = 2};
     ticks.others = {.ticks = 12300, .pieces = 30};
+    ticks.interrupted = 4;
     // After the clock: 950, 400, 0 in 2 samples, and 12150 in 30 others.
     const TimeProfile profile = profile_of(ticks, 5.0, 0.001);
-    CHECK(profile.samples == 32);
+    CHECK(profile.samples == 36);
     CHECK(profile.clocked_samples == 2);
     CHECK(profile.share(Phase::walk) == Approx(950.0 / 1350.0));
     CHECK(profile.share(Phase::shade) == Approx(400.0 / 1350.0));
     CHECK(profile.seconds(Phase::connect) == 0.0);
-    CHECK(profile.total() == Approx(32.0 * 405.0 * 0.001));
+    CHECK(profile.total() == Approx(36.0 * 405.0 * 0.001));
     CHECK(profile.distortion == Approx((1350.0 / 2.0) / 405.0));
-    CHECK(profile.clock_seconds == Approx((2.0 * 32.0 + 40.0) * 5.0 * 0.001));
+    CHECK(profile.clock_seconds == Approx((2.0 * 36.0 + 40.0) * 5.0 * 0.001));
 
     SECTION("without clocked samples nothing is known of phases")
     {
         ticks.phases = {};
         ticks.clocked = {};
+        ticks.interrupted = 0;
         const TimeProfile none = profile_of(ticks, 5.0, 0.001);
         CHECK(none.samples == 30);
         CHECK(none.total() == 0.0);
@@ -242,6 +267,7 @@ TEST_CASE("what reading the clock takes is not in a profile", "[profile]")
     SECTION("with nothing but clocked samples these tell how long a sample takes")
     {
         ticks.others = {};
+        ticks.interrupted = 0;
         const TimeProfile all = profile_of(ticks, 5.0, 0.001);
         CHECK(all.total() == Approx(1.35));
         CHECK(all.distortion == 0.0);

@@ -49,6 +49,12 @@ ordered_json split_json(const TimeSplit& split, const TimeProfile& profile)
             {"pixels", packed_bytes(time_map(profile.pixel_seconds))}};
 }
 
+[[noreturn]] void refuse(const fs::path& file, const std::string& what)
+{
+    throw Error(ErrorCode::invalid_input,
+                file.string() + ": " + what + "; delete it to have it made again");
+}
+
 TimeSplit parse_split(const ordered_json& json, IntegratorKind integrator, const fs::path& file)
 {
     TimeSplit split{.integrator = integrator};
@@ -61,11 +67,11 @@ TimeSplit parse_split(const ordered_json& json, IntegratorKind integrator, const
                 json.at("shares").at(to_string(phase)).get<double>();
         }
         static_cast<void>(json.at("pixels").get<std::string>());
+        if (json.at("integrator").get<std::string>() != to_string(integrator)) {
+            refuse(file, "is of another integrator than its name says");
+        }
     } catch (const nlohmann::json::exception&) {
-        throw Error(ErrorCode::invalid_input,
-                    file.string() +
-                        ": lacks what a time split of bdpt bench has; delete it to have it made "
-                        "again");
+        refuse(file, "lacks what a time split of bdpt bench has");
     }
     return split;
 }

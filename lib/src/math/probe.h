@@ -7,10 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#if defined(__x86_64__)
-#include <x86intrin.h>
-#endif
-
 namespace bdpt {
 
 // Code that may be clocked is a template over its probe: `NoProbe`, which compiles to nothing, or
@@ -20,8 +16,8 @@ namespace bdpt {
 /// of the time of std::chrono's clock, or that clock where there is none.
 [[nodiscard]] inline std::uint64_t read_ticks() noexcept
 {
-#if defined(__x86_64__)
-    return __rdtsc();
+#if defined(__x86_64__) && defined(__GNUC__)
+    return __builtin_ia32_rdtsc();
 #else
     return static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch().count());
 #endif

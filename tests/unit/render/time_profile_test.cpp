@@ -162,6 +162,24 @@ TEST_CASE("ticks are kept by pixel", "[profile]")
     pixels.add(5, 2, 100.0);
     pixels.add(3, 1, 100.0);
     CHECK(pixels.ticks() == std::vector<double>{0.0, 5.0, 8.0, 0.0});
+    SECTION("without those of the clock")
+    {
+        SampleTicks ticks;
+        TimeSheet sheet{.pixels = pixels,
+                        .samples = ticks,
+                        .clock_ticks = 1e18,  // more than there are
+                        .suspicious_ticks = 1e30};
+        for (std::int64_t index = 0; index < 100; ++index) {
+            const SampleTimer timer(&sheet, 3, 2, index);
+        }
+        CHECK(ticks.clocked.pieces > 0);
+        CHECK(pixels.ticks()[0] == 0.0);
+        sheet.clock_ticks = 0.0;
+        for (std::int64_t index = 0; index < 100; ++index) {
+            const SampleTimer timer(&sheet, 3, 2, index);
+        }
+        CHECK(pixels.ticks()[0] > 0.0);
+    }
 }
 
 TEST_CASE("time without a processor does not count", "[profile]")

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "contest.h"
 #include "subject.h"
 
 namespace {
@@ -18,8 +17,7 @@ using namespace bdpt;
 struct Settings {
     std::vector<std::string> scenes;
     SubjectSettings subject{.size = 64, .max_depth = 6};
-    int rounds = 5;
-    std::int64_t samples = 16;
+    harness::ContestOptions contest;
 };
 
 struct Kind {
@@ -30,21 +28,22 @@ struct Kind {
 void measure(const std::string& file, const Settings& settings)
 {
     const Subject subject = load_subject(file, settings.subject);
-    const Reference reference = make_reference(subject, settings.subject.reference_samples);
+    const harness::Reference reference =
+        make_reference(subject, settings.subject.reference_samples);
     for (const Kind& integrator :
          {Kind{IntegratorKind::mis, "mis"}, Kind{IntegratorKind::bdpt, "bdpt"}}) {
-        std::array variants{Variant{"plain", subject.options},
-                            Variant{"compensated", subject.options}};
-        for (Variant& variant : variants) {
+        std::array variants{harness::Variant{"plain", subject.options},
+                            harness::Variant{"compensated", subject.options}};
+        for (harness::Variant& variant : variants) {
             variant.options.integrator = integrator.kind;
         }
         variants[0].options.environment_sampling = EnvironmentSampling::plain;
         variants[1].options.environment_sampling = EnvironmentSampling::compensated;
-        const auto scores = compete_at_equal_samples(subject, reference, variants, settings.samples,
-                                                     settings.rounds);
+        const auto scores =
+            harness::compete(subject.bench_scene(), reference, variants, settings.contest);
         std::printf("  %-4s relMSE: plain %.2e, compensated %.2e, ratio %.2f; time ratio %.2f\n",
-                    integrator.name, scores[0].error, scores[1].error,
-                    scores[1].error / scores[0].error,
+                    integrator.name, scores[0].error.median, scores[1].error.median,
+                    scores[1].error.median / scores[0].error.median,
                     scores[1].sample_seconds / scores[0].sample_seconds);
     }
 }
@@ -57,8 +56,7 @@ int main(int argc, char** argv)
     CLI::App app{"Error and time of compensated sampling of environments against plain sampling"};
     app.add_option("scenes", settings.scenes, "glTF files with an environment, or see --env")
         ->required();
-    app.add_option("--spp", settings.samples, "Samples per pixel")->capture_default_str();
-    app.add_option("--rounds", settings.rounds, "Renders of each")->capture_default_str();
+    add_sample_options(app, settings.contest);
     add_options(app, settings.subject);
     add_reference_option(app, settings.subject);
     CLI11_PARSE(app, argc, argv);

@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <string>
 
-#include "contest.h"
 #include "subject.h"
 
 namespace {
@@ -26,22 +25,24 @@ constexpr std::array demands{Demand{"cornell-box-hidden.gltf", 4.0}, Demand{"lam
 struct Settings {
     std::string folder;
     SubjectSettings subject;
-    Contest contest;
+    harness::ContestOptions contest;
 };
 
 /// Does the scene meet the demand?
 bool measure(const Demand& demand, const Settings& settings)
 {
     const Subject subject = load_subject(settings.folder + "/" + demand.file, settings.subject);
-    const Reference reference = make_reference(subject, settings.subject.reference_samples);
-    std::array variants{Variant{"bdpt", subject.options}, Variant{"mis", subject.options}};
+    const harness::Reference reference =
+        make_reference(subject, settings.subject.reference_samples);
+    std::array variants{harness::Variant{"bdpt", subject.options},
+                        harness::Variant{"mis", subject.options}};
     variants[1].options.integrator = IntegratorKind::mis;
-    const auto scores = compete(subject, reference, variants, settings.contest);
-    const double ratio = scores[1].error / scores[0].error;
+    const auto scores = compete(subject.bench_scene(), reference, variants, settings.contest);
+    const double ratio = scores[1].error.median / scores[0].error.median;
     const bool met = ratio >= demand.least_ratio;
-    std::printf("  relMSE: bdpt %.2e (%.2e .. %.2e), mis %.2e (%.2e .. %.2e)\n", scores[0].error,
-                scores[0].least_error, scores[0].greatest_error, scores[1].error,
-                scores[1].least_error, scores[1].greatest_error);
+    std::printf("  relMSE: bdpt %.2e (%.2e .. %.2e), mis %.2e (%.2e .. %.2e)\n",
+                scores[0].error.median, scores[0].error.least, scores[0].error.greatest,
+                scores[1].error.median, scores[1].error.least, scores[1].error.greatest);
     std::printf("  samples: bdpt %lld, mis %lld\n", static_cast<long long>(scores[0].samples),
                 static_cast<long long>(scores[1].samples));
     std::printf("  mis has %.2f times the relMSE of bdpt; at least %.2f is asked for: %s\n", ratio,

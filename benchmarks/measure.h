@@ -1,25 +1,18 @@
 #pragma once
 
-#include <algorithm>
+#include <bdpt/harness/statistics/spread.h>
+
 #include <cstddef>
-#include <ctime>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace bdpt {
 
-/// Median, or the upper one of two; `values` is not empty.
+/// Of at least one number.
 [[nodiscard]] inline double median(std::vector<double> values)
 {
-    std::sort(values.begin(), values.end());
-    return values[values.size() / 2];
-}
-
-/// CPU time of all threads of this process [s]: other programs on the machine count less than on a
-/// clock at the wall.
-[[nodiscard]] inline double cpu_seconds()
-{
-    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+    return harness::spread(std::move(values)).median;
 }
 
 /// Results of `run(variant, round)` for each variant, by round. The variants take turns, A B C A B
@@ -44,7 +37,7 @@ template <typename Run>
     for (std::size_t i = 0; i < a.size(); ++i) {
         ratios.push_back(a[i] / b[i]);
     }
-    return median(ratios);
+    return median(std::move(ratios));
 }
 
 }  // namespace bdpt

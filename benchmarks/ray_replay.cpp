@@ -3,6 +3,8 @@
 
 #include "geometry/embree.h"
 
+#include <bdpt/harness/bench/cpu_seconds.h>
+
 #include <CLI/CLI.hpp>
 
 #include <cstddef>
@@ -119,14 +121,14 @@ bool measure(const std::string& file, const Settings& settings)
 
     bool equal = true;
     const auto seconds = in_turn(2, settings.rounds, [&](std::size_t variant, int) {
-        const double begin = cpu_seconds();
+        const double begin = harness::cpu_seconds();
         if (variant == 0) {
             const RenderResult result = render(subject.scene, subject.camera, options);
             equal = equal && result.stats.rays.total() == totals.rays;
         } else {
             equal = equal && replay(logs) == totals.hits;
         }
-        return cpu_seconds() - begin;
+        return harness::cpu_seconds() - begin;
     });
     const double rays = static_cast<double>(totals.rays);
     std::printf(

@@ -1,25 +1,16 @@
 #include "subject.h"
 
 #include <bdpt/framing.h>
-#include <bdpt/harness/metrics/metric.h>
 #include <bdpt/io/environment.h>
 #include <bdpt/io/gltf.h>
 
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <utility>
 
-#include "measure.h"
-
 namespace bdpt {
-namespace {
-
-constexpr std::uint64_t reference_seed = 1'000'003;
-
-}  // namespace
 
 void add_options(CLI::App& app, SubjectSettings& settings)
 {
@@ -34,6 +25,19 @@ void add_reference_option(CLI::App& app, SubjectSettings& settings)
 {
     app.add_option("--reference", settings.reference_samples, "Samples of the reference")
         ->capture_default_str();
+}
+
+void add_options(CLI::App& app, harness::ContestOptions& contest)
+{
+    app.add_option("--time", contest.seconds, "CPU seconds a render")->capture_default_str();
+    app.add_option("--rounds", contest.rounds, "Renders of each variant")->capture_default_str();
+}
+
+void add_sample_options(CLI::App& app, harness::ContestOptions& contest)
+{
+    contest.samples = 16;
+    app.add_option("--spp", contest.samples, "Samples per pixel (16 if not given)");
+    app.add_option("--rounds", contest.rounds, "Renders of each variant")->capture_default_str();
 }
 
 Subject load_subject(const std::string& file, const SubjectSettings& settings)
@@ -55,31 +59,26 @@ Subject load_subject(const std::string& file, const SubjectSettings& settings)
     return {std::move(name), std::move(scene), camera, options};
 }
 
-Reference make_reference(const Subject& subject, std::int64_t samples)
+harness::BenchScene Subject::bench_scene() const
+{
+    return {.name = name,
+            .file = name,
+            .scene = scene,
+            .camera = camera,
+            .width = options.width,
+            .height = options.height};
+}
+
+harness::Reference make_reference(const Subject& subject, std::int64_t samples)
 {
     RenderOptions options = subject.options;
     options.threads = 0;
-    options.seed = reference_seed;
-    options.samples.end = samples;
-    const RenderResult result = render(subject.scene, subject.camera, options);
-    // The squared difference of the halves has four times the variance of their mean.
-    Reference reference{
-        .image = result.film.develop(),
-        .noise = harness::evaluate(harness::Metric::relmse, result.film.develop_half(0),
-                                   result.film.develop_half(1)) /
-                 4.0};
-    std::printf("%s: reference by bdpt with %lld samples: %.1f s, relMSE about %.1e\n",
-                subject.name.c_str(), static_cast<long long>(samples), result.seconds,
-                reference.noise);
+    harness::Reference reference =
+        harness::render_reference(subject.bench_scene(), options, samples);
+    std::printf("%s: reference by %s: relMSE about %.1e\n", subject.name.c_str(),
+                reference.origin.c_str(), reference.noise);
     std::fflush(stdout);
     return reference;
-}
-
-double error_of(const Film& film, const Reference& reference)
-{
-    return std::max(harness::evaluate(harness::Metric::relmse, film.develop(), reference.image) -
-                        reference.noise,
-                    1e-12);
 }
 
 void print_error(const std::exception& error)

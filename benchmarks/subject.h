@@ -1,6 +1,8 @@
 #pragma once
 
-#include <bdpt/image.h>
+#include <bdpt/harness/bench/bench_scene.h>
+#include <bdpt/harness/bench/contest.h>
+#include <bdpt/harness/bench/reference.h>
 #include <bdpt/render.h>
 
 #include <cstdint>
@@ -26,6 +28,10 @@ struct SubjectSettings {
 void add_options(CLI::App& app, SubjectSettings& settings);
 /// Adds --reference.
 void add_reference_option(CLI::App& app, SubjectSettings& settings);
+/// Adds --time and --rounds.
+void add_options(CLI::App& app, harness::ContestOptions& contest);
+/// Adds --spp and --rounds, of contests at equal samples.
+void add_sample_options(CLI::App& app, harness::ContestOptions& contest);
 
 /// A scene and the camera that it is seen by.
 struct Subject {
@@ -33,22 +39,16 @@ struct Subject {
     Scene scene;
     CameraDesc camera;
     RenderOptions options;  ///< of bdpt
+
+    /// The same for the harness, as long as this object lives.
+    [[nodiscard]] harness::BenchScene bench_scene() const;
 };
 
 /// The scene of a glTF file as its first camera sees it, or framed if it has none. Throws `Error`.
 [[nodiscard]] Subject load_subject(const std::string& file, const SubjectSettings& settings);
 
-/// What a picture converges to, as well as it is known.
-struct Reference {
-    Image image;
-    double noise = 0.0;  ///< relMSE of `image`, from its two independent halves
-};
-
-/// Renders it by bdpt with a seed that no trial has, and says so on stdout.
-[[nodiscard]] Reference make_reference(const Subject& subject, std::int64_t samples);
-
-/// relMSE of `film` without the reference's own noise, which adds to that of every picture.
-[[nodiscard]] double error_of(const Film& film, const Reference& reference);
+/// Renders it by `harness::render_reference`, and says so on stdout.
+[[nodiscard]] harness::Reference make_reference(const Subject& subject, std::int64_t samples);
 
 /// On stderr.
 void print_error(const std::exception& error);

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "contest.h"
 #include "subject.h"
 
 namespace {
@@ -17,7 +16,7 @@ using namespace bdpt;
 struct Settings {
     std::vector<std::string> scenes;
     SubjectSettings subject;
-    Contest contest;
+    harness::ContestOptions contest;
 };
 
 /// All strategies with t <= 1: light paths that are seen through the lens.
@@ -31,9 +30,9 @@ std::vector<Strategy> splats(const RenderOptions& options)
     return result;
 }
 
-std::vector<Variant> variants_of(const RenderOptions& defaults)
+std::vector<harness::Variant> variants_of(const RenderOptions& defaults)
 {
-    std::vector<Variant> variants{{"default", defaults}};
+    std::vector<harness::Variant> variants{{"default", defaults}};
     const auto add = [&](const std::string& name) -> RenderOptions& {
         variants.push_back({name, defaults});
         return variants.back().options;
@@ -50,22 +49,30 @@ std::vector<Variant> variants_of(const RenderOptions& defaults)
     return variants;
 }
 
+/// In proportion to the relMSE of a single sample, if it falls with the inverse of their number.
+double sample_error(const harness::Score& score)
+{
+    return score.error.median / score.sample_seconds;
+}
+
 void measure(const std::string& file, const Settings& settings)
 {
     const Subject subject = load_subject(file, settings.subject);
-    const Reference reference = make_reference(subject, settings.subject.reference_samples);
-    const std::vector<Variant> variants = variants_of(subject.options);
-    const std::vector<Score> scores = compete(subject, reference, variants, settings.contest);
-    const Score& base = scores.front();
+    const harness::Reference reference =
+        make_reference(subject, settings.subject.reference_samples);
+    const std::vector<harness::Variant> variants = variants_of(subject.options);
+    const std::vector<harness::Score> scores =
+        compete(subject.bench_scene(), reference, variants, settings.contest);
+    const harness::Score& base = scores.front();
     std::printf("  default: %.2e s of CPU time a sample of all pixels, relMSE %.2e after %.1f s\n",
-                base.sample_seconds, base.error, settings.contest.seconds);
+                base.sample_seconds, base.error.median, settings.contest.seconds);
     std::printf("  %-24s %12s %16s %14s\n", "times the default's", "time/sample", "relMSE/sample",
                 "at equal time");
     for (std::size_t v = 1; v < variants.size(); ++v) {
         std::printf("  %-24s %12.2f %16.2f %14.2f\n", variants[v].name.c_str(),
                     scores[v].sample_seconds / base.sample_seconds,
-                    scores[v].sample_error(settings.contest) / base.sample_error(settings.contest),
-                    scores[v].error / base.error);
+                    sample_error(scores[v]) / sample_error(base),
+                    scores[v].error.median / base.error.median);
     }
 }
 

@@ -3,6 +3,7 @@
 #include <bdpt/io/exr.h>
 #include <bdpt/io/gltf.h>
 #include <bdpt/isa.h>
+#include <bdpt/render.h>
 #include <bdpt/render_options.h>
 
 #include <cstdint>
@@ -47,6 +48,7 @@ struct RenderWords {
     std::string isa = "native";
     FilmWords film;
     std::optional<std::string> stats;
+    bool profile = false;
     StrategyWords strategies;
     bool tiled = false;
     std::string seed = "0";
@@ -73,7 +75,8 @@ struct RenderArguments {
     io::ExrChannelType channel_type = io::ExrChannelType::single_float;
     io::ExrStorage storage = io::ExrStorage::scanlines;
     std::optional<std::filesystem::path> stats;  ///< where numbers about the render go
-    std::optional<StrategyFiles> strategies;     ///< where images of strategies go
+    Profiling profiling = Profiling::off;
+    std::optional<StrategyFiles> strategies;  ///< where images of strategies go
     Format format = Format::text;
     Verbosity verbosity = Verbosity::normal;
 };

@@ -1,5 +1,6 @@
 #include "render_command.h"
 
+#include <bdpt/harness/bench/integrator_name.h>
 #include <bdpt/io/tone_map.h>
 #include <bdpt/render.h>
 #include <bdpt/version.h>
@@ -105,7 +106,7 @@ void announce(Console& console, const RenderArguments& arguments, const Stage& s
     console.note(fmt::format("{}: {} triangles, {} lights; {}x{}, {}, camera {}",
                              arguments.file.string(), counts.instanced_triangles, counts.lights,
                              stage.size.width, stage.size.height,
-                             integrator_name(arguments.options.integrator), stage.camera.name));
+                             harness::to_string(arguments.options.integrator), stage.camera.name));
 }
 
 RenderOptions options_for(const RenderArguments& arguments, const Stage& stage, Console& console)
@@ -134,6 +135,7 @@ RenderResult render_stage(const RenderArguments& arguments, const Stage& stage, 
     RenderControl control;
     control.stop = stop;
     control.time_limit = arguments.goal.seconds;
+    control.profiling = arguments.profiling;
     control.on_progress = [&](const Progress& progress) {
         console.progress(progress, arguments.goal);
     };
@@ -174,6 +176,20 @@ void tell_of_clamp(Console& console, const Film& film, const Image& image)
                              loss.contributions));
 }
 
+/// Microseconds of a sample: seconds would be too small for files of 16 bits.
+Layer time_layer(const TimeProfile& profile)
+{
+    Layer layer{.name = "time",
+                .channels = "Y",
+                .width = profile.region.width(),
+                .height = profile.region.height(),
+                .values = profile.pixel_seconds};
+    for (float& value : layer.values) {
+        value *= 1e6f;
+    }
+    return layer;
+}
+
 PictureOptions picture_options(const RenderArguments& arguments, const Stage& stage,
                                const RenderResult& result, const ordered_json& settings)
 {
@@ -181,7 +197,7 @@ PictureOptions picture_options(const RenderArguments& arguments, const Stage& st
     metadata.version = BDPT_VERSION;
     metadata.scene = one_line(arguments.file.string());
     metadata.settings = settings.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
-    metadata.integrator = integrator_name(arguments.options.integrator);
+    metadata.integrator = harness::to_string(arguments.options.integrator);
     metadata.seed = arguments.options.seed;
     metadata.samples_per_pixel = result.film.sample_count();
     metadata.render_seconds = result.seconds;
@@ -193,8 +209,12 @@ PictureOptions picture_options(const RenderArguments& arguments, const Stage& st
                                      .y = region.y0,
                                      .full_width = stage.size.width,
                                      .full_height = stage.size.height};
+    std::vector<Layer> layers = result.aovs.develop(result.film);
+    if (result.profile) {
+        layers.push_back(time_layer(*result.profile));
+    }
     return {.exr = {arguments.channel_type, std::move(metadata), arguments.storage, placement},
-            .layers = result.aovs.develop(result.film),
+            .layers = std::move(layers),
             .exposure = arguments.exposure};
 }
 
@@ -276,6 +296,10 @@ int run_render(const RenderArguments& arguments)
     }
     const RenderResult result = render_stage(arguments, stage, console, interrupt.stop_token());
     warn_of_defects(console, result.film.defects());
+    if (result.profile) {
+        console.event("profile", profile_json(*result.profile));
+        console.note(profile_text(*result.profile));
+    }
 
     const auto writing_start = std::chrono::steady_clock::now();
     const Image image = result.film.develop();

@@ -7,6 +7,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 
 #include "pictures.h"
 
@@ -64,19 +65,53 @@ void check_stats_file(const fs::path& file, std::span<const fs::path> others)
     io::check_writable(file);
 }
 
+ordered_json profile_json(const TimeProfile& profile)
+{
+    ordered_json shares = ordered_json::object();
+    for (const Phase phase : all_phases) {
+        shares[to_string(phase)] = profile.share(phase);
+    }
+    return {{"seconds", profile.total()},
+            {"shares", std::move(shares)},
+            {"samples", profile.samples},
+            {"clocked_samples", profile.clocked_samples},
+            {"clock_seconds", profile.clock_seconds},
+            {"distortion", profile.distortion}};
+}
+
+std::string profile_text(const TimeProfile& profile)
+{
+    if (profile.clocked_samples == 0) {
+        return "time of samples: too few to tell where it goes";
+    }
+    std::string text = fmt::format("time of a sample: {:.3g} us;",
+                                   1e6 * profile.total() / static_cast<double>(profile.samples));
+    const char* separator = " ";
+    for (const Phase phase : all_phases) {
+        text +=
+            fmt::format("{}{} {:.1f} %", separator, to_string(phase), 100.0 * profile.share(phase));
+        separator = ", ";
+    }
+    return text;
+}
+
 ordered_json stats_json(const RenderResult& result, const TimeSplit& time)
 {
     const RenderStats& stats = result.stats;
-    return {{"samples", result.film.sample_count()},
-            {"seconds",
-             {{"load", time.load},
-              {"build", time.build},
-              {"render", time.render},
-              {"write", time.write}}},
-            {"paths", {{"camera", stats.paths.camera}, {"light", stats.paths.light}}},
-            {"rays", rays_json(stats.rays, time.render)},
-            {"defects", defects_json(result.film.defects())},
-            {"clamp", clamp_json(result.film)}};
+    ordered_json json{{"samples", result.film.sample_count()},
+                      {"seconds",
+                       {{"load", time.load},
+                        {"build", time.build},
+                        {"render", time.render},
+                        {"write", time.write}}},
+                      {"paths", {{"camera", stats.paths.camera}, {"light", stats.paths.light}}},
+                      {"rays", rays_json(stats.rays, time.render)},
+                      {"defects", defects_json(result.film.defects())},
+                      {"clamp", clamp_json(result.film)}};
+    if (result.profile) {
+        json["profile"] = profile_json(*result.profile);
+    }
+    return json;
 }
 
 void write_stats_file(const fs::path& file, const ordered_json& stats)

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <span>
+#include <string>
 
 namespace bdpt::app {
 
@@ -20,6 +21,11 @@ struct TimeSplit {
 /// when it is also one of `others`, (output) for a place where nothing can be written.
 void check_stats_file(const std::filesystem::path& file,
                       std::span<const std::filesystem::path> others);
+
+/// Where the time of samples went: `seconds` of threads, and the share of each phase.
+[[nodiscard]] nlohmann::ordered_json profile_json(const TimeProfile& profile);
+/// The same in a line for people.
+[[nodiscard]] std::string profile_text(const TimeProfile& profile);
 
 /// The numbers of a render, for programs.
 [[nodiscard]] nlohmann::ordered_json stats_json(const RenderResult& result, const TimeSplit& time);

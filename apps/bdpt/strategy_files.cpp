@@ -1,6 +1,7 @@
 #include "strategy_files.h"
 
 #include <bdpt/error.h>
+#include <bdpt/harness/bench/integrator_name.h>
 #include <bdpt/io/output_file.h>
 #include <bdpt/io/png.h>
 #include <fmt/core.h>
@@ -11,7 +12,6 @@
 
 #include "arguments.h"
 #include "contact_sheet.h"
-#include "transport_arguments.h"
 
 namespace bdpt::app {
 namespace {
@@ -81,7 +81,7 @@ std::optional<StrategyFiles> strategy_files(const StrategyWords& words,
     if (options.integrator != IntegratorKind::bdpt && options.integrator != IntegratorKind::lt) {
         reject("--strategies", *words.file,
                fmt::format("--integrator bdpt or lt with it, not {}",
-                           integrator_name(options.integrator))
+                           harness::to_string(options.integrator))
                    .c_str());
     }
     return StrategyFiles{

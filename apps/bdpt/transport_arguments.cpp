@@ -1,5 +1,7 @@
 #include "transport_arguments.h"
 
+#include <bdpt/harness/bench/integrator_name.h>
+
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
@@ -15,13 +17,6 @@ namespace bdpt::app {
 namespace {
 
 constexpr int longest_path = 1000;  // [edges]
-
-constexpr std::array<std::pair<const char*, IntegratorKind>, 5> integrators{
-    {{"bdpt", IntegratorKind::bdpt},
-     {"pt", IntegratorKind::pt},
-     {"mis", IntegratorKind::mis},
-     {"nee", IntegratorKind::nee},
-     {"lt", IntegratorKind::lt}}};
 
 constexpr std::array<std::pair<const char*, Heuristic>, 5> heuristics{
     {{"balance", Heuristic::balance},
@@ -53,6 +48,15 @@ std::vector<std::string> names_of(const Table& table)
     std::vector<std::string> names;
     for (const auto& entry : table) {
         names.emplace_back(entry.first);
+    }
+    return names;
+}
+
+std::vector<std::string> integrator_names()
+{
+    std::vector<std::string> names;
+    for (const IntegratorKind kind : harness::all_integrators) {
+        names.emplace_back(harness::to_string(kind));
     }
     return names;
 }
@@ -166,11 +170,6 @@ std::optional<std::vector<Strategy>> parse_strategies(std::string_view text)
     }
 }
 
-const char* integrator_name(IntegratorKind kind)
-{
-    return name_of(integrators, kind);
-}
-
 void add_transport_options(CLI::App& command, TransportWords& words)
 {
     const auto group = "How to render";
@@ -180,7 +179,7 @@ void add_transport_options(CLI::App& command, TransportWords& words)
                     "bdpt (the default): bidirectional path tracing; mis: path tracing with light "
                     "and BSDF sampling; pt: with BSDF sampling only; nee: with light sampling "
                     "only; lt: light tracing")
-        ->check(CLI::IsMember(names_of(integrators)))
+        ->check(CLI::IsMember(integrator_names()))
         ->type_name("bdpt|pt|mis|nee|lt")
         ->group(group);
     command
@@ -208,7 +207,7 @@ void add_transport_options(CLI::App& command, TransportWords& words)
 RenderOptions with_transport(const TransportWords& words, RenderOptions options)
 {
     check_bidirectional(words);
-    options.integrator = value_of(integrators, words.integrator);
+    options.integrator = harness::parse_integrator(words.integrator).value();
     options.heuristic = value_of(heuristics, words.heuristic);
     options.max_depth = words.max_depth;
     if (words.only) {
@@ -232,7 +231,7 @@ RenderOptions with_transport(const TransportWords& words, RenderOptions options)
 nlohmann::ordered_json transport_json(const RenderOptions& options)
 {
     constexpr int unlimited = std::numeric_limits<int>::max();
-    nlohmann::ordered_json result{{"integrator", integrator_name(options.integrator)},
+    nlohmann::ordered_json result{{"integrator", harness::to_string(options.integrator)},
                                   {"heuristic", name_of(heuristics, options.heuristic)},
                                   {"max_depth", options.max_depth},
                                   {"min_depth", options.min_depth},

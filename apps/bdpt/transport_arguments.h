@@ -30,8 +30,6 @@ struct TransportWords {
 /// "s2t1,s0t3": strategies that make a path, with at most 1001 vertices on either side.
 [[nodiscard]] std::optional<std::vector<Strategy>> parse_strategies(std::string_view text);
 
-[[nodiscard]] const char* integrator_name(IntegratorKind kind);
-
 void add_transport_options(CLI::App& command, TransportWords& words);
 
 /// `options` with what `words` say. Throws `Error` (usage) that names the option and the value.

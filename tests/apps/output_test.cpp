@@ -23,15 +23,15 @@ TEST_CASE("help and version are worth reading and no errors")
         CHECK(outcome.out.find("Examples:") != std::string::npos);
     }
     const std::string help = run({"render", "--help"}).out;
-    for (const char* word : {"--output",         "--sampler",    "--spp",        "--time",
-                             "--size",           "--integrator", "--heuristic",  "--max-depth",
-                             "--camera",         "--look-at",    "--from",       "--fov",
-                             "--scene",          "--env",        "--exposure",   "--threads",
-                             "--seed",           "--half",       "--float",      "--quiet",
-                             "--json",           "--filter",     "--aov",        "--crop",
-                             "--clamp",          "--stats",      "--tiled",      "--strategies",
-                             "--strategy-depth", "--variant",    "--frame-time", "--animation",
-                             "Exit codes",       "143"}) {
+    for (const char* word : {"--output",         "--sampler",    "--spp",       "--time",
+                             "--size",           "--integrator", "--heuristic", "--max-depth",
+                             "--camera",         "--look-at",    "--from",      "--fov",
+                             "--scene",          "--env",        "--exposure",  "--threads",
+                             "--seed",           "--half",       "--float",     "--quiet",
+                             "--json",           "--filter",     "--aov",       "--crop",
+                             "--clamp",          "--stats",      "--tiled",     "--strategies",
+                             "--strategy-depth", "--profile",    "--variant",   "--frame-time",
+                             "--animation",      "Exit codes",   "143"}) {
         CAPTURE(word);
         CHECK(help.find(word) != std::string::npos);
     }

@@ -30,14 +30,13 @@ function speedUpBars(scene) {
       "aria-label": `Speed-up at equal error over pt in ${scene.name}: ${spoken}` }, ticks, bars));
 }
 
-const RAY_KINDS = [["camera", "from the camera"], ["light", "from lights"], ["shadow", "between two points"]];
-
-/** Rays that a sample of a pixel takes, by kind. */
-function rayBars(scene) {
-  const pixels = scene.width * scene.height;
-  const rows = scene.integrators.map((one) => ({ name: one.integrator,
-    rays: RAY_KINDS.map(([kind]) => one.rays_per_second[kind] / one.samples_per_second / pixels) }));
-  const most = Math.max(...rows.map((row) => row.rays.reduce((a, b) => a + b, 0)));
+/**
+ * A bar for each row of { name, parts, title(k), inside(k) }; parts are in the order of `kinds`, pairs of a class and what it
+ * means. Null when there is nothing to show.
+ */
+function stackedBars(scene, rows, { caption, series, kinds, format }) {
+  const totals = rows.map((row) => row.parts.reduce((a, b) => a + b, 0));
+  const most = Math.max(...totals);
   if (!(most > 0)) {
     return null;
   }
@@ -45,19 +44,34 @@ function rayBars(scene) {
   const unit = (width - left - 70) / most;
   const bars = rows.map((row, i) => {
     let x = left;
-    const total = row.rays.reduce((a, b) => a + b, 0);
-    const parts = row.rays.map((count, k) => {
-      const part = svg("rect", { x, y: 6 + i * rowHeight, width: count * unit, height: 20, class: `ray-${RAY_KINDS[k][0]}` },
-        svg("title", null, `${row.name}: ${digits(count)} rays ${RAY_KINDS[k][1]}`));
-      x += count * unit;
-      return part;
+    const y = 6 + i * rowHeight;
+    const parts = row.parts.map((value, k) => {
+      const size = value * unit;
+      const part = svg("rect", { x, y, width: size, height: 20, class: `part ${series}-${kinds[k][0]}` },
+        svg("title", null, row.title(k)));
+      const text = row.inside && size > 34
+        ? svg("text", { x: x + size / 2, y: y + 14, class: "inside", "text-anchor": "middle" }, row.inside(k)) : null;
+      x += size;
+      return [part, text];
     });
-    return svg("g", null, svg("text", { x: left - 8, y: 21 + i * rowHeight, class: `label series-${row.name}`, "text-anchor": "end" }, row.name),
-      parts, svg("text", { x: x + 7, y: 21 + i * rowHeight, class: "value" }, digits(total)));
+    return svg("g", null, svg("text", { x: left - 8, y: y + 15, class: `label series-${row.name}`, "text-anchor": "end" }, row.name),
+      parts.flat(), svg("text", { x: x + 7, y: y + 15, class: "value" }, format(totals[i])));
   });
-  const spoken = rows.map((row) => `${row.name} ${row.rays.map((count, k) => `${digits(count)} ${RAY_KINDS[k][1]}`).join(", ")}`);
-  return html("figure", { class: "plot-box" }, html("figcaption", null, "Rays for a sample of a pixel"),
+  const spoken = rows.map((row) => row.parts.map((_, k) => row.title(k)).join(", ")).join("; ");
+  return html("figure", { class: `plot-box ${series}-bars` }, html("figcaption", null, caption),
     svg("svg", { viewBox: `0 0 ${width} ${rowHeight * rows.length + 8}`, class: "plot", role: "img",
-      "aria-label": `Rays for a sample of a pixel in ${scene.name}: ${spoken.join("; ")}` }, bars),
-    html("p", { class: "sub" }, RAY_KINDS.map(([kind, text]) => html("span", { class: `ray-key ray-${kind}` }, text))));
+      "aria-label": `${caption} in ${scene.name}: ${spoken}` }, bars),
+    html("p", { class: "sub" }, kinds.map(([kind, text]) => html("span", { class: `bar-key ${series}-${kind}` }, text))));
+}
+
+const RAY_KINDS = [["camera", "from the camera"], ["light", "from lights"], ["shadow", "between two points"]];
+
+/** Rays that a sample of a pixel takes, by kind. */
+function rayBars(scene) {
+  const pixels = scene.width * scene.height;
+  const rows = scene.integrators.map((one) => {
+    const parts = RAY_KINDS.map(([kind]) => one.rays_per_second[kind] / one.samples_per_second / pixels);
+    return { name: one.integrator, parts, title: (k) => `${one.integrator}: ${digits(parts[k])} rays ${RAY_KINDS[k][1]}` };
+  });
+  return stackedBars(scene, rows, { caption: "Rays for a sample of a pixel", series: "ray", kinds: RAY_KINDS, format: digits });
 }

@@ -8,10 +8,12 @@
 #include <bdpt/render_stats.h>
 #include <bdpt/scene.h>
 #include <bdpt/strategy_film.h>
+#include <bdpt/time_profile.h>
 
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <stop_token>
 
 namespace bdpt {
@@ -21,6 +23,14 @@ struct Progress {
     std::int64_t samples_done = 0;   ///< per pixel
     std::int64_t samples_total = 0;  ///< per pixel
     double seconds = 0.0;            ///< [s] since render() was called
+};
+
+/// Is it measured where the time of samples goes?
+enum class Profiling : std::uint8_t {
+    off,
+    /// For `RenderResult::profile`; the picture and the counts stay the same, to the bit. Makes a
+    /// render some per cent slower.
+    on,
 };
 
 /// How a caller watches and stops a render. Everything is optional.
@@ -33,6 +43,7 @@ struct RenderControl {
     /// Called for each path that brings light to the film's region, on many threads at once; slows
     /// the render down.
     std::function<void(const FoundPath&)> on_path;
+    Profiling profiling = Profiling::off;
     /// No pass starts that would probably end after this [s].
     double time_limit = std::numeric_limits<double>::infinity();
 };
@@ -45,6 +56,7 @@ struct RenderResult {
     RenderStats stats;
     SampleRange samples;  ///< those that are in `film`; fewer than asked for after a stop
     double seconds = 0.0;
+    std::optional<TimeProfile> profile{};  ///< of the same samples; with Profiling::on
 };
 
 /// Blocks until all samples are done, `control.stop` is requested or the time is up; at least one

@@ -33,7 +33,8 @@ void add(std::array<ExactSum, 3>& sums, const std::array<ExactSum, 3>& others) n
 
 std::string two_digits(int number)
 {
-    return (number < 10 ? "0" : "") + std::to_string(number);
+    std::string text(number < 10 ? 1 : 0, '0');
+    return text += std::to_string(number);
 }
 
 Layer to_layer(const Image& image, std::string name)

@@ -1,6 +1,7 @@
 #include "integrator/bdpt_integrator.h"
 
 #include "camera/camera.h"
+#include "integrator/sample_timer.h"
 #include "math/sampler.h"
 #include "path/random_walk.h"
 #include "scene/world.h"
@@ -49,73 +50,93 @@ RenderStats BdptIntegrator::render_tile(const Tile& tile, SampleRange samples,
     if (films.on_path) {
         scratch.weigher.keep_paths();
     }
-    const WalkLimits light_limits{.max_vertices = strategies_.light_vertices(),
-                                  .rr_start = options_.rr_start};
     for (int y = tile.y_begin; y < tile.y_end; ++y) {
         for (int x = tile.x_begin; x < tile.x_end; ++x) {
             for (std::int64_t index = samples.begin; index < samples.end; ++index) {
-                Sampler sampler(options_.sampler, options_.seed, x, y, index);
-                const Vec2 center(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
-                Sample sample{.index = index, .sampler = sampler, .films = films, .pixel = center};
-                sampler.start(SampleUse::film);
-                const Vec2 raster = filter_.sample_raster(x, y, sampler.next_2d());
-                // Light paths outside of a crop can splat into it.
-                const bool wanted = films.film.region().contains(x, y);
-                const int camera_vertices = wanted ? strategies_.camera_vertices() : 1;
-                trace_camera_subpath(
-                    world_, camera_, raster,
-                    {.max_vertices = camera_vertices, .rr_start = options_.rr_start}, sampler,
-                    scratch.camera_path);
-                scratch.weigher.begin_camera_path(scratch.camera_path.all());
-                scratch.stats.rays.camera += scratch.camera_path.rays();
-                Rgb radiance = wanted ? estimate_camera_path(sample, scratch) : Rgb(0.0f);
-                splat_light(sample, scratch);
-                for (int i = 0; i < options_.light_paths; ++i) {
-                    Sampler own = light_sampler(options_, sampler, x, y, index, i);
-                    Sample light_sample{
-                        .index = index, .sampler = own, .films = films, .pixel = center};
-                    trace_light_subpath(world_, camera_, light_limits,
-                                        strategies_.environment_sampling(), own,
-                                        scratch.light_path);
-                    scratch.weigher.begin_light_path(scratch.light_path.all());
-                    scratch.stats.rays.light += scratch.light_path.rays();
-                    ++scratch.stats.paths.light;
-                    splat_light_path(light_sample, scratch);
-                    radiance += join_paths(light_sample, scratch);
+                SampleTimer timer(films.times, x, y, index);
+                if (PhaseClock* clock = timer.clock()) {
+                    add_sample({.x = x, .y = y, .index = index}, films, scratch, *clock);
+                } else {
+                    NoProbe probe;
+                    add_sample({.x = x, .y = y, .index = index}, films, scratch, probe);
                 }
-                if (wanted) {
-                    ++scratch.stats.paths.camera;
-                    films.film.add_sample(x, y, index, radiance);
-                }
-                add_pending_splats(sample, scratch);
             }
         }
     }
     return scratch.stats;
 }
 
-Rgb BdptIntegrator::estimate_camera_path(Sample& sample, Scratch& scratch) const
+template <typename Probe>
+void BdptIntegrator::add_sample(const SampleId& id, const Films& films, Scratch& scratch,
+                                Probe& probe) const
+{
+    const auto [x, y, index] = id;
+    Sampler sampler(options_.sampler, options_.seed, x, y, index);
+    const Vec2 center(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+    Sample sample{.index = index, .sampler = sampler, .films = films, .pixel = center};
+    sampler.start(SampleUse::film);
+    const Vec2 raster = filter_.sample_raster(x, y, sampler.next_2d());
+    // Light paths outside of a crop can splat into it.
+    const bool wanted = films.film.region().contains(x, y);
+    const int camera_vertices = wanted ? strategies_.camera_vertices() : 1;
+    trace_camera_subpath(world_, camera_, raster,
+                         {.max_vertices = camera_vertices, .rr_start = options_.rr_start}, sampler,
+                         scratch.camera_path, probe);
+    probe.enter(Phase::weigh);
+    scratch.weigher.begin_camera_path(scratch.camera_path.all());
+    scratch.stats.rays.camera += scratch.camera_path.rays();
+    probe.enter(Phase::connect);
+    Rgb radiance = wanted ? estimate_camera_path(sample, scratch, probe) : Rgb(0.0f);
+    splat_light(sample, scratch, probe);
+    const WalkLimits light_limits{.max_vertices = strategies_.light_vertices(),
+                                  .rr_start = options_.rr_start};
+    for (int i = 0; i < options_.light_paths; ++i) {
+        probe.enter(Phase::walk);
+        Sampler own = light_sampler(options_, sampler, x, y, index, i);
+        Sample light_sample{.index = index, .sampler = own, .films = films, .pixel = center};
+        trace_light_subpath(world_, camera_, light_limits, strategies_.environment_sampling(), own,
+                            scratch.light_path, probe);
+        probe.enter(Phase::weigh);
+        scratch.weigher.begin_light_path(scratch.light_path.all());
+        scratch.stats.rays.light += scratch.light_path.rays();
+        ++scratch.stats.paths.light;
+        probe.enter(Phase::connect);
+        splat_light_path(light_sample, scratch, probe);
+        radiance += join_paths(light_sample, scratch, probe);
+    }
+    probe.enter(Phase::splat);
+    if (wanted) {
+        ++scratch.stats.paths.camera;
+        films.film.add_sample(x, y, index, radiance);
+    }
+    add_pending_splats(sample, scratch);
+}
+
+template <typename Probe>
+Rgb BdptIntegrator::estimate_camera_path(Sample& sample, Scratch& scratch, Probe& probe) const
 {
     Rgb radiance(0.0f);
     const auto add = [&](Strategy strategy, const std::optional<Contribution>& found) {
         if (found) {
-            radiance += measure(strategy, *found, sample, scratch);
+            radiance += measure(strategy, *found, sample, scratch, probe);
+            probe.enter(Phase::connect);
         }
     };
     for (int t = 2; t <= scratch.camera_path.size(); ++t) {
         const auto camera = scratch.camera_path.first(t);
         if (strategies_.uses(0, t)) {
-            add({.s = 0, .t = t}, hit_light(world_, camera, scratch.weigher));
+            add({.s = 0, .t = t}, hit_light(world_, camera, scratch.weigher, probe));
         }
         if (t <= options_.max_depth && strategies_.uses(1, t)) {
             add({.s = 1, .t = t}, connect_to_light(world_, camera, sample.sampler, scratch.weigher,
-                                                   scratch.stats.rays));
+                                                   scratch.stats.rays, probe));
         }
     }
     return radiance;
 }
 
-Rgb BdptIntegrator::join_paths(const Sample& sample, Scratch& scratch) const
+template <typename Probe>
+Rgb BdptIntegrator::join_paths(const Sample& sample, Scratch& scratch, Probe& probe) const
 {
     Rgb radiance(0.0f);
     for (int t = 2; t <= scratch.camera_path.size(); ++t) {
@@ -126,16 +147,18 @@ Rgb BdptIntegrator::join_paths(const Sample& sample, Scratch& scratch) const
             }
             const auto found = connect_interior(
                 world_, scratch.light_path.first(s), scratch.camera_path.first(t),
-                sample.sampler.segment_key(s, t), scratch.weigher, scratch.stats.rays);
+                sample.sampler.segment_key(s, t), scratch.weigher, scratch.stats.rays, probe);
             if (found) {
-                radiance += measure({.s = s, .t = t}, *found, sample, scratch);
+                radiance += measure({.s = s, .t = t}, *found, sample, scratch, probe);
+                probe.enter(Phase::connect);
             }
         }
     }
     return radiance;
 }
 
-void BdptIntegrator::splat_light_path(Sample& sample, Scratch& scratch) const
+template <typename Probe>
+void BdptIntegrator::splat_light_path(Sample& sample, Scratch& scratch, Probe& probe) const
 {
     Subpath& path = scratch.light_path;
     const int longest_s = std::min(path.size(), options_.max_depth);
@@ -144,9 +167,11 @@ void BdptIntegrator::splat_light_path(Sample& sample, Scratch& scratch) const
             continue;
         }
         const auto splat = connect_to_lens(world_, camera_, path.first(s), sample.sampler,
-                                           scratch.weigher, scratch.stats.rays);
+                                           scratch.weigher, scratch.stats.rays, probe);
         if (splat) {
-            add_splat({.s = s, .t = 1}, *splat, static_cast<std::uint32_t>(2 * s), sample, scratch);
+            add_splat({.s = s, .t = 1}, *splat, static_cast<std::uint32_t>(2 * s), sample, scratch,
+                      probe);
+            probe.enter(Phase::connect);
         }
     }
     for (const LensCrossing& crossing : path.crossings()) {
@@ -154,31 +179,35 @@ void BdptIntegrator::splat_light_path(Sample& sample, Scratch& scratch) const
         if (s > options_.max_depth + 1 || !strategies_.uses(s, 0)) {
             continue;
         }
-        if (const auto splat = hit_lens(world_, path, crossing, scratch.weigher)) {
+        if (const auto splat = hit_lens(world_, path, crossing, scratch.weigher, probe)) {
             add_splat({.s = s, .t = 0}, *splat, static_cast<std::uint32_t>(2 * s + 1), sample,
-                      scratch);
+                      scratch, probe);
+            probe.enter(Phase::connect);
         }
     }
 }
 
-void BdptIntegrator::splat_light(Sample& sample, Scratch& scratch) const
+template <typename Probe>
+void BdptIntegrator::splat_light(Sample& sample, Scratch& scratch, Probe& probe) const
 {
     if (!strategies_.uses(1, 1) || !camera_.is_perspective()) {
         return;
     }
-    const auto splat =
-        connect_light_to_lens(world_, camera_, sample.sampler, scratch.weigher, scratch.stats.rays);
+    const auto splat = connect_light_to_lens(world_, camera_, sample.sampler, scratch.weigher,
+                                             scratch.stats.rays, probe);
     if (splat) {
-        add_splat({.s = 1, .t = 1}, *splat, 1, sample, scratch);
+        add_splat({.s = 1, .t = 1}, *splat, 1, sample, scratch, probe);
     }
 }
 
+template <typename Probe>
 Rgb BdptIntegrator::measure(Strategy strategy, const Contribution& found, const Sample& sample,
-                            Scratch& scratch) const
+                            Scratch& scratch, Probe& probe) const
 {
     const float count = strategies_.count(strategy.s, strategy.t);
     const Rgb weighted = found.weight / count * found.unweighted;
     if (!sample.films.strategies.empty()) {
+        probe.enter(Phase::splat);
         sample.films.strategies.add(strategy, sample.pixel,
                                     {.weighted = weighted, .unweighted = found.unweighted / count});
     }
@@ -200,9 +229,11 @@ void BdptIntegrator::add_pending_splats(const Sample& sample, Scratch& scratch)
     scratch.splats.clear();
 }
 
+template <typename Probe>
 void BdptIntegrator::add_splat(Strategy strategy, const Splat& splat, std::uint32_t dimension,
-                               Sample& sample, Scratch& scratch) const
+                               Sample& sample, Scratch& scratch, Probe& probe) const
 {
+    probe.enter(Phase::splat);
     SplatTarget target{.raster = splat.raster};
     if (!filter_.is_pixel()) {
         sample.sampler.start(SampleUse::film, dimension);

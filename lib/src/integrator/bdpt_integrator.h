@@ -40,21 +40,37 @@ private:
         Vec2 pixel;  // centre [pixels]
     };
 
+    /// Which one it is.
+    struct SampleId {
+        int x;
+        int y;
+        std::int64_t index;
+    };
+
+    /// Makes one sample of a pixel. Here and below the probe is told what is being done.
+    template <typename Probe>
+    void add_sample(const SampleId& id, const Films& films, Scratch& scratch, Probe& probe) const;
     /// s <= 1: radiance that the camera path brings by itself.
-    [[nodiscard]] Rgb estimate_camera_path(Sample& sample, Scratch& scratch) const;
+    template <typename Probe>
+    [[nodiscard]] Rgb estimate_camera_path(Sample& sample, Scratch& scratch, Probe& probe) const;
     /// s >= 2, t >= 2: radiance of the joins with the light path in `scratch`.
-    [[nodiscard]] Rgb join_paths(const Sample& sample, Scratch& scratch) const;
+    template <typename Probe>
+    [[nodiscard]] Rgb join_paths(const Sample& sample, Scratch& scratch, Probe& probe) const;
     /// t <= 1: what the light path in `scratch` brings to any pixel.
-    void splat_light_path(Sample& sample, Scratch& scratch) const;
+    template <typename Probe>
+    void splat_light_path(Sample& sample, Scratch& scratch, Probe& probe) const;
     /// s = t = 1
-    void splat_light(Sample& sample, Scratch& scratch) const;
+    template <typename Probe>
+    void splat_light(Sample& sample, Scratch& scratch, Probe& probe) const;
     /// What `found`, which `scratch` has just weighed, counts in the pixel of the sample; notes it
     /// in the strategy's images.
+    template <typename Probe>
     [[nodiscard]] Rgb measure(Strategy strategy, const Contribution& found, const Sample& sample,
-                              Scratch& scratch) const;
+                              Scratch& scratch, Probe& probe) const;
     /// The same for a splat; `dimension` tells those of one light path apart.
+    template <typename Probe>
     void add_splat(Strategy strategy, const Splat& splat, std::uint32_t dimension, Sample& sample,
-                   Scratch& scratch) const;
+                   Scratch& scratch, Probe& probe) const;
 
     static void add_pending_splats(const Sample& sample, Scratch& scratch);
 

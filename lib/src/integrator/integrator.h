@@ -13,6 +13,7 @@ namespace bdpt {
 
 class Camera;
 class World;
+struct TimeSheet;
 
 /// Half-open rectangle of pixels.
 struct Tile {
@@ -28,6 +29,8 @@ struct Films {
     StrategyFilm& strategies;  ///< empty unless images of strategies are asked for
     /// Told of each path that brings light, if there is one.
     const std::function<void(const FoundPath&)>& on_path;
+    /// Where the time of samples is noted, if it is to be.
+    TimeSheet* times = nullptr;
 };
 
 /// A light transport algorithm. Const while rendering: every thread calls the same object.

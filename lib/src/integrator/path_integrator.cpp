@@ -1,6 +1,7 @@
 #include "integrator/path_integrator.h"
 
 #include "camera/camera.h"
+#include "integrator/sample_timer.h"
 #include "math/rgb.h"
 #include "math/sampler.h"
 #include "path/path_vertex.h"
@@ -39,6 +40,7 @@ RenderStats PathIntegrator::render_tile(const Tile& tile, SampleRange samples,
     for (int y = tile.y_begin; y < tile.y_end; ++y) {
         for (int x = tile.x_begin; x < tile.x_end; ++x) {
             for (std::int64_t index = samples.begin; index < samples.end; ++index) {
+                SampleTimer timer(films.times, x, y, index);
                 Sampler sampler(options_.sampler, options_.seed, x, y, index);
                 sampler.start(SampleUse::film);
                 const Vec2 raster = filter_.sample_raster(x, y, sampler.next_2d());
@@ -47,7 +49,17 @@ RenderStats PathIntegrator::render_tile(const Tile& tile, SampleRange samples,
                               .sampler = sampler,
                               .films = films,
                               .rays = stats.rays};
-                films.film.add_sample(x, y, index, estimate(sample));
+                const auto add_sample = [&](auto& probe) {
+                    const Rgb radiance = estimate(sample, probe);
+                    probe.enter(Phase::splat);
+                    films.film.add_sample(x, y, index, radiance);
+                };
+                if (PhaseClock* clock = timer.clock()) {
+                    add_sample(*clock);
+                } else {
+                    NoProbe probe;
+                    add_sample(probe);
+                }
                 ++stats.paths.camera;
             }
         }
@@ -55,7 +67,8 @@ RenderStats PathIntegrator::render_tile(const Tile& tile, SampleRange samples,
     return stats;
 }
 
-Rgb PathIntegrator::estimate(Sample& sample) const
+template <typename Probe>
+Rgb PathIntegrator::estimate(Sample& sample, Probe& probe) const
 {
     Sampler& sampler = sample.sampler;
     RayCounts& rays = sample.rays;
@@ -78,9 +91,10 @@ Rgb PathIntegrator::estimate(Sample& sample) const
     for (int depth = 1; depth <= options_.max_depth; ++depth) {
         ++rays.camera;
         const auto point =
-            world_.intersect(ray.origin, ray.direction, sampler.segment_key(0, depth));
+            world_.intersect(ray.origin, ray.direction, sampler.segment_key(0, depth), probe);
         if (!point) {
             if (const auto id = world_.lights().environment()) {
+                const PhaseScope scope(probe, Phase::weigh);
                 const auto& light = std::get<EnvironmentLight>(world_.lights()[*id].model());
                 const Rgb open = medium_transmittance(ray.origin, {}, ray.direction,
                                                       std::numeric_limits<float>::max());
@@ -98,6 +112,7 @@ Rgb PathIntegrator::estimate(Sample& sample) const
         beta *= medium_transmittance(ray.origin, point->end, ray.direction,
                                      std::sqrt(distance_squared));
         if (point->light) {
+            const PhaseScope scope(probe, Phase::weigh);
             const LightPoint hit{
                 .p = point->end.p, .ng = point->end.ng, .barycentrics = point->barycentrics};
             measure({.s = 0, .t = depth + 1},
@@ -108,9 +123,11 @@ Rgb PathIntegrator::estimate(Sample& sample) const
         }
         const auto vertex = static_cast<std::uint32_t>(depth + 1);
         if (point->bsdf.connectible() && depth + 1 >= options_.min_depth) {
+            const PhaseScope scope(probe, Phase::connect);
             sampler.start(SampleUse::next_event, vertex);
             measure({.s = 1, .t = depth + 1},
-                    beta * sample_light(*point, sampler.segment_key(1, depth + 1), sampler, rays));
+                    beta * sample_light(*point, sampler.segment_key(1, depth + 1), sampler, rays,
+                                        probe));
         }
         sampler.start(SampleUse::camera_walk, vertex);
         const Vec2 u_direction = sampler.next_2d();
@@ -183,8 +200,9 @@ Rgb PathIntegrator::emission(const Ray& ray, LightId light, const LightPoint& hi
     return radiance * bsdf_weight(used.value, pdf.value);
 }
 
+template <typename Probe>
 Rgb PathIntegrator::sample_light(const SurfacePoint& point, SegmentKey segment, Sampler& sampler,
-                                 RayCounts& rays) const
+                                 RayCounts& rays, Probe& probe) const
 {
     const Vec2 u_position = sampler.next_2d();
     const auto choice = world_.lights().choose_for_receiver(point.end.p, sampler.next_fine());
@@ -211,6 +229,7 @@ Rgb PathIntegrator::sample_light(const SurfacePoint& point, SegmentKey segment, 
     if (light.is_delta()) {
         return value;
     }
+    probe.enter(Phase::weigh);
     return value *
            light_weight(incident->pdf_solid_angle.value * choice->probability, f.pdf_fwd.value);
 }

@@ -29,12 +29,15 @@ private:
         const Films& films;
         RayCounts& rays;
     };
-    [[nodiscard]] Rgb estimate(Sample& sample) const;
+    /// Here and below the probe is told what is being done.
+    template <typename Probe>
+    [[nodiscard]] Rgb estimate(Sample& sample, Probe& probe) const;
     /// Radiance that the ray brings from a light it hit, weighed against light sampling.
     [[nodiscard]] Rgb emission(const Ray& ray, LightId light, const LightPoint& hit,
                                Rgb radiance) const;
+    template <typename Probe>
     [[nodiscard]] Rgb sample_light(const SurfacePoint& point, SegmentKey segment, Sampler& sampler,
-                                   RayCounts& rays) const;
+                                   RayCounts& rays, Probe& probe) const;
     /// Weights of a light sample and of a BSDF sample that find the same point of a light, by their
     /// densities.
     [[nodiscard]] float light_weight(float light_pdf, float bsdf_pdf) const;

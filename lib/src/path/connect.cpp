@@ -30,14 +30,16 @@ AreaPdf at_end(SolidAnglePdf pdf, const SegmentEnd& end, Vec3 w, float distance_
 
 }  // namespace
 
+template <typename Probe>
 std::optional<Contribution> hit_light(const World& world, std::span<const PathVertex> camera,
-                                      PathWeigher& weigher)
+                                      PathWeigher& weigher, Probe& probe)
 {
     const PathVertex& x0 = camera.back();
     const Rgb value = x0.beta * x0.emission;
     if (!x0.light || is_black(value)) {
         return std::nullopt;
     }
+    probe.enter(Phase::weigh);
     const PathVertex& x1 = before_last(camera);
     const LightDensities densities =
         light_densities(world, x0, x1.end, weigher.environment_sampling());
@@ -50,9 +52,10 @@ std::optional<Contribution> hit_light(const World& world, std::span<const PathVe
                                                   .next_event = densities.next_event})};
 }
 
+template <typename Probe>
 std::optional<Contribution> connect_to_light(const World& world, std::span<const PathVertex> camera,
                                              Sampler& sampler, PathWeigher& weigher,
-                                             RayCounts& rays)
+                                             RayCounts& rays, Probe& probe)
 {
     const PathVertex& z = camera.back();
     if (z.kind != VertexKind::surface || !z.connectible) {
@@ -92,6 +95,7 @@ std::optional<Contribution> connect_to_light(const World& world, std::span<const
     if (is_black(value)) {
         return std::nullopt;
     }
+    probe.enter(Phase::weigh);
     const LightDensities densities =
         light_densities(world, x0, z.end, weigher.environment_sampling());
     x0.pdf_fwd = densities.emit;
@@ -110,8 +114,10 @@ std::optional<Contribution> connect_to_light(const World& world, std::span<const
                             .next_event = incident->pdf * choice->probability})};
 }
 
+template <typename Probe>
 std::optional<Splat> connect_light_to_lens(const World& world, const Camera& camera,
-                                           Sampler& sampler, PathWeigher& weigher, RayCounts& rays)
+                                           Sampler& sampler, PathWeigher& weigher, RayCounts& rays,
+                                           Probe& probe)
 {
     sampler.start(SampleUse::lens, 1);
     const Vec2 u_lens = camera.has_finite_lens() ? sampler.next_2d() : Vec2(0.0f);
@@ -139,6 +145,7 @@ std::optional<Splat> connect_light_to_lens(const World& world, const Camera& cam
     if (is_black(value)) {
         return std::nullopt;
     }
+    probe.enter(Phase::weigh);
     PathVertex x0;
     x0.light = choice->id;
     x0.kind = VertexKind::light;
@@ -164,9 +171,10 @@ std::optional<Splat> connect_light_to_lens(const World& world, const Camera& cam
                  .raster = to_lens->raster};
 }
 
+template <typename Probe>
 std::optional<Splat> connect_to_lens(const World& world, const Camera& camera,
                                      std::span<const PathVertex> light, Sampler& sampler,
-                                     PathWeigher& weigher, RayCounts& rays)
+                                     PathWeigher& weigher, RayCounts& rays, Probe& probe)
 {
     const PathVertex& y = light.back();
     if (!y.connectible) {
@@ -189,6 +197,7 @@ std::optional<Splat> connect_to_lens(const World& world, const Camera& camera,
     if (is_black(value)) {
         return std::nullopt;
     }
+    probe.enter(Phase::weigh);
     const float distance_squared = to_lens->distance * to_lens->distance;
     const float cosine = std::abs(dot(y.end.ng, to_lens->wi));
     PathVertex lens;
@@ -208,13 +217,15 @@ std::optional<Splat> connect_to_lens(const World& world, const Camera& camera,
                  .raster = to_lens->raster};
 }
 
+template <typename Probe>
 std::optional<Splat> hit_lens(const World& world, const Subpath& light_path,
-                              const LensCrossing& crossing, PathWeigher& weigher)
+                              const LensCrossing& crossing, PathWeigher& weigher, Probe& probe)
 {
     const Rgb value = crossing.lens.beta * crossing.importance;
     if (is_black(value)) {
         return std::nullopt;
     }
+    probe.enter(Phase::weigh);
     const auto light = light_path.first(crossing.light_vertices);
     const AreaPdf next_event = light.size() > 1
                                    ? light[0].pdf_next_event
@@ -231,9 +242,10 @@ std::optional<Splat> hit_lens(const World& world, const Subpath& light_path,
                  .raster = crossing.raster};
 }
 
+template <typename Probe>
 std::optional<Contribution> connect_interior(const World& world, std::span<const PathVertex> light,
                                              std::span<const PathVertex> camera, SegmentKey segment,
-                                             PathWeigher& weigher, RayCounts& rays)
+                                             PathWeigher& weigher, RayCounts& rays, Probe& probe)
 {
     const PathVertex& y = light.back();
     const PathVertex& z = camera.back();
@@ -260,6 +272,7 @@ std::optional<Contribution> connect_interior(const World& world, std::span<const
     if (is_black(value)) {
         return std::nullopt;
     }
+    probe.enter(Phase::weigh);
     return Contribution{
         .unweighted = value,
         .weight = weigher.weight(
@@ -270,5 +283,35 @@ std::optional<Contribution> connect_interior(const World& world, std::span<const
              .camera_at_light_neighbor = at_neighbor(f_y.pdf_rev, before_last(light)),
              .next_event = light[0].pdf_next_event})};
 }
+
+template std::optional<Contribution> hit_light(const World&, std::span<const PathVertex>,
+                                               PathWeigher&, NoProbe&);
+template std::optional<Contribution> hit_light(const World&, std::span<const PathVertex>,
+                                               PathWeigher&, PhaseClock&);
+template std::optional<Contribution> connect_to_light(const World&, std::span<const PathVertex>,
+                                                      Sampler&, PathWeigher&, RayCounts&, NoProbe&);
+template std::optional<Contribution> connect_to_light(const World&, std::span<const PathVertex>,
+                                                      Sampler&, PathWeigher&, RayCounts&,
+                                                      PhaseClock&);
+template std::optional<Splat> connect_light_to_lens(const World&, const Camera&, Sampler&,
+                                                    PathWeigher&, RayCounts&, NoProbe&);
+template std::optional<Splat> connect_light_to_lens(const World&, const Camera&, Sampler&,
+                                                    PathWeigher&, RayCounts&, PhaseClock&);
+template std::optional<Splat> connect_to_lens(const World&, const Camera&,
+                                              std::span<const PathVertex>, Sampler&, PathWeigher&,
+                                              RayCounts&, NoProbe&);
+template std::optional<Splat> connect_to_lens(const World&, const Camera&,
+                                              std::span<const PathVertex>, Sampler&, PathWeigher&,
+                                              RayCounts&, PhaseClock&);
+template std::optional<Splat> hit_lens(const World&, const Subpath&, const LensCrossing&,
+                                       PathWeigher&, NoProbe&);
+template std::optional<Splat> hit_lens(const World&, const Subpath&, const LensCrossing&,
+                                       PathWeigher&, PhaseClock&);
+template std::optional<Contribution> connect_interior(const World&, std::span<const PathVertex>,
+                                                      std::span<const PathVertex>, SegmentKey,
+                                                      PathWeigher&, RayCounts&, NoProbe&);
+template std::optional<Contribution> connect_interior(const World&, std::span<const PathVertex>,
+                                                      std::span<const PathVertex>, SegmentKey,
+                                                      PathWeigher&, RayCounts&, PhaseClock&);
 
 }  // namespace bdpt

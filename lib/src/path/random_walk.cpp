@@ -123,7 +123,8 @@ bool survives(Rgb& beta, Rgb full, float u)
 }
 
 /// Goes on from the first vertex until the path is full, leaves the scene or is absorbed.
-void walk(const Walk& rules, Step step, Sampler& sampler, Subpath& path)
+template <typename Probe>
+void walk(const Walk& rules, Step step, Sampler& sampler, Subpath& path, Probe& probe)
 {
     const Rgb full = step.beta;
     const bool watches_lens = rules.lens != nullptr && rules.lens->has_finite_lens();
@@ -136,7 +137,7 @@ void walk(const Walk& rules, Step step, Sampler& sampler, Subpath& path)
         const bool from_camera = mode == TransportMode::radiance;
         const SegmentKey segment =
             sampler.segment_key(from_camera ? 0 : path.size(), from_camera ? path.size() : 0);
-        const auto hit = world.intersect(step.origin, step.direction, segment);
+        const auto hit = world.intersect(step.origin, step.direction, segment, probe);
         if (watches_lens) {
             look_for_lens(*rules.lens, step,
                           hit ? glm::distance(hit->end.p, step.origin.p)
@@ -184,8 +185,9 @@ void walk(const Walk& rules, Step step, Sampler& sampler, Subpath& path)
 
 }  // namespace
 
+template <typename Probe>
 void trace_camera_subpath(const World& world, const Camera& camera, Vec2 raster,
-                          const WalkLimits& limits, Sampler& sampler, Subpath& path)
+                          const WalkLimits& limits, Sampler& sampler, Subpath& path, Probe& probe)
 {
     path.clear();
     sampler.start(SampleUse::lens);
@@ -205,11 +207,13 @@ void trace_camera_subpath(const World& world, const Camera& camera, Vec2 raster,
           .pdf = ray.pdf_direction,
           .pdf_plane = ray.pdf_plane,
           .origin = ray.lens},
-         sampler, path);
+         sampler, path, probe);
 }
 
+template <typename Probe>
 void trace_light_subpath(const World& world, const Camera& camera, const WalkLimits& limits,
-                         EnvironmentSampling sampling, Sampler& sampler, Subpath& path)
+                         EnvironmentSampling sampling, Sampler& sampler, Subpath& path,
+                         Probe& probe)
 {
     path.clear();
     sampler.start(SampleUse::light_start);
@@ -247,10 +251,19 @@ void trace_light_subpath(const World& world, const Camera& camera, const WalkLim
           .mode = TransportMode::importance,
           .use = SampleUse::light_walk,
           .limits = limits},
-         step, sampler, path);
+         step, sampler, path, probe);
     if (path.size() > 1) {
         start.pdf_next_event = next_event_density(world, start, path[1].end, sampling);
     }
 }
+
+template void trace_camera_subpath(const World&, const Camera&, Vec2, const WalkLimits&, Sampler&,
+                                   Subpath&, NoProbe&);
+template void trace_camera_subpath(const World&, const Camera&, Vec2, const WalkLimits&, Sampler&,
+                                   Subpath&, PhaseClock&);
+template void trace_light_subpath(const World&, const Camera&, const WalkLimits&,
+                                  EnvironmentSampling, Sampler&, Subpath&, NoProbe&);
+template void trace_light_subpath(const World&, const Camera&, const WalkLimits&,
+                                  EnvironmentSampling, Sampler&, Subpath&, PhaseClock&);
 
 }  // namespace bdpt

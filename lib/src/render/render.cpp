@@ -8,6 +8,7 @@
 #include "render/check_options.h"
 #include "render/flush_denormals.h"
 #include "render/strategy_images.h"
+#include "render/time_recorder.h"
 #include "scene/world.h"
 
 #include <tbb/blocked_range2d.h>
@@ -42,6 +43,7 @@ struct Work {
     const Integrator& integrator;
     const AovPass& aov_pass;
     const RenderControl& control;
+    TimeRecorder* times;  // if times are recorded
 };
 
 void render_pass(const Work& work, const RenderOptions& options, SampleRange samples,
@@ -56,6 +58,11 @@ void render_pass(const Work& work, const RenderOptions& options, SampleRange sam
         tbb::blocked_range2d<int>(0, rows, 1, 0, columns, 1),
         [&](const tbb::blocked_range2d<int>& range) {
             const FlushDenormals flush;
+            auto times = work.times != nullptr ? std::optional(work.times->sheet()) : std::nullopt;
+            const Films films{.film = result.film,
+                              .strategies = result.strategies,
+                              .on_path = work.control.on_path,
+                              .times = times ? &*times : nullptr};
             for (int row = range.rows().begin(); row < range.rows().end(); ++row) {
                 for (int column = range.cols().begin(); column < range.cols().end(); ++column) {
                     const int x = area.x0 + column * options.tile_size;
@@ -64,9 +71,6 @@ void render_pass(const Work& work, const RenderOptions& options, SampleRange sam
                                     .x_end = std::min(x + options.tile_size, area.x1),
                                     .y_begin = y,
                                     .y_end = std::min(y + options.tile_size, area.y1)};
-                    const Films films{.film = result.film,
-                                      .strategies = result.strategies,
-                                      .on_path = work.control.on_path};
                     RenderStats& stats = stats_of_threads.local();
                     stats += work.integrator.render_tile(tile, samples, films);
                     if (result.aovs.needs_hits()) {
@@ -155,14 +159,18 @@ RenderResult render(const Scene& scene, const CameraDesc& camera_desc, const Ren
         .stats = {},
         .samples = {.begin = options.samples.begin, .end = options.samples.begin},
         .seconds = 0.0};
+    std::optional<TimeRecorder> times;
+    if (control.profiling == Profiling::on) {
+        times.emplace(region);
+    }
     std::int64_t pass_size = 1;
     while (result.samples.end < options.samples.end) {
         const std::int64_t begin = result.samples.end;
         const std::int64_t end = std::min(begin + pass_size, options.samples.end);
         const double before = seconds_since(start);
         threads.execute([&] {
-            render_pass({*integrator, aov_pass, control}, options, {.begin = begin, .end = end},
-                        result);
+            render_pass({*integrator, aov_pass, control, times ? &*times : nullptr}, options,
+                        {.begin = begin, .end = end}, result);
         });
         result.samples.end = end;
         result.seconds = seconds_since(start);
@@ -180,6 +188,9 @@ RenderResult render(const Scene& scene, const CameraDesc& camera_desc, const Ren
         if (control.stop.stop_requested() || result.seconds + next > control.time_limit) {
             break;
         }
+    }
+    if (times) {
+        result.profile = times->profile(result.samples.end - result.samples.begin);
     }
     return result;
 }

@@ -106,21 +106,21 @@ PassRule World::pass_rule() const noexcept
                 }};
 }
 
-std::optional<SurfacePoint> World::intersect(const SegmentEnd& from, Vec3 direction,
-                                             SegmentKey segment) const noexcept
+std::optional<RayHit> World::first_hit(const SegmentEnd& from, Vec3 direction,
+                                       SegmentKey segment) const noexcept
 {
-    const auto hit =
-        embree_->intersect({.origin = offset_origin(from.p, from.error, from.ng, direction),
-                            .direction = direction,
-                            .ignored_sphere = from.sphere,
-                            .segment = segment});
-    if (!hit) {
-        return std::nullopt;
+    return embree_->intersect({.origin = offset_origin(from.p, from.error, from.ng, direction),
+                               .direction = direction,
+                               .ignored_sphere = from.sphere,
+                               .segment = segment});
+}
+
+SurfacePoint World::point_of(const RayHit& hit, Vec3 direction) const noexcept
+{
+    if (hit.sphere != no_sphere) [[unlikely]] {
+        return sphere_point(hit, direction);
     }
-    if (hit->sphere != no_sphere) [[unlikely]] {
-        return sphere_point(*hit, direction);
-    }
-    return surface_point(*hit, direction);
+    return surface_point(hit, direction);
 }
 
 /// Spheres are lights: they emit from their outside and reflect nothing.

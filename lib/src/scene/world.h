@@ -5,6 +5,7 @@
 #include "geometry/sphere.h"
 #include "material/bsdf.h"
 #include "material/material.h"
+#include "math/probe.h"
 #include "scene/light_set.h"
 #include "scene/medium.h"
 
@@ -40,7 +41,24 @@ public:
 
     /// The first surface that a ray meets from `from` in the unit direction `direction`.
     [[nodiscard]] std::optional<SurfacePoint> intersect(const SegmentEnd& from, Vec3 direction,
-                                                        SegmentKey segment) const noexcept;
+                                                        SegmentKey segment) const noexcept
+    {
+        NoProbe probe;
+        return intersect(from, direction, segment, probe);
+    }
+    /// The same; `probe` is told when the ray has hit and the surface is at work.
+    template <typename Probe>
+    [[nodiscard]] std::optional<SurfacePoint> intersect(const SegmentEnd& from, Vec3 direction,
+                                                        SegmentKey segment,
+                                                        Probe& probe) const noexcept
+    {
+        const auto hit = first_hit(from, direction, segment);
+        if (!hit) {
+            return std::nullopt;
+        }
+        const PhaseScope scope(probe, Phase::shade);
+        return point_of(*hit, direction);
+    }
     /// What is left of light between two points: zero when it meets a surface in between, else what
     /// the medium lets through.
     [[nodiscard]] Rgb transmittance(const SegmentEnd& a, const SegmentEnd& b,
@@ -60,6 +78,9 @@ private:
     [[nodiscard]] bool may_be_passed(std::uint32_t instance) const noexcept;
     [[nodiscard]] bool is_passed(const Crossing& crossing) const noexcept;
     [[nodiscard]] PassRule pass_rule() const noexcept;
+    [[nodiscard]] std::optional<RayHit> first_hit(const SegmentEnd& from, Vec3 direction,
+                                                  SegmentKey segment) const noexcept;
+    [[nodiscard]] SurfacePoint point_of(const RayHit& hit, Vec3 direction) const noexcept;
     [[nodiscard]] SurfacePoint surface_point(const RayHit& hit, Vec3 direction) const noexcept;
     [[nodiscard]] SurfacePoint sphere_point(const RayHit& hit, Vec3 direction) const noexcept;
 

@@ -216,6 +216,7 @@ TEST_CASE("what is broken in the folder is told, and nothing is made in its plac
         GENERATE(table<std::string, std::string>({{"pt-0.json", "{"},
                                                   {"pt-0.json", "{}"},
                                                   {"pt-0.json", R"({"integrator": "xyz"})"},
+                                                  {"pt-time.json", "{}"},
                                                   {"plan.json", "[1]"},
                                                   {"reference", "{}"},
                                                   {"reference", "\xff"},
@@ -331,6 +332,7 @@ TEST_CASE("JSON, CSV and page have all runs and what is needed to repeat them")
     CHECK(scene["integrators"][1]["integrator"] == "bdpt");
     CHECK(scene["integrators"][1]["equal_time"]["relmse"]["median"].get<double>() > 0.0);
     CHECK(scene["integrators"][0]["speed_up"]["factor"] == 1.0);
+    CHECK(scene["integrators"][1]["time_split"]["shares"]["connect"].is_number());
 
     const std::string csv = bench_csv(record);
     std::size_t points = 0;
@@ -340,7 +342,17 @@ TEST_CASE("JSON, CSV and page have all runs and what is needed to repeat them")
     CHECK(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')) == points + 1);
     const std::string head = csv.substr(0, csv.find('\n'));
     const std::string line = csv.substr(head.size() + 1, csv.find('\n', head.size() + 1));
-    CHECK(std::count(head.begin(), head.end(), ',') >= 20);
+    const auto fields = [](const std::string& text) {
+        bool quoted = false;
+        return std::count_if(text.begin(), text.end(), [&](char c) {
+            quoted = quoted != (c == '"');
+            return c == ',' && !quoted;
+        });
+    };
+    CHECK(fields(head) >= 25);
+    CHECK(fields(line.substr(0, line.find('\n'))) == fields(head));
+    CHECK(head.find(",walk_share,shade_share,connect_share,weigh_share,splat_share,") !=
+          std::string::npos);
     CHECK(starts(line, R"("floor","floor.gltf",)"));
 
     const std::string page = bench_page(record, bench.folder.path());
@@ -353,6 +365,7 @@ TEST_CASE("JSON, CSV and page have all runs and what is needed to repeat them")
     const json& pictures = embedded["scenes"][0]["pictures"];
     CHECK(pictures["images"].size() == 3);
     CHECK(pictures["variance"].size() == 2);
+    CHECK(pictures["time"].size() == 2);
     CHECK(embedded["scenes"][0]["strategies"]["strategies"].size() >= 4);
     for (const char* outside : {"http://", "https://", "src=", "@import"}) {
         const std::size_t found = page.find(outside);

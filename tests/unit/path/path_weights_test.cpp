@@ -53,6 +53,7 @@ TEST_CASE("weights of all strategies sum to one on traced paths", "[mis]")
     const StrategySet strategies(options);
     Subpath camera_path(max_depth + 1);
     RayCounts rays;
+    NoProbe probe;
     int paths = 0;
     for (const auto heuristic : {Heuristic::balance, Heuristic::power}) {
         PathWeigher weigher(world, camera, strategies, heuristic, max_depth + 1);
@@ -70,17 +71,18 @@ TEST_CASE("weights of all strategies sum to one on traced paths", "[mis]")
             const Vec2 raster(static_cast<float>(i % size) + 0.5f,
                               static_cast<float>(i / size % size) + 0.5f);
             trace_camera_subpath(world, camera, raster, {.max_vertices = camera_path.capacity()},
-                                 sampler, camera_path);
+                                 sampler, camera_path, probe);
             trace_light_subpath(world, camera, {.max_vertices = light_path.capacity()},
-                                strategies.environment_sampling(), sampler, light_path);
+                                strategies.environment_sampling(), sampler, light_path, probe);
             for (int t = 2; t <= camera_path.size(); ++t) {
-                check(hit_light(world, camera_path.first(t), weigher));
+                check(hit_light(world, camera_path.first(t), weigher, probe));
                 if (t <= max_depth) {
-                    check(connect_to_light(world, camera_path.first(t), sampler, weigher, rays));
+                    check(connect_to_light(world, camera_path.first(t), sampler, weigher, rays,
+                                           probe));
                 }
                 for (int s = 2; s <= std::min(light_path.size(), max_depth + 1 - t); ++s) {
                     check(connect_interior(world, light_path.first(s), camera_path.first(t),
-                                           sampler.segment_key(s, t), weigher, rays));
+                                           sampler.segment_key(s, t), weigher, rays, probe));
                 }
             }
         }
@@ -100,13 +102,14 @@ TEST_CASE("joining and hitting agree about the densities of the same path", "[mi
     const StrategySet strategies(options);
     Subpath camera_path(max_depth + 1);
     PathWeigher weigher(world, camera, strategies, Heuristic::balance, max_depth + 1);
+    NoProbe probe;
     int compared = 0;
     for (int i = 0; i < 3000; ++i) {
         Sampler sampler(SamplerKind::sobol, 2, i % 16, i / 16 % 16, i);
         const Vec2 raster(static_cast<float>(i % 16) + 0.5f,
                           static_cast<float>(i / 16 % 16) + 0.5f);
         trace_camera_subpath(world, camera, raster, {.max_vertices = camera_path.capacity()},
-                             sampler, camera_path);
+                             sampler, camera_path, probe);
         for (int t = 3; t <= camera_path.size(); ++t) {
             const auto path = camera_path.first(t);
             const PathVertex& x0 = path.back();
@@ -115,7 +118,7 @@ TEST_CASE("joining and hitting agree about the densities of the same path", "[mi
             if (!finite_light || !x1.connectible || x1.scattered_delta) {
                 continue;
             }
-            const auto hit = hit_light(world, path, weigher);
+            const auto hit = hit_light(world, path, weigher, probe);
             if (!hit) {
                 continue;
             }

@@ -38,23 +38,24 @@ std::vector<float> weights_of(const World& world, const Camera& camera, const Su
                               const Subpath& camera_path, Sampler sampler, PathWeigher& weigher)
 {
     RayCounts rays;
+    NoProbe probe;
     std::vector<float> weights;
     const auto add = [&](const std::optional<Contribution>& found) {
         weights.push_back(found ? found->weight : std::numeric_limits<float>::infinity());
     };
     for (int t = 2; t <= camera_path.size(); ++t) {
-        add(hit_light(world, camera_path.first(t), weigher));
+        add(hit_light(world, camera_path.first(t), weigher, probe));
         if (t <= max_depth) {
-            add(connect_to_light(world, camera_path.first(t), sampler, weigher, rays));
+            add(connect_to_light(world, camera_path.first(t), sampler, weigher, rays, probe));
         }
         for (int s = 2; s <= std::min(light_path.size(), max_depth + 1 - t); ++s) {
             add(connect_interior(world, light_path.first(s), camera_path.first(t),
-                                 sampler.segment_key(s, t), weigher, rays));
+                                 sampler.segment_key(s, t), weigher, rays, probe));
         }
     }
     for (int s = 2; s <= std::min(light_path.size(), max_depth); ++s) {
         const auto splat =
-            connect_to_lens(world, camera, light_path.first(s), sampler, weigher, rays);
+            connect_to_lens(world, camera, light_path.first(s), sampler, weigher, rays, probe);
         add(splat ? std::optional(splat->contribution) : std::nullopt);
     }
     return weights;
@@ -82,15 +83,16 @@ TEST_CASE("sums over subpaths weigh joins as all densities of the path do", "[mi
     PathWeigher gathers(world, camera, strategies, heuristic, max_depth + 1);
     PathWeigher sums(world, camera, strategies, heuristic, max_depth + 1);
     int compared = 0;
+    NoProbe probe;
     for (int i = 0; i < 2000; ++i) {
         const Sampler first(SamplerKind::sobol, 1, i % size, i / size % size, i);
         Sampler sampler = first;
         const Vec2 raster(static_cast<float>(i % size) + 0.5f,
                           static_cast<float>(i / size % size) + 0.5f);
         trace_camera_subpath(world, camera, raster, {.max_vertices = camera_path.capacity()},
-                             sampler, camera_path);
+                             sampler, camera_path, probe);
         trace_light_subpath(world, camera, {.max_vertices = light_path.capacity()},
-                            strategies.environment_sampling(), sampler, light_path);
+                            strategies.environment_sampling(), sampler, light_path, probe);
         sums.begin_camera_path(camera_path.all());
         sums.begin_light_path(light_path.all());
         const auto by_sums = weights_of(world, camera, light_path, camera_path, first, sums);

@@ -17,6 +17,7 @@
 #include "bench/plan.h"
 #include "bench/reference_cache.h"
 #include "bench/strategy_shares.h"
+#include "bench/time_splits.h"
 #include "bench/trial.h"
 
 namespace bdpt::harness {
@@ -128,7 +129,7 @@ double planned_seconds(const BenchOptions& options)
 {
     const auto integrators = static_cast<double>(options.integrators.size());
     return 2.0 * options.reference_seconds +
-           integrators * options.seconds * (options.seeds + calibration_share) +
+           integrators * options.seconds * (options.seeds + calibration_share + split_share) +
            (options.strategy_depth > 0 ? options.seconds : 0.0);
 }
 
@@ -149,6 +150,7 @@ std::vector<fs::path> scene_files(const fs::path& folder, const std::string& sce
             result.push_back(files.run(kind, number));
             result.push_back(files.picture(kind, number));
         }
+        result.push_back(files.time_split(kind));
     }
     return result;
 }
@@ -197,6 +199,9 @@ std::optional<SceneResult> run_scene(const BenchScene& scene, const BenchOptions
     }
     result.complete = run_all(scene, options, files, reference, meter, control, result);
     result.floors = find_floors(result, files, reference);
+    if (result.complete) {
+        result.splits = measure_time_splits(scene, options, files, result.goals, meter, control);
+    }
     if (result.complete && options.strategy_depth > 0) {
         measure_strategies(scene, options, files, reference, meter, control);
     }

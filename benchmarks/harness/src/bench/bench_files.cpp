@@ -65,6 +65,11 @@ fs::path BenchFiles::strategies() const
     return folder_ / "scenes" / scene_ / "strategies.json";
 }
 
+fs::path BenchFiles::time_split(IntegratorKind integrator) const
+{
+    return folder_ / "scenes" / scene_ / (std::string(to_string(integrator)) + "-time.json");
+}
+
 fs::path BenchFiles::reference_picture(const std::string& key) const
 {
     return folder_ / "references" / (scene_ + "-" + key + ".exr");

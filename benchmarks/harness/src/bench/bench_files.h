@@ -23,6 +23,7 @@ public:
     [[nodiscard]] std::filesystem::path picture(IntegratorKind integrator,
                                                 std::uint64_t seed) const;
     [[nodiscard]] std::filesystem::path strategies() const;
+    [[nodiscard]] std::filesystem::path time_split(IntegratorKind integrator) const;
     /// `key` tells references of one scene apart.
     [[nodiscard]] std::filesystem::path reference_picture(const std::string& key) const;
     [[nodiscard]] std::filesystem::path reference_facts(const std::string& key) const;

@@ -43,16 +43,19 @@ MetricScale bench_scale(const Image& reference)
     return make_scale(reference, {.epsilon = 0.01, .epsilon_unit = EpsilonUnit::reference_mean});
 }
 
-CombinedReference combine(const HalvedImage& all_light, const HalvedImage& most_light)
+double noise_of(const HalvedImage& image, const Image& base)
 {
     // The squared difference of two halves has four times the variance of their mean.
-    const auto noise_of = [](const HalvedImage& image, const Image& base, double epsilon) {
-        return relative_difference(image.first, image.second, base, epsilon) / 4.0;
-    };
+    return relative_difference(image.first, image.second, base, bench_scale(base).squared_epsilon) /
+           4.0;
+}
+
+CombinedReference combine(const HalvedImage& all_light, const HalvedImage& most_light)
+{
     const Image middle = mix(all_light.image, most_light.image, 0.5);
     const double epsilon = bench_scale(middle).squared_epsilon;
-    const double noise_a = noise_of(all_light, middle, epsilon);
-    const double noise_b = noise_of(most_light, middle, epsilon);
+    const double noise_a = noise_of(all_light, middle);
+    const double noise_b = noise_of(most_light, middle);
     const double noise = noise_a + noise_b;
     const double difference =
         relative_difference(all_light.image, most_light.image, middle, epsilon);
@@ -63,10 +66,9 @@ CombinedReference combine(const HalvedImage& all_light, const HalvedImage& most_
                              .noise = 0.0,
                              .share = share,
                              .agreement = agreement};
-    const double final_epsilon = bench_scale(result.image).squared_epsilon;
     const double rest = 1.0 - share;
-    result.noise = share * share * noise_of(all_light, result.image, final_epsilon) +
-                   rest * rest * noise_of(most_light, result.image, final_epsilon);
+    result.noise = share * share * noise_of(all_light, result.image) +
+                   rest * rest * noise_of(most_light, result.image);
     return result;
 }
 

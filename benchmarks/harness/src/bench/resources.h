@@ -1,16 +1,9 @@
 #pragma once
 
 #include <cstdint>
-#include <ctime>
 #include <optional>
 
 namespace bdpt::harness {
-
-/// CPU time of all threads of this process so far [s].
-[[nodiscard]] inline double cpu_seconds()
-{
-    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
 
 /// Forgets the peak of memory, so that the next one is that of what comes now. Linux only.
 void reset_peak_memory();

@@ -1,5 +1,6 @@
 #include "bench/trial.h"
 
+#include <bdpt/harness/bench/cpu_seconds.h>
 #include <bdpt/harness/metrics/metric.h>
 
 #include <algorithm>
@@ -10,6 +11,8 @@
 
 namespace bdpt::harness {
 namespace {
+
+constexpr double least_seconds = 1e-6;  // the step of the clock
 
 struct TimedRender {
     RenderResult result;
@@ -38,6 +41,17 @@ std::optional<TimedRender> render_range(const TrialSetup& setup, SampleRange sam
         .result = std::move(result), .cpu_seconds = used, .wall_seconds = passed.count()};
 }
 
+/// Notes the errors of `picture`.
+void judge(const Image& picture, const Reference& reference, const MetricScale& scale,
+           Checkpoint& point)
+{
+    const auto error = [&](Metric metric) {
+        return mean(error_terms(metric, picture, reference.image, scale));
+    };
+    point.relmse = error(Metric::relmse);
+    point.mape = error(Metric::mape);
+}
+
 }  // namespace
 
 TrialSetup make_setup(const BenchScene& scene, const RenderOptions& options,
@@ -64,7 +78,7 @@ std::optional<std::int64_t> samples_in(const TrialSetup& setup, double seconds)
         return std::nullopt;
     }
     const double fitting =
-        static_cast<double>(samples) * seconds / std::max(timed->cpu_seconds, 1e-6);
+        static_cast<double>(samples) * seconds / std::max(timed->cpu_seconds, least_seconds);
     const double most = static_cast<double>(most_samples);
     return 2 * static_cast<std::int64_t>(std::clamp(fitting, 2.0, most) / 2.0);
 }
@@ -75,6 +89,20 @@ std::optional<Film> render_all(const TrialSetup& setup, std::int64_t samples, co
         meter.tell(static_cast<double>(progress.samples_done) / static_cast<double>(samples));
     });
     return timed ? std::optional(std::move(timed->result.film)) : std::nullopt;
+}
+
+std::optional<Checkpoint> measure_once(const TrialSetup& setup, std::int64_t samples,
+                                       const Reference& reference)
+{
+    const auto timed = render_range(setup, {.begin = 0, .end = samples});
+    if (!timed) {
+        return std::nullopt;
+    }
+    Checkpoint point{.samples = samples,
+                     .cpu_seconds = std::max(timed->cpu_seconds, least_seconds),
+                     .wall_seconds = timed->wall_seconds};
+    judge(timed->result.film.develop(), reference, bench_scale(reference.image), point);
+    return point;
 }
 
 std::vector<std::int64_t> checkpoint_samples(const BenchGoals& goals)
@@ -116,14 +144,10 @@ std::optional<Trial> make_trial(const TrialSetup& setup, const BenchGoals& goals
         }
         trial.run.stats += timed->result.stats;
         point.samples = end;
-        point.cpu_seconds += std::max(timed->cpu_seconds, 1e-6);  // the clock's step
+        point.cpu_seconds += std::max(timed->cpu_seconds, least_seconds);
         point.wall_seconds += timed->wall_seconds;
         Image picture = film->develop();
-        const auto error = [&](Metric metric) {
-            return mean(error_terms(metric, picture, reference.image, scale));
-        };
-        point.relmse = error(Metric::relmse);
-        point.mape = error(Metric::mape);
+        judge(picture, reference, scale, point);
         trial.run.checkpoints.push_back(point);
         if (end == goals.equal_time) {
             trial.picture = std::move(picture);

@@ -45,6 +45,10 @@ struct Trial {
 [[nodiscard]] std::optional<Trial> make_trial(const TrialSetup& setup, const BenchGoals& goals,
                                               const Reference& reference, const Meter& meter);
 
+/// A render of `samples` samples from the first on, looked at at its end; none if stopped.
+[[nodiscard]] std::optional<Checkpoint> measure_once(const TrialSetup& setup, std::int64_t samples,
+                                                     const Reference& reference);
+
 /// Where a run is looked at: at powers of two and at its goals, in order.
 [[nodiscard]] std::vector<std::int64_t> checkpoint_samples(const BenchGoals& goals);
 

@@ -9,8 +9,8 @@ namespace {
 
 constexpr const char* columns =
     "scene,file,content,width,height,max_depth,sampler,integrator,seed,samples,equal_time,"
-    "equal_samples,cpu_seconds,wall_seconds,relmse,reference_noise,mape,threads,cpu,libraries,"
-    "version\n";
+    "equal_samples,cpu_seconds,wall_seconds,relmse,reference_noise,mape,walk_share,shade_share,"
+    "connect_share,weigh_share,splat_share,threads,cpu,libraries,version\n";
 
 /// A field of a CSV file [RFC 4180].
 std::string field(const std::string& text)
@@ -27,6 +27,21 @@ std::string number(double value)
     char text[32];
     std::snprintf(text, sizeof text, "%.9g", value);
     return text;
+}
+
+/// How the time of its samples is split, a field for each phase: empty if that is not known.
+std::string share_fields(const SceneResult& scene, IntegratorKind integrator)
+{
+    const auto split =
+        std::find_if(scene.splits.begin(), scene.splits.end(),
+                     [&](const TimeSplit& one) { return one.integrator == integrator; });
+    std::string result;
+    for (const Phase phase : all_phases) {
+        result += "," + (split == scene.splits.end()
+                             ? std::string()
+                             : number(split->shares[static_cast<std::size_t>(phase)]));
+    }
+    return result;
 }
 
 }  // namespace
@@ -48,6 +63,7 @@ std::string bench_csv(const BenchRecord& record)
             const auto goals = std::find_if(
                 scene.goals.begin(), scene.goals.end(),
                 [&](const BenchGoals& one) { return one.integrator == run.integrator; });
+            const std::string shares = share_fields(scene, run.integrator);
             for (const Checkpoint& point : run.checkpoints) {
                 result += head + std::string(to_string(run.integrator)) + "," +
                           std::to_string(run.seed) + "," + std::to_string(point.samples) + "," +
@@ -55,7 +71,7 @@ std::string bench_csv(const BenchRecord& record)
                           (point.samples == goals->equal_samples ? "1," : "0,") +
                           number(point.cpu_seconds) + "," + number(point.wall_seconds) + "," +
                           number(point.relmse) + "," + number(scene.reference_noise) + "," +
-                          number(point.mape) + tail;
+                          number(point.mape) + shares + tail;
             }
         }
     }

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "bench/bench_files.h"
+#include "bench/time_splits.h"
 #include "report/page_source.h"
 #include "report/record_json.h"
 
@@ -108,6 +109,18 @@ ordered_json pictures_json(const SceneResult& scene, const fs::path& folder, con
             {"variance", std::move(variances)}};
 }
 
+/// Maps of the time that pixels take.
+ordered_json times_json(const SceneResult& scene, const BenchFiles& files)
+{
+    ordered_json maps = ordered_json::object();
+    for (const TimeSplit& split : scene.splits) {
+        if (std::optional<std::string> map = packed_time_map(files, split.integrator)) {
+            maps[std::string(to_string(split.integrator))] = std::move(*map);
+        }
+    }
+    return maps;
+}
+
 /// `text` with each word in double braces replaced by what it stands for.
 std::string fill(std::string_view text,
                  const std::vector<std::pair<std::string_view, std::string_view>>& values)
@@ -153,6 +166,7 @@ std::string bench_page(const BenchRecord& record, const fs::path& folder)
         json["pictures"] = pictures_json(scene, folder, reference, page_scale(scene.light_scale));
         std::optional<ordered_json> strategies =
             read_json(BenchFiles(folder, scene.name).strategies());
+        json["pictures"]["time"] = times_json(scene, BenchFiles(folder, scene.name));
         json["strategies"] = strategies ? std::move(*strategies) : ordered_json();
         data["scenes"].push_back(std::move(json));
     }

@@ -1,6 +1,6 @@
-#include <bdpt/error.h>
 #include <bdpt/io/gltf.h>
 
+#include "file/named_errors.h"
 #include "file/warnings.h"
 #include "gltf/animation.h"
 #include "gltf/facts.h"
@@ -8,8 +8,6 @@
 #include "gltf/scene_builder.h"
 #include "gltf/selection.h"
 
-#include <exception>
-#include <new>
 #include <utility>
 
 namespace bdpt::io {
@@ -42,16 +40,7 @@ LoadedScene load(const std::filesystem::path& file, const GltfOptions& options)
 
 LoadedScene load_gltf(const std::filesystem::path& file, const GltfOptions& options)
 {
-    const std::string prefix = file.string() + ": ";
-    try {
-        return load(file, options);
-    } catch (const Error& error) {
-        throw Error(error.code(), prefix + error.what());
-    } catch (const std::bad_alloc&) {
-        throw Error(ErrorCode::out_of_memory, prefix + "not enough memory");
-    } catch (const std::exception& error) {
-        throw Error(ErrorCode::internal, prefix + error.what());
-    }
+    return with_named_errors(file, [&] { return load(file, options); });
 }
 
 }  // namespace bdpt::io

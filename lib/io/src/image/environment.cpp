@@ -1,6 +1,7 @@
 #include <bdpt/error.h>
 #include <bdpt/io/environment.h>
 
+#include "file/named_errors.h"
 #include "file/read_file.h"
 #include "file/warnings.h"
 #include "image/exr_reader.h"
@@ -9,7 +10,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <new>
 #include <optional>
 #include <string>
 
@@ -60,16 +60,7 @@ LoadedEnvironment load(const std::filesystem::path& file, const ReadLimits& limi
 
 LoadedEnvironment load_environment(const std::filesystem::path& file, const ReadLimits& limits)
 {
-    const std::string prefix = file.string() + ": ";
-    try {
-        return load(file, limits);
-    } catch (const Error& error) {
-        throw Error(error.code(), prefix + error.what());
-    } catch (const std::bad_alloc&) {
-        throw Error(ErrorCode::out_of_memory, prefix + "not enough memory");
-    } catch (const std::exception& error) {
-        throw Error(ErrorCode::internal, prefix + error.what());
-    }
+    return with_named_errors(file, [&] { return load(file, limits); });
 }
 
 }  // namespace bdpt::io

@@ -1,13 +1,12 @@
 #include <bdpt/error.h>
 #include <bdpt/io/read_image.h>
 
+#include "file/named_errors.h"
 #include "file/read_file.h"
 #include "file/warnings.h"
 #include "image/exr_reader.h"
 #include "image/hdr_reader.h"
 
-#include <exception>
-#include <new>
 #include <utility>
 
 namespace bdpt::io {
@@ -40,16 +39,7 @@ LoadedImage load(const std::filesystem::path& file, const ImageOptions& options)
 
 LoadedImage read_image(const std::filesystem::path& file, const ImageOptions& options)
 {
-    const std::string prefix = file.string() + ": ";
-    try {
-        return load(file, options);
-    } catch (const Error& error) {
-        throw Error(error.code(), prefix + error.what());
-    } catch (const std::bad_alloc&) {
-        throw Error(ErrorCode::out_of_memory, prefix + "not enough memory");
-    } catch (const std::exception& error) {
-        throw Error(ErrorCode::internal, prefix + error.what());
-    }
+    return with_named_errors(file, [&] { return load(file, options); });
 }
 
 }  // namespace bdpt::io

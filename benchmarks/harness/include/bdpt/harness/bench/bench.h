@@ -5,6 +5,7 @@
 #include <bdpt/harness/bench/bench_run.h>
 #include <bdpt/harness/bench/bench_scene.h>
 #include <bdpt/harness/bench/reference.h>
+#include <bdpt/harness/bench/time_split.h>
 
 #include <filesystem>
 #include <functional>
@@ -51,6 +52,7 @@ struct SceneResult {
     std::vector<BenchGoals> goals;
     std::vector<BenchRun> runs;        ///< by seed, then in the order of the integrators
     std::vector<ErrorFloor> floors{};  ///< of integrators that cannot find all light
+    std::vector<TimeSplit> splits{};   ///< of integrators whose time has been measured
     bool complete = false;             ///< all runs were made
 };
 

@@ -26,6 +26,10 @@ struct HalvedImage {
     Image second;
 };
 
+/// relMSE of a picture's own noise, as its halves tell it, relative to `base` of the same size.
+/// Throws like `bench_scale`.
+[[nodiscard]] BDPT_EXPORT double noise_of(const HalvedImage& image, const Image& base);
+
 /// What two renders by different integrators say together.
 struct CombinedReference {
     Image image;

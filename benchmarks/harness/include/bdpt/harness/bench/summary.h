@@ -49,6 +49,7 @@ struct IntegratorSummary {
     std::optional<SpeedUp> speed_up{};  ///< none without runs of pt
     /// What stays of the error however long it renders; none: it finds all light.
     std::optional<double> floor{};
+    std::optional<TimeSplit> time{};  ///< where it goes; none if that was not measured
     double samples_per_second = 0.0;  ///< of all pixels, in time on the wall
     double camera_rays_per_second = 0.0;
     double light_rays_per_second = 0.0;

@@ -75,7 +75,7 @@ def load(bpy, described, job):
         light = bpy.data.lights.new(item.name, "POINT")
         candela = max(item.intensity)
         light.shadow_soft_size, light.color = 0.0, [c / candela for c in item.intensity]
-        light.energy = candela * 4 * math.pi ** 2  # a point light of P "watts" has P / (4 pi^2) in each direction
+        light.energy = candela * 4 * math.pi  # a flux
         place = bpy.data.objects.new(item.name, light)
         place.location = item.position
         scene.collection.objects.link(place)

@@ -43,8 +43,9 @@ def settings(job):
         "film.width": job["width"], "film.height": job["height"], "film.filter.type": "NONE",
         "film.outputs.0.type": "RGB", "film.outputs.0.filename": job["output"],
         "path.clamping.variance.maxvalue": 0.0,
-        "path.russianroulette.depth": job["max_depth"] + 1,  # never: it makes the furnace 2.4 % (6 %) too bright
     }
+    if not job["roulette"]:  # with it the mean is wrong: see README.md
+        result["path.russianroulette.depth"] = job["max_depth"] + 1
     if job["integrator"] == "BIDIRCPU":
         return {**result, "path.maxdepth": job["max_depth"], "light.maxdepth": job["max_depth"]}
     return {**result, **{f"path.pathdepth.{kind}": job["max_depth"] for kind in ("total", "diffuse", "glossy", "specular")}}
@@ -69,9 +70,10 @@ def load(pyluxcore, described, job):
         scene.Parse(properties(pyluxcore, {f"scene.objects.o{i}.shape": f"s{i}",
                                            f"scene.objects.o{i}.material": f"m{mesh.material}"}))
     for i, point in enumerate(described.points):
+        light = f"scene.lights.l{i}"
         scene.Parse(properties(pyluxcore, {
-            f"scene.lights.l{i}.type": "point", f"scene.lights.l{i}.position": list(point.position),
-            f"scene.lights.l{i}.color": [1.0] * 3, f"scene.lights.l{i}.gain": list(point.intensity)}))
+            f"{light}.type": "point", f"{light}.position": list(point.position), f"{light}.color": [1.0] * 3,
+            f"{light}.gain": [4 * math.pi * candela for candela in point.intensity]}))  # the gain is a flux
     return scene
 
 

@@ -56,19 +56,12 @@ def description(mi, scene, job, folder):
     return result
 
 
-def set_threads(mi, count):
-    import drjit
-    drjit.set_thread_count(count)
-    if hasattr(mi, "set_thread_count"):
-        mi.set_thread_count(count)
-
-
 def render(scene, job):
     import drjit
     import mitsuba as mi
     from worker import Stopwatch
     mi.set_variant(job["variant"])
-    set_threads(mi, job["threads"])
+    drjit.set_thread_count(job["threads"])
     with tempfile.TemporaryDirectory() as folder:
         loaded = mi.load_dict(description(mi, scene, job, pathlib.Path(folder)))
     pixels = job["width"] * job["height"]
@@ -88,6 +81,7 @@ def render(scene, job):
     drjit.eval(total)
     drjit.sync_thread()
     result = {"seconds": watch.seconds(), "cpu_seconds": watch.cpu_seconds(), "samples": passes * spp}
+    drjit.set_thread_count(2)  # a single one would wait for itself when it writes
     mi.Bitmap(total / passes).write(job["output"])
     return {**result, "version": mi.__version__,
             "settings": {"variant": job["variant"], "sampler": "independent", "samples of a pass": spp}}

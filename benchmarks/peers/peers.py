@@ -12,7 +12,7 @@ import subprocess
 from scene import Camera, Material, Mesh, PointLight, Scene, to_json
 
 HERE = pathlib.Path(__file__).resolve().parent
-PROBE_SECONDS = 300  # what starts takes a few; compiling is slow on busy machines
+PROBE_SECONDS = 120  # what starts takes a few; compiling is slow on busy machines
 RENDER_GRACE = 600  # [s] for loading and compiling, beyond the time to render
 SMOOTH = {"metal", "glass"}
 
@@ -59,9 +59,8 @@ def llvm_libraries():
     versions = {}
     for file in found:
         numbers = re.findall(r"\d+", file.rpartition("libLLVM")[2])
-        version = int(numbers[0]) if numbers else 0
-        if version not in versions:
-            versions[version] = file
+        if numbers or given:
+            versions.setdefault(int(numbers[0]) if numbers else 0, file)
     return [versions[version] for version in sorted(versions, reverse=True)]
 
 

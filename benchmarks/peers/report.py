@@ -35,16 +35,16 @@ def scene_rows(result):
                "bias_percent": 100 * mean["bias"] / result["mean"],
                "standard_error_percent": 100 * mean["standard_error"] / result["mean"],
                "worst_channel_z": max((c["z"] for c in entry["means"].values()), key=abs),
-               "worst_tile_z": entry["worst_tile_z"], "agrees": entry["agrees"],
+               "excess": entry["excess"], "agrees": entry["agrees"],
                "relmse": statistics.median(entry["relmse"]), "ratio_seconds": entry["ratio_seconds"],
                "ratio_cpu_seconds": entry["ratio_cpu_seconds"]}
 
 
 def scene_text(result):
-    header = ("renderer", "spp", "seconds", "bias %", "+-", "z", "tile z", "mean", "relMSE", "error x", "by CPU time")
+    header = ("renderer", "spp", "seconds", "bias %", "+-", "z", "excess", "mean", "relMSE", "error x", "by CPU time")
     rows = [header] + [
         (row["renderer"], f"{row['spp']:.0f}", f"{row['seconds']:.2f}", f"{row['bias_percent']:+.3f}",
-         f"{row['standard_error_percent']:.3f}", f"{row['worst_channel_z']:+.1f}", f"{row['worst_tile_z']:.1f}",
+         f"{row['standard_error_percent']:.3f}", f"{row['worst_channel_z']:+.1f}", f"{row['excess']:.2f}",
          "agrees" if row["agrees"] else "DIFFERS", f"{row['relmse']:.4g}", shown(row["ratio_seconds"], ".3g"),
          shown(row["ratio_cpu_seconds"], ".3g")) for row in scene_rows(result)]
     lines = [f"{result['scene']}: {result['width']}x{result['height']}, paths of up to {result['max_depth']} edges, "

@@ -44,7 +44,8 @@ def positive(kind):
 
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("scenes", nargs="+", type=pathlib.Path, metavar="SCENE", help="glTF files like those of scenes/")
+    parser.add_argument("scenes", nargs="+", type=pathlib.Path, metavar="SCENE",
+                        help="glTF files like those of scenes/")
     parser.add_argument("-o", "--output", required=True, type=pathlib.Path, metavar="DIR")
     parser.add_argument("--bdpt", required=True, help="the command")
     parser.add_argument("--python", default=sys.executable, help="the interpreter that has mitsuba and pyluxcore")

@@ -138,6 +138,13 @@ def excess(folder_report, seeds, noise_of_reference):
     return folder_report["metrics"]["mse"]["mean"] / noise if noise > 0 else 1.0
 
 
+def own_errors(errors, error_of_reference):
+    """Errors without the reference's; none if that is more than half of them, for then what is left is noise."""
+    if statistics.median(errors) < 2 * error_of_reference:
+        return []
+    return [max(error - error_of_reference, 0.0) for error in errors]
+
+
 def judge(stage, runs):
     """For each entry its errors and whether its mean is ours. Those of bdpt tell the reference's noise."""
     options, reports, folders = stage.options, {}, {}
@@ -148,11 +155,12 @@ def judge(stage, runs):
     share = runs["bdpt"][0]["samples"] / stage.reference_run["samples"]  # of variance
     ours = judge_means(reports["bdpt"], {})
     noise = {channel: ours[channel]["standard_error"] * math.sqrt(options.seeds * share) for channel in ours}
-    error_of_reference = share / (1 + share) * statistics.median(r["metrics"]["relmse"]["mean"] for r in reports["bdpt"])
+    our_errors = [report["metrics"]["relmse"]["mean"] for report in reports["bdpt"]]
+    error_of_reference = share / (1 + share) * statistics.median(our_errors)
     squared_noise = share * noise_of(folders["bdpt"], options.seeds) if folders else 0.0
     result = {}
     for name, list_of_runs in runs.items():
-        errors = [max(r["metrics"]["relmse"]["mean"] - error_of_reference, 0.0) for r in reports[name]]
+        errors = own_errors([r["metrics"]["relmse"]["mean"] for r in reports[name]], error_of_reference)
         means = judge_means(reports[name], noise)
         more = excess(folders[name], options.seeds, squared_noise) if folders else 1.0
         agrees = all(abs(channel["z"]) <= BLAMELESS for channel in means.values()) and more <= BLAMELESS_EXCESS
@@ -169,7 +177,7 @@ def judge(stage, runs):
 
 def ratio(theirs, ours, clock):
     """Error at equal time over that of bdpt: the median over seeds of the ratio of relMSE times time, as both fall
-    with time alike; None if ours has no error."""
+    with time alike; None if either is not known."""
     ratios = [a * s / (b * t) for a, s, b, t in
               zip(theirs["relmse"], theirs[clock], ours["relmse"], ours[clock]) if b * t > 0]
     return statistics.median(ratios) if ratios else None

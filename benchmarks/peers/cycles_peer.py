@@ -1,4 +1,4 @@
-"""Blender's Cycles, on the CPU. Rendering runs as one operator that loads too, so the time of that is measured first."""
+"""Blender's Cycles, on the CPU. Rendering is one operator that loads, too, so the time for that is measured first."""
 
 import math
 
@@ -54,7 +54,8 @@ def add_camera(bpy, mathutils, scene, described, job):
     z, y = mathutils.Vector([-c for c in described.direction]), mathutils.Vector(described.up)
     x = y.cross(z)
     place = bpy.data.objects.new("camera", camera)
-    place.matrix_world = mathutils.Matrix([(x[i], y[i], z[i], described.position[i]) for i in range(3)] + [(0, 0, 0, 1)])
+    rows = [(x[i], y[i], z[i], described.position[i]) for i in range(3)]
+    place.matrix_world = mathutils.Matrix([*rows, (0, 0, 0, 1)])
     scene.collection.objects.link(place)
     scene.camera = place
     scene.render.resolution_x, scene.render.resolution_y = job["width"], job["height"]

@@ -7,6 +7,7 @@ import math
 import time
 
 POLL = 0.02  # [s]
+LEAST_SAMPLES = 4  # per pixel: with less than one, some pixels would have none and be black
 
 
 def material_properties(name, material):
@@ -48,7 +49,8 @@ def settings(job):
         result["path.russianroulette.depth"] = job["max_depth"] + 1
     if job["integrator"] == "BIDIRCPU":
         return {**result, "path.maxdepth": job["max_depth"], "light.maxdepth": job["max_depth"]}
-    return {**result, **{f"path.pathdepth.{kind}": job["max_depth"] for kind in ("total", "diffuse", "glossy", "specular")}}
+    kinds = ("total", "diffuse", "glossy", "specular")
+    return {**result, **{f"path.pathdepth.{kind}": job["max_depth"] for kind in kinds}}
 
 
 def properties(pyluxcore, values):
@@ -89,14 +91,18 @@ def render(described, job):
     session = pyluxcore.RenderSession(config)
     session.Start()
     watch = Stopwatch()
-    while not session.HasDone() and watch.seconds() < job.get("seconds", math.inf):
+
+    def samples():
+        session.UpdateStats()
+        count = session.GetStats().Get("stats.renderengine.total.samplecount").GetFloat()
+        return count / (job["width"] * job["height"])
+
+    while not session.HasDone() and (watch.seconds() < job.get("seconds", math.inf) or samples() < LEAST_SAMPLES):
         time.sleep(POLL)
         session.UpdateStats()
     session.Pause()
-    result = {"seconds": watch.seconds(), "cpu_seconds": watch.cpu_seconds()}
-    session.UpdateStats()
-    samples = session.GetStats().Get("stats.renderengine.total.samplecount").GetFloat() / (job["width"] * job["height"])
+    result = {"seconds": watch.seconds(), "cpu_seconds": watch.cpu_seconds(), "samples": samples()}
     session.GetFilm().SaveOutputs()
     session.Stop()
     shown = {key: value for key, value in values.items() if key.startswith(("sampler", "path", "light"))}
-    return {**result, "samples": samples, "version": pyluxcore.Version(), "settings": shown}
+    return {**result, "version": pyluxcore.Version(), "settings": shown}

@@ -20,8 +20,8 @@ def bsdf(material):
 
 
 def write_ply(mesh, path):
-    lines = ["ply", "format ascii 1.0", f"element vertex {len(mesh.positions)}", *(f"property float {c}" for c in "xyz"),
-             f"element face {len(mesh.triangles)}", "property list uchar int vertex_indices", "end_header",
+    lines = ["ply", "format ascii 1.0", f"element vertex {len(mesh.positions)}",
+             *(f"property float {c}" for c in "xyz"), f"element face {len(mesh.triangles)}", "property list uchar int vertex_indices", "end_header",
              *("{:.9g} {:.9g} {:.9g}".format(*p) for p in mesh.positions),
              *("3 {} {} {}".format(*t) for t in mesh.triangles)]
     path.write_text("\n".join(lines) + "\n", encoding="ascii")

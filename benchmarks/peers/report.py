@@ -36,8 +36,8 @@ def scene_rows(result):
                "standard_error_percent": 100 * mean["standard_error"] / result["mean"],
                "worst_channel_z": max((c["z"] for c in entry["means"].values()), key=abs),
                "excess": entry["excess"], "agrees": entry["agrees"],
-               "relmse": statistics.median(entry["relmse"]), "ratio_seconds": entry["ratio_seconds"],
-               "ratio_cpu_seconds": entry["ratio_cpu_seconds"]}
+               "relmse": statistics.median(entry["relmse"]) if entry["relmse"] else None,
+               "ratio_seconds": entry["ratio_seconds"], "ratio_cpu_seconds": entry["ratio_cpu_seconds"]}
 
 
 def scene_text(result):
@@ -45,7 +45,7 @@ def scene_text(result):
     rows = [header] + [
         (row["renderer"], f"{row['spp']:.0f}", f"{row['seconds']:.2f}", f"{row['bias_percent']:+.3f}",
          f"{row['standard_error_percent']:.3f}", f"{row['worst_channel_z']:+.1f}", f"{row['excess']:.2f}",
-         "agrees" if row["agrees"] else "DIFFERS", f"{row['relmse']:.4g}", shown(row["ratio_seconds"], ".3g"),
+         "agrees" if row["agrees"] else "DIFFERS", shown(row["relmse"], ".4g"), shown(row["ratio_seconds"], ".3g"),
          shown(row["ratio_cpu_seconds"], ".3g")) for row in scene_rows(result)]
     lines = [f"{result['scene']}: {result['width']}x{result['height']}, paths of up to {result['max_depth']} edges, "
              f"mean {result['mean']:.5g} nit", table(rows)]
@@ -64,7 +64,7 @@ def cpu_text(result):
 
 
 def text(document):
-    lines = [f"{name}: {peer['version']}" + (f" ({', '.join(str(v) for v in peer['job'].values())})" if peer["job"] else "")
+    lines = [" ".join([f"{name}: {peer['version']}", *map(str, peer["job"].values())])
              for name, peer in document["peers"].items()]
     lines += [f"{name}: skipped: {reason}" for name, reason in document["missing"].items()]
     parts = ["\n".join(lines)] + [scene_text(result) for result in document["scenes"]]

@@ -1,4 +1,4 @@
-"""What all renderers have in common: triangles, four kinds of surface, point lights, a pinhole camera. Rec. 709, linear;
+"""What all renderers have in common: triangles, four kinds of surface, point lights, a pinhole camera. Linear Rec. 709;
 metres, nit and candela; right-handed, y up; a triangle's front is where its corners run anticlockwise."""
 
 import dataclasses

@@ -190,7 +190,8 @@ class Recorder:
 
 
 def bias_report(value, error):
-    return {"bias": {channel: {"value": value, "standard_error": error} for channel in ("red", "green", "blue", "mean")}}
+    channels = ("red", "green", "blue", "mean")
+    return {"bias": {channel: {"value": value, "standard_error": error} for channel in channels}}
 
 
 class Judgement(unittest.TestCase):
@@ -207,11 +208,16 @@ class Judgement(unittest.TestCase):
         told = {"bias": {"pixel_standard_error": 0.1}, "metrics": {"mse": {"mean": 0.14}}}
         self.assertAlmostEqual(contest.excess(told, 4, 0.03), 2.0)
 
+    def test_noise_of_the_reference(self):
+        self.assertEqual(contest.own_errors([0.5, 0.75, 0.25], 0.125), [0.375, 0.625, 0.125])
+        self.assertEqual(contest.own_errors([0.5, 0.75, 0.25], 0.375), [])
+
     def test_ratio_is_at_equal_time(self):
         ours = {"relmse": [0.1, 0.2, 0.1], "seconds": [2.0, 1.0, 2.0]}
         theirs = {"relmse": [0.4, 0.4, 0.4], "seconds": [1.0, 1.0, 4.0]}
         self.assertAlmostEqual(contest.ratio(theirs, ours, "seconds"), 2.0)
         self.assertIsNone(contest.ratio(theirs, {"relmse": [0.0], "seconds": [1.0]}, "seconds"))
+        self.assertIsNone(contest.ratio({"relmse": [], "seconds": [1.0]}, ours, "seconds"))
 
     @unittest.skipUnless(BDPT, "no command is given")
     def test_a_picture_without_indirect_light_differs(self):
@@ -244,8 +250,8 @@ class Missing(unittest.TestCase):
     def test_reasons(self):
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
-            failures = {"import os; os.abort()": "signal 6", "import no_such_module": "No module named 'no_such_module'",
-                        "pass": "exit code 0"}
+            failures = {"import os; os.abort()": "signal 6", 
+                        "import no_such_module": "No module named 'no_such_module'", "pass": "exit code 0"}
             for text, reason in failures.items():
                 with self.assertRaisesRegex(peers.Unavailable, reason):
                     peers.find("luxcore", (program(folder, "peer", text),), folder)

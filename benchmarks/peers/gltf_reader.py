@@ -185,4 +185,7 @@ class Reader:
 
 def read(path):
     """The Scene of a file; NotShared, with the reason, if renderers have too little in common about it."""
-    return Reader(path.read_text(encoding="utf-8"), path.name).read()
+    try:
+        return Reader(path.read_text(encoding="utf-8"), path.name).read()
+    except (ValueError, LookupError, TypeError, struct.error) as error:
+        raise NotShared(f"{path.name}: it cannot be read: {error!r}") from error

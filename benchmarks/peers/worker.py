@@ -2,8 +2,8 @@
 
 The job has `scene` (a file of scene.to_json), `integrator`, `width`, `height`, `max_depth` (edges), `threads`, `seed`,
 `seconds` or `samples` (per pixel) as the limit, `output` (an EXR file), `result` (a JSON file) and what else the
-adapter asks for (`variant`, `roulette`). The result has `version`, `settings` and, of the rendering alone, without loading, `seconds`,
-`cpu_seconds` and `samples`."""
+adapter asks for (`variant`, `roulette`). The result has `version`, `settings` and, of the rendering alone, without
+loading, `seconds`, `cpu_seconds` and `samples`."""
 
 import importlib
 import json

@@ -63,6 +63,15 @@ class Reader(unittest.TestCase):
                     described = gltf_reader.read(file)
                     self.assertEqual(from_json(to_json(described)), described)
 
+    def test_files_that_are_no_such_glTF(self):
+        with tempfile.TemporaryDirectory() as name:
+            file = pathlib.Path(name) / "broken.gltf"
+            for content in (b"glTF\x02\xff", b"[]", b"{}", b'{"buffers": [{"uri": "box.bin"}]}',
+                            b'{"buffers": [{"uri": "data:,"}], "scenes": [{"nodes": [7]}]}'):
+                file.write_bytes(content)
+                with self.assertRaisesRegex(NotShared, "broken.gltf: "):
+                    gltf_reader.read(file)
+
     def test_lamp(self):
         described = scene("cornell-box")
         lamp = mesh_of(described, "lamp")

@@ -34,14 +34,15 @@ def cpu_of_children():
     return usage.ru_utime + usage.ru_stime
 
 
-def run_bdpt(options, gltf, integrator, seed, seconds, output):
-    """Renders. What it tells is as by a worker, but its CPU time is that of the whole process."""
+def run_bdpt(options, gltf, integrator, seed, limit, output):
+    """Renders until `limit`, an option and its value. What it tells is as by a worker, but its CPU time is that of the
+    whole process."""
     stats = output.with_suffix(".stats.json")
     before = cpu_of_children()
     subprocess.run([options.bdpt, "render", str(gltf), "-o", str(output), "--integrator", integrator, "--size",
                     "{}x{}".format(*options.size), "--max-depth", str(options.max_depth), "--threads",
-                    str(options.threads), "--seed", str(seed), "--time", f"{seconds}s", "--stats", str(stats),
-                    "--env", "none", "--quiet"], check=True)
+                    str(options.threads), "--seed", str(seed), *limit, "--stats", str(stats), "--env", "none",
+                    "--quiet"], check=True)
     cpu = cpu_of_children() - before
     told = json.loads(stats.read_text(encoding="utf-8"))
     stats.unlink()
@@ -69,14 +70,15 @@ class Stage:
 
     def make_reference(self):
         self.reference = self.folder / "reference.exr"
-        self.reference_run = run_bdpt(self.options, self.gltf, "bdpt", REFERENCE_SEED, self.options.reference_seconds,
-                                      self.reference)
+        limit = ("--time", f"{self.options.reference_seconds}s")
+        self.reference_run = run_bdpt(self.options, self.gltf, "bdpt", REFERENCE_SEED, limit, self.reference)
 
     def run(self, entry, peer, seed, output):
         """One picture by one entry. Raises Unavailable."""
         options = self.options
         if entry.peer == "bdpt":
-            return run_bdpt(options, self.gltf, entry.job["integrator"], seed, options.seconds, output)
+            limit = ("--time", f"{options.seconds}s")
+            return run_bdpt(options, self.gltf, entry.job["integrator"], seed, limit, output)
         job = {**entry.job, "scene": str(self.description), "width": options.size[0], "height": options.size[1],
                "max_depth": options.max_depth, "threads": options.threads, "seed": seed, "seconds": options.seconds,
                "output": str(output)}

@@ -106,6 +106,7 @@ def main():
     args = arguments()
     chosen = {"bdpt", *args.only.split(",")} if args.only else {entry.name for entry in peers.ENTRIES}
     entries = [entry for entry in peers.ENTRIES if entry.name in chosen]
+    args.output = args.output.resolve()  # Blender takes relative names for those of another folder
     args.output.mkdir(parents=True, exist_ok=True)
     found, missing = find_peers(entries, args)
     entries = [entry for entry in entries if entry.peer == "bdpt" or entry.peer in found]

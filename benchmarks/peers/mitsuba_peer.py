@@ -1,0 +1,87 @@
+"""Mitsuba 3: `path`, and `ptracer` (light tracing). Colours are RGB, without spectra."""
+
+import pathlib
+import tempfile
+
+LANES = 1 << 20  # samples of one pass: what is computed at once, in memory that this bounds
+
+
+def bsdf(material):
+    if material.kind == "glass":
+        kind = {"type": "roughdielectric", "distribution": "ggx", "alpha": material.alpha} if material.alpha > 0 \
+            else {"type": "dielectric"}
+        return {**kind, "int_ior": material.ior, "ext_ior": 1.0}
+    if material.kind == "metal":  # "none": reflects everything
+        inner = {"type": "roughconductor", "distribution": "ggx", "alpha": material.alpha, "material": "none"} \
+            if material.alpha > 0 else {"type": "conductor", "material": "none"}
+    else:
+        inner = {"type": "diffuse", "reflectance": {"type": "rgb", "value": list(material.color)}}
+    return {"type": "twosided", "bsdf": inner}
+
+
+def write_ply(mesh, path):
+    lines = ["ply", "format ascii 1.0", f"element vertex {len(mesh.positions)}",
+             *(f"property float {c}" for c in "xyz"), f"element face {len(mesh.triangles)}", "property list uchar int vertex_indices", "end_header",
+             *("{:.9g} {:.9g} {:.9g}".format(*p) for p in mesh.positions),
+             *("3 {} {} {}".format(*t) for t in mesh.triangles)]
+    path.write_text("\n".join(lines) + "\n", encoding="ascii")
+
+
+def description(mi, scene, job, folder):
+    """The scene as Mitsuba's dictionary."""
+    camera = scene.camera
+    target = [p + d for p, d in zip(camera.position, camera.direction)]
+    result = {
+        "type": "scene",
+        "integrator": {"type": job["integrator"], "max_depth": job["max_depth"]},
+        "sensor": {
+            "type": "perspective", "fov": camera.vertical_fov * 57.29577951308232, "fov_axis": "y",
+            "near_clip": 1e-3, "far_clip": 1e4,
+            "to_world": mi.ScalarTransform4f().look_at(list(camera.position), target, list(camera.up)),
+            "film": {"type": "hdrfilm", "width": job["width"], "height": job["height"], "pixel_format": "rgb",
+                     "component_format": "float32", "rfilter": {"type": "box"}},
+            "sampler": {"type": "independent"},
+        },
+    }
+    for i, mesh in enumerate(scene.meshes):
+        material, file = scene.materials[mesh.material], folder / f"{i}.ply"
+        write_ply(mesh, file)
+        shape = {"type": "ply", "filename": str(file), "face_normals": True, "bsdf": bsdf(material)}
+        if material.emission:
+            shape["emitter"] = {"type": "area", "radiance": {"type": "rgb", "value": list(material.emission)}}
+        result[f"mesh{i}"] = shape
+    for i, point in enumerate(scene.points):
+        result[f"point{i}"] = {"type": "point", "position": list(point.position),
+                               "intensity": {"type": "rgb", "value": list(point.intensity)}}
+    return result
+
+
+def render(scene, job):
+    import drjit
+    import mitsuba as mi
+    from worker import Stopwatch
+    mi.set_variant(job["variant"])
+    drjit.set_thread_count(job["threads"])
+    with tempfile.TemporaryDirectory() as folder:
+        loaded = mi.load_dict(description(mi, scene, job, pathlib.Path(folder)))
+    pixels = job["width"] * job["height"]
+    spp = max(1, min(LANES // pixels, job.get("samples") or LANES))
+
+    def one_pass(number):
+        image = mi.render(loaded, spp=spp, seed=(job["seed"] * 100003 + number) % (1 << 32))
+        drjit.eval(image)
+        drjit.sync_thread()
+        return image
+
+    one_pass(100002)  # compiles
+    total, passes, watch = None, 0, Stopwatch()
+    while passes == 0 or (watch.seconds() < job["seconds"] if "seconds" in job else passes * spp < job["samples"]):
+        image = one_pass(passes)
+        total, passes = image if total is None else total + image, passes + 1
+    drjit.eval(total)
+    drjit.sync_thread()
+    result = {"seconds": watch.seconds(), "cpu_seconds": watch.cpu_seconds(), "samples": passes * spp}
+    drjit.set_thread_count(2)  # a single one would wait for itself when it writes
+    mi.Bitmap(total / passes).write(job["output"])
+    return {**result, "version": mi.__version__,
+            "settings": {"variant": job["variant"], "sampler": "independent", "samples of a pass": spp}}

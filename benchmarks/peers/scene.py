@@ -1,0 +1,78 @@
+"""What all renderers have in common: triangles, four kinds of surface, point lights, a pinhole camera. Linear Rec. 709;
+metres, nit and candela; right-handed, y up; a triangle's front is where its corners run anticlockwise."""
+
+import dataclasses
+import json
+
+
+class NotShared(Exception):
+    """The scene has something that not all renderers have, and that cannot be left out."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Material:
+    name: str
+    kind: str  # "diffuse"; "metal", which reflects all light, of any angle and colour; "glass", which is clear
+    color: tuple = (1.0, 1.0, 1.0)  # reflectance of diffuse surfaces
+    alpha: float = 0.0  # of the GGX distribution; 0 is perfectly smooth
+    ior: float = 1.5  # of glass
+    emission: tuple = None  # [nit], from the front only
+
+
+@dataclasses.dataclass(frozen=True)
+class Mesh:
+    """Flat triangles; the outside of glass is its front."""
+
+    name: str
+    material: int
+    positions: tuple  # of (x, y, z)
+    triangles: tuple  # of three indices
+
+
+@dataclasses.dataclass(frozen=True)
+class PointLight:
+    name: str
+    position: tuple
+    intensity: tuple  # [cd] for each colour
+
+
+@dataclasses.dataclass(frozen=True)
+class Camera:
+    position: tuple
+    direction: tuple  # unit
+    up: tuple  # unit, perpendicular to `direction`
+    vertical_fov: float  # [rad]
+    aspect_ratio: float
+
+
+@dataclasses.dataclass(frozen=True)
+class Scene:
+    title: str
+    materials: tuple
+    meshes: tuple
+    points: tuple
+    camera: Camera
+    changes: tuple  # what it shows differently from the file that it was read from, one sentence each
+
+    def kinds(self):
+        """The kinds of its surfaces, like "diffuse" and "rough glass"."""
+        materials = (self.materials[mesh.material] for mesh in self.meshes)
+        return {("rough " if material.alpha > 0 else "") + material.kind for material in materials}
+
+
+def to_json(scene):
+    return json.dumps(dataclasses.asdict(scene))
+
+
+def _tuples(value):
+    return tuple(_tuples(item) for item in value) if isinstance(value, list) else value
+
+
+def from_json(text):
+    """The scene that `to_json` wrote."""
+    data = {key: _tuples(value) for key, value in json.loads(text).items()}
+    data["materials"] = tuple(Material(**{k: _tuples(v) for k, v in item.items()}) for item in data["materials"])
+    data["meshes"] = tuple(Mesh(**{k: _tuples(v) for k, v in item.items()}) for item in data["meshes"])
+    data["points"] = tuple(PointLight(**{k: _tuples(v) for k, v in item.items()}) for item in data["points"])
+    data["camera"] = Camera(**{k: _tuples(v) for k, v in data["camera"].items()})
+    return Scene(**data)

@@ -22,6 +22,8 @@ public:
 
     /// The magnitude of `value` is at most `max_value`. Safe from any thread.
     void add(float value) noexcept;
+    /// The same, several times faster, while no other thread adds.
+    void add_alone(float value) noexcept;
     /// Not safe while other threads add.
     void add(const ExactSum& other) noexcept;
     [[nodiscard]] double value() const noexcept;

@@ -68,11 +68,14 @@ public:
     /// Samples a pixel (and light paths a pixel) that the sums hold.
     [[nodiscard]] std::int64_t sample_count() const { return counts_[0] + counts_[1]; }
 
-    /// Adds one camera sample of pixel (x, y), which is in the region. Safe from any thread.
+    /// Adds one camera sample of pixel (x, y), which is in the region. Each pixel belongs to one
+    /// thread at a time.
     void add_sample(int x, int y, std::int64_t sample_index, Rgb radiance) noexcept;
     /// Adds what a light path of sample `sample_index` brings to `raster` [pixels, origin at the
     /// top left]; outside of the region it is ignored. Safe from any thread.
     void add_splat(Vec2 raster, std::int64_t sample_index, Rgb radiance) noexcept;
+    /// Fetches what such a splat will change from memory, to be there when it comes.
+    void prefetch_splat(Vec2 raster, std::int64_t sample_index) const noexcept;
     /// States that the samples [begin, end) of every pixel have been added.
     void count_samples(std::int64_t begin, std::int64_t end);
 
@@ -97,6 +100,7 @@ private:
     struct Pixel {
         std::array<ExactSum, 3> rgb;
         void add(Rgb value) noexcept;
+        void add_alone(Rgb value) noexcept;
         void add(const Pixel& other) noexcept;
         [[nodiscard]] bool operator==(const Pixel&) const = default;
     };
@@ -111,6 +115,7 @@ private:
     [[nodiscard]] Image develop(std::span<const std::size_t> halves) const;
     [[nodiscard]] Rgb clamp(Rgb value, int y) noexcept;
     [[nodiscard]] bool accept(Rgb& value, int x, int y, std::int64_t sample_index) noexcept;
+    [[nodiscard]] bool holds(Vec2 raster) const noexcept;
     [[nodiscard]] std::size_t index(int x, int y) const;
 
     FilmLayout layout_;

@@ -42,6 +42,13 @@ Words magnitude(std::uint32_t bits)
     return {};
 }
 
+Words words_of(float value)
+{
+    const auto bits = std::bit_cast<std::uint32_t>(value);
+    const bool below_zero = (bits >> 31U) != 0;
+    return below_zero ? negative(magnitude(bits)) : magnitude(bits);
+}
+
 }  // namespace
 
 ExactSum& ExactSum::operator=(const ExactSum& other) noexcept
@@ -53,10 +60,20 @@ ExactSum& ExactSum::operator=(const ExactSum& other) noexcept
 
 void ExactSum::add(float value) noexcept
 {
-    const auto bits = std::bit_cast<std::uint32_t>(value);
-    const bool below_zero = (bits >> 31U) != 0;
-    const Words words = below_zero ? negative(magnitude(bits)) : magnitude(bits);
+    const Words words = words_of(value);
     add_words(words.low, words.high);
+}
+
+void ExactSum::add_alone(float value) noexcept
+{
+    const Words words = words_of(value);
+    const std::uint64_t before = low_.load(std::memory_order_relaxed);
+    const std::uint64_t low = before + words.low;
+    low_.store(low, std::memory_order_relaxed);
+    const std::uint64_t high = words.high + (low < before ? 1U : 0U);
+    if (high != 0) {
+        high_.store(high_.load(std::memory_order_relaxed) + high, std::memory_order_relaxed);
+    }
 }
 
 void ExactSum::add(const ExactSum& other) noexcept

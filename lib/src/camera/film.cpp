@@ -32,6 +32,13 @@ void Film::Pixel::add(Rgb value) noexcept
     rgb[2].add(value.b);
 }
 
+void Film::Pixel::add_alone(Rgb value) noexcept
+{
+    rgb[0].add_alone(value.r);
+    rgb[1].add_alone(value.g);
+    rgb[2].add_alone(value.b);
+}
+
 void Film::Pixel::add(const Pixel& other) noexcept
 {
     for (std::size_t c = 0; c < rgb.size(); ++c) {
@@ -120,16 +127,33 @@ Rgb Film::clamp(Rgb value, int y) noexcept
 void Film::add_sample(int x, int y, std::int64_t sample_index, Rgb radiance) noexcept
 {
     if (accept(radiance, x, y, sample_index)) {
-        samples_[half_of(sample_index)][index(x, y)].add(radiance);
+        samples_[half_of(sample_index)][index(x, y)].add_alone(radiance);
     }
+}
+
+bool Film::holds(Vec2 raster) const noexcept
+{
+    return raster.x >= static_cast<float>(region().x0) &&
+           raster.x < static_cast<float>(region().x1) &&
+           raster.y >= static_cast<float>(region().y0) &&
+           raster.y < static_cast<float>(region().y1);
+}
+
+void Film::prefetch_splat(Vec2 raster, std::int64_t sample_index) const noexcept
+{
+    if (!holds(raster)) {
+        return;
+    }
+    const Pixel& pixel = splats_[half_of(sample_index)]
+                                [index(static_cast<int>(raster.x), static_cast<int>(raster.y))];
+    constexpr int for_writing = 1;
+    __builtin_prefetch(&pixel.rgb.front(), for_writing);
+    __builtin_prefetch(&pixel.rgb.back(), for_writing);
 }
 
 void Film::add_splat(Vec2 raster, std::int64_t sample_index, Rgb radiance) noexcept
 {
-    const bool inside =
-        raster.x >= static_cast<float>(region().x0) && raster.x < static_cast<float>(region().x1) &&
-        raster.y >= static_cast<float>(region().y0) && raster.y < static_cast<float>(region().y1);
-    if (!inside) {
+    if (!holds(raster)) {
         return;
     }
     const int x = static_cast<int>(raster.x);

@@ -51,24 +51,6 @@ OwnedScene new_scene(RTCDevice device)
     return scene;
 }
 
-/// Where the line of the ray crosses the plane of the triangle. Embree knows it too, but from
-/// reciprocals that CPUs of different makers approximate differently; this is the same on all. The
-/// products are those of Pluecker coordinates relative to the ray's origin.
-Vec2 barycentrics_of(const std::array<Vec3, 3>& corners, const Ray& ray)
-{
-    const Vec3 a = corners[0] - ray.origin;
-    const Vec3 b = corners[1] - ray.origin;
-    const Vec3 c = corners[2] - ray.origin;
-    const float of_b = dot(cross(c - a, c + a), ray.direction);
-    const float of_c = dot(cross(a - b, a + b), ray.direction);
-    const float of_a = dot(cross(b - c, b + c), ray.direction);
-    const float sum = of_a + of_b + of_c;
-    if (sum == 0.0f) {
-        return Vec2(0.0f);  // seen from the side
-    }
-    return {of_b / sum, of_c / sum};
-}
-
 /// What decides which hits count, and for whom.
 struct HitFilter {
     PassRule rule;
@@ -87,11 +69,10 @@ void filter_hit(const RTCFilterFunctionNArguments* args)
     const bool shared = hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
     const std::uint32_t instance = shared ? hit.instID[0] : hit.geomID;
     const Ray& ray = embree::ray_of(args->context);
-    if (rule.passes(rule.owner,
-                    {.instance = instance,
-                     .triangle = hit.primID,
-                     .barycentrics = barycentrics_of(placed[instance].corners(hit.primID), ray),
-                     .segment = ray.segment})) {
+    if (rule.passes(rule.owner, {.instance = instance,
+                                 .triangle = hit.primID,
+                                 .barycentrics = placed[instance].hit(hit.primID, ray).barycentrics,
+                                 .segment = ray.segment})) {
         args->valid[0] = 0;
     }
 }
@@ -130,20 +111,21 @@ OwnedGeometry new_triangles(RTCDevice device, const std::vector<Vec3>& padded_po
 
 RTCRay to_embree(const Ray& ray)
 {
-    RTCRay out{};
-    out.org_x = ray.origin.x;
-    out.org_y = ray.origin.y;
-    out.org_z = ray.origin.z;
-    out.dir_x = ray.direction.x;
-    out.dir_y = ray.direction.y;
-    out.dir_z = ray.direction.z;
     // A surface through the exact origin counts as behind it, for it is the one that the ray
     // leaves.
-    out.tnear = std::numeric_limits<float>::min();
-    out.tfar = ray.t_max;
-    out.mask = all_rays;
-    out.id = ray.ignored_sphere;
-    return out;
+    constexpr float beyond_origin = std::numeric_limits<float>::min();
+    return {.org_x = ray.origin.x,
+            .org_y = ray.origin.y,
+            .org_z = ray.origin.z,
+            .tnear = beyond_origin,
+            .dir_x = ray.direction.x,
+            .dir_y = ray.direction.y,
+            .dir_z = ray.direction.z,
+            .time = 0.0f,
+            .tfar = ray.t_max,
+            .mask = all_rays,
+            .id = ray.ignored_sphere,
+            .flags = 0};
 }
 
 }  // namespace
@@ -243,7 +225,7 @@ Isa EmbreeScene::isa() const noexcept
 
 std::optional<RayHit> EmbreeScene::intersect(const Ray& ray) const noexcept
 {
-    RTCRayHit query{};
+    RTCRayHit query;  // Embree writes the rest of a hit
     query.ray = to_embree(ray);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
@@ -254,17 +236,15 @@ std::optional<RayHit> EmbreeScene::intersect(const Ray& ray) const noexcept
     }
     const bool shared = hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
     const std::uint32_t instance = shared ? hit.instID[0] : hit.geomID;
-    const Vec3 normal(hit.Ng_x, hit.Ng_y, hit.Ng_z);
     if (instance >= state_->placed.size()) {
-        return RayHit{.normal = normal, .sphere = hit.primID};
+        RayHit on_sphere;
+        on_sphere.at.normal = {hit.Ng_x, hit.Ng_y, hit.Ng_z};
+        on_sphere.sphere = hit.primID;
+        return on_sphere;
     }
-    const PlacedMesh& mesh = state_->placed[instance];
-    const auto corners = mesh.corners(hit.primID);
-    return RayHit{
-        .instance = instance,
-        .triangle = hit.primID,
-        .barycentrics = barycentrics_of(corners, ray),
-        .normal = mesh.front_sign() * cross(corners[1] - corners[0], corners[2] - corners[0])};
+    return RayHit{.instance = instance,
+                  .triangle = hit.primID,
+                  .at = state_->placed[instance].hit(hit.primID, ray)};
 }
 
 bool EmbreeScene::occluded(const Ray& ray) const noexcept

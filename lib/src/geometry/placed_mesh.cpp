@@ -20,6 +20,43 @@ float max_axis(Vec3 v)
     return std::max(v.x, std::max(v.y, v.z));
 }
 
+/// From products of Pluecker coordinates relative to the ray's origin.
+Vec2 barycentrics_of(const std::array<Vec3, 3>& corners, const Ray& ray)
+{
+    const Vec3 a = corners[0] - ray.origin;
+    const Vec3 b = corners[1] - ray.origin;
+    const Vec3 c = corners[2] - ray.origin;
+    const float of_b = dot(cross(c - a, c + a), ray.direction);
+    const float of_c = dot(cross(a - b, a + b), ray.direction);
+    const float of_a = dot(cross(b - c, b + c), ray.direction);
+    const float sum = of_a + of_b + of_c;
+    if (sum == 0.0f) {
+        return Vec2(0.0f);  // seen from the side
+    }
+    return {of_b / sum, of_c / sum};
+}
+
+/// The greatest coordinate of all corners.
+Vec3 extent(const std::array<Vec3, 3>& corners)
+{
+    return max(abs(corners[0]), max(abs(corners[1]), abs(corners[2])));
+}
+
+Vec3 interpolated(const std::array<Vec3, 3>& corners, Vec2 barycentrics)
+{
+    return (1.0f - barycentrics.x - barycentrics.y) * corners[0] + barycentrics.x * corners[1] +
+           barycentrics.y * corners[2];
+}
+
+/// Of corners as Embree has them. The intersection test works on the corners relative to the ray's
+/// origin and rounds in all directions, even where a coordinate of all corners is zero. So the
+/// bound takes the greatest coordinate of all, not each axis for itself.
+BoundedPoint bounded_point(const std::array<Vec3, 3>& corners, Vec2 barycentrics)
+{
+    return {interpolated(corners, barycentrics),
+            rounding_bound(rounded_operations) * max_axis(extent(corners))};
+}
+
 /// Transposed cofactors: the inverse transpose times the determinant, so it cannot divide by zero.
 Mat3 cofactors(const Mat3& m)
 {
@@ -54,23 +91,26 @@ std::array<Vec3, 3> PlacedMesh::corners(std::uint32_t triangle) const
 
 BoundedPoint PlacedMesh::point(std::uint32_t triangle, Vec2 barycentrics) const
 {
-    const UVec3& i = mesh_->triangles[triangle];
-    const Vec3* corner = world_positions_ != nullptr ? world_positions_ : mesh_->positions.data();
-    const Vec3 a = corner[i.x];
-    const Vec3 b = corner[i.y];
-    const Vec3 c = corner[i.z];
-    const Vec3 p =
-        (1.0f - barycentrics.x - barycentrics.y) * a + barycentrics.x * b + barycentrics.y * c;
-    // The intersection test works on the corners relative to the ray's origin and rounds in all
-    // directions, even where a coordinate of all corners is zero. So the bound takes the greatest
-    // coordinate of all, not each axis for itself.
-    const Vec3 size = max(abs(a), max(abs(b), abs(c)));
     if (world_positions_ != nullptr) {
-        return {p, rounding_bound(rounded_operations) * max_axis(size)};
+        return bounded_point(corners(triangle), barycentrics);
     }
+    const UVec3& i = mesh_->triangles[triangle];
+    const auto& p = mesh_->positions;
+    const std::array<Vec3, 3> in_object{p[i.x], p[i.y], p[i.z]};
     const Mat3 magnitudes(abs(linear_[0]), abs(linear_[1]), abs(linear_[2]));
-    const Vec3 world_size = magnitudes * size + abs(translation_);
-    return {world_point(p), rounding_bound(2 * rounded_operations) * max_axis(world_size)};
+    const Vec3 world_size = magnitudes * extent(in_object) + abs(translation_);
+    return {world_point(interpolated(in_object, barycentrics)),
+            rounding_bound(2 * rounded_operations) * max_axis(world_size)};
+}
+
+TriangleHit PlacedMesh::hit(std::uint32_t triangle, const Ray& ray) const
+{
+    const std::array<Vec3, 3> corners = this->corners(triangle);
+    const Vec2 barycentrics = barycentrics_of(corners, ray);
+    return {.barycentrics = barycentrics,
+            .normal = front_sign_ * cross(corners[1] - corners[0], corners[2] - corners[0]),
+            .point = world_positions_ != nullptr ? bounded_point(corners, barycentrics)
+                                                 : point(triangle, barycentrics)};
 }
 
 Vec3 PlacedMesh::area_normal(std::uint32_t triangle) const

@@ -1,18 +1,13 @@
 #pragma once
 
+#include "geometry/ray.h"
+
 #include <bdpt/scene_desc.h>
 
 #include <array>
 #include <cstdint>
 
 namespace bdpt {
-
-/// A point that was computed in floats, with a bound of how far off [m] it and an intersection test
-/// of its triangle can be, in any direction.
-struct BoundedPoint {
-    Vec3 p{0.0f};
-    float error = 0.0f;
-};
 
 /// A mesh as one instance places it in the world. Refers to the mesh, which must outlive it.
 class PlacedMesh {
@@ -41,6 +36,9 @@ public:
     [[nodiscard]] std::array<Vec3, 3> corners(std::uint32_t triangle) const;
     /// Barycentrics are those of the second and third corner.
     [[nodiscard]] BoundedPoint point(std::uint32_t triangle, Vec2 barycentrics) const;
+    /// Where the line of the ray crosses the plane of the triangle. Embree knows it too, but from
+    /// reciprocals that CPUs of different makers approximate differently; this is the same on all.
+    [[nodiscard]] TriangleHit hit(std::uint32_t triangle, const Ray& ray) const;
     /// Front normal from the corners, in the world, unnormalised; its length is twice the area.
     [[nodiscard]] Vec3 area_normal(std::uint32_t triangle) const;
 

@@ -22,13 +22,26 @@ struct Ray {
     SegmentKey segment{};  ///< decides which surfaces it passes
 };
 
+/// A point that was computed in floats, with a bound of how far off [m] it and an intersection test
+/// of its triangle can be, in any direction.
+struct BoundedPoint {
+    Vec3 p{0.0f};
+    float error = 0.0f;
+};
+
+/// Where a line crosses the plane of a triangle.
+struct TriangleHit {
+    Vec2 barycentrics{0.0f};  ///< of the second and third corner
+    Vec3 normal{0.0f};        ///< geometric, on the front side, in world space, any length
+    BoundedPoint point;
+};
+
 /// Where a ray met a triangle or a sphere.
 struct RayHit {
     std::uint32_t instance = 0;  ///< of triangles
     std::uint32_t triangle = 0;
-    Vec2 barycentrics{0.0f};           ///< of the second and third corner of a triangle
-    Vec3 normal{0.0f};                 ///< geometric, on the front side, in world space, any length
-    std::uint32_t sphere = no_sphere;  ///< its normal is unit
+    TriangleHit at;  ///< of spheres the normal only, unit
+    std::uint32_t sphere = no_sphere;
 };
 
 }  // namespace bdpt

@@ -42,7 +42,11 @@ RenderStats BdptIntegrator::render_tile(const Tile& tile, SampleRange samples,
                     .camera_path = Subpath(strategies_.camera_vertices()),
                     .weigher = PathWeigher(world_, camera_, strategies_, options_.heuristic,
                                            options_.max_depth + 1),
+                    .splats = {},
                     .stats = {}};
+    // One for each strategy with t <= 1.
+    scratch.splats.reserve(
+        2 * static_cast<std::size_t>(strategies_.light_vertices() * options_.light_paths) + 2);
     if (films.on_path) {
         scratch.weigher.keep_paths();
     }
@@ -100,11 +104,12 @@ void BdptIntegrator::add_sample(const SampleId& id, const Films& films, Scratch&
         splat_light_path(light_sample, scratch, probe);
         radiance += join_paths(light_sample, scratch, probe);
     }
+    probe.enter(Phase::splat);
     if (wanted) {
-        probe.enter(Phase::splat);
         ++scratch.stats.paths.camera;
         films.film.add_sample(x, y, index, radiance);
     }
+    add_pending_splats(sample, scratch);
 }
 
 template <typename Probe>
@@ -216,6 +221,14 @@ Rgb BdptIntegrator::measure(Strategy strategy, const Contribution& found, const 
     return weighted;
 }
 
+void BdptIntegrator::add_pending_splats(const Sample& sample, Scratch& scratch)
+{
+    for (const PendingSplat& splat : scratch.splats) {
+        sample.films.film.add_splat(splat.raster, sample.index, splat.radiance);
+    }
+    scratch.splats.clear();
+}
+
 template <typename Probe>
 void BdptIntegrator::add_splat(Strategy strategy, const Splat& splat, std::uint32_t dimension,
                                Sample& sample, Scratch& scratch, Probe& probe) const
@@ -229,7 +242,8 @@ void BdptIntegrator::add_splat(Strategy strategy, const Splat& splat, std::uint3
     const float count = strategies_.count(strategy.s, strategy.t);
     const auto& [unweighted, mis_weight] = splat.contribution;
     const Rgb weighted = target.weight * mis_weight / count * unweighted;
-    sample.films.film.add_splat(target.raster, sample.index, weighted);
+    sample.films.film.prefetch_splat(target.raster, sample.index);
+    scratch.splats.push_back({.raster = target.raster, .radiance = weighted});
     if (!sample.films.strategies.empty()) {
         sample.films.strategies.add(
             strategy, target.raster,

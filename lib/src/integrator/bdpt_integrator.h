@@ -4,6 +4,8 @@
 #include "integrator/integrator.h"
 #include "path/connect.h"
 
+#include <vector>
+
 namespace bdpt {
 
 /// Bidirectional path tracing [Veach 1997, ch. 10]: each sample joins every prefix of a camera
@@ -17,11 +19,17 @@ public:
     [[nodiscard]] bool splats() const override { return true; }
 
 private:
+    /// What waits for its pixel to come from memory.
+    struct PendingSplat {
+        Vec2 raster;
+        Rgb radiance;
+    };
     /// The storage of one thread.
     struct Scratch {
         Subpath light_path;
         Subpath camera_path;
         PathWeigher weigher;
+        std::vector<PendingSplat> splats;  ///< of the sample at work
         RenderStats stats;
     };
     /// The sample at work.
@@ -63,6 +71,8 @@ private:
     template <typename Probe>
     void add_splat(Strategy strategy, const Splat& splat, std::uint32_t dimension, Sample& sample,
                    Scratch& scratch, Probe& probe) const;
+
+    static void add_pending_splats(const Sample& sample, Scratch& scratch);
 
     const World& world_;
     const Camera& camera_;

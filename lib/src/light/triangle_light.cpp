@@ -19,6 +19,7 @@ TriangleLight::TriangleLight(const PlacedMesh& mesh, const Material& material,
 {
     const Vec3 normal = mesh.area_normal(triangle);
     area_ = 0.5f * std::sqrt(dot(normal, normal));
+    ng_ = normal / (2.0f * area_);
 }
 
 TriangleLight::Point TriangleLight::point(Vec2 u) const
@@ -27,10 +28,7 @@ TriangleLight::Point TriangleLight::point(Vec2 u) const
         square_to_triangle(emission_.spread ? emission_.spread->sample(u).point : u);
     const BoundedPoint at = mesh_->point(triangle_, barycentrics);
     return {
-        .end = {.p = at.p,
-                .error = at.error,
-                .ng = mesh_->area_normal(triangle_) / (2.0f * area_),
-                .absorption = material_->absorption()},
+        .end = {.p = at.p, .error = at.error, .ng = ng_, .absorption = material_->absorption()},
         .barycentrics = barycentrics,
         .pdf = pdf_position(barycentrics),
         .radiance = material_->expected_emission(texture_point(*mesh_, triangle_, barycentrics))};

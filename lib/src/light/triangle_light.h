@@ -40,6 +40,7 @@ private:
     const Material* material_;
     std::uint32_t triangle_;
     float area_;
+    Vec3 ng_;  ///< unit; zero without an area
     TriangleEmission emission_;
 };
 

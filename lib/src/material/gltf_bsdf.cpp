@@ -163,17 +163,22 @@ BsdfEval GltfBsdf::eval(const Side& from, Vec3 wo, Vec3 wi, TransportMode mode) 
 
 BsdfEval GltfBsdf::eval_lobes(const Side& from, Vec3 wo, Vec3 wi, TransportMode mode) const noexcept
 {
+    const bool reaches_base = diffuse_weight_ > 0.0f && (wo.z > 0.0f) == (wi.z > 0.0f);
+    const float cos_o = std::abs(wo.z);
+    const float cos_i = std::abs(wi.z);
+    if (!has_specular_) {
+        return reaches_base ? BsdfEval{diffuse_ * cos_i, cosine_hemisphere_pdf(cos_i),
+                                       cosine_hemisphere_pdf(cos_o)}
+                            : BsdfEval{};
+    }
     BsdfEval sum;
     const Side to = side(wi.z);
-    if (has_specular_ && alpha_ >= smooth_alpha) {
+    if (alpha_ >= smooth_alpha) {
         sum = eval_microfacets(wo, wi, mode);
         sum.pdf_fwd.value *= from.specular_choice;
         sum.pdf_rev.value *= to.specular_choice;
     }
-    const bool same_side = (wo.z > 0.0f) == (wi.z > 0.0f);
-    if (same_side && diffuse_weight_ > 0.0f) {
-        const float cos_o = std::abs(wo.z);
-        const float cos_i = std::abs(wi.z);
+    if (reaches_base) {
         sum.f_cos += diffuse_ * (from.base_transmitted * to.base_transmitted * cos_i);
         sum.pdf_fwd.value += (1.0f - from.specular_choice) * cosine_hemisphere_pdf(cos_i).value;
         sum.pdf_rev.value += (1.0f - to.specular_choice) * cosine_hemisphere_pdf(cos_o).value;

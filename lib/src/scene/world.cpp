@@ -128,8 +128,8 @@ SurfacePoint World::sphere_point(const RayHit& hit, Vec3 direction) const noexce
 {
     const LightId id = lights_->of_sphere(hit.sphere);
     const auto& light = std::get<SphereLight>((*lights_)[id].model());
-    const bool outside = dot(hit.normal, direction) < 0.0f;
-    return {.end = light.surface(hit.normal),
+    const bool outside = dot(hit.at.normal, direction) < 0.0f;
+    return {.end = light.surface(hit.at.normal),
             .bsdf = Bsdf(),
             .emission = outside ? light.radiance(-direction) : Rgb(0.0f),
             .light = id};
@@ -140,30 +140,31 @@ SurfacePoint World::surface_point(const RayHit& hit, Vec3 direction) const noexc
     const PlacedMesh& mesh = placed_[hit.instance];
     const Material& material = material_of(hit.instance);
 
-    const float length_squared = dot(hit.normal, hit.normal);
-    const Vec3 ng = length_squared > 0.0f ? hit.normal / std::sqrt(length_squared) : -direction;
-    Vec3 ns = mesh.shading_normal(hit.triangle, hit.barycentrics);
+    const float length_squared = dot(hit.at.normal, hit.at.normal);
+    const Vec3 ng = length_squared > 0.0f ? hit.at.normal / std::sqrt(length_squared) : -direction;
+    Vec3 ns = mesh.shading_normal(hit.triangle, hit.at.barycentrics);
     const float side = dot(ns, ng);
     ns = side > 0.0f ? ns : side < 0.0f ? -ns : ng;
 
-    const TexturePoint at = texture_point(mesh, hit.triangle, hit.barycentrics);
+    const TexturePoint at = texture_point(mesh, hit.triangle, hit.at.barycentrics);
     const auto normal_uv_set = material.normal_uv_set();
     const ShadingPoint shading{
         .ng = ng,
         .ns = ns,
-        .tangent = normal_uv_set ? mesh.tangent(hit.triangle, hit.barycentrics, *normal_uv_set)
+        .tangent = normal_uv_set ? mesh.tangent(hit.triangle, hit.at.barycentrics, *normal_uv_set)
                                  : Vec4(0.0f),
         .uv = at.uv,
         .color = at.color,
         .wo = -direction};
 
-    const BoundedPoint point = mesh.point(hit.triangle, hit.barycentrics);
-    SurfacePoint result{
-        .end = {.p = point.p, .error = point.error, .ng = ng, .absorption = material.absorption()},
-        .bsdf = material.bsdf(shading),
-        .emission = Rgb(0.0f),
-        .light = lights_->of_triangle(hit.instance, hit.triangle),
-        .barycentrics = hit.barycentrics};
+    SurfacePoint result{.end = {.p = hit.at.point.p,
+                                .error = hit.at.point.error,
+                                .ng = ng,
+                                .absorption = material.absorption()},
+                        .bsdf = material.bsdf(shading),
+                        .emission = Rgb(0.0f),
+                        .light = lights_->of_triangle(hit.instance, hit.triangle),
+                        .barycentrics = hit.at.barycentrics};
     if (result.light && (dot(ng, direction) < 0.0f || material.emits_from_both_sides())) {
         result.emission = material.emission(at);
     }

@@ -1,8 +1,10 @@
 #include <bdpt/error.h>
+#include <bdpt/exact_sum.h>
 #include <bdpt/film.h>
 
 #include "catch.hpp"
 
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -66,6 +68,21 @@ TEST_CASE("Film::merge adds samples, counts and defects; sizes must match", "[fi
     CHECK(a.develop().at(0, 0) == Rgb(2.0f));
     CHECK_THROWS_AS(a.merge(Film(layout(2, 1, SplatImage::absent))), Error);
     CHECK_THROWS_AS(a.merge(Film(layout(1, 1))), Error);
+}
+
+TEST_CASE("ExactSum adds alone what it adds among threads", "[film]")
+{
+    std::mt19937 engine(3);
+    std::uniform_real_distribution<float> exponent(-70.0f, 42.0f);
+    std::bernoulli_distribution negative(0.3);
+    ExactSum among;
+    ExactSum alone;
+    for (int i = 0; i < 100000; ++i) {
+        const float value = std::exp2(exponent(engine)) * (negative(engine) ? -1.0f : 1.0f);
+        among.add(value);
+        alone.add_alone(value);
+        REQUIRE(among == alone);
+    }
 }
 
 TEST_CASE("Film estimates the variance of its estimate from the halves", "[film]")

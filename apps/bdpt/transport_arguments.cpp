@@ -25,6 +25,9 @@ constexpr std::array<std::pair<const char*, Heuristic>, 5> heuristics{
      {"maximum", Heuristic::maximum},
      {"uniform", Heuristic::uniform}}};
 
+constexpr std::array<std::pair<const char*, EnvironmentSampling>, 2> environment_samplings{
+    {{"plain", EnvironmentSampling::plain}, {"compensated", EnvironmentSampling::compensated}}};
+
 /// The value beside `name`, which the parser has found in the table.
 template <typename Table>
 auto value_of(const Table& table, const std::string& name)
@@ -189,6 +192,13 @@ void add_transport_options(CLI::App& command, TransportWords& words)
         ->check(CLI::IsMember(names_of(heuristics)))
         ->type_name("balance|power|cutoff|maximum|uniform")
         ->group(group);
+    command
+        .add_option("--env-sampling", words.environment_sampling,
+                    "How light sampling chooses where an environment is: compensated (the default) "
+                    "leaves even light to BSDF sampling, plain does not")
+        ->check(CLI::IsMember(names_of(environment_samplings)))
+        ->type_name("plain|compensated")
+        ->group(group);
     add_limits(command, words, group);
     command
         .add_option("--light-paths", words.light_paths,
@@ -209,6 +219,7 @@ RenderOptions with_transport(const TransportWords& words, RenderOptions options)
     check_bidirectional(words);
     options.integrator = harness::parse_integrator(words.integrator).value();
     options.heuristic = value_of(heuristics, words.heuristic);
+    options.environment_sampling = value_of(environment_samplings, words.environment_sampling);
     options.max_depth = words.max_depth;
     if (words.only) {
         choose_light(*words.only, options);
@@ -231,12 +242,14 @@ RenderOptions with_transport(const TransportWords& words, RenderOptions options)
 nlohmann::ordered_json transport_json(const RenderOptions& options)
 {
     constexpr int unlimited = std::numeric_limits<int>::max();
-    nlohmann::ordered_json result{{"integrator", harness::to_string(options.integrator)},
-                                  {"heuristic", name_of(heuristics, options.heuristic)},
-                                  {"max_depth", options.max_depth},
-                                  {"min_depth", options.min_depth},
-                                  {"light_paths", options.light_paths},
-                                  {"rr_start", options.rr_start}};
+    nlohmann::ordered_json result{
+        {"integrator", harness::to_string(options.integrator)},
+        {"heuristic", name_of(heuristics, options.heuristic)},
+        {"environment_sampling", name_of(environment_samplings, options.environment_sampling)},
+        {"max_depth", options.max_depth},
+        {"min_depth", options.min_depth},
+        {"light_paths", options.light_paths},
+        {"rr_start", options.rr_start}};
     const auto add = [&](const char* name, int limit) {
         if (limit != unlimited) {
             result[name] = limit;

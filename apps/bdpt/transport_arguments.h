@@ -18,6 +18,7 @@ namespace bdpt::app {
 struct TransportWords {
     std::string integrator = "bdpt";
     std::string heuristic = "power";
+    std::string environment_sampling = "compensated";
     int max_depth = RenderOptions{}.max_depth;
     std::optional<std::string> only;
     std::optional<int> max_camera_depth;

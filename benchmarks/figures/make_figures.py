@@ -2,7 +2,7 @@
 """Renders figures: for each a sheet of labelled pictures and their numbers.
 
 make_figures.py --list
-make_figures.py NAME... -o DIR [--scale quick|full] [--bdpt PATH]    (or all for NAME)
+make_figures.py NAME... -o DIR [--scale quick|medium|full] [--bdpt PATH]    (or all for NAME)
 
 Writes DIR/NAME.png, NAME.json and NAME.csv, and the pictures as DIR/NAME/NN.exr. Needs oiiotool."""
 
@@ -34,7 +34,8 @@ class Scale:
     most_seconds: float
 
 
-SCALES = {"quick": Scale(52, 64, 256, 0.3), "full": Scale(256, 1 << 20, 1 << 20, 1e9)}
+SCALES = {"quick": Scale(52, 64, 256, 0.3), "medium": Scale(128, 1024, 1024, 5.0),
+          "full": Scale(256, 1 << 20, 1 << 20, 1e9)}
 
 
 def aspect_ratio(scene):

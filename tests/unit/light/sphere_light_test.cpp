@@ -1,7 +1,7 @@
 #include "light/sphere_light.h"
 
 #include "catch.hpp"
-#include "chi_square.h"
+#include "even_bins.h"
 #include "math/elementary.h"
 #include "math/frame.h"
 #include "scene/world.h"
@@ -17,10 +17,9 @@
 namespace bdpt {
 namespace {
 
-using test::ChiSquare;
-
-constexpr double significance = 1e-4;
-constexpr double visible_error = 0.03;  // of the density, that a chi-square test must see
+using test::bin_of;
+using test::check_uniform;
+using test::turn;
 
 PointLightDesc bulb(float radius)
 {
@@ -35,33 +34,6 @@ SpotLightDesc lamp(float radius)
             .inner_cone_angle = 0.3f,
             .outer_cone_angle = 0.9f,
             .radius = radius};
-}
-
-/// Bin of numbers in [0, 1) in a grid of `steps` for each; numbers that rounding moved out count
-/// with their neighbours.
-template <std::size_t N>
-std::size_t bin_of(const std::array<double, N>& numbers, int steps)
-{
-    std::size_t bin = 0;
-    for (const double x : numbers) {
-        const int step = std::clamp(static_cast<int>(x * steps), 0, steps - 1);
-        bin = bin * static_cast<std::size_t>(steps) + static_cast<std::size_t>(step);
-    }
-    return bin;
-}
-
-/// Angle of (x, y) as a part of the full circle.
-double turn(double x, double y)
-{
-    return 0.5 + std::atan2(y, x) / 6.283185307179586;
-}
-
-void check_uniform(const std::vector<double>& counts)
-{
-    const std::vector<double> even(counts.size(), 1.0 / static_cast<double>(counts.size()));
-    const ChiSquare result = test::chi_square(counts, even);
-    CHECK(result.p_value > significance);
-    CHECK(result.least_detectable(significance) < visible_error);
 }
 
 }  // namespace

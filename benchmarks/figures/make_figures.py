@@ -34,7 +34,7 @@ class Scale:
     most_seconds: float
 
 
-SCALES = {"quick": Scale(52, 64, 256, 0.3), "medium": Scale(128, 1024, 1024, 5.0),
+SCALES = {"quick": Scale(52, 64, 256, 0.3), "medium": Scale(128, 1024, 512, 4.0),
           "full": Scale(256, 1 << 20, 1 << 20, 1e9)}
 
 

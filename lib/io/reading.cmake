@@ -41,6 +41,8 @@ target_sources(bdpt_io PRIVATE
   src/gltf/keyframes.cpp
   src/gltf/light.cpp
   src/gltf/material.cpp
+  src/gltf/material_layers.cpp
+  src/gltf/material_values.cpp
   src/gltf/mesh.cpp
   src/gltf/mesh_table.cpp
   src/gltf/morph.cpp

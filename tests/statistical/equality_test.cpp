@@ -118,6 +118,18 @@ TEST_CASE("all integrators agree: cases 3, 7, ...", "[equality]")
     check_cases(3);
 }
 
+TEST_CASE("all integrators agree: layered materials", "[equality][layers]")
+{
+    std::uint64_t seed = 300000;
+    for (const EqualityCase& test : layer_cases()) {
+        seed += 100;
+        DYNAMIC_SECTION(test.name)
+        {
+            check_case(test, seed);
+        }
+    }
+}
+
 /// Camera paths and splats see pixels through the same filter, at the border of the image too: a
 /// wide one makes most of the tiles border.
 TEST_CASE("mis and bdpt agree through every pixel filter", "[equality][filter]")

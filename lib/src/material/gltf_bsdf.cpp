@@ -23,12 +23,6 @@ constexpr float total_reflection = -1.0f;
 /// Rough refraction into an index this close to the outer one has no half vector.
 constexpr float least_refraction = 1.001f;
 
-/// Nothing scatters closer to the surface: the products of two cosines would vanish.
-[[nodiscard]] bool grazes(Vec3 w)
-{
-    return std::abs(w.z) < 1e-15f;
-}
-
 [[nodiscard]] Vec3 mirrored(Vec3 w)
 {
     return {w.x, w.y, -w.z};

@@ -7,21 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <utility>
 
 namespace bdpt {
 namespace {
-
-[[nodiscard]] std::optional<Texture> make_texture(const std::optional<TextureRef>& ref,
-                                                  std::span<const TexelImage> images,
-                                                  Encoding encoding)
-{
-    if (!ref) {
-        return std::nullopt;
-    }
-    return Texture(*ref, images[static_cast<std::size_t>(ref->image)], encoding);
-}
 
 [[nodiscard]] Body body_of(const MaterialDesc& desc)
 {
@@ -47,27 +36,10 @@ namespace {
     return absorption;
 }
 
-/// `normal`, turned towards ng no further than it takes to lie clearly on ng's side.
-[[nodiscard]] Vec3 kept_above(Vec3 normal, Vec3 ng)
-{
-    constexpr float least_cosine = 0.01f;
-    const float cosine = dot(normal, ng);
-    if (cosine >= least_cosine) {
-        return normal;
-    }
-    const Vec3 along = normal - cosine * ng;
-    const float length = std::sqrt(dot(along, along));
-    if (length < 1e-6f) {
-        return ng;  // straight from below: no way to turn is shorter than another
-    }
-    return normalize(along * (std::sqrt(1.0f - least_cosine * least_cosine) / length) +
-                     least_cosine * ng);
-}
-
 }  // namespace
 
 Material::Material(const MaterialDesc& desc, std::span<const TexelImage> images,
-                   const SpecularAlbedo& albedo)
+                   const SpecularAlbedo& albedo, const LayerTables* tables)
     : surface_{Rgb{desc.base_color.x, desc.base_color.y, desc.base_color.z},
                desc.metallic,
                desc.roughness,
@@ -77,7 +49,6 @@ Material::Material(const MaterialDesc& desc, std::span<const TexelImage> images,
                body_of(desc)},
       emission_(desc.emission),
       absorption_(absorption_of(desc)),
-      normal_scale_(desc.normal_scale),
       double_sided_(desc.double_sided),
       unlit_(desc.unlit),
       alpha_mode_(desc.alpha_mode),
@@ -87,7 +58,7 @@ Material::Material(const MaterialDesc& desc, std::span<const TexelImage> images,
       base_color_map_(make_texture(desc.base_color_texture, images, Encoding::srgb)),
       metallic_roughness_map_(
           make_texture(desc.metallic_roughness_texture, images, Encoding::linear)),
-      normal_map_(make_texture(desc.normal_texture, images, Encoding::linear)),
+      normal_map_(make_normal_map(desc.normal_texture, desc.normal_scale, images)),
       emission_map_(make_texture(desc.emission_texture, images, Encoding::srgb)),
       specular_map_(make_texture(desc.specular_texture, images, Encoding::linear)),
       specular_color_map_(make_texture(desc.specular_color_texture, images, Encoding::srgb)),
@@ -95,9 +66,14 @@ Material::Material(const MaterialDesc& desc, std::span<const TexelImage> images,
 {
     const bool varies = base_color_map_ || metallic_roughness_map_ || specular_map_ ||
                         specular_color_map_ || transmission_map_;
-    if (!varies && !unlit_) {
+    if (has_layers(desc)) {
+        layers_ = std::make_unique<const MaterialLayers>(desc, images, albedo, *tables);
+    } else if (!varies && !unlit_) {
         plain_.emplace(surface_, *albedo_);
     }
+    tangent_uv_set_ = normal_map_ ? std::optional(normal_map_->uv_set())
+                      : layers_   ? layers_->tangent_uv_set()
+                                  : std::nullopt;
     measure_alpha();
     measure_emission();
 }
@@ -148,26 +124,6 @@ Rgb Material::base_color(const TexturePoint& point) const noexcept
     return base_color_map_ ? color * Rgb(base_color_map_->lookup(point.uv)) : color;
 }
 
-/// glTF 2.0, 3.9.3: x along the tangent, y along cross(normal, tangent) times the handedness.
-Vec3 Material::shading_normal(const ShadingPoint& point) const noexcept
-{
-    if (!normal_map_) {
-        return point.ns;
-    }
-    const Vec3 along(point.tangent);
-    const Vec3 tangent = along - dot(along, point.ns) * point.ns;
-    const float length2 = dot(tangent, tangent);
-    if (!(length2 > 0.0f)) {
-        return point.ns;
-    }
-    const Vec3 t = tangent / std::sqrt(length2);
-    const Vec3 b = cross(point.ns, t) * point.tangent.w;
-    const Vec3 n = 2.0f * Vec3(normal_map_->lookup(point.uv)) - 1.0f;
-    const Vec3 world = n.x * normal_scale_ * t + n.y * normal_scale_ * b + n.z * point.ns;
-    const float world2 = dot(world, world);
-    return world2 > 0.0f ? kept_above(world / std::sqrt(world2), point.ng) : point.ns;
-}
-
 Bsdf Material::bsdf(const ShadingPoint& point) const noexcept
 {
     if (plain_ && point.color == Vec4(1.0f)) {
@@ -194,8 +150,11 @@ Bsdf Material::bsdf(const ShadingPoint& point) const noexcept
     if (transmission_map_) {
         surface.transmission *= transmission_map_->lookup(point.uv).x;
     }
-    return {point.ng, Frame::from_normal(shading_normal(point)), point.wo,
-            GltfBsdf(surface, *albedo_)};
+    const Frame shading = Frame::from_normal(shading_normal(point));
+    if (layers_) {
+        return layers_->bsdf(point, shading, surface);
+    }
+    return {point.ng, shading, point.wo, GltfBsdf(surface, *albedo_)};
 }
 
 Rgb Material::emission(const TexturePoint& point) const noexcept

@@ -51,7 +51,10 @@ World::World(SceneDesc desc, Isa isa) : desc_(std::move(desc))
         if (!albedo) {
             albedo = std::make_unique<const SpecularAlbedo>(material.ior);
         }
-        materials_.emplace_back(material, desc_.images, *albedo);
+        if (has_layers(material) && !layer_tables_) {
+            layer_tables_ = std::make_unique<const LayerTables>();
+        }
+        materials_.emplace_back(material, desc_.images, *albedo, layer_tables_.get());
     }
     placed_.reserve(desc_.instances.size());
     for (const InstanceDesc& instance : desc_.instances) {
@@ -147,12 +150,12 @@ SurfacePoint World::surface_point(const RayHit& hit, Vec3 direction) const noexc
     ns = side > 0.0f ? ns : side < 0.0f ? -ns : ng;
 
     const TexturePoint at = texture_point(mesh, hit.triangle, hit.barycentrics);
-    const auto normal_uv_set = material.normal_uv_set();
+    const auto tangent_uv_set = material.tangent_uv_set();
     const ShadingPoint shading{
         .ng = ng,
         .ns = ns,
-        .tangent = normal_uv_set ? mesh.tangent(hit.triangle, hit.barycentrics, *normal_uv_set)
-                                 : Vec4(0.0f),
+        .tangent = tangent_uv_set ? mesh.tangent(hit.triangle, hit.barycentrics, *tangent_uv_set)
+                                  : Vec4(0.0f),
         .uv = at.uv,
         .color = at.color,
         .wo = -direction};

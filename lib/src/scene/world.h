@@ -65,6 +65,7 @@ private:
 
     SceneDesc desc_;
     std::map<float, std::unique_ptr<const SpecularAlbedo>> albedos_;  // by index of refraction
+    std::unique_ptr<const LayerTables> layer_tables_;                 // if any material needs them
     std::vector<Material> materials_;
     std::vector<PlacedMesh> placed_;
     std::vector<Sphere> spheres_;

@@ -12,7 +12,7 @@ using namespace bdpt;
 namespace {
 
 /// The share of light from `wo` that is scattered at all: the mean weight of importance samples.
-std::array<test::Moments, 3> albedo_of(const GltfBsdf& bsdf, Vec3 wo, int samples)
+std::array<test::Moments, 3> albedo_of(const test::TestedBsdf& bsdf, Vec3 wo, int samples)
 {
     std::array<test::Moments, 3> moments;
     test::Random random(53);
@@ -33,8 +33,7 @@ TEST_CASE("no BSDF makes energy")
 {
     for (test::BsdfCase bsdf_case : test::bsdf_cases()) {
         bsdf_case.surface.base_color = Rgb{1.0f};
-        const SpecularAlbedo albedo(bsdf_case.ior);
-        const GltfBsdf bsdf(bsdf_case.surface, albedo);
+        const test::TestedBsdf bsdf(bsdf_case);
         for (const Vec3 wo : test::bsdf_directions()) {
             CAPTURE(bsdf_case.name, wo.z);
             for (const test::Moments& channel : albedo_of(bsdf, wo, 40000)) {
@@ -69,8 +68,7 @@ TEST_CASE("a white surface without loss is invisible in a white furnace")
         {"rough glass of equal index", {white, 0, 0.5f, 1, white, 1, solid}, 1.0f},
     };
     for (const test::BsdfCase& bsdf_case : cases) {
-        const SpecularAlbedo albedo(bsdf_case.ior);
-        const GltfBsdf bsdf(bsdf_case.surface, albedo);
+        const test::TestedBsdf bsdf(bsdf_case);
         for (const Vec3 wo : test::bsdf_directions()) {
             CAPTURE(bsdf_case.name, wo.z);
             const test::Moments sum = albedo_of(bsdf, wo, 100000)[0];
@@ -82,12 +80,14 @@ TEST_CASE("a white surface without loss is invisible in a white furnace")
 
 TEST_CASE("rough metal loses what single scattering must lose")
 {
-    const SpecularAlbedo albedo(1.5f);
     const Vec3 up{0.0f, 0.0f, 1.0f};
     // Seen straight, alpha = 1: D = 1 / pi and the integral of z / (1 + z) is 1 - log 2.
-    const test::Moments rough = albedo_of(GltfBsdf({Rgb{1.0f}, 1, 1}, albedo), up, 100000)[0];
+    const auto white_metal = [](float roughness) {
+        return test::TestedBsdf({"metal", {Rgb{1.0f}, 1, roughness}});
+    };
+    const test::Moments rough = albedo_of(white_metal(1.0f), up, 100000)[0];
     CHECK(rough.standard_error() < 0.002);
     CHECK(std::abs(rough.mean() - (1.0 - std::log(2.0))) < 4.0 * rough.standard_error());
     // Nearly smooth metal loses nearly nothing.
-    CHECK(albedo_of(GltfBsdf({Rgb{1.0f}, 1, 0.2f}, albedo), up, 100000)[0].mean() > 0.995);
+    CHECK(albedo_of(white_metal(0.2f), up, 100000)[0].mean() > 0.995);
 }

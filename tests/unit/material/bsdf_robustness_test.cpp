@@ -48,8 +48,7 @@ TEST_CASE("BSDFs stay finite in the corners of their domain")
     const std::vector<Vec3> directions = extreme_directions();
     const std::vector<float> numbers{0.0f, 0x1p-24f, 0.25f, 0.5f, 0.75f, last};
     for (const test::BsdfCase& bsdf_case : cases) {
-        const SpecularAlbedo albedo(bsdf_case.ior);
-        const GltfBsdf bsdf(bsdf_case.surface, albedo);
+        const test::TestedBsdf bsdf(bsdf_case);
         for (const Vec3 wo : directions) {
             for (const Vec3 wi : directions) {
                 CAPTURE(bsdf_case.name, wo.x, wo.y, wo.z, wi.x, wi.y, wi.z);

@@ -146,7 +146,7 @@ TEST_CASE("normal maps turn the shading normal in the tangent frame")
 
     const auto cosine = [&](const MaterialDesc& d, Vec4 tangent, Vec3 wi) {
         const Material material(d, images, albedo);
-        CHECK(material.normal_uv_set() == 0);
+        CHECK(material.tangent_uv_set() == 0);
         return scattered(material.bsdf({.tangent = tangent}), wi).x * pi;
     };
     // f_cos of a white Lambertian is the cosine to the shading normal over pi.

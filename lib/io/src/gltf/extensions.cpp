@@ -18,6 +18,7 @@ using enum ExtensionStatus;
 constexpr std::array table{
     ExtensionSupport{"KHR_draco_mesh_compression", supported, "where Draco is installed"},
     ExtensionSupport{"KHR_lights_punctual", supported, "range is ignored"},
+    ExtensionSupport{"KHR_materials_clearcoat", supported, ""},
     ExtensionSupport{"KHR_materials_emissive_strength", supported, ""},
     ExtensionSupport{"KHR_materials_ior", supported, ""},
     ExtensionSupport{"KHR_materials_specular", supported, ""},
@@ -48,7 +49,6 @@ constexpr std::array table{
     ExtensionSupport{"MSFT_lod", supported, "the finest level is shown"},
     // Without these the picture lacks something.
     ExtensionSupport{"KHR_materials_anisotropy", ignored, "highlights are round"},
-    ExtensionSupport{"KHR_materials_clearcoat", ignored, "the coat is missing"},
     ExtensionSupport{"KHR_materials_diffuse_transmission", ignored, "no light comes through"},
     ExtensionSupport{"KHR_materials_dispersion", ignored, "all colours refract alike"},
     ExtensionSupport{"KHR_materials_iridescence", ignored, "the thin film is missing"},

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "gltf/material_values.h"
+
+#include <bdpt/scene_desc.h>
+
+namespace bdpt::io {
+
+/// Adds what KHR_materials_clearcoat says. Pictures that have no influence are not decoded.
+void read_layers(const MaterialValues& values, MaterialDesc& desc);
+
+}  // namespace bdpt::io

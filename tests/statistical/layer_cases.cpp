@@ -1,0 +1,47 @@
+#include "equality_cases.h"
+#include "scene_builder.h"
+
+#include <utility>
+
+namespace bdpt::test {
+namespace {
+
+/// A ball in the room of the other cases, lit by a lamp.
+EqualityCase ball(std::string name, const MaterialDesc& material)
+{
+    const Rgb white(0.7f);
+    SceneBuilder builder;
+    builder.walls(lambertian(white), lambertian({0.7f, 0.5f, 0.3f})).ceiling(lambertian(white));
+    builder.lamp(0.98f, 0.85f, Rgb(4.0f, 3.5f, 3.0f));
+    builder.sphere({0.0f, -0.4f, 0.0f}, 0.55f, material);
+    return {.name = std::move(name), .scene = std::move(builder.desc), .camera = room_camera()};
+}
+
+/// Slopes to four sides.
+TexelImage bumps()
+{
+    return {.width = 2,
+            .height = 2,
+            .rgba = {160, 128, 245, 255, 128, 160, 245, 255, 96, 128, 245, 255, 128, 96, 245, 255}};
+}
+
+/// An even coat over a bumpy base: two shading normals at each point.
+EqualityCase clearcoat()
+{
+    MaterialDesc material = metal({0.9f, 0.5f, 0.3f}, 0.5f);
+    material.normal_texture = TextureRef{.image = ImageId{0}, .scale = {6, 4}};
+    material.clearcoat.factor = 1.0f;
+    material.clearcoat.roughness = 0.3f;
+    EqualityCase result = ball("clearcoat", material);
+    result.scene.images.push_back(bumps());
+    return result;
+}
+
+}  // namespace
+
+std::vector<EqualityCase> layer_cases()
+{
+    return {clearcoat()};
+}
+
+}  // namespace bdpt::test

@@ -37,11 +37,19 @@ EqualityCase clearcoat()
     return result;
 }
 
+EqualityCase cloth()
+{
+    MaterialDesc material = lambertian({0.3f, 0.1f, 0.1f});
+    material.sheen.color = {0.9f, 0.8f, 0.5f};
+    material.sheen.roughness = 0.4f;
+    return ball("sheen", material);
+}
+
 }  // namespace
 
 std::vector<EqualityCase> layer_cases()
 {
-    return {clearcoat()};
+    return {clearcoat(), cloth()};
 }
 
 }  // namespace bdpt::test

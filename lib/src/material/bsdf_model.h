@@ -28,8 +28,8 @@ struct BsdfEval {
 struct BsdfSample {
     Vec3 wi{0.0f};     ///< unit
     Rgb weight{0.0f};  ///< f_cos / pdf_fwd; F/P for a delta lobe  [1]
-    SolidAnglePdf pdf_fwd;
-    SolidAnglePdf pdf_rev;
+    SolidAnglePdf pdf_fwd{};
+    SolidAnglePdf pdf_rev{};
     bool delta = false;
 };
 

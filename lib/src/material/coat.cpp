@@ -10,12 +10,12 @@
 
 namespace bdpt {
 
-Coat::Coat(float weight, float roughness, Vec3 normal, const SpecularAlbedo& albedo)
+Coat::Coat(float weight, float roughness, Vec3 normal, const SpecularAlbedo* albedo)
     : frame_(Frame::from_normal(normal)),
-      weight_(weight),
+      weight_(albedo != nullptr ? weight : 0.0f),
       alpha_(roughness * roughness),
       roughness_(SpecularAlbedo::at_roughness(roughness)),
-      albedo_(&albedo)
+      albedo_(albedo)
 {}
 
 bool Coat::has_smooth_lobe() const noexcept

@@ -13,8 +13,8 @@ namespace bdpt {
 class Coat {
 public:
     /// `weight` in [0, 1]: the share of the surface that is coated. `normal` is unit. `albedo` is
-    /// that of index 1.5 and must outlive this.
-    Coat(float weight, float roughness, Vec3 normal, const SpecularAlbedo& albedo);
+    /// that of index 1.5 and must outlive this; null where no surface is coated.
+    Coat(float weight, float roughness, Vec3 normal, const SpecularAlbedo* albedo);
 
     [[nodiscard]] bool has_smooth_lobe() const noexcept;
     /// The share of light from `w` that the coat reflects; the base gets no more than the rest.

@@ -19,19 +19,27 @@ static_assert(sizeof(LayeredParameters) <= sizeof(GltfBsdf));
     return above ? w : -w;
 }
 
+/// The share of light that goes below a layer and is not lost for the base.
+[[nodiscard]] float passed(float there, float back)
+{
+    return std::min(there, back);
+}
+
 }  // namespace
 
 LayeredBsdf::LayeredBsdf(const LayeredParameters& parameters)
     : base_(parameters.base, *parameters.constants->base),
       coat_(parameters.coat.value(), parameters.coat_roughness.value(),
-            parameters.coat_normal.value(), parameters.constants->tables->coat),
+            parameters.coat_normal.value(), parameters.constants->tables->coat.get()),
+      sheen_(parameters.sheen.value(), parameters.sheen_roughness.value(),
+             parameters.constants->tables->sheen.get()),
       base_weight_(0.05f + 0.95f * max_component(base_.base_color())),
       solid_(parameters.base.body == Body::solid)
 {}
 
 bool LayeredBsdf::has_smooth_lobe() const noexcept
 {
-    return base_.has_smooth_lobe() || coat_.has_smooth_lobe();
+    return base_.has_smooth_lobe() || coat_.has_smooth_lobe() || sheen_.exists();
 }
 
 LayeredBsdf::Side LayeredBsdf::side(Vec3 w) const noexcept
@@ -41,10 +49,15 @@ LayeredBsdf::Side LayeredBsdf::side(Vec3 w) const noexcept
         return side;
     }
     const float coat = coat_.reflected(from_above(w, w.z > 0.0f));
+    const float sheen = sheen_.reflected(std::abs(w.z));
     side.below_coat = 1.0f - coat;
-    const float base = side.below_coat * base_weight_;
-    side.coat_choice = coat / (coat + base);
-    side.base_choice = 1.0f - side.coat_choice;
+    side.below_sheen = 1.0f - sheen;
+    const float sheen_weight = side.below_coat * sheen;
+    const float base_weight = side.below_coat * side.below_sheen * base_weight_;
+    const float inverse = 1.0f / (coat + sheen_weight + base_weight);
+    side.coat_choice = coat * inverse;
+    side.sheen_choice = sheen_weight * inverse;
+    side.base_choice = base_weight * inverse;
     return side;
 }
 
@@ -52,19 +65,27 @@ BsdfEval LayeredBsdf::eval_lobes(const Side& from, Vec3 wo, Vec3 wi,
                                  TransportMode mode) const noexcept
 {
     const Side to = side(wi);
+    const float below_coat = passed(from.below_coat, to.below_coat);
     BsdfEval sum = base_.eval(from.base, wo, wi, mode);
-    sum.f_cos *= std::min(from.below_coat, to.below_coat);
+    sum.f_cos *= below_coat * passed(from.below_sheen, to.below_sheen);
     sum.pdf_fwd.value *= from.base_choice;
     sum.pdf_rev.value *= to.base_choice;
     const bool above = wo.z > 0.0f;
     if (above != (wi.z > 0.0f) || !is_covered(wo)) {
         return sum;
     }
+    const auto add = [&sum](const BsdfEval& lobe, float share, float choice_fwd, float choice_rev) {
+        sum.f_cos += lobe.f_cos * share;
+        sum.pdf_fwd.value += choice_fwd * lobe.pdf_fwd.value;
+        sum.pdf_rev.value += choice_rev * lobe.pdf_rev.value;
+    };
+    const Vec3 o = from_above(wo, above);
+    const Vec3 i = from_above(wi, above);
     if (coat_.has_smooth_lobe()) {
-        const BsdfEval coat = coat_.eval(from_above(wo, above), from_above(wi, above), mode);
-        sum.f_cos += coat.f_cos;
-        sum.pdf_fwd.value += from.coat_choice * coat.pdf_fwd.value;
-        sum.pdf_rev.value += to.coat_choice * coat.pdf_rev.value;
+        add(coat_.eval(o, i, mode), 1.0f, from.coat_choice, to.coat_choice);
+    }
+    if (sheen_.exists()) {
+        add(sheen_.eval(o, i), below_coat, from.sheen_choice, to.sheen_choice);
     }
     return sum;
 }
@@ -74,6 +95,28 @@ BsdfEval LayeredBsdf::eval(Vec3 wo, Vec3 wi, TransportMode mode) const noexcept
     return grazes(wo) || grazes(wi) ? BsdfEval{} : eval_lobes(side(wo), wo, wi, mode);
 }
 
+/// A smooth coat gives the whole sample, a rough one a direction alone.
+std::optional<BsdfSample> LayeredBsdf::sample_coat(const Side& from, Vec3 wo, Vec2 u,
+                                                   TransportMode mode) const noexcept
+{
+    const bool above = wo.z > 0.0f;
+    const Vec3 o = from_above(wo, above);
+    if (coat_.has_smooth_lobe()) {
+        const std::optional<Vec3> wi = coat_.sample(o, u);
+        return wi ? std::optional(BsdfSample{.wi = from_above(*wi, above)}) : std::nullopt;
+    }
+    std::optional<BsdfSample> mirrored = coat_.mirror(o, mode);
+    if (!mirrored) {
+        return std::nullopt;
+    }
+    mirrored->wi = from_above(mirrored->wi, above);
+    mirrored->weight /= from.coat_choice;
+    mirrored->pdf_fwd.value *= from.coat_choice;
+    mirrored->pdf_rev.value *= side(mirrored->wi).coat_choice;
+    return mirrored;
+}
+
+/// The whole sample where it is a delta lobe's, else the direction that counts.
 std::optional<BsdfSample> LayeredBsdf::sample_base(const Side& from, Vec3 wo, float u_lobe, Vec2 u,
                                                    TransportMode mode) const noexcept
 {
@@ -82,7 +125,8 @@ std::optional<BsdfSample> LayeredBsdf::sample_base(const Side& from, Vec3 wo, fl
         return sampled;
     }
     const Side to = side(sampled->wi);
-    sampled->weight *= std::min(from.below_coat, to.below_coat) / from.base_choice;
+    sampled->weight *= passed(from.below_coat, to.below_coat) *
+                       passed(from.below_sheen, to.below_sheen) / from.base_choice;
     sampled->pdf_fwd.value *= from.base_choice;
     sampled->pdf_rev.value *= to.base_choice;
     return sampled;
@@ -96,42 +140,25 @@ std::optional<BsdfSample> LayeredBsdf::sample(Vec3 wo, float u_lobe, Vec2 u,
     }
     constexpr float below_one = 1.0f - 0x1p-24f;
     const Side from = side(wo);
-    const bool above = wo.z > 0.0f;
-    Vec3 wi;
+    const float above_base = from.coat_choice + from.sheen_choice;
+    std::optional<BsdfSample> sampled;
     if (u_lobe < from.coat_choice) {
-        if (!coat_.has_smooth_lobe()) {
-            std::optional<BsdfSample> mirrored = coat_.mirror(from_above(wo, above), mode);
-            if (!mirrored) {
-                return std::nullopt;
-            }
-            mirrored->wi = from_above(mirrored->wi, above);
-            mirrored->weight /= from.coat_choice;
-            mirrored->pdf_fwd.value *= from.coat_choice;
-            mirrored->pdf_rev.value *= side(mirrored->wi).coat_choice;
-            return mirrored;
-        }
-        const std::optional<Vec3> reflected = coat_.sample(from_above(wo, above), u);
-        if (!reflected) {
-            return std::nullopt;
-        }
-        wi = from_above(*reflected, above);
-    } else {
-        const float u_base = (u_lobe - from.coat_choice) / from.base_choice;
-        const auto sampled = sample_base(from, wo, std::min(u_base, below_one), u, mode);
-        if (!sampled || sampled->delta) {
-            return sampled;
-        }
-        wi = sampled->wi;
+        sampled = sample_coat(from, wo, u, mode);
+    } else if (u_lobe < above_base) {
+        sampled = BsdfSample{.wi = from_above(Sheen::sample(u), wo.z > 0.0f)};
+    } else if (from.base_choice > 0.0f) {
+        const float u_base = std::min((u_lobe - above_base) / from.base_choice, below_one);
+        sampled = sample_base(from, wo, u_base, u, mode);
     }
-    if (grazes(wi)) {
-        return std::nullopt;
+    if (!sampled || sampled->delta || grazes(sampled->wi)) {
+        return sampled && sampled->delta ? sampled : std::nullopt;
     }
-    const BsdfEval value = eval_lobes(from, wo, wi, mode);
+    const BsdfEval value = eval_lobes(from, wo, sampled->wi, mode);
     if (!(value.pdf_fwd.value >= std::numeric_limits<float>::min())) {
         return std::nullopt;
     }
-    return BsdfSample{wi, value.f_cos * (1.0f / value.pdf_fwd.value), value.pdf_fwd, value.pdf_rev,
-                      false};
+    return BsdfSample{sampled->wi, value.f_cos * (1.0f / value.pdf_fwd.value), value.pdf_fwd,
+                      value.pdf_rev, false};
 }
 
 }  // namespace bdpt

@@ -4,13 +4,14 @@
 #include "material/coat.h"
 #include "material/gltf_bsdf.h"
 #include "material/layers.h"
+#include "material/sheen.h"
 
 #include <optional>
 
 namespace bdpt {
 
-/// Layers over the glTF material model: KHR_materials_clearcoat. Directions are as those of
-/// `GltfBsdf`. Layers cover the outside of solid bodies, and both sides of all else.
+/// Layers over the glTF material model: KHR_materials_{clearcoat, sheen}. Directions are as those
+/// of `GltfBsdf`. Layers cover the outside of solid bodies, and both sides of all else.
 ///
 /// What lies below a layer is multiplied by min(T(wo), T(wi)), where T is what the layer does not
 /// reflect: so no energy is made, and the way of light does not matter. That is the rule that
@@ -32,20 +33,25 @@ private:
         GltfBsdf::Side base;
         // Probabilities of the lobes.
         float coat_choice = 0.0f;
+        float sheen_choice = 0.0f;
         float base_choice = 1.0f;
         // What is left of light below each layer.
         float below_coat = 1.0f;
+        float below_sheen = 1.0f;
     };
 
     [[nodiscard]] Side side(Vec3 w) const noexcept;
     [[nodiscard]] bool is_covered(Vec3 w) const noexcept { return !solid_ || w.z > 0.0f; }
     [[nodiscard]] BsdfEval eval_lobes(const Side& from, Vec3 wo, Vec3 wi,
                                       TransportMode mode) const noexcept;
+    [[nodiscard]] std::optional<BsdfSample> sample_coat(const Side& from, Vec3 wo, Vec2 u,
+                                                        TransportMode mode) const noexcept;
     [[nodiscard]] std::optional<BsdfSample> sample_base(const Side& from, Vec3 wo, float u_lobe,
                                                         Vec2 u, TransportMode mode) const noexcept;
 
     GltfBsdf base_;
     Coat coat_;
+    Sheen sheen_;
     float base_weight_;  ///< roughly the albedo of the base, > 0
     bool solid_;
 };

@@ -33,9 +33,13 @@ private:
     LayeredConstants constants_;
     float coat_;
     float coat_roughness_;
+    Rgb sheen_;
+    float sheen_roughness_;
     std::optional<Texture> coat_map_;
     std::optional<Texture> coat_roughness_map_;
     std::optional<NormalMap> coat_normal_map_;
+    std::optional<Texture> sheen_map_;
+    std::optional<Texture> sheen_roughness_map_;
 };
 
 }  // namespace bdpt

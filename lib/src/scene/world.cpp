@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -46,13 +47,13 @@ BoundingSphere sphere_around(const Bounds& bounds)
 World::World(SceneDesc desc, Isa isa) : desc_(std::move(desc))
 {
     validate(desc_);
+    if (std::any_of(desc_.materials.begin(), desc_.materials.end(), has_layers)) {
+        layer_tables_ = std::make_unique<const LayerTables>(desc_.materials);
+    }
     for (const MaterialDesc& material : desc_.materials) {
         auto& albedo = albedos_[material.ior];
         if (!albedo) {
             albedo = std::make_unique<const SpecularAlbedo>(material.ior);
-        }
-        if (has_layers(material) && !layer_tables_) {
-            layer_tables_ = std::make_unique<const LayerTables>();
         }
         materials_.emplace_back(material, desc_.images, *albedo, layer_tables_.get());
     }

@@ -79,6 +79,26 @@ TEST_CASE("a coat that is not there has no pictures")
     CHECK(smooth.scene.images.empty());
 }
 
+TEST_CASE("sheen is read")
+{
+    const LoadedScene loaded =
+        with_extension("KHR_materials_sheen", {{"sheenColorFactor", {0.75, 0.5, 0.25}},
+                                               {"sheenColorTexture", texture(1)},
+                                               {"sheenRoughnessFactor", 0.25},
+                                               {"sheenRoughnessTexture", texture(2)}})
+            .load();
+    CHECK(loaded.warnings.empty());
+    const SheenDesc& sheen = loaded.scene.materials.at(0).sheen;
+    CHECK(sheen.color == Rgb(0.75f, 0.5f, 0.25f));
+    CHECK(sheen.roughness == 0.25f);
+    CHECK(picture(loaded, sheen.color_texture) == 1);
+    CHECK(picture(loaded, sheen.roughness_texture) == 2);
+    const LoadedScene none =
+        with_extension("KHR_materials_sheen", {{"sheenColorTexture", texture(1)}}).load();
+    CHECK(none.scene.materials.at(0).sheen.color == Rgb(0.0f));
+    CHECK(none.scene.images.empty());
+}
+
 TEST_CASE("values of layers beyond their ranges are brought back, of a wrong type refused")
 {
     const LoadedScene loaded =

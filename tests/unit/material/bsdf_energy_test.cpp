@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 using namespace bdpt;
@@ -74,6 +75,31 @@ TEST_CASE("a white surface without loss is invisible in a white furnace")
             const test::Moments sum = albedo_of(bsdf, wo, 100000)[0];
             CHECK(sum.standard_error() < 0.0015);
             CHECK(std::abs(sum.mean() - 1.0) < 0.001 + 4.0 * sum.standard_error());
+        }
+    }
+}
+
+TEST_CASE("layers take from what lies below no more than they give, and not much")
+{
+    const Rgb white{1.0f};
+    // Of light that a layer reflects into other directions than it came from, less is left below:
+    // at most the difference of the shares of both. Mirrors below a layer lose nothing at all.
+    const std::vector<std::pair<test::BsdfCase, double>> cases{
+        {{"smooth coat on a mirror", {white, 1, 0}, 1.5f, test::coated(1, 0)}, 0.001},
+        {{"half a coat on a mirror", {white, 1, 0}, 1.5f, test::coated(0.5f, 0)}, 0.001},
+        {{"sheen on a mirror", {white, 1, 0}, 1.5f, test::sheen(white, 0.5f)}, 0.01},
+        {{"smooth coat on lambert", {white, 0, 1, 0}, 1.5f, test::coated(1, 0)}, 0.08},
+        {{"coat 0.3 on lambert", {white, 0, 1, 0}, 1.5f, test::coated(1, 0.3f)}, 0.08},
+        {{"sheen 0.5 on lambert", {white, 0, 1, 0}, 1.5f, test::sheen(white, 0.5f)}, 0.25},
+    };
+    for (const auto& [bsdf_case, most_lost] : cases) {
+        const test::TestedBsdf bsdf(bsdf_case);
+        for (const Vec3 wo : test::bsdf_directions()) {
+            CAPTURE(bsdf_case.name, wo.z);
+            const test::Moments sum = albedo_of(bsdf, wo, 40000)[0];
+            CHECK(sum.standard_error() < 0.01);
+            CHECK(sum.mean() < 1.001 + 4.0 * sum.standard_error());
+            CHECK(sum.mean() > 1.0 - most_lost - 4.0 * sum.standard_error());
         }
     }
 }

@@ -34,7 +34,7 @@ public:
           plain_(tested.surface, *albedo_)
     {
         if (tested.layers) {
-            static const LayerTables tables;
+            static const LayerTables tables = all_tables();
             constants_ = std::make_unique<const LayeredConstants>(
                 LayeredConstants{.base = albedo_.get(), .tables = &tables});
             LayeredParameters layers = *tested.layers;
@@ -60,6 +60,14 @@ public:
     }
 
 private:
+    [[nodiscard]] static LayerTables all_tables()
+    {
+        MaterialDesc everything;
+        everything.clearcoat.factor = 1.0f;
+        everything.sheen.color = Rgb(1.0f);
+        return LayerTables({&everything, 1});
+    }
+
     std::unique_ptr<const SpecularAlbedo> albedo_;
     std::unique_ptr<const LayeredConstants> constants_;
     GltfBsdf plain_;
@@ -73,6 +81,14 @@ private:
     layers.coat = Unit16(share);
     layers.coat_roughness = Unit16(roughness);
     layers.coat_normal = Direction16(normalize(normal));
+    return layers;
+}
+
+[[nodiscard]] inline LayeredParameters sheen(Rgb color, float roughness,
+                                             LayeredParameters layers = {})
+{
+    layers.sheen = Color16(color);
+    layers.sheen_roughness = Unit16(roughness);
     return layers;
 }
 
@@ -94,6 +110,18 @@ private:
         {"coat 0.3 on thin glass 0.4", {blue, 0, 0.4f, 1, white, 1, thin}, 1.5f, coated(1, 0.3f)},
         {"coat 0.3 on glass 0.4", {blue, 0, 0.4f, 1, white, 0.8f, solid}, 1.4f, coated(1, 0.3f)},
         {"smooth coat on glass", {white, 0, 0, 1, white, 1, solid}, 1.5f, coated(0.7f, 0)},
+        {"sheen 0.5 on lambert", {blue, 0, 1, 0}, 1.5f, sheen(white, 0.5f)},
+        {"red sheen 0.2 on dielectric 0.6", {blue, 0, 0.6f}, 1.5f, sheen({0.9f, 0.3f, 0.1f}, 0.2f)},
+        {"sheen 1 on a mirror", {blue, 1, 0}, 1.5f, sheen(white, 1)},
+        {"sheen 0.3 on black", {Rgb{0.0f}, 0, 1, 0}, 1.5f, sheen(white, 0.3f)},
+        {"sheen 0.4 on glass 0.4",
+         {blue, 0, 0.4f, 1, white, 0.8f, solid},
+         1.4f,
+         sheen({0.2f, 0.7f, 0.5f}, 0.4f)},
+        {"coat 0.3 on sheen 0.6 on metal 0.4",
+         {blue, 1, 0.4f},
+         1.5f,
+         sheen({0.5f, 0.9f, 0.7f}, 0.6f, coated(0.8f, 0.3f))},
         {"tilted coat 0.3 on lambert", {blue, 0, 1, 0}, 1.5f, coated(1, 0.3f, tilt), true},
         {"tilted smooth coat on metal 0.3", {blue, 1, 0.3f}, 1.5f, coated(1, 0, tilt), true},
     };

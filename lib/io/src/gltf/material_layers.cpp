@@ -44,12 +44,30 @@ ClearcoatDesc read_clearcoat(const Extension& from)
     return coat;
 }
 
+SheenDesc read_sheen(const Extension& from)
+{
+    SheenDesc sheen;
+    sheen.color = from.values.color(from.object, "sheenColorFactor", 1.0, Rgb(0.0f));
+    if (sheen.color == Rgb(0.0f)) {
+        return sheen;
+    }
+    sheen.color_texture = from.texture("sheenColorTexture");
+    sheen.roughness = from.number("sheenRoughnessFactor", 0.0, 0.0, 1.0);
+    if (sheen.roughness > 0.0f) {
+        sheen.roughness_texture = from.texture("sheenRoughnessTexture");
+    }
+    return sheen;
+}
+
 }  // namespace
 
 void read_layers(const MaterialValues& values, MaterialDesc& desc)
 {
     if (const auto* object = values.extension("KHR_materials_clearcoat")) {
         desc.clearcoat = read_clearcoat({values, *object, "KHR_materials_clearcoat"});
+    }
+    if (const auto* object = values.extension("KHR_materials_sheen")) {
+        desc.sheen = read_sheen({values, *object, "KHR_materials_sheen"});
     }
 }
 

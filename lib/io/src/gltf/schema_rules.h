@@ -211,6 +211,8 @@ inline constexpr std::array schema_rules{
     SchemaRule{"materials/*/extensions/KHR_materials_emissive_strength/emissiveStrength",
                Kind::number},
     SchemaRule{"materials/*/extensions/KHR_materials_ior/ior", Kind::number},
+    SchemaRule{"materials/*/extensions/KHR_materials_sheen/sheenColorFactor", Kind::numbers, "", 3},
+    SchemaRule{"materials/*/extensions/KHR_materials_sheen/sheenRoughnessFactor", Kind::number},
     SchemaRule{"materials/*/extensions/KHR_materials_specular/specularFactor", Kind::number},
     SchemaRule{"materials/*/extensions/KHR_materials_specular/specularColorFactor", Kind::numbers,
                "", 3},

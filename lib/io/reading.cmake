@@ -53,6 +53,7 @@ target_sources(bdpt_io PRIVATE
   src/gltf/select_scene.cpp
   src/gltf/selection.cpp
   src/gltf/skin.cpp
+  src/gltf/specular_glossiness.cpp
   src/gltf/texture.cpp
   src/gltf/transform.cpp
   src/gltf/variants.cpp

@@ -45,11 +45,40 @@ EqualityCase cloth()
     return ball("sheen", material);
 }
 
+/// The ball has texture coordinates, which give it tangents.
+EqualityCase brushed()
+{
+    MaterialDesc material = metal({0.9f, 0.7f, 0.4f}, 0.3f);
+    material.anisotropy.strength = 0.7f;
+    material.anisotropy.rotation = 0.6f;
+    return ball("anisotropy", material);
+}
+
+EqualityCase film()
+{
+    MaterialDesc material = plastic({0.5f, 0.3f, 0.2f}, 0.3f);
+    material.iridescence.factor = 1.0f;
+    material.iridescence.ior = 2.0f;
+    return ball("iridescence", material);
+}
+
+/// A ball of wax, whose inside absorbs.
+EqualityCase translucent()
+{
+    MaterialDesc material = plastic({0.5f, 0.3f, 0.2f}, 0.4f);
+    material.diffuse_transmission.factor = 0.6f;
+    material.diffuse_transmission.color = {0.9f, 0.7f, 0.6f};
+    material.thickness = 1.0f;
+    material.attenuation_color = {0.9f, 0.5f, 0.3f};
+    material.attenuation_distance = 0.5f;
+    return ball("diffuse transmission", material);
+}
+
 }  // namespace
 
 std::vector<EqualityCase> layer_cases()
 {
-    return {clearcoat(), cloth()};
+    return {clearcoat(), cloth(), brushed(), film(), translucent()};
 }
 
 }  // namespace bdpt::test

@@ -19,6 +19,25 @@ static_assert(sizeof(LayeredParameters) <= sizeof(GltfBsdf));
     return above ? w : -w;
 }
 
+[[nodiscard]] RichFeatures features_of(const LayeredParameters& parameters)
+{
+    return {.anisotropy = parameters.anisotropy.value(),
+            .film = {.factor = parameters.film.value(),
+                     .ior = parameters.constants->film_ior,
+                     .thickness = parameters.film_thickness},
+            .diffuse_transmission = parameters.diffuse_transmission.value(),
+            .transmission_color = parameters.transmission_color.value()};
+}
+
+/// Roughly the albedo of the base; above 0.
+[[nodiscard]] float weight_of(const LayeredParameters& parameters)
+{
+    const float transmitted = parameters.diffuse_transmission.value() *
+                              max_component(parameters.transmission_color.value());
+    const float brightest = std::max(max_component(parameters.base.base_color), transmitted);
+    return 0.05f + 0.95f * std::clamp(brightest, 0.0f, 1.0f);
+}
+
 /// The share of light that goes below a layer and is not lost for the base.
 [[nodiscard]] float passed(float there, float back)
 {
@@ -28,12 +47,12 @@ static_assert(sizeof(LayeredParameters) <= sizeof(GltfBsdf));
 }  // namespace
 
 LayeredBsdf::LayeredBsdf(const LayeredParameters& parameters)
-    : base_(parameters.base, *parameters.constants->base),
+    : base_(parameters.base, *parameters.constants->base, features_of(parameters)),
       coat_(parameters.coat.value(), parameters.coat_roughness.value(),
             parameters.coat_normal.value(), parameters.constants->tables->coat.get()),
       sheen_(parameters.sheen.value(), parameters.sheen_roughness.value(),
              parameters.constants->tables->sheen.get()),
-      base_weight_(0.05f + 0.95f * max_component(base_.base_color())),
+      base_weight_(weight_of(parameters)),
       solid_(parameters.base.body == Body::solid)
 {}
 

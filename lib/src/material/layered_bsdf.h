@@ -30,7 +30,7 @@ public:
 private:
     /// What follows from one direction alone.
     struct Side {
-        GltfBsdf::Side base;
+        RichGltfBsdf::Side base;
         // Probabilities of the lobes.
         float coat_choice = 0.0f;
         float sheen_choice = 0.0f;
@@ -49,7 +49,7 @@ private:
     [[nodiscard]] std::optional<BsdfSample> sample_base(const Side& from, Vec3 wo, float u_lobe,
                                                         Vec2 u, TransportMode mode) const noexcept;
 
-    GltfBsdf base_;
+    RichGltfBsdf base_;
     Coat coat_;
     Sheen sheen_;
     float base_weight_;  ///< roughly the albedo of the base, > 0

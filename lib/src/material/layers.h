@@ -24,6 +24,7 @@ struct LayerTables {
 /// What is equal all over a layered material.
 struct LayeredConstants {
     const SpecularAlbedo* base = nullptr;  ///< has the refractive index of the base
+    float film_ior = 1.3f;
     const LayerTables* tables = nullptr;
 };
 
@@ -36,6 +37,11 @@ struct LayeredParameters {
     Direction16 coat_normal{};  ///< local, as all directions of a `LayeredBsdf`
     Unit16 sheen_roughness{};
     Color16 sheen{};
+    Unit16 anisotropy{};  ///< rougher along x
+    Unit16 film{};
+    Unit16 diffuse_transmission{};
+    Color16 transmission_color{};
+    float film_thickness = 0.0f;                  ///< [nm]
     const LayeredConstants* constants = nullptr;  ///< must outlive this
 };
 

@@ -18,12 +18,19 @@ namespace {
     return solid ? Body::solid : Body::thin_walled;
 }
 
+/// Does light go through the inside of the body, refracted or not?
+[[nodiscard]] bool has_medium(const MaterialDesc& desc)
+{
+    const bool translucent = desc.thickness > 0.0f && desc.diffuse_transmission.factor > 0.0f;
+    return body_of(desc) == Body::solid || (translucent && !desc.unlit);
+}
+
 /// The coefficient that leaves the attenuation colour after the attenuation distance.
 [[nodiscard]] Rgb absorption_of(const MaterialDesc& desc)
 {
     constexpr float least_color = 1e-20f;     // black keeps a finite coefficient
     constexpr float most_absorption = 1e30f;  // [1/m]
-    if (body_of(desc) != Body::solid || std::isinf(desc.attenuation_distance)) {
+    if (!has_medium(desc) || std::isinf(desc.attenuation_distance)) {
         return Rgb{0.0f};
     }
     Rgb absorption{0.0f};
@@ -62,10 +69,11 @@ Material::Material(const MaterialDesc& desc, std::span<const TexelImage> images,
       emission_map_(make_texture(desc.emission_texture, images, Encoding::srgb)),
       specular_map_(make_texture(desc.specular_texture, images, Encoding::linear)),
       specular_color_map_(make_texture(desc.specular_color_texture, images, Encoding::srgb)),
-      transmission_map_(make_texture(desc.transmission_texture, images, Encoding::linear))
+      transmission_map_(make_texture(desc.transmission_texture, images, Encoding::linear)),
+      glossiness_map_(make_texture(desc.glossiness_texture, images, Encoding::linear))
 {
     const bool varies = base_color_map_ || metallic_roughness_map_ || specular_map_ ||
-                        specular_color_map_ || transmission_map_;
+                        specular_color_map_ || transmission_map_ || glossiness_map_;
     if (has_layers(desc)) {
         layers_ = std::make_unique<const MaterialLayers>(desc, images, albedo, *tables);
     } else if (!varies && !unlit_) {
@@ -140,6 +148,9 @@ Bsdf Material::bsdf(const ShadingPoint& point) const noexcept
         const Vec4 texel = metallic_roughness_map_->lookup(point.uv);
         surface.roughness *= texel.y;
         surface.metallic *= texel.z;
+    }
+    if (glossiness_map_) {
+        surface.roughness = 1.0f - (1.0f - surface.roughness) * glossiness_map_->lookup(point.uv).w;
     }
     if (specular_map_) {
         surface.specular *= specular_map_->lookup(point.uv).w;

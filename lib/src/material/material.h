@@ -65,8 +65,8 @@ public:
     {
         return surface_.body == Body::solid;
     }
-    /// Of the inside of a solid transmitter [1/m] (Beer-Lambert; KHR_materials_volume); zero for
-    /// all others. A colour of zero absorbs like 1e-20.
+    /// Of the inside of a solid transmitter, diffuse or not [1/m] (Beer-Lambert;
+    /// KHR_materials_volume); zero for all others. A colour of zero absorbs like 1e-20.
     [[nodiscard]] Rgb absorption() const noexcept { return absorption_; }
     /// Set of texture coordinates that the tangent follows, if the material needs one.
     [[nodiscard]] std::optional<int> tangent_uv_set() const noexcept { return tangent_uv_set_; }
@@ -102,6 +102,7 @@ private:
     std::optional<Texture> specular_map_;
     std::optional<Texture> specular_color_map_;
     std::optional<Texture> transmission_map_;
+    std::optional<Texture> glossiness_map_;
     std::unique_ptr<const MaterialLayers> layers_;  ///< of a material that has any
     std::optional<int> tangent_uv_set_;
 };

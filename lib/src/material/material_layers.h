@@ -30,16 +30,44 @@ public:
     [[nodiscard]] std::optional<int> tangent_uv_set() const noexcept;
 
 private:
+    struct CoatMaps {
+        std::optional<Texture> factor;
+        std::optional<Texture> roughness;
+        std::optional<NormalMap> normal;
+    };
+    struct SheenMaps {
+        std::optional<Texture> color;
+        std::optional<Texture> roughness;
+    };
+    struct FilmMaps {
+        std::optional<Texture> factor;
+        std::optional<Texture> thickness;
+    };
+    struct TransmissionMaps {
+        std::optional<Texture> factor;
+        std::optional<Texture> color;
+    };
+
+    void add_coat(const ShadingPoint& point, const Frame& shading,
+                  LayeredParameters& layers) const noexcept;
+    void add_sheen(const ShadingPoint& point, LayeredParameters& layers) const noexcept;
+    void add_film(const ShadingPoint& point, LayeredParameters& layers) const noexcept;
+    void add_transmission(const ShadingPoint& point, LayeredParameters& layers) const noexcept;
+    [[nodiscard]] Frame add_anisotropy(const ShadingPoint& point, const Frame& shading,
+                                       LayeredParameters& layers) const noexcept;
+
+    // The factors; their textures are in the maps.
+    ClearcoatDesc coat_;
+    SheenDesc sheen_;
+    AnisotropyDesc anisotropy_;
+    IridescenceDesc film_;
+    DiffuseTransmissionDesc transmission_;
+    CoatMaps coat_maps_;
+    SheenMaps sheen_maps_;
+    FilmMaps film_maps_;
+    TransmissionMaps transmission_maps_;
+    std::optional<Texture> anisotropy_map_;
     LayeredConstants constants_;
-    float coat_;
-    float coat_roughness_;
-    Rgb sheen_;
-    float sheen_roughness_;
-    std::optional<Texture> coat_map_;
-    std::optional<Texture> coat_roughness_map_;
-    std::optional<NormalMap> coat_normal_map_;
-    std::optional<Texture> sheen_map_;
-    std::optional<Texture> sheen_roughness_map_;
 };
 
 }  // namespace bdpt

@@ -36,7 +36,7 @@ public:
         if (tested.layers) {
             static const LayerTables tables = all_tables();
             constants_ = std::make_unique<const LayeredConstants>(
-                LayeredConstants{.base = albedo_.get(), .tables = &tables});
+                LayeredConstants{.base = albedo_.get(), .film_ior = 1.8f, .tables = &tables});
             LayeredParameters layers = *tested.layers;
             layers.base = tested.surface;
             layers.constants = constants_.get();
@@ -75,9 +75,9 @@ private:
 };
 
 [[nodiscard]] inline LayeredParameters coated(float share, float roughness,
-                                              Vec3 normal = {0.0f, 0.0f, 1.0f})
+                                              Vec3 normal = {0.0f, 0.0f, 1.0f},
+                                              LayeredParameters layers = {})
 {
-    LayeredParameters layers{};
     layers.coat = Unit16(share);
     layers.coat_roughness = Unit16(roughness);
     layers.coat_normal = Direction16(normalize(normal));
@@ -89,6 +89,29 @@ private:
 {
     layers.sheen = Color16(color);
     layers.sheen_roughness = Unit16(roughness);
+    return layers;
+}
+
+[[nodiscard]] inline LayeredParameters brushed(float strength, LayeredParameters layers = {})
+{
+    layers.anisotropy = Unit16(strength);
+    return layers;
+}
+
+/// Of index 1.8.
+[[nodiscard]] inline LayeredParameters filmed(float factor, float thickness,
+                                              LayeredParameters layers = {})
+{
+    layers.film = Unit16(factor);
+    layers.film_thickness = thickness;
+    return layers;
+}
+
+[[nodiscard]] inline LayeredParameters translucent(float share, Rgb color,
+                                                   LayeredParameters layers = {})
+{
+    layers.diffuse_transmission = Unit16(share);
+    layers.transmission_color = Color16(color);
     return layers;
 }
 
@@ -122,6 +145,35 @@ private:
          {blue, 1, 0.4f},
          1.5f,
          sheen({0.5f, 0.9f, 0.7f}, 0.6f, coated(0.8f, 0.3f))},
+        {"brushed metal 0.2", {blue, 1, 0.2f}, 1.5f, brushed(0.7f)},
+        {"brushed metal 0.1", {blue, 1, 0.1f}, 1.5f, brushed(0.5f)},
+        {"brushed dielectric 0.4", {blue, 0, 0.4f}, 1.5f, brushed(0.8f)},
+        {"brushed glass 0.3", {white, 0, 0.3f, 1, white, 1, solid}, 1.5f, brushed(0.6f)},
+        {"brushed thin glass 0.3", {blue, 0, 0.3f, 1, white, 0.7f, thin}, 1.5f, brushed(0.6f)},
+        {"brushed ior 1", {blue, 0.5f, 0.4f, 1, white, 1, solid}, 1.0f, brushed(0.6f)},
+        {"film on dielectric 0.3", {blue, 0, 0.3f}, 1.5f, filmed(1, 400)},
+        {"thin film on smooth dielectric", {blue, 0, 0}, 1.5f, filmed(1, 120)},
+        {"half a film on metal 0.3", {blue, 1, 0.3f}, 1.5f, filmed(0.5f, 550)},
+        {"film on glass 0.3", {white, 0, 0.3f, 1, white, 1, solid}, 1.5f, filmed(1, 300)},
+        {"film on thin glass", {white, 0, 0, 1, white, 1, thin}, 1.5f, filmed(1, 300)},
+        {"film without a boundary", {blue, 0, 0.5f, 0}, 1.0f, filmed(1, 250)},
+        {"translucent lambert", {blue, 0, 1, 0}, 1.5f, translucent(0.6f, {0.9f, 0.7f, 0.3f})},
+        {"translucent dielectric 0.4", {blue, 0, 0.4f}, 1.5f, translucent(0.3f, white)},
+        {"wholly translucent smooth", {blue, 0, 0}, 1.5f, translucent(1, {0.5f, 0.9f, 0.2f})},
+        {"translucent half transmission",
+         {blue, 0, 0.4f, 1, white, 0.5f, thin},
+         1.5f,
+         translucent(0.5f, white)},
+        {"translucent in glass",
+         {blue, 0, 0.4f, 1, white, 0.5f, solid},
+         1.5f,
+         translucent(0.5f, white)},
+        {"all layers",
+         {blue, 0.3f, 0.4f, 0.8f, white, 0.3f, thin},
+         1.4f,
+         coated(0.6f, 0.2f, {0, 0, 1},
+                sheen({0.4f, 0.3f, 0.5f}, 0.5f,
+                      brushed(0.5f, filmed(0.7f, 350, translucent(0.4f, {0.9f, 0.5f, 0.4f})))))},
         {"tilted coat 0.3 on lambert", {blue, 0, 1, 0}, 1.5f, coated(1, 0.3f, tilt), true},
         {"tilted smooth coat on metal 0.3", {blue, 1, 0.3f}, 1.5f, coated(1, 0, tilt), true},
     };

@@ -101,6 +101,19 @@ TEST_CASE("specular is alpha of its texture, its colour is sRGB")
                          albedo));
 }
 
+TEST_CASE("glossiness is alpha of a linear texture, and smooth where it is 1")
+{
+    const SpecularAlbedo albedo(1.5f);
+    const std::vector<TexelImage> images{texel(0, 0, 0, 204)};
+    MaterialDesc desc;
+    desc.metallic = 0.0f;
+    desc.roughness = 0.25f;
+    desc.glossiness_texture = first_image;
+    const Material material(desc, images, albedo);
+    // 1 - 0.75 * 0.8
+    check_equal(scattered(material.bsdf({})), expected({.roughness = 0.4f}, albedo));
+}
+
 TEST_CASE("transmission is red of its texture, and only thickness makes a body solid")
 {
     const SpecularAlbedo albedo(1.5f);

@@ -2,6 +2,7 @@
 
 #include "gltf/material_layers.h"
 #include "gltf/material_values.h"
+#include "gltf/specular_glossiness.h"
 
 #include <fmt/format.h>
 
@@ -29,14 +30,17 @@ public:
         desc_.double_sided = source_.doubleSided;
         read_base_color();
         read_alpha();
+        read_specular_glossiness(values_, desc_);
         if (values_.extension("KHR_materials_unlit") != nullptr) {
             desc_.unlit = true;  // all else is for viewers that do not know the extension
             return std::move(desc_);
         }
-        read_metallic_roughness();
         read_emission();
-        read_ior();
-        read_specular();
+        if (values_.extension("KHR_materials_pbrSpecularGlossiness") == nullptr) {
+            read_metallic_roughness();
+            read_ior();
+            read_specular();
+        }
         read_transmission();
         read_volume();
         read_layers(values_, desc_);

@@ -59,16 +59,70 @@ SheenDesc read_sheen(const Extension& from)
     return sheen;
 }
 
+AnisotropyDesc read_anisotropy(const Extension& from)
+{
+    AnisotropyDesc anisotropy;
+    anisotropy.strength = from.number("anisotropyStrength", 0.0, 0.0, 1.0);
+    if (anisotropy.strength == 0.0f) {
+        return anisotropy;
+    }
+    anisotropy.rotation = from.number("anisotropyRotation", 0.0, -no_limit, no_limit);
+    anisotropy.texture = from.texture("anisotropyTexture");
+    return anisotropy;
+}
+
+IridescenceDesc read_iridescence(const Extension& from)
+{
+    IridescenceDesc film;
+    film.factor = from.number("iridescenceFactor", 0.0, 0.0, 1.0);
+    if (film.factor == 0.0f) {
+        return film;
+    }
+    film.ior = from.number("iridescenceIor", 1.3, 1.0, no_limit);
+    film.thickness_minimum = from.number("iridescenceThicknessMinimum", 100.0, 0.0, no_limit);
+    film.thickness_maximum = from.number("iridescenceThicknessMaximum", 400.0, 0.0, no_limit);
+    film.texture = from.texture("iridescenceTexture");
+    if (film.thickness_minimum != film.thickness_maximum) {
+        film.thickness_texture = from.texture("iridescenceThicknessTexture");
+    }
+    return film;
+}
+
+DiffuseTransmissionDesc read_diffuse_transmission(const Extension& from)
+{
+    DiffuseTransmissionDesc through;
+    through.factor = from.number("diffuseTransmissionFactor", 0.0, 0.0, 1.0);
+    if (through.factor == 0.0f) {
+        return through;
+    }
+    through.texture = from.texture("diffuseTransmissionTexture");
+    through.color = from.values.color(from.object, "diffuseTransmissionColorFactor", 1.0);
+    if (through.color != Rgb(0.0f)) {
+        through.color_texture = from.texture("diffuseTransmissionColorTexture");
+    }
+    return through;
+}
+
+/// The value that `read` makes of an extension, where the material has it.
+template <typename Desc>
+void read_extension(const MaterialValues& values, const std::string& name,
+                    Desc (*read)(const Extension&), Desc& desc)
+{
+    if (const auto* object = values.extension(name)) {
+        desc = read({values, *object, name});
+    }
+}
+
 }  // namespace
 
 void read_layers(const MaterialValues& values, MaterialDesc& desc)
 {
-    if (const auto* object = values.extension("KHR_materials_clearcoat")) {
-        desc.clearcoat = read_clearcoat({values, *object, "KHR_materials_clearcoat"});
-    }
-    if (const auto* object = values.extension("KHR_materials_sheen")) {
-        desc.sheen = read_sheen({values, *object, "KHR_materials_sheen"});
-    }
+    read_extension(values, "KHR_materials_clearcoat", read_clearcoat, desc.clearcoat);
+    read_extension(values, "KHR_materials_sheen", read_sheen, desc.sheen);
+    read_extension(values, "KHR_materials_anisotropy", read_anisotropy, desc.anisotropy);
+    read_extension(values, "KHR_materials_iridescence", read_iridescence, desc.iridescence);
+    read_extension(values, "KHR_materials_diffuse_transmission", read_diffuse_transmission,
+                   desc.diffuse_transmission);
 }
 
 }  // namespace bdpt::io

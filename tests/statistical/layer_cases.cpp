@@ -74,11 +74,22 @@ EqualityCase translucent()
     return ball("diffuse transmission", material);
 }
 
+/// Rough, so that light tracing and all joins see it; light paths and camera paths share a colour.
+EqualityCase dispersion()
+{
+    MaterialDesc material = glass(0.35f);
+    material.dispersion = 6.0f;
+    EqualityCase result = ball("dispersion", material);
+    result.detectable_bias = 0.04;  // a third of the samples counts for each channel
+    result.detectable_bias_of_light_sampling = 0.08;
+    return result;
+}
+
 }  // namespace
 
 std::vector<EqualityCase> layer_cases()
 {
-    return {clearcoat(), cloth(), brushed(), film(), translucent()};
+    return {clearcoat(), cloth(), brushed(), film(), translucent(), dispersion()};
 }
 
 }  // namespace bdpt::test

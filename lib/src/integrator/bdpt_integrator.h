@@ -40,6 +40,9 @@ private:
     void splat_light_path(Sample& sample, Scratch& scratch) const;
     /// s = t = 1
     void splat_light(Sample& sample, Scratch& scratch) const;
+    /// What the path of a strategy counts in each channel: all alike unless it has met dispersion.
+    [[nodiscard]] Rgb spectrum(Strategy strategy, const Sample& sample,
+                               const Scratch& scratch) const;
     /// What `found`, which `scratch` has just weighed, counts in the pixel of the sample; notes it
     /// in the strategy's images.
     [[nodiscard]] Rgb measure(Strategy strategy, const Contribution& found, const Sample& sample,

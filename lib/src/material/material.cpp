@@ -45,8 +45,18 @@ namespace {
 
 }  // namespace
 
+std::array<float, wavelengths> channel_indices(const MaterialDesc& desc)
+{
+    if (body_of(desc) != Body::solid) {
+        return {desc.ior, desc.ior, desc.ior};
+    }
+    // Half of the difference of the indices of blue and red, (ior - 1) / Abbe number.
+    const float spread = (desc.ior - 1.0f) * 0.025f * desc.dispersion;
+    return {std::max(1.0f, desc.ior - spread), desc.ior, desc.ior + spread};
+}
+
 Material::Material(const MaterialDesc& desc, std::span<const TexelImage> images,
-                   const SpecularAlbedo& albedo, const LayerTables* tables)
+                   const ChannelAlbedos& albedos, const LayerTables* tables)
     : surface_{Rgb{desc.base_color.x, desc.base_color.y, desc.base_color.z},
                desc.metallic,
                desc.roughness,
@@ -61,7 +71,7 @@ Material::Material(const MaterialDesc& desc, std::span<const TexelImage> images,
       alpha_mode_(desc.alpha_mode),
       alpha_(desc.base_color.w),
       alpha_cutoff_(desc.alpha_cutoff),
-      albedo_(&albedo),
+      albedos_(albedos),
       base_color_map_(make_texture(desc.base_color_texture, images, Encoding::srgb)),
       metallic_roughness_map_(
           make_texture(desc.metallic_roughness_texture, images, Encoding::linear)),
@@ -75,9 +85,9 @@ Material::Material(const MaterialDesc& desc, std::span<const TexelImage> images,
     const bool varies = base_color_map_ || metallic_roughness_map_ || specular_map_ ||
                         specular_color_map_ || transmission_map_ || glossiness_map_;
     if (has_layers(desc)) {
-        layers_ = std::make_unique<const MaterialLayers>(desc, images, albedo, *tables);
-    } else if (!varies && !unlit_) {
-        plain_.emplace(surface_, *albedo_);
+        layers_ = std::make_unique<const MaterialLayers>(desc, images, albedos, *tables);
+    } else if (!varies && !unlit_ && !disperses()) {
+        plain_.emplace(surface_, albedos_.at(Wavelength::green));
     }
     tangent_uv_set_ = normal_map_ ? std::optional(normal_map_->uv_set())
                       : layers_   ? layers_->tangent_uv_set()
@@ -165,7 +175,7 @@ Bsdf Material::bsdf(const ShadingPoint& point) const noexcept
     if (layers_) {
         return layers_->bsdf(point, shading, surface);
     }
-    return {point.ng, shading, point.wo, GltfBsdf(surface, *albedo_)};
+    return {point.ng, shading, point.wo, GltfBsdf(surface, albedos_.at(point.wavelength))};
 }
 
 Rgb Material::emission(const TexturePoint& point) const noexcept

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "material/bsdf.h"
+#include "material/channel_albedos.h"
 #include "material/material_layers.h"
 #include "material/normal_map.h"
 #include "material/shading_point.h"
@@ -15,15 +16,13 @@
 
 namespace bdpt {
 
-class SpecularAlbedo;
-
 /// A `MaterialDesc` made ready for lookups. Refers to the images, which must outlive it.
 class Material {
 public:
-    /// `albedo` belongs to `desc.ior`; `tables` are needed where `has_layers(desc)`. Throws
-    /// nothing: `desc` has been validated.
+    /// `albedos` belong to `channel_indices(desc)`; `tables` are needed where `has_layers(desc)`.
+    /// Throws nothing: `desc` has been validated.
     Material(const MaterialDesc& desc, std::span<const TexelImage> images,
-             const SpecularAlbedo& albedo, const LayerTables* tables = nullptr);
+             const ChannelAlbedos& albedos, const LayerTables* tables = nullptr);
 
     [[nodiscard]] Bsdf bsdf(const ShadingPoint& point) const noexcept;
 
@@ -60,6 +59,8 @@ public:
                                         const std::array<Vec2, 2>& b) const noexcept;
     [[nodiscard]] bool emits_from_both_sides() const noexcept { return double_sided_; }
 
+    /// Does light of different colours take different ways?
+    [[nodiscard]] bool disperses() const noexcept { return albedos_.disperse(); }
     /// Bounds a solid body that light passes through; its inside is on the back of ng.
     [[nodiscard]] bool is_solid_transmitter() const noexcept
     {
@@ -93,7 +94,7 @@ private:
     float alpha_cutoff_;
     float least_opacity_ = 1.0f;
     float mean_opacity_ = 1.0f;  ///< roughly
-    const SpecularAlbedo* albedo_;
+    ChannelAlbedos albedos_;
 
     std::optional<Texture> base_color_map_;
     std::optional<Texture> metallic_roughness_map_;

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include <cmath>
+#include <cstddef>
 
 namespace bdpt {
 namespace {
@@ -26,7 +27,7 @@ bool has_layers(const MaterialDesc& desc)
 }
 
 MaterialLayers::MaterialLayers(const MaterialDesc& desc, std::span<const TexelImage> images,
-                               const SpecularAlbedo& albedo, const LayerTables& tables)
+                               const ChannelAlbedos& albedos, const LayerTables& tables)
     : coat_(desc.clearcoat),
       sheen_(desc.sheen),
       anisotropy_(desc.anisotropy),
@@ -41,9 +42,13 @@ MaterialLayers::MaterialLayers(const MaterialDesc& desc, std::span<const TexelIm
                  make_texture(film_.thickness_texture, images, Encoding::linear)},
       transmission_maps_{make_texture(transmission_.texture, images, Encoding::linear),
                          make_texture(transmission_.color_texture, images, Encoding::srgb)},
-      anisotropy_map_(make_texture(anisotropy_.texture, images, Encoding::linear)),
-      constants_{.base = &albedo, .film_ior = film_.ior, .tables = &tables}
-{}
+      anisotropy_map_(make_texture(anisotropy_.texture, images, Encoding::linear))
+{
+    for (const Wavelength channel : {Wavelength::red, Wavelength::green, Wavelength::blue}) {
+        constants_[static_cast<std::size_t>(channel)] = {
+            .base = &albedos.at(channel), .film_ior = film_.ior, .tables = &tables};
+    }
+}
 
 std::optional<int> MaterialLayers::tangent_uv_set() const noexcept
 {
@@ -122,7 +127,8 @@ Frame MaterialLayers::add_anisotropy(const ShadingPoint& point, const Frame& sha
 Bsdf MaterialLayers::bsdf(const ShadingPoint& point, const Frame& shading,
                           const GltfParameters& base) const noexcept
 {
-    LayeredParameters layers{.base = base, .constants = &constants_};
+    LayeredParameters layers{.base = base,
+                             .constants = &constants_[static_cast<std::size_t>(point.wavelength)]};
     Frame frame = shading;
     if (anisotropy_.strength > 0.0f) {
         frame = add_anisotropy(point, shading, layers);

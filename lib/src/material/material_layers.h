@@ -1,6 +1,7 @@
 #pragma once
 
 #include "material/bsdf.h"
+#include "material/channel_albedos.h"
 #include "material/layers.h"
 #include "material/normal_map.h"
 #include "material/shading_point.h"
@@ -8,6 +9,7 @@
 
 #include <bdpt/scene_desc.h>
 
+#include <array>
 #include <optional>
 #include <span>
 
@@ -21,7 +23,7 @@ namespace bdpt {
 class MaterialLayers {
 public:
     MaterialLayers(const MaterialDesc& desc, std::span<const TexelImage> images,
-                   const SpecularAlbedo& albedo, const LayerTables& tables);
+                   const ChannelAlbedos& albedos, const LayerTables& tables);
 
     /// With `base` below the layers, whose shading normal is that of `shading`.
     [[nodiscard]] Bsdf bsdf(const ShadingPoint& point, const Frame& shading,
@@ -67,7 +69,7 @@ private:
     FilmMaps film_maps_;
     TransmissionMaps transmission_maps_;
     std::optional<Texture> anisotropy_map_;
-    LayeredConstants constants_;
+    std::array<LayeredConstants, wavelengths> constants_;
 };
 
 }  // namespace bdpt

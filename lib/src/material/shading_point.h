@@ -1,5 +1,7 @@
 #pragma once
 
+#include "math/wavelength.h"
+
 #include <bdpt/types.h>
 
 #include <array>
@@ -12,7 +14,8 @@ struct ShadingPoint {
     Vec3 ns{0.0f, 0.0f, 1.0f};  ///< unit, interpolated; in the hemisphere of ng
     Vec4 tangent{0.0f};         ///< xyz (any length, not parallel to ns) and handedness; zero: none
     std::array<Vec2, 2> uv{};
-    Vec4 color{1.0f};           ///< vertex colour, linear
+    Vec4 color{1.0f};  ///< vertex colour, linear
+    Wavelength wavelength = Wavelength::green;
     Vec3 wo{0.0f, 0.0f, 1.0f};  ///< unit, towards where the walk came from
 };
 

@@ -51,11 +51,10 @@ World::World(SceneDesc desc, Isa isa) : desc_(std::move(desc))
         layer_tables_ = std::make_unique<const LayerTables>(desc_.materials);
     }
     for (const MaterialDesc& material : desc_.materials) {
-        auto& albedo = albedos_[material.ior];
-        if (!albedo) {
-            albedo = std::make_unique<const SpecularAlbedo>(material.ior);
-        }
-        materials_.emplace_back(material, desc_.images, *albedo, layer_tables_.get());
+        const auto [red, green, blue] = channel_indices(material);
+        const ChannelAlbedos albedos(albedo_of(red), albedo_of(green), albedo_of(blue));
+        materials_.emplace_back(material, desc_.images, albedos, layer_tables_.get());
+        disperses_ = disperses_ || albedos.disperse();
     }
     placed_.reserve(desc_.instances.size());
     for (const InstanceDesc& instance : desc_.instances) {
@@ -72,6 +71,15 @@ World::World(SceneDesc desc, Isa isa) : desc_(std::move(desc))
     counts_ = count(desc_);
     counts_.lights = lights_->size();
     counts_.emissive_triangles = lights_->size() - desc_.lights.size();
+}
+
+const SpecularAlbedo& World::albedo_of(float ior)
+{
+    auto& albedo = albedos_[ior];
+    if (!albedo) {
+        albedo = std::make_unique<const SpecularAlbedo>(ior);
+    }
+    return *albedo;
 }
 
 const Material& World::material_of(std::uint32_t instance) const noexcept
@@ -124,7 +132,7 @@ std::optional<SurfacePoint> World::intersect(const SegmentEnd& from, Vec3 direct
     if (hit->sphere != no_sphere) [[unlikely]] {
         return sphere_point(*hit, direction);
     }
-    return surface_point(*hit, direction);
+    return surface_point(*hit, direction, segment.wavelength);
 }
 
 /// Spheres are lights: they emit from their outside and reflect nothing.
@@ -139,7 +147,8 @@ SurfacePoint World::sphere_point(const RayHit& hit, Vec3 direction) const noexce
             .light = id};
 }
 
-SurfacePoint World::surface_point(const RayHit& hit, Vec3 direction) const noexcept
+SurfacePoint World::surface_point(const RayHit& hit, Vec3 direction,
+                                  Wavelength wavelength) const noexcept
 {
     const PlacedMesh& mesh = placed_[hit.instance];
     const Material& material = material_of(hit.instance);
@@ -159,6 +168,7 @@ SurfacePoint World::surface_point(const RayHit& hit, Vec3 direction) const noexc
                                   : Vec4(0.0f),
         .uv = at.uv,
         .color = at.color,
+        .wavelength = wavelength,
         .wo = -direction};
 
     const BoundedPoint point = mesh.point(hit.triangle, hit.barycentrics);
@@ -167,7 +177,8 @@ SurfacePoint World::surface_point(const RayHit& hit, Vec3 direction) const noexc
         .bsdf = material.bsdf(shading),
         .emission = Rgb(0.0f),
         .light = lights_->of_triangle(hit.instance, hit.triangle),
-        .barycentrics = hit.barycentrics};
+        .barycentrics = hit.barycentrics,
+        .disperses = material.disperses()};
     if (result.light && (dot(ng, direction) < 0.0f || material.emits_from_both_sides())) {
         result.emission = material.emission(at);
     }

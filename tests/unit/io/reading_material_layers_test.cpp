@@ -188,6 +188,19 @@ TEST_CASE("specular-glossiness becomes a dielectric with a specular colour")
     CHECK(defaults.specular_color.g == Approx(25.0));
 }
 
+TEST_CASE("dispersion is read")
+{
+    const auto dispersion = [](const nlohmann::json& extension) {
+        return with_extension("KHR_materials_dispersion", extension)
+            .load()
+            .scene.materials.at(0)
+            .dispersion;
+    };
+    CHECK(dispersion({{"dispersion", 2.5}}) == 2.5f);
+    CHECK(dispersion(nlohmann::json::object()) == 0.0f);
+    CHECK(dispersion({{"dispersion", -1}}) == 0.0f);
+}
+
 TEST_CASE("values of layers beyond their ranges are brought back, of a wrong type refused")
 {
     const LoadedScene loaded =

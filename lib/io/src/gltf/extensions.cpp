@@ -22,6 +22,7 @@ constexpr std::array table{
     ExtensionSupport{"KHR_materials_clearcoat", supported, ""},
     ExtensionSupport{"KHR_materials_diffuse_transmission", supported,
                      "not of bodies that refract as well"},
+    ExtensionSupport{"KHR_materials_dispersion", supported, "one index for each channel"},
     ExtensionSupport{"KHR_materials_emissive_strength", supported, ""},
     ExtensionSupport{"KHR_materials_ior", supported, ""},
     ExtensionSupport{"KHR_materials_iridescence", supported, ""},
@@ -54,7 +55,6 @@ constexpr std::array table{
                      "the core textures are used"},
     ExtensionSupport{"MSFT_lod", supported, "the finest level is shown"},
     // Without these the picture lacks something.
-    ExtensionSupport{"KHR_materials_dispersion", ignored, "all colours refract alike"},
     ExtensionSupport{"KHR_texture_basisu", ignored, "only fallback pictures are read"},
     ExtensionSupport{"MSFT_texture_dds", ignored, "only fallback pictures are read"},
     ExtensionSupport{"EXT_texture_avif", ignored, "only fallback pictures are read"},

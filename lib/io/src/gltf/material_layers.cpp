@@ -103,6 +103,11 @@ DiffuseTransmissionDesc read_diffuse_transmission(const Extension& from)
     return through;
 }
 
+float read_dispersion(const Extension& from)
+{
+    return from.number("dispersion", 0.0, 0.0, no_limit);
+}
+
 /// The value that `read` makes of an extension, where the material has it.
 template <typename Desc>
 void read_extension(const MaterialValues& values, const std::string& name,
@@ -123,6 +128,7 @@ void read_layers(const MaterialValues& values, MaterialDesc& desc)
     read_extension(values, "KHR_materials_iridescence", read_iridescence, desc.iridescence);
     read_extension(values, "KHR_materials_diffuse_transmission", read_diffuse_transmission,
                    desc.diffuse_transmission);
+    read_extension(values, "KHR_materials_dispersion", read_dispersion, desc.dispersion);
 }
 
 }  // namespace bdpt::io

@@ -159,7 +159,9 @@ TEST_CASE("each channel refracts as if there were no other", "[equality][layers]
     test.detectable_bias = 0.04;
     TileMeans expected(alone, test.camera, options(test, IntegratorKind::mis, 8001));
     TileMeans mis(dispersing, test.camera, options(test, IntegratorKind::mis, 8002));
-    TileMeans bdpt(dispersing, test.camera, options(test, IntegratorKind::bdpt, 8003));
+    RenderOptions two_light_paths = options(test, IntegratorKind::bdpt, 8003);
+    two_light_paths.light_paths = 2;  // both of the colour of their sample
+    TileMeans bdpt(dispersing, test.camera, two_light_paths);
     check_equal(test, "no dispersion = mis", expected, mis);
     check_equal(test, "no dispersion = bdpt", expected, bdpt);
 }

@@ -65,17 +65,18 @@ float BasicGltfBsdf<Features>::boundary_reflected(SpecularAlbedo::Split split) c
 template <typename Features>
 float BasicGltfBsdf<Features>::directional_reflected(float cosine) const noexcept
 {
-    const float reflected = boundary_reflected(albedo_->directional(cosine, roughness_));
+    float reflected = boundary_reflected(albedo_->directional(cosine, roughness_));
     if constexpr (rich) {
-        const auto along = albedo_->directional(cosine, rich_.roughness_x);
-        const float both = std::max(reflected, boundary_reflected(along));
-        const float factor = rich_.film.factor;
-        return factor == 0.0f
-                   ? both
-                   : std::max(both, glm::mix(both, rich_.film.greatest(cosine, f0_), factor));
-    } else {
-        return reflected;
+        if (alpha_.x != alpha_.y) {
+            const auto along = albedo_->directional(cosine, rich_.roughness_x);
+            reflected = std::max(reflected, boundary_reflected(along));
+        }
+        if (rich_.film.factor > 0.0f) {
+            const float filmed = rich_.film.greatest(cosine, f0_);
+            reflected += rich_.film.factor * std::max(0.0f, filmed - reflected);
+        }
     }
+    return reflected;
 }
 
 template <typename Features>

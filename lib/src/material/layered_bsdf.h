@@ -10,8 +10,10 @@
 
 namespace bdpt {
 
-/// Layers over the glTF material model: KHR_materials_{clearcoat, sheen}. Directions are as those
-/// of `GltfBsdf`. Layers cover the outside of solid bodies, and both sides of all else.
+/// Layers over the glTF material model: KHR_materials_{clearcoat, sheen}, and a base with
+/// KHR_materials_{anisotropy, diffuse_transmission, iridescence}. Directions are as those of
+/// `GltfBsdf`; +x is the rougher direction. Layers cover the outside of solid bodies, and both
+/// sides of all else.
 ///
 /// What lies below a layer is multiplied by min(T(wo), T(wi)), where T is what the layer does not
 /// reflect: so no energy is made, and the way of light does not matter. That is the rule that

@@ -13,6 +13,7 @@ sys.dont_write_bytecode = True  # leave nothing behind but the scenes
 from feature_scenes import FEATURE_SCENES
 from gltf_builder import Gltf, rotation_about, sub
 from hidden_light_scenes import HIDDEN_LIGHT_SCENES
+from layer_scenes import LAYER_SCENES
 from materials import SOLID_GLASS, THIN_GLASS
 from shapes import box_quads, coil, flipped, height_field, quads, sphere
 from specular_scenes import SPECULAR_SCENES
@@ -268,6 +269,7 @@ SCENES = {
     **HIDDEN_LIGHT_SCENES,
     **FEATURE_SCENES,
     **SPECULAR_SCENES,
+    **LAYER_SCENES,
 }
 
 

@@ -41,6 +41,8 @@ target_sources(bdpt_io PRIVATE
   src/gltf/keyframes.cpp
   src/gltf/light.cpp
   src/gltf/material.cpp
+  src/gltf/material_layers.cpp
+  src/gltf/material_values.cpp
   src/gltf/mesh.cpp
   src/gltf/mesh_table.cpp
   src/gltf/morph.cpp
@@ -51,6 +53,7 @@ target_sources(bdpt_io PRIVATE
   src/gltf/select_scene.cpp
   src/gltf/selection.cpp
   src/gltf/skin.cpp
+  src/gltf/specular_glossiness.cpp
   src/gltf/texture.cpp
   src/gltf/transform.cpp
   src/gltf/variants.cpp

@@ -28,4 +28,7 @@ struct EqualityCase {
 /// Those of them with surfaces that are not opaque or not lit.
 [[nodiscard]] std::vector<EqualityCase> alpha_cases();
 
+/// Materials with layers and other extensions of glTF, one each. Not among `equality_cases`.
+[[nodiscard]] std::vector<EqualityCase> layer_cases();
+
 }  // namespace bdpt::test

@@ -10,6 +10,8 @@
 #include <cstdlib>
 #include <iostream>
 #include <optional>
+#include <string>
+#include <utility>
 
 namespace bdpt::test {
 namespace {
@@ -116,6 +118,52 @@ TEST_CASE("all integrators agree: cases 2, 6, ...", "[equality]")
 TEST_CASE("all integrators agree: cases 3, 7, ...", "[equality]")
 {
     check_cases(3);
+}
+
+TEST_CASE("all integrators agree: layered materials", "[equality][layers]")
+{
+    std::uint64_t seed = 300000;
+    for (const EqualityCase& test : layer_cases()) {
+        seed += 100;
+        DYNAMIC_SECTION(test.name)
+        {
+            check_case(test, seed);
+        }
+    }
+}
+
+/// A room with a rough ball of glass, under a lamp of one colour.
+Scene glass_under(Rgb light, float ior, float dispersion)
+{
+    MaterialDesc material = glass(0.35f);
+    material.ior = ior;
+    material.dispersion = dispersion;
+    SceneBuilder builder;
+    builder.walls(lambertian(Rgb(0.7f)), lambertian(Rgb(0.5f))).ceiling(lambertian(Rgb(0.7f)));
+    builder.lamp(0.98f, 0.85f, light);
+    builder.sphere({0.0f, -0.4f, 0.0f}, 0.55f, material);
+    return Scene(std::move(builder.desc));
+}
+
+TEST_CASE("each channel refracts as if there were no other", "[equality][layers]")
+{
+    // Indices of 1.25, 1.5 and 1.75.
+    const auto [light, ior] =
+        GENERATE(std::pair(Rgb(4.0f, 0.0f, 0.0f), 1.25f), std::pair(Rgb(0.0f, 4.0f, 0.0f), 1.5f),
+                 std::pair(Rgb(0.0f, 0.0f, 4.0f), 1.75f));
+    const Scene alone = glass_under(light, ior, 0.0f);
+    const Scene dispersing = glass_under(light, 1.5f, 20.0f);
+    EqualityCase test;
+    test.name = "glass of index " + std::to_string(ior);
+    test.camera = room_camera();
+    test.detectable_bias = 0.04;
+    TileMeans expected(alone, test.camera, options(test, IntegratorKind::mis, 8001));
+    TileMeans mis(dispersing, test.camera, options(test, IntegratorKind::mis, 8002));
+    RenderOptions two_light_paths = options(test, IntegratorKind::bdpt, 8003);
+    two_light_paths.light_paths = 2;  // both of the colour of their sample
+    TileMeans bdpt(dispersing, test.camera, two_light_paths);
+    check_equal(test, "no dispersion = mis", expected, mis);
+    check_equal(test, "no dispersion = bdpt", expected, bdpt);
 }
 
 /// Camera paths and splats see pixels through the same filter, at the border of the image too: a

@@ -51,7 +51,52 @@ enum class AlphaMode : std::uint8_t {
     blend,   ///< alpha is the share of light that meets the surface; the rest passes straight on
 };
 
-/// glTF 2.0 metallic-roughness material with KHR_materials_{emissive_strength, ior, specular,
+/// Clear varnish over everything else, of index 1.5 [KHR_materials_clearcoat].
+struct ClearcoatDesc {
+    float factor = 0.0f;     ///< [0, 1], share of the surface that is coated; 0: no coat
+    float roughness = 0.0f;  ///< [0, 1], perceptual
+    float normal_scale = 1.0f;
+    std::optional<TextureRef> texture;            ///< linear; R, times factor
+    std::optional<TextureRef> roughness_texture;  ///< linear; G, times roughness
+    std::optional<TextureRef> normal_texture;     ///< linear; none: the coat is even
+};
+
+/// Fibres that stand off a cloth, over everything but a coat [KHR_materials_sheen].
+struct SheenDesc {
+    Rgb color{0.0f};                              ///< [0, 1]; black: no sheen
+    float roughness = 0.0f;                       ///< [0, 1]
+    std::optional<TextureRef> color_texture;      ///< sRGB
+    std::optional<TextureRef> roughness_texture;  ///< linear; A
+};
+
+/// Grooves that blur reflections along one direction [KHR_materials_anisotropy].
+struct AnisotropyDesc {
+    float strength = 0.0f;  ///< [0, 1]; 0: round highlights
+    float rotation = 0.0f;  ///< [rad] of the direction of blur, from the tangent to the bitangent
+    std::optional<TextureRef> texture;  ///< linear; RG direction, B times strength
+};
+
+/// A thin film whose interference colours reflections [KHR_materials_iridescence].
+struct IridescenceDesc {
+    float factor = 0.0f;                          ///< [0, 1]; 0: no film
+    float ior = 1.3f;                             ///< >= 1, of the film
+    float thickness_minimum = 100.0f;             ///< [nm], where the texture is 0
+    float thickness_maximum = 400.0f;             ///< [nm], where it is 1, or without it
+    std::optional<TextureRef> texture;            ///< linear; R, times factor
+    std::optional<TextureRef> thickness_texture;  ///< linear; G
+};
+
+/// Matt light that comes out on the other side, as through paper or a leaf
+/// [KHR_materials_diffuse_transmission].
+struct DiffuseTransmissionDesc {
+    float factor = 0.0f;                      ///< [0, 1], share of the diffuse light
+    Rgb color{1.0f};                          ///< [0, 1]
+    std::optional<TextureRef> texture;        ///< linear; A, times factor
+    std::optional<TextureRef> color_texture;  ///< sRGB
+};
+
+/// glTF 2.0 metallic-roughness material with KHR_materials_{anisotropy, clearcoat,
+/// diffuse_transmission, dispersion, emissive_strength, iridescence, ior, sheen, specular,
 /// transmission, volume, unlit}; names, defaults and ranges are those of the specification
 /// [glTF 2.0, sec. 3.9; KHR extensions of these names].
 struct MaterialDesc {
@@ -75,6 +120,13 @@ struct MaterialDesc {
     float thickness = 0.0f;     ///< > 0: the mesh bounds a solid body; 0: a thin sheet
     float attenuation_distance = std::numeric_limits<float>::infinity();  ///< [m], > 0
     Rgb attenuation_color{1.0f};  ///< [0, 1], what is left of white after that distance
+    float dispersion = 0.0f;      ///< >= 0, 20 / Abbe number of a solid transmitter
+
+    ClearcoatDesc clearcoat{};
+    SheenDesc sheen{};
+    AnisotropyDesc anisotropy{};
+    IridescenceDesc iridescence{};
+    DiffuseTransmissionDesc diffuse_transmission{};
 
     std::optional<TextureRef> base_color_texture;          ///< sRGB, times base_color
     std::optional<TextureRef> metallic_roughness_texture;  ///< linear; G roughness, B metallic
@@ -83,6 +135,7 @@ struct MaterialDesc {
     std::optional<TextureRef> specular_texture;            ///< linear; A
     std::optional<TextureRef> specular_color_texture;      ///< sRGB
     std::optional<TextureRef> transmission_texture;        ///< linear; R
+    std::optional<TextureRef> glossiness_texture;          ///< linear; A, times 1 - roughness
 };
 
 /// A mesh placed in the world [m]. Meshes are shared: many instances cost one BVH.

@@ -20,8 +20,12 @@ Sampler light_sampler(const RenderOptions& options, const Sampler& first, int x,
 {
     constexpr std::uint64_t odd = 0xd1342543de82ef95U;  // spreads consecutive seeds
     const auto number = static_cast<std::uint64_t>(light_path);
-    return light_path == 0 ? first
-                           : Sampler(options.sampler, options.seed + number * odd, x, y, index);
+    if (light_path == 0) {
+        return first;
+    }
+    Sampler own(options.sampler, options.seed + number * odd, x, y, index);
+    own.set_wavelength(first.wavelength());
+    return own;
 }
 
 }  // namespace
@@ -76,6 +80,9 @@ void BdptIntegrator::add_sample(const SampleId& id, const Films& films, Scratch&
     Sample sample{.index = index, .sampler = sampler, .films = films, .pixel = center};
     sampler.start(SampleUse::film);
     const Vec2 raster = filter_.sample_raster(x, y, sampler.next_2d());
+    if (world_.disperses()) {
+        sampler.set_wavelength(choose_wavelength(sampler.next_1d()));
+    }
     // Light paths outside of a crop can splat into it.
     const bool wanted = films.film.region().contains(x, y);
     const int camera_vertices = wanted ? strategies_.camera_vertices() : 1;
@@ -200,21 +207,34 @@ void BdptIntegrator::splat_light(Sample& sample, Scratch& scratch, Probe& probe)
     }
 }
 
+Rgb BdptIntegrator::spectrum(Strategy strategy, const Sample& sample, const Scratch& scratch) const
+{
+    // Vertices of the two subpaths; a point that is sampled on a light or the lens is in neither.
+    const int light = strategy.t == 0 ? strategy.s - 1 : strategy.s > 1 ? strategy.s : 0;
+    const int camera = strategy.t > 1 ? strategy.t : 0;
+    const bool dispersed = (light > 0 && scratch.light_path.first(light).back().dispersed) ||
+                           (camera > 0 && scratch.camera_path.first(camera).back().dispersed);
+    return dispersed ? spectral_weight(sample.sampler.wavelength()) : Rgb(1.0f);
+}
+
 template <typename Probe>
 Rgb BdptIntegrator::measure(Strategy strategy, const Contribution& found, const Sample& sample,
                             Scratch& scratch, Probe& probe) const
 {
     const float count = strategies_.count(strategy.s, strategy.t);
-    const Rgb weighted = found.weight / count * found.unweighted;
+    const Rgb unweighted = world_.disperses()
+                               ? found.unweighted * spectrum(strategy, sample, scratch)
+                               : found.unweighted;
+    const Rgb weighted = found.weight / count * unweighted;
     if (!sample.films.strategies.empty()) {
         probe.enter(Phase::splat);
         sample.films.strategies.add(strategy, sample.pixel,
-                                    {.weighted = weighted, .unweighted = found.unweighted / count});
+                                    {.weighted = weighted, .unweighted = unweighted / count});
     }
     if (sample.films.on_path) {
         sample.films.on_path({.strategy = strategy,
                               .raster = sample.pixel,
-                              .unweighted = found.unweighted / count,
+                              .unweighted = unweighted / count,
                               .weight = found.weight,
                               .shares = scratch.weigher.shares()});
     }
@@ -240,7 +260,11 @@ void BdptIntegrator::add_splat(Strategy strategy, const Splat& splat, std::uint3
         target = filter_.choose_pixel(splat.raster, sample.sampler.next_2d());
     }
     const float count = strategies_.count(strategy.s, strategy.t);
-    const auto& [unweighted, mis_weight] = splat.contribution;
+    const float mis_weight = splat.contribution.weight;
+    Rgb unweighted = splat.contribution.unweighted;
+    if (world_.disperses()) {
+        unweighted *= spectrum(strategy, sample, scratch);
+    }
     const Rgb weighted = target.weight * mis_weight / count * unweighted;
     sample.films.film.prefetch_splat(target.raster, sample.index);
     scratch.splats.push_back({.raster = target.raster, .radiance = weighted});

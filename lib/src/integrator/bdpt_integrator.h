@@ -62,6 +62,9 @@ private:
     /// s = t = 1
     template <typename Probe>
     void splat_light(Sample& sample, Scratch& scratch, Probe& probe) const;
+    /// What the path of a strategy counts in each channel: all alike unless it has met dispersion.
+    [[nodiscard]] Rgb spectrum(Strategy strategy, const Sample& sample,
+                               const Scratch& scratch) const;
     /// What `found`, which `scratch` has just weighed, counts in the pixel of the sample; notes it
     /// in the strategy's images.
     template <typename Probe>

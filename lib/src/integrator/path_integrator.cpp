@@ -44,6 +44,9 @@ RenderStats PathIntegrator::render_tile(const Tile& tile, SampleRange samples,
                 Sampler sampler(options_.sampler, options_.seed, x, y, index);
                 sampler.start(SampleUse::film);
                 const Vec2 raster = filter_.sample_raster(x, y, sampler.next_2d());
+                if (world_.disperses()) {
+                    sampler.set_wavelength(choose_wavelength(sampler.next_1d()));
+                }
                 Sample sample{.pixel = Vec2(x, y) + 0.5f,
                               .raster = raster,
                               .sampler = sampler,
@@ -78,7 +81,9 @@ Rgb PathIntegrator::estimate(Sample& sample, Probe& probe) const
     Ray ray{.origin = first.lens, .direction = first.direction, .pdf = first.pdf_direction};
     Rgb radiance(0.0f);
     Rgb beta(1.0f);
-    const auto measure = [&](Strategy strategy, Rgb value) {
+    Rgb spectrum(1.0f);
+    const auto measure = [&](Strategy strategy, Rgb found) {
+        const Rgb value = spectrum * found;
         if (strategy.s + strategy.t <= options_.min_depth || is_black(value)) {
             return;
         }
@@ -120,6 +125,9 @@ Rgb PathIntegrator::estimate(Sample& sample, Probe& probe) const
         }
         if (depth == options_.max_depth) {
             break;
+        }
+        if (point->disperses) {
+            spectrum = spectral_weight(sampler.wavelength());
         }
         const auto vertex = static_cast<std::uint32_t>(depth + 1);
         if (point->bsdf.connectible() && depth + 1 >= options_.min_depth) {

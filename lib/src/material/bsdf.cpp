@@ -5,18 +5,8 @@
 #include <type_traits>
 
 namespace bdpt {
-namespace {
 
 static_assert(std::is_trivially_copyable_v<Bsdf>);
-
-/// By how much a cosine to the geometric normal is greater than that to the shading normal; 0 where
-/// they differ in sign, for light neither leaks through a surface nor comes from below it.
-[[nodiscard]] float cosine_ratio(float geometric, float shading)
-{
-    return geometric * shading > 0.0f ? geometric / shading : 0.0f;
-}
-
-}  // namespace
 
 Bsdf::Bsdf(Vec3 ng, const Frame& shading, Vec3 wo, const GltfBsdf& model) noexcept
     : shading_(shading),
@@ -32,12 +22,15 @@ Bsdf::Bsdf(Vec3 ng, const Frame& shading, Vec3 wo, const GltfBsdf& model) noexce
 
 BsdfEval Bsdf::eval(Vec3 wi, TransportMode mode) const noexcept
 {
+    if (!(ratio_o_ > 0.0f)) [[unlikely]] {
+        return eval_layers(wi, mode);
+    }
     const Vec3 local_wi = shading_.to_local(wi);
     const float ratio_i = cosine_ratio(dot(wi, ng_), local_wi.z);
-    if (ratio_o_ == 0.0f || ratio_i == 0.0f) {
+    if (ratio_i == 0.0f) {
         return {};
     }
-    BsdfEval value = model_.eval(from_, local_wo_, local_wi, mode);
+    BsdfEval value = model_.plain.eval(from_, local_wo_, local_wi, mode);
     if (mode == TransportMode::importance) {
         value.f_cos *= ratio_i / ratio_o_;
     }
@@ -46,10 +39,10 @@ BsdfEval Bsdf::eval(Vec3 wi, TransportMode mode) const noexcept
 
 std::optional<BsdfSample> Bsdf::sample(float u_lobe, Vec2 u, TransportMode mode) const noexcept
 {
-    if (ratio_o_ == 0.0f) {
-        return std::nullopt;
+    if (!(ratio_o_ > 0.0f)) [[unlikely]] {
+        return sample_layers(u_lobe, u, mode);
     }
-    std::optional<BsdfSample> sampled = model_.sample(from_, local_wo_, u_lobe, u, mode);
+    std::optional<BsdfSample> sampled = model_.plain.sample(from_, local_wo_, u_lobe, u, mode);
     if (!sampled) {
         return std::nullopt;
     }

@@ -4,6 +4,8 @@
 
 #include <bdpt/types.h>
 
+#include <cmath>
+
 namespace bdpt {
 
 /// Which quantity a walk carries: from the eye radiance, from the light importance-weighted power.
@@ -26,9 +28,22 @@ struct BsdfEval {
 struct BsdfSample {
     Vec3 wi{0.0f};     ///< unit
     Rgb weight{0.0f};  ///< f_cos / pdf_fwd; F/P for a delta lobe  [1]
-    SolidAnglePdf pdf_fwd;
-    SolidAnglePdf pdf_rev;
+    SolidAnglePdf pdf_fwd{};
+    SolidAnglePdf pdf_rev{};
     bool delta = false;
 };
+
+/// Nothing scatters closer to the surface: the products of two cosines would vanish.
+[[nodiscard]] inline bool grazes(Vec3 w)
+{
+    return std::abs(w.z) < 1e-15f;
+}
+
+/// By how much a cosine to the geometric normal is greater than that to the shading normal; 0 where
+/// they differ in sign, for light neither leaks through a surface nor comes from below it.
+[[nodiscard]] inline float cosine_ratio(float geometric, float shading)
+{
+    return geometric * shading > 0.0f ? geometric / shading : 0.0f;
+}
 
 }  // namespace bdpt

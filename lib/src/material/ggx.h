@@ -11,9 +11,10 @@
 
 namespace bdpt::ggx {
 
-// The isotropic GGX microfacet distribution [Walter et al. 2007, "Microfacet Models for Refraction
-// through Rough Surfaces"] with Smith's masking [Heitz 2014, "Understanding the Masking-Shadowing
-// Function in Microfacet-Based BRDFs"]. Directions are local; alpha > 0.
+// The GGX microfacet distribution [Walter et al. 2007, "Microfacet Models for Refraction through
+// Rough Surfaces"] with Smith's masking [Heitz 2014, "Understanding the Masking-Shadowing Function
+// in Microfacet-Based BRDFs"]. Directions are local; alpha > 0 is one number, or two of which one
+// counts along x and one along y.
 
 /// D(h) of a half vector of any length whose square is `length2` > 0. The tilt is taken from x and
 /// y: 1 - z^2 would have no digits left for smooth surfaces.
@@ -24,6 +25,24 @@ namespace bdpt::ggx {
     return alpha2 * inv_pi / (spread * spread);
 }
 
+[[nodiscard]] inline float distribution(Vec3 h, float length2, Vec2 alpha)
+{
+    const float product = alpha.x * alpha.y;
+    const float tilt = h.x * h.x * (alpha.y / alpha.x) + h.y * h.y * (alpha.x / alpha.y);
+    const float spread = (tilt + product * h.z * h.z) / length2;
+    return product * inv_pi / (spread * spread);
+}
+
+/// x and y times alpha.
+[[nodiscard]] inline Vec3 stretched_by(Vec3 w, float alpha)
+{
+    return {alpha * w.x, alpha * w.y, w.z};
+}
+[[nodiscard]] inline Vec3 stretched_by(Vec3 w, Vec2 alpha)
+{
+    return {alpha.x * w.x, alpha.y * w.y, w.z};
+}
+
 /// The projected area of the unit-sphere direction stretched by alpha: sqrt(z^2 + alpha^2 sin^2).
 /// Smith's functions are rational in it: G1 = 2z / (z + stretch).
 [[nodiscard]] inline float stretch(Vec3 w, float alpha)
@@ -31,14 +50,21 @@ namespace bdpt::ggx {
     return std::sqrt(w.z * w.z + alpha * alpha * (w.x * w.x + w.y * w.y));
 }
 
+[[nodiscard]] inline float stretch(Vec3 w, Vec2 alpha)
+{
+    const Vec3 stretched = stretched_by(w, alpha);
+    return std::sqrt(dot(stretched, stretched));
+}
+
 /// A half vector of the density G1(wo) D(h) (wo.h) / wo.z, wo.z >= 0 [Heitz 2018, "Sampling the
 /// GGX Distribution of Visible Normals"; the spherical cap of Dupuy and Benyoub 2023].
-[[nodiscard]] inline Vec3 sample_visible_normal(Vec3 wo, float alpha, Vec2 u)
+template <typename Alpha>
+[[nodiscard]] Vec3 sample_visible_normal(Vec3 wo, Alpha alpha, Vec2 u)
 {
-    const Vec3 stretched = normalize(Vec3{alpha * wo.x, alpha * wo.y, wo.z});
+    const Vec3 stretched = normalize(stretched_by(wo, alpha));
     const Vec3 cap = square_to_cone(u, 1.0f + stretched.z);
     const Vec3 h = cap + stretched;
-    return normalize(Vec3{alpha * h.x, alpha * h.y, std::max(h.z, 1e-12f)});
+    return normalize(stretched_by(Vec3{h.x, h.y, std::max(h.z, 1e-12f)}, alpha));
 }
 
 /// A microfacet lobe before Fresnel, with its densities under visible-normal sampling.
@@ -50,7 +76,8 @@ struct Lobe {
 };
 
 /// Reflection with height-correlated masking; wo.z, wi.z > 0. `cos_outer` is simply wo.h.
-[[nodiscard]] inline Lobe reflect(Vec3 wo, Vec3 wi, float alpha)
+template <typename Alpha>
+[[nodiscard]] Lobe reflect(Vec3 wo, Vec3 wi, Alpha alpha)
 {
     const Vec3 h = wo + wi;
     const float length2 = dot(h, h);
@@ -66,7 +93,8 @@ struct Lobe {
 
 /// Refraction between indices n_o and n_i, which differ; wo.z > 0 > wi.z. For importance: radiance
 /// has another factor (n_o / n_i)^2. [Walter et al. 2007, eq. 17 and 21]
-[[nodiscard]] inline Lobe refract(Vec3 wo, Vec3 wi, float n_o, float n_i, float alpha)
+template <typename Alpha>
+[[nodiscard]] Lobe refract(Vec3 wo, Vec3 wi, float n_o, float n_i, Alpha alpha)
 {
     const Vec3 sum = n_o * wo + n_i * wi;
     const float length2 = dot(sum, sum);

@@ -1,5 +1,6 @@
 #include "material/gltf_bsdf.h"
 
+#include "material/gltf_bsdf_setup.h"
 #include "math/elementary.h"
 #include "math/rgb.h"
 #include "math/warp.h"
@@ -20,15 +21,6 @@ static_assert(std::is_trivially_copyable_v<GltfBsdf> && sizeof(GltfBsdf) <= 96);
 /// Marks light that is reflected in full where a cosine on the outer side would stand.
 constexpr float total_reflection = -1.0f;
 
-/// Rough refraction into an index this close to the outer one has no half vector.
-constexpr float least_refraction = 1.001f;
-
-/// Nothing scatters closer to the surface: the products of two cosines would vanish.
-[[nodiscard]] bool grazes(Vec3 w)
-{
-    return std::abs(w.z) < 1e-15f;
-}
-
 [[nodiscard]] Vec3 mirrored(Vec3 w)
 {
     return {w.x, w.y, -w.z};
@@ -45,41 +37,61 @@ constexpr float least_refraction = 1.001f;
 
 }  // namespace
 
-GltfBsdf::GltfBsdf(const GltfParameters& parameters, const SpecularAlbedo& albedo)
-    : base_color_(clamp(parameters.base_color, 0.0f, 1.0f)),
-      f90_(std::clamp(parameters.specular, 0.0f, 1.0f)),
-      metallic_(std::clamp(parameters.metallic, 0.0f, 1.0f)),
-      ior_(albedo.ior()),
-      roughness_(SpecularAlbedo::at_roughness(parameters.roughness)),
-      solid_(parameters.body == Body::solid),
-      albedo_(&albedo)
+template <typename Features>
+bool BasicGltfBsdf<Features>::is_rough() const noexcept
 {
-    const float dielectric = 1.0f - metallic_;
-    const float transmission = std::clamp(parameters.transmission, 0.0f, 1.0f);
-    const float base_max = max_component(base_color_);
-    transmission_ = dielectric * transmission;
-    f0_ = clamp(albedo.normal_reflectance() * parameters.specular_color, 0.0f, 1.0f) * f90_;
-    const float roughness = std::clamp(parameters.roughness, 0.0f, 1.0f);
-    alpha_ = roughness * roughness;
-    if (solid_ && alpha_ >= smooth_alpha && ior_ < least_refraction) {
-        // Equal indices: a dielectric boundary cannot be seen, however rough; where it is mixed
-        // with metal, a refraction too weak to be noticed keeps the metal's roughness.
-        alpha_ = metallic_ == 0.0f ? 0.0f : alpha_;
-        ior_ = metallic_ == 0.0f ? ior_ : least_refraction;
+    if constexpr (rich) {
+        return alpha_.x >= smooth_alpha;
+    } else {
+        return alpha_ >= smooth_alpha;
     }
-    const SpecularAlbedo::Split average = albedo.average(roughness_);
-    constexpr float least_loss = 1e-6f;  // a base below a perfect mirror gets no light at all
-    const float reaches_base = 1.0f - (max_component(f0_) * average.f0 + f90_ * average.f90);
-    const float diffuse = dielectric * (1.0f - transmission);
-    diffuse_ = base_color_ * (diffuse * inv_pi / std::max(reaches_base, least_loss));
-    diffuse_weight_ = diffuse * base_max;
-    transmission_weight_ = transmission_ * base_max;
-    // 1/21 is the cosine-weighted average of Schlick's (1 - cos)^5.
-    metal_weight_ = metallic_ * (base_max + (1.0f - base_max) / 21.0f);
-    has_specular_ = f90_ > 0.0f || metallic_ > 0.0f || transmission_ > 0.0f || solid_;
 }
 
-GltfBsdf::Side GltfBsdf::side(float z) const noexcept
+template <typename Features>
+float BasicGltfBsdf<Features>::boundary_reflected(SpecularAlbedo::Split split) const noexcept
+{
+    const float bare = max_component(f0_) * split.f0 + f90_ * split.f90;
+    if constexpr (rich) {
+        const float filmed = rich_.film_f0 * split.f0 + split.f90;
+        return glm::mix(bare, std::max(bare, filmed), rich_.film.factor);
+    } else {
+        return bare;
+    }
+}
+
+/// Of a surface with grooves: that of an even one which is as rough as it is along or across them,
+/// whichever reflects more. Under a film: its greatest reflectance, by the course of Fresnel's
+/// equations or its own.
+template <typename Features>
+float BasicGltfBsdf<Features>::directional_reflected(float cosine) const noexcept
+{
+    float reflected = boundary_reflected(albedo_->directional(cosine, roughness_));
+    if constexpr (rich) {
+        if (alpha_.x != alpha_.y) {
+            const auto along = albedo_->directional(cosine, rich_.roughness_x);
+            reflected = std::max(reflected, boundary_reflected(along));
+        }
+        if (rich_.film.factor > 0.0f) {
+            const float filmed = rich_.film.greatest(cosine, f0_);
+            reflected += rich_.film.factor * std::max(0.0f, filmed - reflected);
+        }
+    }
+    return reflected;
+}
+
+template <typename Features>
+float BasicGltfBsdf<Features>::average_reflected() const noexcept
+{
+    const float reflected = boundary_reflected(albedo_->average(roughness_));
+    if constexpr (rich) {
+        return std::max(reflected, boundary_reflected(albedo_->average(rich_.roughness_x)));
+    } else {
+        return reflected;
+    }
+}
+
+template <typename Features>
+typename BasicGltfBsdf<Features>::Side BasicGltfBsdf<Features>::side(float z) const noexcept
 {
     if (diffuse_weight_ == 0.0f || inside(z)) {
         return {has_specular_ ? 1.0f : 0.0f, 0.0f};
@@ -87,8 +99,7 @@ GltfBsdf::Side GltfBsdf::side(float z) const noexcept
     if (!has_specular_) {
         return {0.0f, 1.0f};
     }
-    const SpecularAlbedo::Split split = albedo_->directional(std::abs(z), roughness_);
-    const float reflected = max_component(f0_) * split.f0 + f90_ * split.f90;
+    const float reflected = directional_reflected(std::abs(z));
     const float rest = std::max(0.0f, 1.0f - reflected);
     const float specular =
         (1.0f - metallic_) * reflected + transmission_weight_ * rest + metal_weight_;
@@ -98,7 +109,8 @@ GltfBsdf::Side GltfBsdf::side(float z) const noexcept
 }
 
 /// The cosine at a microfacet on the side of the lower index, from that on the side of `z`.
-float GltfBsdf::cos_outer_of(float cos_microfacet, float z) const noexcept
+template <typename Features>
+float BasicGltfBsdf<Features>::cos_outer_of(float cos_microfacet, float z) const noexcept
 {
     if (!inside(z)) {
         return cos_microfacet;
@@ -110,17 +122,26 @@ float GltfBsdf::cos_outer_of(float cos_microfacet, float z) const noexcept
 
 /// Metal follows the cosine on the outer side too, so that light sees the same microfacet whichever
 /// way it comes.
-GltfBsdf::Shares GltfBsdf::shares(float cos_outer) const noexcept
+template <typename Features>
+typename BasicGltfBsdf<Features>::Shares BasicGltfBsdf<Features>::shares(
+    float cos_outer) const noexcept
 {
     const float dielectric = 1.0f - metallic_;
     Rgb reflectance{1.0f};
     Rgb reflected{dielectric};
     if (cos_outer != total_reflection) {
         reflectance = f0_ + (f90_ - f0_) * albedo_->fresnel_course(cos_outer);
+        if constexpr (rich) {
+            reflectance = under_film(reflectance, f0_, cos_outer);
+        }
         reflected = dielectric * reflectance;
     }
     if (metallic_ > 0.0f) {
-        reflected += metallic_ * (base_color_ + (1.0f - base_color_) * schlick_weight(cos_outer));
+        Rgb metal = base_color_ + (1.0f - base_color_) * schlick_weight(cos_outer);
+        if constexpr (rich) {
+            metal = under_film(metal, base_color_, std::max(cos_outer, 0.0f));
+        }
+        reflected += metallic_ * metal;
     }
     if (transmission_ == 0.0f) {
         return {reflected, Rgb{0.0f}, 1.0f};
@@ -131,7 +152,9 @@ GltfBsdf::Shares GltfBsdf::shares(float cos_outer) const noexcept
     return {reflected, transmitted, sum > 0.0f ? reflected_max / sum : 1.0f};
 }
 
-BsdfEval GltfBsdf::eval_microfacets(Vec3 wo, Vec3 wi, TransportMode mode) const noexcept
+template <typename Features>
+BsdfEval BasicGltfBsdf<Features>::eval_microfacets(Vec3 wo, Vec3 wi,
+                                                   TransportMode mode) const noexcept
 {
     // Seen from above, on the side of wo.
     const Vec3 o{wo.x, wo.y, std::abs(wo.z)};
@@ -156,37 +179,55 @@ BsdfEval GltfBsdf::eval_microfacets(Vec3 wo, Vec3 wi, TransportMode mode) const 
             SolidAnglePdf{choice * lobe.pdf_rev}};
 }
 
-BsdfEval GltfBsdf::eval(const Side& from, Vec3 wo, Vec3 wi, TransportMode mode) const noexcept
+template <typename Features>
+BsdfEval BasicGltfBsdf<Features>::eval(const Side& from, Vec3 wo, Vec3 wi,
+                                       TransportMode mode) const noexcept
 {
     return grazes(wo) || grazes(wi) ? BsdfEval{} : eval_lobes(from, wo, wi, mode);
 }
 
-BsdfEval GltfBsdf::eval_lobes(const Side& from, Vec3 wo, Vec3 wi, TransportMode mode) const noexcept
+template <typename Features>
+BsdfEval BasicGltfBsdf<Features>::eval_lobes(const Side& from, Vec3 wo, Vec3 wi,
+                                             TransportMode mode) const noexcept
 {
-    const bool reaches_base = diffuse_weight_ > 0.0f && (wo.z > 0.0f) == (wi.z > 0.0f);
+    const bool same_side = (wo.z > 0.0f) == (wi.z > 0.0f);
+    const bool reaches_base = same_side && diffuse_weight_ > 0.0f;
     const float cos_o = std::abs(wo.z);
     const float cos_i = std::abs(wi.z);
-    if (!has_specular_) {
+    if (!rich && !has_specular_) {
         return reaches_base ? BsdfEval{diffuse_ * cos_i, cosine_hemisphere_pdf(cos_i),
                                        cosine_hemisphere_pdf(cos_o)}
                             : BsdfEval{};
     }
     BsdfEval sum;
     const Side to = side(wi.z);
-    if (alpha_ >= smooth_alpha) {
+    if (has_specular_ && is_rough()) {
         sum = eval_microfacets(wo, wi, mode);
         sum.pdf_fwd.value *= from.specular_choice;
         sum.pdf_rev.value *= to.specular_choice;
     }
     if (reaches_base) {
+        float choice = 1.0f;
+        if constexpr (rich) {
+            choice = 1.0f - rich_.transmitted_choice;
+        }
         sum.f_cos += diffuse_ * (from.base_transmitted * to.base_transmitted * cos_i);
-        sum.pdf_fwd.value += (1.0f - from.specular_choice) * cosine_hemisphere_pdf(cos_i).value;
-        sum.pdf_rev.value += (1.0f - to.specular_choice) * cosine_hemisphere_pdf(cos_o).value;
+        sum.pdf_fwd.value +=
+            choice * (1.0f - from.specular_choice) * cosine_hemisphere_pdf(cos_i).value;
+        sum.pdf_rev.value +=
+            choice * (1.0f - to.specular_choice) * cosine_hemisphere_pdf(cos_o).value;
+    }
+    if constexpr (rich) {
+        if (!same_side && rich_.transmitted_choice > 0.0f) {
+            add_transmitted(sum, from, to, cos_o, cos_i);
+        }
     }
     return sum;
 }
 
-std::optional<Vec3> GltfBsdf::sample_microfacets(Vec3 wo, float u_share, Vec2 u) const noexcept
+template <typename Features>
+std::optional<Vec3> BasicGltfBsdf<Features>::sample_microfacets(Vec3 wo, float u_share,
+                                                                Vec2 u) const noexcept
 {
     const Vec3 o{wo.x, wo.y, std::abs(wo.z)};
     const Vec3 h = ggx::sample_visible_normal(o, alpha_, u);
@@ -205,8 +246,10 @@ std::optional<Vec3> GltfBsdf::sample_microfacets(Vec3 wo, float u_share, Vec2 u)
     return wo.z > 0.0f ? i : mirrored(i);
 }
 
-std::optional<BsdfSample> GltfBsdf::sample_smooth(Vec3 wo, float u_share, float specular_choice,
-                                                  TransportMode mode) const noexcept
+template <typename Features>
+std::optional<BsdfSample> BasicGltfBsdf<Features>::sample_smooth(Vec3 wo, float u_share,
+                                                                 float specular_choice,
+                                                                 TransportMode mode) const noexcept
 {
     const float cos_o = std::abs(wo.z);
     const Shares share = shares(cos_outer_of(cos_o, wo.z));
@@ -226,8 +269,9 @@ std::optional<BsdfSample> GltfBsdf::sample_smooth(Vec3 wo, float u_share, float 
                       SolidAnglePdf{side(wi.z).specular_choice * choice * cos_o * n_o * n_o}, true};
 }
 
-std::optional<BsdfSample> GltfBsdf::sample(const Side& from, Vec3 wo, float u_lobe, Vec2 u,
-                                           TransportMode mode) const noexcept
+template <typename Features>
+std::optional<BsdfSample> BasicGltfBsdf<Features>::sample(const Side& from, Vec3 wo, float u_lobe,
+                                                          Vec2 u, TransportMode mode) const noexcept
 {
     if (grazes(wo)) {
         return std::nullopt;
@@ -236,13 +280,18 @@ std::optional<BsdfSample> GltfBsdf::sample(const Side& from, Vec3 wo, float u_lo
     std::optional<Vec3> wi;
     if (u_lobe < specular_choice) {
         const float u_share = u_lobe / specular_choice;
-        if (alpha_ < smooth_alpha) {
+        if (!is_rough()) {
             return sample_smooth(wo, u_share, specular_choice, mode);
         }
         wi = sample_microfacets(wo, u_share, u);
     } else {
         const Vec3 above = square_to_cosine_hemisphere(u);
-        wi = wo.z > 0.0f ? above : mirrored(above);
+        bool upwards = wo.z > 0.0f;
+        if constexpr (rich) {
+            const float u_side = (u_lobe - specular_choice) / (1.0f - specular_choice);
+            upwards = upwards != (u_side < rich_.transmitted_choice);
+        }
+        wi = upwards ? above : mirrored(above);
     }
     if (!wi || grazes(*wi)) {
         return std::nullopt;
@@ -254,5 +303,26 @@ std::optional<BsdfSample> GltfBsdf::sample(const Side& from, Vec3 wo, float u_lo
     return BsdfSample{*wi, value.f_cos * (1.0f / value.pdf_fwd.value), value.pdf_fwd, value.pdf_rev,
                       false};
 }
+
+template <typename Features>
+Rgb BasicGltfBsdf<Features>::under_film(Rgb bare, Rgb f0, float cosine) const noexcept requires rich
+{
+    const float factor = rich_.film.factor;
+    return factor == 0.0f ? bare : bare + factor * (rich_.film.reflectance(cosine, f0) - bare);
+}
+
+template <typename Features>
+void BasicGltfBsdf<Features>::add_transmitted(BsdfEval& sum, const Side& from, const Side& to,
+                                              float cos_o, float cos_i) const noexcept requires rich
+{
+    const float choice = rich_.transmitted_choice;
+    sum.f_cos += rich_.diffuse_transmitted * (from.base_transmitted * to.base_transmitted * cos_i);
+    sum.pdf_fwd.value +=
+        choice * (1.0f - from.specular_choice) * cosine_hemisphere_pdf(cos_i).value;
+    sum.pdf_rev.value += choice * (1.0f - to.specular_choice) * cosine_hemisphere_pdf(cos_o).value;
+}
+
+template class BasicGltfBsdf<PlainFeatures>;
+template class BasicGltfBsdf<RichFeatures>;
 
 }  // namespace bdpt

@@ -3,8 +3,10 @@
 #include "material/bsdf_model.h"
 #include "material/ggx.h"
 #include "material/specular_albedo.h"
+#include "material/thin_film.h"
 
 #include <optional>
+#include <type_traits>
 
 namespace bdpt {
 
@@ -25,6 +27,21 @@ struct GltfParameters {
     Body body = Body::thin_walled;
 };
 
+/// What `GltfBsdf` has beyond the parameters: nothing.
+struct PlainFeatures {
+    using Alpha = float;
+};
+
+/// What the base of a `LayeredBsdf` may have.
+struct RichFeatures {
+    using Alpha = Vec2;  ///< along x and y
+
+    float anisotropy = 0.0f;  ///< [0, 1]; x is rougher [KHR_materials_anisotropy]
+    ThinFilm film{};
+    float diffuse_transmission = 0.0f;  ///< [0, 1], share of the base; thin-walled bodies only
+    Rgb transmission_color{1.0f};       ///< [0, 1], of that share
+};
+
 /// The scattering model of glTF 2.0 metallic-roughness with KHR_materials_{ior, specular,
 /// transmission, volume}. Directions are local unit vectors that point away from the surface; +z is
 /// the shading normal, outside a solid body.
@@ -36,17 +53,19 @@ struct GltfParameters {
 /// transmitters scatter alike from both sides. From inside a solid transmitter there is no
 /// Lambertian part: the pigment lies below the boundary for light from outside only, and a base
 /// seen from within would add to the light that is already reflected in full.
-class GltfBsdf {
+template <typename Features>
+class BasicGltfBsdf {
 public:
     /// GGX alpha below which the microfacet lobes are perfectly smooth, that is delta lobes.
     static constexpr float smooth_alpha = 1e-3f;
 
     /// Black.
-    GltfBsdf() = default;
+    BasicGltfBsdf() = default;
     /// Black under that base colour: what is seen of it is not scattered light.
-    explicit GltfBsdf(Rgb base_color) : base_color_(base_color) {}
+    explicit BasicGltfBsdf(Rgb base_color) : base_color_(base_color) {}
     /// Parameters are clamped to [0, 1]. `albedo` has the refractive index; it must outlive this.
-    GltfBsdf(const GltfParameters& parameters, const SpecularAlbedo& albedo);
+    BasicGltfBsdf(const GltfParameters& parameters, const SpecularAlbedo& albedo,
+                  const Features& features = {});
 
     /// What follows from one direction alone.
     struct Side {
@@ -75,11 +94,14 @@ public:
     /// Scatters into a lobe that is not delta.
     [[nodiscard]] bool has_smooth_lobe() const noexcept
     {
-        return diffuse_weight_ > 0.0f || (has_specular_ && alpha_ >= smooth_alpha);
+        return diffuse_weight_ > 0.0f || (has_specular_ && is_rough());
     }
     [[nodiscard]] Rgb base_color() const noexcept { return base_color_; }
 
 private:
+    using Alpha = typename Features::Alpha;
+    static constexpr bool rich = std::is_same_v<Features, RichFeatures>;
+
     /// What becomes of light at one microfacet.
     struct Shares {
         Rgb reflected;
@@ -89,6 +111,17 @@ private:
 
     [[nodiscard]] bool inside(float z) const noexcept { return solid_ && z < 0.0f; }
     [[nodiscard]] float index_at(float z) const noexcept { return inside(z) ? ior_ : 1.0f; }
+    [[nodiscard]] bool is_rough() const noexcept;
+    /// The share of light that the boundary of the dielectric reflects, in the brightest channel.
+    [[nodiscard]] float boundary_reflected(SpecularAlbedo::Split split) const noexcept;
+    [[nodiscard]] float directional_reflected(float cosine) const noexcept;
+    [[nodiscard]] float average_reflected() const noexcept;
+    void add_anisotropy(float strength) requires rich;
+    void add_diffuse_transmission(const Features& features, float diffuse,
+                                  float reaches_base) requires rich;
+    [[nodiscard]] Rgb under_film(Rgb bare, Rgb f0, float cosine) const noexcept requires rich;
+    void add_transmitted(BsdfEval& sum, const Side& from, const Side& to, float cos_o,
+                         float cos_i) const noexcept requires rich;
     [[nodiscard]] Shares shares(float cos_outer) const noexcept;
     [[nodiscard]] float cos_outer_of(float cos_microfacet, float z) const noexcept;
     [[nodiscard]] BsdfEval eval_lobes(const Side& from, Vec3 wo, Vec3 wi,
@@ -107,7 +140,7 @@ private:
     float metallic_ = 0.0f;
     float transmission_ = 0.0f;  ///< of the dielectric part
     float ior_ = 1.0f;           ///< of the inside of a solid body
-    float alpha_ = 0.0f;
+    Alpha alpha_{0.0f};
     SpecularAlbedo::Roughness roughness_;
     // The largest components of the lobes' albedos, for choosing among them.
     float diffuse_weight_ = 0.0f;
@@ -116,6 +149,25 @@ private:
     bool solid_ = false;
     bool has_specular_ = false;
     const SpecularAlbedo* albedo_ = nullptr;
+
+    /// What follows from `RichFeatures`.
+    struct Rich {
+        ThinFilm film;
+        SpecularAlbedo::Roughness roughness_x;
+        float film_f0 = 0.0f;             ///< bound of the reflectance under the film
+        Rgb diffuse_transmitted{0.0f};    ///< as `diffuse_`, on the other side
+        float transmitted_choice = 0.0f;  ///< probability of the other side
+    };
+    struct Nothing {};
+    [[no_unique_address]] std::conditional_t<rich, Rich, Nothing> rich_;
 };
+
+/// The plain model, which lives in path vertices.
+using GltfBsdf = BasicGltfBsdf<PlainFeatures>;
+/// The base of layered models.
+using RichGltfBsdf = BasicGltfBsdf<RichFeatures>;
+
+extern template class BasicGltfBsdf<PlainFeatures>;
+extern template class BasicGltfBsdf<RichFeatures>;
 
 }  // namespace bdpt

@@ -7,21 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <utility>
 
 namespace bdpt {
 namespace {
-
-[[nodiscard]] std::optional<Texture> make_texture(const std::optional<TextureRef>& ref,
-                                                  std::span<const TexelImage> images,
-                                                  Encoding encoding)
-{
-    if (!ref) {
-        return std::nullopt;
-    }
-    return Texture(*ref, images[static_cast<std::size_t>(ref->image)], encoding);
-}
 
 [[nodiscard]] Body body_of(const MaterialDesc& desc)
 {
@@ -29,12 +18,19 @@ namespace {
     return solid ? Body::solid : Body::thin_walled;
 }
 
+/// Does light go through the inside of the body, refracted or not?
+[[nodiscard]] bool has_medium(const MaterialDesc& desc)
+{
+    const bool translucent = desc.thickness > 0.0f && desc.diffuse_transmission.factor > 0.0f;
+    return body_of(desc) == Body::solid || (translucent && !desc.unlit);
+}
+
 /// The coefficient that leaves the attenuation colour after the attenuation distance.
 [[nodiscard]] Rgb absorption_of(const MaterialDesc& desc)
 {
     constexpr float least_color = 1e-20f;     // black keeps a finite coefficient
     constexpr float most_absorption = 1e30f;  // [1/m]
-    if (body_of(desc) != Body::solid || std::isinf(desc.attenuation_distance)) {
+    if (!has_medium(desc) || std::isinf(desc.attenuation_distance)) {
         return Rgb{0.0f};
     }
     Rgb absorption{0.0f};
@@ -47,27 +43,20 @@ namespace {
     return absorption;
 }
 
-/// `normal`, turned towards ng no further than it takes to lie clearly on ng's side.
-[[nodiscard]] Vec3 kept_above(Vec3 normal, Vec3 ng)
-{
-    constexpr float least_cosine = 0.01f;
-    const float cosine = dot(normal, ng);
-    if (cosine >= least_cosine) {
-        return normal;
-    }
-    const Vec3 along = normal - cosine * ng;
-    const float length = std::sqrt(dot(along, along));
-    if (length < 1e-6f) {
-        return ng;  // straight from below: no way to turn is shorter than another
-    }
-    return normalize(along * (std::sqrt(1.0f - least_cosine * least_cosine) / length) +
-                     least_cosine * ng);
-}
-
 }  // namespace
 
+std::array<float, wavelengths> channel_indices(const MaterialDesc& desc)
+{
+    if (body_of(desc) != Body::solid) {
+        return {desc.ior, desc.ior, desc.ior};
+    }
+    // Half of the difference of the indices of blue and red, (ior - 1) / Abbe number.
+    const float spread = (desc.ior - 1.0f) * 0.025f * desc.dispersion;
+    return {std::max(1.0f, desc.ior - spread), desc.ior, desc.ior + spread};
+}
+
 Material::Material(const MaterialDesc& desc, std::span<const TexelImage> images,
-                   const SpecularAlbedo& albedo)
+                   const ChannelAlbedos& albedos, const LayerTables* tables)
     : surface_{Rgb{desc.base_color.x, desc.base_color.y, desc.base_color.z},
                desc.metallic,
                desc.roughness,
@@ -77,27 +66,32 @@ Material::Material(const MaterialDesc& desc, std::span<const TexelImage> images,
                body_of(desc)},
       emission_(desc.emission),
       absorption_(absorption_of(desc)),
-      normal_scale_(desc.normal_scale),
       double_sided_(desc.double_sided),
       unlit_(desc.unlit),
       alpha_mode_(desc.alpha_mode),
       alpha_(desc.base_color.w),
       alpha_cutoff_(desc.alpha_cutoff),
-      albedo_(&albedo),
+      albedos_(albedos),
       base_color_map_(make_texture(desc.base_color_texture, images, Encoding::srgb)),
       metallic_roughness_map_(
           make_texture(desc.metallic_roughness_texture, images, Encoding::linear)),
-      normal_map_(make_texture(desc.normal_texture, images, Encoding::linear)),
+      normal_map_(make_normal_map(desc.normal_texture, desc.normal_scale, images)),
       emission_map_(make_texture(desc.emission_texture, images, Encoding::srgb)),
       specular_map_(make_texture(desc.specular_texture, images, Encoding::linear)),
       specular_color_map_(make_texture(desc.specular_color_texture, images, Encoding::srgb)),
-      transmission_map_(make_texture(desc.transmission_texture, images, Encoding::linear))
+      transmission_map_(make_texture(desc.transmission_texture, images, Encoding::linear)),
+      glossiness_map_(make_texture(desc.glossiness_texture, images, Encoding::linear))
 {
     const bool varies = base_color_map_ || metallic_roughness_map_ || specular_map_ ||
-                        specular_color_map_ || transmission_map_;
-    if (!varies && !unlit_) {
-        plain_.emplace(surface_, *albedo_);
+                        specular_color_map_ || transmission_map_ || glossiness_map_;
+    if (has_layers(desc)) {
+        layers_ = std::make_unique<const MaterialLayers>(desc, images, albedos, *tables);
+    } else if (!varies && !unlit_ && !disperses()) {
+        plain_.emplace(surface_, albedos_.at(Wavelength::green));
     }
+    tangent_uv_set_ = normal_map_ ? std::optional(normal_map_->uv_set())
+                      : layers_   ? layers_->tangent_uv_set()
+                                  : std::nullopt;
     measure_alpha();
     measure_emission();
 }
@@ -148,26 +142,6 @@ Rgb Material::base_color(const TexturePoint& point) const noexcept
     return base_color_map_ ? color * Rgb(base_color_map_->lookup(point.uv)) : color;
 }
 
-/// glTF 2.0, 3.9.3: x along the tangent, y along cross(normal, tangent) times the handedness.
-Vec3 Material::shading_normal(const ShadingPoint& point) const noexcept
-{
-    if (!normal_map_) {
-        return point.ns;
-    }
-    const Vec3 along(point.tangent);
-    const Vec3 tangent = along - dot(along, point.ns) * point.ns;
-    const float length2 = dot(tangent, tangent);
-    if (!(length2 > 0.0f)) {
-        return point.ns;
-    }
-    const Vec3 t = tangent / std::sqrt(length2);
-    const Vec3 b = cross(point.ns, t) * point.tangent.w;
-    const Vec3 n = 2.0f * Vec3(normal_map_->lookup(point.uv)) - 1.0f;
-    const Vec3 world = n.x * normal_scale_ * t + n.y * normal_scale_ * b + n.z * point.ns;
-    const float world2 = dot(world, world);
-    return world2 > 0.0f ? kept_above(world / std::sqrt(world2), point.ng) : point.ns;
-}
-
 Bsdf Material::bsdf(const ShadingPoint& point) const noexcept
 {
     if (plain_ && point.color == Vec4(1.0f)) {
@@ -185,6 +159,9 @@ Bsdf Material::bsdf(const ShadingPoint& point) const noexcept
         surface.roughness *= texel.y;
         surface.metallic *= texel.z;
     }
+    if (glossiness_map_) {
+        surface.roughness = 1.0f - (1.0f - surface.roughness) * glossiness_map_->lookup(point.uv).w;
+    }
     if (specular_map_) {
         surface.specular *= specular_map_->lookup(point.uv).w;
     }
@@ -194,8 +171,11 @@ Bsdf Material::bsdf(const ShadingPoint& point) const noexcept
     if (transmission_map_) {
         surface.transmission *= transmission_map_->lookup(point.uv).x;
     }
-    return {point.ng, Frame::from_normal(shading_normal(point)), point.wo,
-            GltfBsdf(surface, *albedo_)};
+    const Frame shading = Frame::from_normal(shading_normal(point));
+    if (layers_) {
+        return layers_->bsdf(point, shading, surface);
+    }
+    return {point.ng, shading, point.wo, GltfBsdf(surface, albedos_.at(point.wavelength))};
 }
 
 Rgb Material::emission(const TexturePoint& point) const noexcept

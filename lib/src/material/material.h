@@ -1,40 +1,28 @@
 #pragma once
 
 #include "material/bsdf.h"
+#include "material/channel_albedos.h"
+#include "material/material_layers.h"
+#include "material/normal_map.h"
+#include "material/shading_point.h"
 #include "material/texture.h"
 
 #include <bdpt/scene_desc.h>
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <span>
 
 namespace bdpt {
 
-class SpecularAlbedo;
-
-/// What a material needs to know of a surface point.
-struct ShadingPoint {
-    Vec3 ng{0.0f, 0.0f, 1.0f};  ///< unit, front side
-    Vec3 ns{0.0f, 0.0f, 1.0f};  ///< unit, interpolated; in the hemisphere of ng
-    Vec4 tangent{0.0f};         ///< xyz (any length, not parallel to ns) and handedness; zero: none
-    std::array<Vec2, 2> uv{};
-    Vec4 color{1.0f};           ///< vertex colour, linear
-    Vec3 wo{0.0f, 0.0f, 1.0f};  ///< unit, towards where the walk came from
-};
-
-/// What textures and vertex colours are looked up by.
-struct TexturePoint {
-    std::array<Vec2, 2> uv{};
-    Vec4 color{1.0f};  ///< vertex colour, linear
-};
-
 /// A `MaterialDesc` made ready for lookups. Refers to the images, which must outlive it.
 class Material {
 public:
-    /// `albedo` belongs to `desc.ior`. Throws nothing: `desc` has been validated.
+    /// `albedos` belong to `channel_indices(desc)`; `tables` are needed where `has_layers(desc)`.
+    /// Throws nothing: `desc` has been validated.
     Material(const MaterialDesc& desc, std::span<const TexelImage> images,
-             const SpecularAlbedo& albedo);
+             const ChannelAlbedos& albedos, const LayerTables* tables = nullptr);
 
     [[nodiscard]] Bsdf bsdf(const ShadingPoint& point) const noexcept;
 
@@ -71,22 +59,24 @@ public:
                                         const std::array<Vec2, 2>& b) const noexcept;
     [[nodiscard]] bool emits_from_both_sides() const noexcept { return double_sided_; }
 
+    /// Does light of different colours take different ways?
+    [[nodiscard]] bool disperses() const noexcept { return albedos_.disperse(); }
     /// Bounds a solid body that light passes through; its inside is on the back of ng.
     [[nodiscard]] bool is_solid_transmitter() const noexcept
     {
         return surface_.body == Body::solid;
     }
-    /// Of the inside of a solid transmitter [1/m] (Beer-Lambert; KHR_materials_volume); zero for
-    /// all others. A colour of zero absorbs like 1e-20.
+    /// Of the inside of a solid transmitter, diffuse or not [1/m] (Beer-Lambert;
+    /// KHR_materials_volume); zero for all others. A colour of zero absorbs like 1e-20.
     [[nodiscard]] Rgb absorption() const noexcept { return absorption_; }
-    /// Set of texture coordinates of the normal map, if there is one: it needs a tangent.
-    [[nodiscard]] std::optional<int> normal_uv_set() const noexcept
-    {
-        return normal_map_ ? std::optional(normal_map_->uv_set()) : std::nullopt;
-    }
+    /// Set of texture coordinates that the tangent follows, if the material needs one.
+    [[nodiscard]] std::optional<int> tangent_uv_set() const noexcept { return tangent_uv_set_; }
 
 private:
-    [[nodiscard]] Vec3 shading_normal(const ShadingPoint& point) const noexcept;
+    [[nodiscard]] Vec3 shading_normal(const ShadingPoint& point) const noexcept
+    {
+        return normal_map_ ? normal_map_->normal(point) : point.ns;
+    }
     [[nodiscard]] Rgb base_color(const TexturePoint& point) const noexcept;
     [[nodiscard]] float opacity_of(float alpha) const noexcept;
     void measure_alpha();
@@ -97,7 +87,6 @@ private:
     Rgb emission_{0.0f};
     Rgb mean_emission_{0.0f};
     Rgb absorption_{0.0f};
-    float normal_scale_;
     bool double_sided_;
     bool unlit_;
     AlphaMode alpha_mode_;
@@ -105,15 +94,18 @@ private:
     float alpha_cutoff_;
     float least_opacity_ = 1.0f;
     float mean_opacity_ = 1.0f;  ///< roughly
-    const SpecularAlbedo* albedo_;
+    ChannelAlbedos albedos_;
 
     std::optional<Texture> base_color_map_;
     std::optional<Texture> metallic_roughness_map_;
-    std::optional<Texture> normal_map_;
+    std::optional<NormalMap> normal_map_;
     std::optional<Texture> emission_map_;
     std::optional<Texture> specular_map_;
     std::optional<Texture> specular_color_map_;
     std::optional<Texture> transmission_map_;
+    std::optional<Texture> glossiness_map_;
+    std::unique_ptr<const MaterialLayers> layers_;  ///< of a material that has any
+    std::optional<int> tangent_uv_set_;
 };
 
 }  // namespace bdpt

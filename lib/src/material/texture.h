@@ -3,6 +3,9 @@
 #include <bdpt/scene_desc.h>
 
 #include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
 #include <utility>
 
 namespace bdpt {
@@ -46,5 +49,16 @@ private:
     Vec2 v_axis_;
     Vec2 offset_;
 };
+
+/// The texture of a slot, if it has one.
+[[nodiscard]] inline std::optional<Texture> make_texture(const std::optional<TextureRef>& ref,
+                                                         std::span<const TexelImage> images,
+                                                         Encoding encoding)
+{
+    if (!ref) {
+        return std::nullopt;
+    }
+    return Texture(*ref, images[static_cast<std::size_t>(ref->image)], encoding);
+}
 
 }  // namespace bdpt

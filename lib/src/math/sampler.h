@@ -71,8 +71,13 @@ public:
         const std::uint64_t number = std::uint64_t{1} << 63U |
                                      std::uint64_t{static_cast<std::uint32_t>(s)} << 32U |
                                      static_cast<std::uint32_t>(t);
-        return {split_mix(key_ + golden_ratio_64 * number + split_mix(reversed_index_))};
+        return {split_mix(key_ + golden_ratio_64 * number + split_mix(reversed_index_)),
+                wavelength_};
     }
+
+    /// Of the sample; green until it is chosen.
+    [[nodiscard]] Wavelength wavelength() const { return wavelength_; }
+    void set_wavelength(Wavelength wavelength) { wavelength_ = wavelength; }
 
 private:
     static constexpr std::size_t set_size = 4;
@@ -112,6 +117,7 @@ private:
     std::size_t next_ = set_size;
     std::uint32_t reversed_index_ = 0;  ///< of the point in its sequence
     SamplerKind kind_;
+    Wavelength wavelength_ = Wavelength::green;
     std::array<float, set_size> set_{};
 };
 

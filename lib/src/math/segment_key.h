@@ -1,6 +1,7 @@
 #pragma once
 
 #include "math/split_mix.h"
+#include "math/wavelength.h"
 
 #include <cstdint>
 
@@ -10,6 +11,7 @@ namespace bdpt {
 /// on its way, where it may pass surfaces, is a function of the key and of the surface alone.
 struct SegmentKey {
     std::uint64_t value = 0;
+    Wavelength wavelength = Wavelength::green;  ///< of the whole sample
 
     /// Uniform in [0, 1), a multiple of 2^-24: the number of a surface for this segment.
     [[nodiscard]] constexpr float at_surface(std::uint32_t instance,

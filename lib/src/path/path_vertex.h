@@ -38,6 +38,7 @@ struct PathVertex {
     VertexKind kind = VertexKind::surface;
     bool connectible = true;       ///< has a lobe that is not delta: strategies can join here
     bool scattered_delta = false;  ///< the walk left through a delta lobe
+    bool dispersed = false;        ///< this vertex disperses, or one before it in the subpath
     Bsdf bsdf;                     ///< of surfaces
 };
 

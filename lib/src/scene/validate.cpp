@@ -112,6 +112,27 @@ void check(const TextureRef& texture, const std::string& item, std::size_t image
     }
 }
 
+void check_layers(const MaterialDesc& material, const std::string& item)
+{
+    check_range(item, "clearcoat", material.clearcoat.factor, 0.0f, 1.0f);
+    check_range(item, "clearcoat roughness", material.clearcoat.roughness, 0.0f, 1.0f);
+    check_range(item, "clearcoat normal scale", material.clearcoat.normal_scale, -any_positive,
+                any_positive);
+    check_color(item, "sheen colour", material.sheen.color, 1.0f);
+    check_range(item, "sheen roughness", material.sheen.roughness, 0.0f, 1.0f);
+    check_range(item, "anisotropy strength", material.anisotropy.strength, 0.0f, 1.0f);
+    check_range(item, "anisotropy rotation", material.anisotropy.rotation, -any_positive,
+                any_positive);
+    const IridescenceDesc& film = material.iridescence;
+    check_range(item, "iridescence", film.factor, 0.0f, 1.0f);
+    check_range(item, "iridescence index of refraction", film.ior, 1.0f, any_positive);
+    check_range(item, "iridescence thickness", film.thickness_minimum, 0.0f, any_positive);
+    check_range(item, "iridescence thickness", film.thickness_maximum, 0.0f, any_positive);
+    const DiffuseTransmissionDesc& through = material.diffuse_transmission;
+    check_range(item, "diffuse transmission", through.factor, 0.0f, 1.0f);
+    check_color(item, "diffuse transmission colour", through.color, 1.0f);
+}
+
 void check(const MaterialDesc& material, const std::string& item, std::size_t image_count)
 {
     check_color(item, "base colour", material.base_color, 1.0f);
@@ -130,10 +151,18 @@ void check(const MaterialDesc& material, const std::string& item, std::size_t im
         fail(item, ": attenuation distance is ", material.attenuation_distance,
              ", but must be above 0");
     }
+    check_range(item, "dispersion", material.dispersion, 0.0f, any_positive);
+    check_layers(material, item);
     for (const auto* texture :
          {&material.base_color_texture, &material.metallic_roughness_texture,
           &material.normal_texture, &material.emission_texture, &material.specular_texture,
-          &material.specular_color_texture, &material.transmission_texture}) {
+          &material.specular_color_texture, &material.transmission_texture,
+          &material.glossiness_texture, &material.clearcoat.texture,
+          &material.clearcoat.roughness_texture, &material.clearcoat.normal_texture,
+          &material.sheen.color_texture, &material.sheen.roughness_texture,
+          &material.anisotropy.texture, &material.iridescence.texture,
+          &material.iridescence.thickness_texture, &material.diffuse_transmission.texture,
+          &material.diffuse_transmission.color_texture}) {
         if (*texture) {
             check(**texture, item, image_count);
         }

@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -46,12 +47,14 @@ BoundingSphere sphere_around(const Bounds& bounds)
 World::World(SceneDesc desc, Isa isa) : desc_(std::move(desc))
 {
     validate(desc_);
+    if (std::any_of(desc_.materials.begin(), desc_.materials.end(), has_layers)) {
+        layer_tables_ = std::make_unique<const LayerTables>(desc_.materials);
+    }
     for (const MaterialDesc& material : desc_.materials) {
-        auto& albedo = albedos_[material.ior];
-        if (!albedo) {
-            albedo = std::make_unique<const SpecularAlbedo>(material.ior);
-        }
-        materials_.emplace_back(material, desc_.images, *albedo);
+        const auto [red, green, blue] = channel_indices(material);
+        const ChannelAlbedos albedos(albedo_of(red), albedo_of(green), albedo_of(blue));
+        materials_.emplace_back(material, desc_.images, albedos, layer_tables_.get());
+        disperses_ = disperses_ || albedos.disperse();
     }
     placed_.reserve(desc_.instances.size());
     for (const InstanceDesc& instance : desc_.instances) {
@@ -68,6 +71,15 @@ World::World(SceneDesc desc, Isa isa) : desc_(std::move(desc))
     counts_ = count(desc_);
     counts_.lights = lights_->size();
     counts_.emissive_triangles = lights_->size() - desc_.lights.size();
+}
+
+const SpecularAlbedo& World::albedo_of(float ior)
+{
+    auto& albedo = albedos_[ior];
+    if (!albedo) {
+        albedo = std::make_unique<const SpecularAlbedo>(ior);
+    }
+    return *albedo;
 }
 
 const Material& World::material_of(std::uint32_t instance) const noexcept
@@ -115,12 +127,13 @@ std::optional<RayHit> World::first_hit(const SegmentEnd& from, Vec3 direction,
                                .segment = segment});
 }
 
-SurfacePoint World::point_of(const RayHit& hit, Vec3 direction) const noexcept
+SurfacePoint World::point_of(const RayHit& hit, Vec3 direction,
+                             Wavelength wavelength) const noexcept
 {
     if (hit.sphere != no_sphere) [[unlikely]] {
         return sphere_point(hit, direction);
     }
-    return surface_point(hit, direction);
+    return surface_point(hit, direction, wavelength);
 }
 
 /// Spheres are lights: they emit from their outside and reflect nothing.
@@ -135,7 +148,8 @@ SurfacePoint World::sphere_point(const RayHit& hit, Vec3 direction) const noexce
             .light = id};
 }
 
-SurfacePoint World::surface_point(const RayHit& hit, Vec3 direction) const noexcept
+SurfacePoint World::surface_point(const RayHit& hit, Vec3 direction,
+                                  Wavelength wavelength) const noexcept
 {
     const PlacedMesh& mesh = placed_[hit.instance];
     const Material& material = material_of(hit.instance);
@@ -147,14 +161,15 @@ SurfacePoint World::surface_point(const RayHit& hit, Vec3 direction) const noexc
     ns = side > 0.0f ? ns : side < 0.0f ? -ns : ng;
 
     const TexturePoint at = texture_point(mesh, hit.triangle, hit.at.barycentrics);
-    const auto normal_uv_set = material.normal_uv_set();
+    const auto tangent_uv_set = material.tangent_uv_set();
     const ShadingPoint shading{
         .ng = ng,
         .ns = ns,
-        .tangent = normal_uv_set ? mesh.tangent(hit.triangle, hit.at.barycentrics, *normal_uv_set)
-                                 : Vec4(0.0f),
+        .tangent = tangent_uv_set ? mesh.tangent(hit.triangle, hit.at.barycentrics, *tangent_uv_set)
+                                  : Vec4(0.0f),
         .uv = at.uv,
         .color = at.color,
+        .wavelength = wavelength,
         .wo = -direction};
 
     SurfacePoint result{.end = {.p = hit.at.point.p,
@@ -164,7 +179,8 @@ SurfacePoint World::surface_point(const RayHit& hit, Vec3 direction) const noexc
                         .bsdf = material.bsdf(shading),
                         .emission = Rgb(0.0f),
                         .light = lights_->of_triangle(hit.instance, hit.triangle),
-                        .barycentrics = hit.at.barycentrics};
+                        .barycentrics = hit.at.barycentrics,
+                        .disperses = material.disperses()};
     if (result.light && (dot(ng, direction) < 0.0f || material.emits_from_both_sides())) {
         result.emission = material.emission(at);
     }

@@ -26,6 +26,7 @@ struct SurfacePoint {
     Rgb emission{0.0f};            ///< radiance towards where the ray came from [nit]
     std::optional<LightId> light;  ///< set when the surface emits, from whichever side
     Vec2 barycentrics{0.0f};       ///< of triangles
+    bool disperses = false;        ///< scatters light of different colours differently
 };
 
 /// The scene as rays see it: geometry, materials and lights, validated and immutable.
@@ -39,7 +40,8 @@ public:
     // Surfaces that are not opaque are met or passed, by chance: the key of the segment decides.
     // Each segment of a path needs a key of its own (docs/mis.md).
 
-    /// The first surface that a ray meets from `from` in the unit direction `direction`.
+    /// The first surface that a ray meets from `from` in the unit direction `direction`, as light
+    /// of the segment's wavelength sees it.
     [[nodiscard]] std::optional<SurfacePoint> intersect(const SegmentEnd& from, Vec3 direction,
                                                         SegmentKey segment) const noexcept
     {
@@ -57,7 +59,7 @@ public:
             return std::nullopt;
         }
         const PhaseScope scope(probe, Phase::shade);
-        return point_of(*hit, direction);
+        return point_of(*hit, direction, segment.wavelength);
     }
     /// What is left of light between two points: zero when it meets a surface in between, else what
     /// the medium lets through.
@@ -68,25 +70,32 @@ public:
                                                 SegmentKey segment) const noexcept;
 
     [[nodiscard]] const LightSet& lights() const { return *lights_; }
+    /// Does any material?
+    [[nodiscard]] bool disperses() const { return disperses_; }
     [[nodiscard]] const BoundingSphere& bounding_sphere() const { return sphere_; }
     [[nodiscard]] const Bounds& bounds() const { return bounds_; }
     [[nodiscard]] const SceneCounts& counts() const { return counts_; }
     [[nodiscard]] Isa isa() const noexcept { return embree_->isa(); }
 
 private:
+    [[nodiscard]] const SpecularAlbedo& albedo_of(float ior);
     [[nodiscard]] const Material& material_of(std::uint32_t instance) const noexcept;
     [[nodiscard]] bool may_be_passed(std::uint32_t instance) const noexcept;
     [[nodiscard]] bool is_passed(const Crossing& crossing) const noexcept;
     [[nodiscard]] PassRule pass_rule() const noexcept;
     [[nodiscard]] std::optional<RayHit> first_hit(const SegmentEnd& from, Vec3 direction,
                                                   SegmentKey segment) const noexcept;
-    [[nodiscard]] SurfacePoint point_of(const RayHit& hit, Vec3 direction) const noexcept;
-    [[nodiscard]] SurfacePoint surface_point(const RayHit& hit, Vec3 direction) const noexcept;
+    [[nodiscard]] SurfacePoint point_of(const RayHit& hit, Vec3 direction,
+                                        Wavelength wavelength) const noexcept;
+    [[nodiscard]] SurfacePoint surface_point(const RayHit& hit, Vec3 direction,
+                                             Wavelength wavelength) const noexcept;
     [[nodiscard]] SurfacePoint sphere_point(const RayHit& hit, Vec3 direction) const noexcept;
 
     SceneDesc desc_;
     std::map<float, std::unique_ptr<const SpecularAlbedo>> albedos_;  // by index of refraction
+    std::unique_ptr<const LayerTables> layer_tables_;                 // if any material needs them
     std::vector<Material> materials_;
+    bool disperses_ = false;
     std::vector<PlacedMesh> placed_;
     std::vector<Sphere> spheres_;
     Bounds bounds_;

@@ -68,7 +68,23 @@ SceneDesc everything()
     builder.sphere({-0.6f, -0.1f, 0.0f}, 0.3f, mask, 12);
     builder.sphere({-0.1f, 0.0f, 0.3f}, 0.4f, blend, 12);
 
+    MaterialDesc layers = test::plastic(Rgb(0.5f), 0.3f);
+    layers.clearcoat.factor = 1.0f;
+    layers.clearcoat.texture = colors;
+    layers.clearcoat.normal_texture = slopes;
+    layers.sheen.color = Rgb(0.5f);
+    layers.sheen.color_texture = colors;
+    layers.anisotropy.strength = 0.5f;
+    layers.anisotropy.texture = colors;
+    layers.iridescence.factor = 0.5f;
+    layers.iridescence.texture = colors;
+    layers.diffuse_transmission.factor = 0.5f;
+    layers.diffuse_transmission.texture = colors;
+    layers.glossiness_texture = colors;
+    builder.sphere({0.5f, 0.0f, 0.0f}, 0.3f, layers, 12);
+
     MaterialDesc absorbing = test::glass(0.0f);
+    absorbing.dispersion = 1.0f;
     absorbing.attenuation_distance = 0.2f;
     absorbing.attenuation_color = {0.9f, 0.5f, 0.4f};
     const MeshId ball = builder.sphere_mesh(12);  // shared: instances

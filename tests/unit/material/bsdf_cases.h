@@ -1,23 +1,12 @@
 #pragma once
 
-#include "material/gltf_bsdf.h"
+#include "layered_cases.h"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace bdpt::test {
-
-/// A material that the BSDF tests run over.
-struct BsdfCase {
-    std::string name;
-    GltfParameters surface;
-    float ior = 1.5f;
-
-    [[nodiscard]] bool refracts() const
-    {
-        return surface.body == Body::solid && surface.transmission > 0.0f;
-    }
-};
 
 /// Lambertian, dielectric, metal, glass, and mixes of them; smooth, rough, and nearly smooth.
 [[nodiscard]] inline std::vector<BsdfCase> bsdf_cases()
@@ -27,7 +16,7 @@ struct BsdfCase {
     constexpr Body thin = Body::thin_walled;
     constexpr Body solid = Body::solid;
     // base, metallic, roughness, specular, specular colour, transmission, body
-    return {
+    std::vector<BsdfCase> cases{
         {"lambert", {blue, 0, 1, 0, white, 0, thin}},
         {"dielectric smooth", {blue, 0, 0, 1, white, 0, thin}},
         {"dielectric 0.3", {blue, 0, 0.3f, 1, white, 0, thin}},
@@ -55,6 +44,10 @@ struct BsdfCase {
         {"solid half transmission smooth", {blue, 0, 0, 1, white, 0.5f, solid}},
         {"all at once", {blue, 0.3f, 0.5f, 0.7f, Rgb{0.9f, 1, 0.8f}, 0.6f, solid}, 1.4f},
     };
+    for (BsdfCase& layered : layered_cases()) {
+        cases.push_back(std::move(layered));
+    }
+    return cases;
 }
 
 /// Unit directions from steep to grazing, above and below the surface.

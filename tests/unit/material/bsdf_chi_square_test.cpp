@@ -55,7 +55,7 @@ std::size_t bin_of(const Axes& axes, Vec3 wi)
 
 /// Integral of the density over each bin by midpoints, and in the last one what is left: delta
 /// lobes and no sample at all.
-std::vector<double> bin_probabilities(const GltfBsdf& bsdf, const Axes& axes, Vec3 wo)
+std::vector<double> bin_probabilities(const test::TestedBsdf& bsdf, const Axes& axes, Vec3 wo)
 {
     constexpr int fine = 16;  // midpoints along each side of a bin
     std::vector<double> result(2 * bins_per_side + 1);
@@ -103,8 +103,7 @@ TEST_CASE("samples of every BSDF are distributed by its density")
     constexpr int samples = 120000;
     int tested = 0;
     for (const test::BsdfCase& bsdf_case : cases) {
-        const SpecularAlbedo albedo(bsdf_case.ior);
-        const GltfBsdf bsdf(bsdf_case.surface, albedo);
+        const test::TestedBsdf bsdf(bsdf_case);
         for (const Vec3 wo : directions) {
             if (wo.z < 0.0f && bsdf_case.surface.body == Body::thin_walled) {
                 continue;  // the same from both sides: bsdf_symmetry_test

@@ -45,11 +45,11 @@ TEST_CASE("BSDFs stay finite in the corners of their domain")
         {"mirror-like dielectric", {white, 0, 0.4f, 1, white, 0.5f, Body::solid}, 1e6f});
     cases.push_back({"barely rough", {white, 0, 0.0317f, 1, white, 0.5f, Body::solid}, 1.0011f});
     cases.push_back({"bright specular", {white, 0, 0, 1, Rgb{100.0f}, 0, Body::thin_walled}, 2.0f});
+    cases.push_back({"grooves in a mirror", {white, 1, 0}, 1.5f, test::brushed(0.5f)});
     const std::vector<Vec3> directions = extreme_directions();
     const std::vector<float> numbers{0.0f, 0x1p-24f, 0.25f, 0.5f, 0.75f, last};
     for (const test::BsdfCase& bsdf_case : cases) {
-        const SpecularAlbedo albedo(bsdf_case.ior);
-        const GltfBsdf bsdf(bsdf_case.surface, albedo);
+        const test::TestedBsdf bsdf(bsdf_case);
         for (const Vec3 wo : directions) {
             for (const Vec3 wi : directions) {
                 CAPTURE(bsdf_case.name, wo.x, wo.y, wo.z, wi.x, wi.y, wi.z);

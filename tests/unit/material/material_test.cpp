@@ -101,6 +101,51 @@ TEST_CASE("specular is alpha of its texture, its colour is sRGB")
                          albedo));
 }
 
+TEST_CASE("glossiness is alpha of a linear texture, and smooth where it is 1")
+{
+    const SpecularAlbedo albedo(1.5f);
+    const std::vector<TexelImage> images{texel(0, 0, 0, 204)};
+    MaterialDesc desc;
+    desc.metallic = 0.0f;
+    desc.roughness = 0.25f;
+    desc.glossiness_texture = first_image;
+    const Material material(desc, images, albedo);
+    // 1 - 0.75 * 0.8
+    check_equal(scattered(material.bsdf({})), expected({.roughness = 0.4f}, albedo));
+}
+
+TEST_CASE("only solid transmitters disperse, red least")
+{
+    MaterialDesc desc;
+    desc.ior = 1.6f;
+    desc.dispersion = 2.0f;
+    desc.transmission = 1.0f;
+    CHECK(channel_indices(desc)[2] == 1.6f);
+    desc.thickness = 1.0f;
+    const auto [red, green, blue] = channel_indices(desc);
+    CHECK(red == Approx(1.57));
+    CHECK(green == 1.6f);
+    CHECK(blue == Approx(1.63));
+    desc.dispersion = 100.0f;
+    CHECK(channel_indices(desc)[0] == 1.0f);
+
+    desc.roughness = 0.5f;
+    desc.metallic = 0.0f;
+    const SpecularAlbedo low(1.5f);
+    const SpecularAlbedo middle(1.6f);
+    const SpecularAlbedo high(1.7f);
+    CHECK(!Material(desc, {}, middle).disperses());
+    const Material material(desc, {}, {low, middle, high});
+    CHECK(material.disperses());
+    const Vec3 down{0.0f, 0.0f, -1.0f};
+    const auto seen = [&](Wavelength wavelength) {
+        return scattered(material.bsdf({.wavelength = wavelength}), down);
+    };
+    check_equal(seen(Wavelength::red), scattered(Material(desc, {}, low).bsdf({}), down));
+    check_equal(seen(Wavelength::green), scattered(Material(desc, {}, middle).bsdf({}), down));
+    check_equal(seen(Wavelength::blue), scattered(Material(desc, {}, high).bsdf({}), down));
+}
+
 TEST_CASE("transmission is red of its texture, and only thickness makes a body solid")
 {
     const SpecularAlbedo albedo(1.5f);
@@ -146,7 +191,7 @@ TEST_CASE("normal maps turn the shading normal in the tangent frame")
 
     const auto cosine = [&](const MaterialDesc& d, Vec4 tangent, Vec3 wi) {
         const Material material(d, images, albedo);
-        CHECK(material.normal_uv_set() == 0);
+        CHECK(material.tangent_uv_set() == 0);
         return scattered(material.bsdf({.tangent = tangent}), wi).x * pi;
     };
     // f_cos of a white Lambertian is the cosine to the shading normal over pi.

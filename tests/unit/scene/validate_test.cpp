@@ -96,6 +96,25 @@ TEST_CASE("materials: ranges and textures", "[validate]")
                   [](SceneDesc& d) { d.materials[0].emission.b = nan_value; });
     check_refused("material 0: index of refraction is 0.5",
                   [](SceneDesc& d) { d.materials[0].ior = 0.5f; });
+    check_refused("material 0: dispersion is -1",
+                  [](SceneDesc& d) { d.materials[0].dispersion = -1.0f; });
+    check_refused("material 0: clearcoat is 1.5",
+                  [](SceneDesc& d) { d.materials[0].clearcoat.factor = 1.5f; });
+    check_refused("material 0: clearcoat roughness is nan",
+                  [](SceneDesc& d) { d.materials[0].clearcoat.roughness = nan_value; });
+    check_refused("material 0: sheen colour is 2",
+                  [](SceneDesc& d) { d.materials[0].sheen.color.b = 2.0f; });
+    check_refused("material 0: anisotropy strength is -1",
+                  [](SceneDesc& d) { d.materials[0].anisotropy.strength = -1.0f; });
+    check_refused("material 0: iridescence index of refraction is 0.9",
+                  [](SceneDesc& d) { d.materials[0].iridescence.ior = 0.9f; });
+    check_refused("material 0: iridescence thickness is -5",
+                  [](SceneDesc& d) { d.materials[0].iridescence.thickness_minimum = -5.0f; });
+    check_refused("material 0: diffuse transmission is 2",
+                  [](SceneDesc& d) { d.materials[0].diffuse_transmission.factor = 2.0f; });
+    check_refused("material 0: image 4, but there are 1 images", [](SceneDesc& d) {
+        d.materials[0].iridescence.thickness_texture = TextureRef{.image = ImageId{4}};
+    });
     check_refused("attenuation distance is 0",
                   [](SceneDesc& d) { d.materials[0].attenuation_distance = 0.0f; });
     check_refused("material 0: image 4, but there are 1 images", [](SceneDesc& d) {

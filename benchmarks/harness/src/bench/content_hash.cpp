@@ -27,6 +27,23 @@ void add(Hasher& hasher, const std::optional<TextureRef>& texture)
     }
 }
 
+void add_layers(Hasher& hasher, const MaterialDesc& material)
+{
+    hasher.add(material.clearcoat.factor);
+    hasher.add(material.clearcoat.roughness);
+    hasher.add(material.clearcoat.normal_scale);
+    hasher.add(material.sheen.color);
+    hasher.add(material.sheen.roughness);
+    hasher.add(material.anisotropy.strength);
+    hasher.add(material.anisotropy.rotation);
+    hasher.add(material.iridescence.factor);
+    hasher.add(material.iridescence.ior);
+    hasher.add(material.iridescence.thickness_minimum);
+    hasher.add(material.iridescence.thickness_maximum);
+    hasher.add(material.diffuse_transmission.factor);
+    hasher.add(material.diffuse_transmission.color);
+}
+
 void add(Hasher& hasher, const MaterialDesc& material)
 {
     hasher.add(material.base_color);
@@ -45,10 +62,18 @@ void add(Hasher& hasher, const MaterialDesc& material)
     hasher.add(material.thickness);
     hasher.add(material.attenuation_distance);
     hasher.add(material.attenuation_color);
+    hasher.add(material.dispersion);
+    add_layers(hasher, material);
     for (const auto* texture :
          {&material.base_color_texture, &material.metallic_roughness_texture,
           &material.normal_texture, &material.emission_texture, &material.specular_texture,
-          &material.specular_color_texture, &material.transmission_texture}) {
+          &material.specular_color_texture, &material.transmission_texture,
+          &material.glossiness_texture, &material.clearcoat.texture,
+          &material.clearcoat.roughness_texture, &material.clearcoat.normal_texture,
+          &material.sheen.color_texture, &material.sheen.roughness_texture,
+          &material.anisotropy.texture, &material.iridescence.texture,
+          &material.iridescence.thickness_texture, &material.diffuse_transmission.texture,
+          &material.diffuse_transmission.color_texture}) {
         add(hasher, *texture);
     }
 }

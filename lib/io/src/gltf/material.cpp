@@ -1,19 +1,16 @@
 #include "gltf/material.h"
 
+#include "gltf/material_layers.h"
+#include "gltf/material_values.h"
+#include "gltf/specular_glossiness.h"
+
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <string>
-#include <string_view>
-#include <vector>
 
 namespace bdpt::io {
 
 namespace {
-
-constexpr double no_limit = std::numeric_limits<float>::max();
 
 /// Reads one material; the base of all pointers in messages is its own.
 class MaterialReader {
@@ -23,7 +20,8 @@ public:
         : source_(source),
           place_(fmt::format("/materials/{}", index)),
           textures_(textures),
-          warnings_(warnings)
+          warnings_(warnings),
+          values_(source, place_, textures, warnings)
     {}
 
     [[nodiscard]] MaterialDesc read()
@@ -32,16 +30,20 @@ public:
         desc_.double_sided = source_.doubleSided;
         read_base_color();
         read_alpha();
-        if (extension("KHR_materials_unlit") != nullptr) {
+        read_specular_glossiness(values_, desc_);
+        if (values_.extension("KHR_materials_unlit") != nullptr) {
             desc_.unlit = true;  // all else is for viewers that do not know the extension
             return std::move(desc_);
         }
-        read_metallic_roughness();
         read_emission();
-        read_ior();
-        read_specular();
+        if (values_.extension("KHR_materials_pbrSpecularGlossiness") == nullptr) {
+            read_metallic_roughness();
+            read_ior();
+            read_specular();
+        }
         read_transmission();
         read_volume();
+        read_layers(values_, desc_);
         if (source_.normalTexture.index >= 0) {
             desc_.normal_scale = static_cast<float>(source_.normalTexture.scale);
             desc_.normal_texture =
@@ -51,44 +53,13 @@ public:
     }
 
 private:
-    [[nodiscard]] float in_range(double value, double low, double high, std::string_view key)
-    {
-        if (value >= low && value <= high) {
-            return static_cast<float>(value);
-        }
-        const double nearest = std::clamp(value, low, high);
-        warnings_.add("a material value beyond its range is brought back",
-                      fmt::format("{}/{}: {} becomes {}", place_, key, value, nearest));
-        return static_cast<float>(nearest);
-    }
-
-    [[nodiscard]] const tinygltf::Value* extension(const std::string& name) const
-    {
-        const auto found = source_.extensions.find(name);
-        return found == source_.extensions.end() ? nullptr : &found->second;
-    }
-
-    /// Colour `key` of an extension, in [0, high]; white where it is missing.
-    [[nodiscard]] Rgb color(const tinygltf::Value& object, const std::string& key, double high)
-    {
-        if (!object.Has(key)) {
-            return Rgb(1.0f);
-        }
-        const auto& values = object.Get(key).Get<tinygltf::Value::Array>();
-        Rgb rgb;
-        for (int c = 0; c < 3; ++c) {
-            rgb[c] =
-                in_range(values[static_cast<std::size_t>(c)].GetNumberAsDouble(), 0.0, high, key);
-        }
-        return rgb;
-    }
-
     void read_base_color()
     {
         const auto& pbr = source_.pbrMetallicRoughness;
         for (int c = 0; c < 4; ++c) {
-            desc_.base_color[c] = in_range(pbr.baseColorFactor[static_cast<std::size_t>(c)], 0.0,
-                                           1.0, "pbrMetallicRoughness/baseColorFactor");
+            desc_.base_color[c] =
+                values_.in_range(pbr.baseColorFactor[static_cast<std::size_t>(c)], 0.0, 1.0,
+                                 "pbrMetallicRoughness/baseColorFactor");
         }
         desc_.base_color_texture = textures_.resolve(
             texture_info(pbr.baseColorTexture), place_ + "/pbrMetallicRoughness/baseColorTexture");
@@ -99,7 +70,8 @@ private:
         const std::string& mode = source_.alphaMode;
         if (mode == "MASK") {
             desc_.alpha_mode = AlphaMode::mask;
-            desc_.alpha_cutoff = in_range(source_.alphaCutoff, 0.0, no_limit, "alphaCutoff");
+            desc_.alpha_cutoff =
+                values_.in_range(source_.alphaCutoff, 0.0, no_limit, "alphaCutoff");
         } else if (mode == "BLEND") {
             desc_.alpha_mode = AlphaMode::blend;
         } else if (mode != "OPAQUE" && !mode.empty()) {
@@ -111,9 +83,9 @@ private:
     {
         const auto& pbr = source_.pbrMetallicRoughness;
         desc_.metallic =
-            in_range(pbr.metallicFactor, 0.0, 1.0, "pbrMetallicRoughness/metallicFactor");
+            values_.in_range(pbr.metallicFactor, 0.0, 1.0, "pbrMetallicRoughness/metallicFactor");
         desc_.roughness =
-            in_range(pbr.roughnessFactor, 0.0, 1.0, "pbrMetallicRoughness/roughnessFactor");
+            values_.in_range(pbr.roughnessFactor, 0.0, 1.0, "pbrMetallicRoughness/roughnessFactor");
         if (desc_.metallic > 0.0f || desc_.roughness > 0.0f) {
             desc_.metallic_roughness_texture =
                 textures_.resolve(texture_info(pbr.metallicRoughnessTexture),
@@ -124,16 +96,17 @@ private:
     void read_emission()
     {
         double strength = 1.0;
-        if (const auto* value = extension("KHR_materials_emissive_strength")) {
-            strength = in_range(number_or(*value, "emissiveStrength", 1.0), 0.0, no_limit,
-                                "extensions/KHR_materials_emissive_strength/emissiveStrength");
+        if (const auto* value = values_.extension("KHR_materials_emissive_strength")) {
+            strength =
+                values_.in_range(number_or(*value, "emissiveStrength", 1.0), 0.0, no_limit,
+                                 "extensions/KHR_materials_emissive_strength/emissiveStrength");
         }
         for (int c = 0; c < 3; ++c) {
             const double factor = source_.emissiveFactor[static_cast<std::size_t>(c)];
             // Factors above 1 were common before there was an extension for the strength.
-            desc_.emission[c] =
-                in_range(in_range(factor, 0.0, no_limit, "emissiveFactor") * strength, 0.0,
-                         no_limit, "emissiveFactor");
+            desc_.emission[c] = values_.in_range(
+                values_.in_range(factor, 0.0, no_limit, "emissiveFactor") * strength, 0.0, no_limit,
+                "emissiveFactor");
         }
         if (desc_.emission != Rgb(0.0f)) {
             desc_.emission_texture = textures_.resolve(texture_info(source_.emissiveTexture),
@@ -143,27 +116,28 @@ private:
 
     void read_ior()
     {
-        const auto* value = extension("KHR_materials_ior");
+        const auto* value = values_.extension("KHR_materials_ior");
         if (value == nullptr) {
             return;
         }
         const double ior = number_or(*value, "ior", 1.5);
         // 0 stands for a Fresnel term of one, that of an infinite index [KHR_materials_ior].
         constexpr double nearly_infinite = 1e4;
-        desc_.ior = ior == 0.0 ? static_cast<float>(nearly_infinite)
-                               : in_range(ior, 1.0, no_limit, "extensions/KHR_materials_ior/ior");
+        desc_.ior = ior == 0.0
+                        ? static_cast<float>(nearly_infinite)
+                        : values_.in_range(ior, 1.0, no_limit, "extensions/KHR_materials_ior/ior");
     }
 
     void read_specular()
     {
-        const auto* value = extension("KHR_materials_specular");
+        const auto* value = values_.extension("KHR_materials_specular");
         if (value == nullptr) {
             return;
         }
         const std::string at = place_ + "/extensions/KHR_materials_specular/";
-        desc_.specular = in_range(number_or(*value, "specularFactor", 1.0), 0.0, 1.0,
-                                  "extensions/KHR_materials_specular/specularFactor");
-        desc_.specular_color = color(*value, "specularColorFactor", no_limit);
+        desc_.specular = values_.in_range(number_or(*value, "specularFactor", 1.0), 0.0, 1.0,
+                                          "extensions/KHR_materials_specular/specularFactor");
+        desc_.specular_color = values_.color(*value, "specularColorFactor", no_limit);
         if (desc_.specular > 0.0f) {
             desc_.specular_texture =
                 textures_.resolve(texture_info(*value, "specularTexture"), at + "specularTexture");
@@ -174,12 +148,13 @@ private:
 
     void read_transmission()
     {
-        const auto* value = extension("KHR_materials_transmission");
+        const auto* value = values_.extension("KHR_materials_transmission");
         if (value == nullptr) {
             return;
         }
-        desc_.transmission = in_range(number_or(*value, "transmissionFactor", 0.0), 0.0, 1.0,
-                                      "extensions/KHR_materials_transmission/transmissionFactor");
+        desc_.transmission =
+            values_.in_range(number_or(*value, "transmissionFactor", 0.0), 0.0, 1.0,
+                             "extensions/KHR_materials_transmission/transmissionFactor");
         if (desc_.transmission > 0.0f) {
             desc_.transmission_texture =
                 textures_.resolve(texture_info(*value, "transmissionTexture"),
@@ -191,13 +166,13 @@ private:
 
     void read_volume()
     {
-        const auto* value = extension("KHR_materials_volume");
+        const auto* value = values_.extension("KHR_materials_volume");
         if (value == nullptr) {
             return;
         }
-        desc_.thickness = in_range(number_or(*value, "thicknessFactor", 0.0), 0.0, no_limit,
-                                   "extensions/KHR_materials_volume/thicknessFactor");
-        desc_.attenuation_color = color(*value, "attenuationColor", 1.0);
+        desc_.thickness = values_.in_range(number_or(*value, "thicknessFactor", 0.0), 0.0, no_limit,
+                                           "extensions/KHR_materials_volume/thicknessFactor");
+        desc_.attenuation_color = values_.color(*value, "attenuationColor", 1.0);
         if (!value->Has("attenuationDistance")) {
             return;
         }
@@ -215,6 +190,7 @@ private:
     std::string place_;
     TextureResolver& textures_;
     Warnings& warnings_;
+    MaterialValues values_;
     MaterialDesc desc_;
 };
 

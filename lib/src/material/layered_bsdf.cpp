@@ -1,0 +1,183 @@
+#include "material/layered_bsdf.h"
+
+#include "math/rgb.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+namespace bdpt {
+namespace {
+
+static_assert(std::is_trivially_copyable_v<LayeredParameters>);
+static_assert(sizeof(LayeredParameters) <= sizeof(GltfBsdf));
+
+/// Layers see their own side of the surface from above.
+[[nodiscard]] Vec3 from_above(Vec3 w, bool above)
+{
+    return above ? w : -w;
+}
+
+[[nodiscard]] RichFeatures features_of(const LayeredParameters& parameters)
+{
+    return {.anisotropy = parameters.anisotropy.value(),
+            .film = {.factor = parameters.film.value(),
+                     .ior = parameters.constants->film_ior,
+                     .thickness = parameters.film_thickness},
+            .diffuse_transmission = parameters.diffuse_transmission.value(),
+            .transmission_color = parameters.transmission_color.value()};
+}
+
+/// Roughly the albedo of the base; above 0.
+[[nodiscard]] float weight_of(const LayeredParameters& parameters)
+{
+    const float transmitted = parameters.diffuse_transmission.value() *
+                              max_component(parameters.transmission_color.value());
+    const float brightest = std::max(max_component(parameters.base.base_color), transmitted);
+    return 0.05f + 0.95f * std::clamp(brightest, 0.0f, 1.0f);
+}
+
+/// The share of light that goes below a layer and is not lost for the base.
+[[nodiscard]] float passed(float there, float back)
+{
+    return std::min(there, back);
+}
+
+}  // namespace
+
+LayeredBsdf::LayeredBsdf(const LayeredParameters& parameters)
+    : base_(parameters.base, *parameters.constants->base, features_of(parameters)),
+      coat_(parameters.coat.value(), parameters.coat_roughness.value(),
+            parameters.coat_normal.value(), parameters.constants->tables->coat.get()),
+      sheen_(parameters.sheen.value(), parameters.sheen_roughness.value(),
+             parameters.constants->tables->sheen.get()),
+      base_weight_(weight_of(parameters)),
+      solid_(parameters.base.body == Body::solid)
+{}
+
+bool LayeredBsdf::has_smooth_lobe() const noexcept
+{
+    return base_.has_smooth_lobe() || coat_.has_smooth_lobe() || sheen_.exists();
+}
+
+LayeredBsdf::Side LayeredBsdf::side(Vec3 w) const noexcept
+{
+    Side side{.base = base_.side(w.z)};
+    if (!is_covered(w)) {
+        return side;
+    }
+    const float coat = coat_.reflected(from_above(w, w.z > 0.0f));
+    const float sheen = sheen_.reflected(std::abs(w.z));
+    side.below_coat = 1.0f - coat;
+    side.below_sheen = 1.0f - sheen;
+    const float sheen_weight = side.below_coat * sheen;
+    const float base_weight = side.below_coat * side.below_sheen * base_weight_;
+    const float inverse = 1.0f / (coat + sheen_weight + base_weight);
+    side.coat_choice = coat * inverse;
+    side.sheen_choice = sheen_weight * inverse;
+    side.base_choice = base_weight * inverse;
+    return side;
+}
+
+BsdfEval LayeredBsdf::eval_lobes(const Side& from, Vec3 wo, Vec3 wi,
+                                 TransportMode mode) const noexcept
+{
+    const Side to = side(wi);
+    const float below_coat = passed(from.below_coat, to.below_coat);
+    BsdfEval sum = base_.eval(from.base, wo, wi, mode);
+    sum.f_cos *= below_coat * passed(from.below_sheen, to.below_sheen);
+    sum.pdf_fwd.value *= from.base_choice;
+    sum.pdf_rev.value *= to.base_choice;
+    const bool above = wo.z > 0.0f;
+    if (above != (wi.z > 0.0f) || !is_covered(wo)) {
+        return sum;
+    }
+    const auto add = [&sum](const BsdfEval& lobe, float share, float choice_fwd, float choice_rev) {
+        sum.f_cos += lobe.f_cos * share;
+        sum.pdf_fwd.value += choice_fwd * lobe.pdf_fwd.value;
+        sum.pdf_rev.value += choice_rev * lobe.pdf_rev.value;
+    };
+    const Vec3 o = from_above(wo, above);
+    const Vec3 i = from_above(wi, above);
+    if (coat_.has_smooth_lobe()) {
+        add(coat_.eval(o, i, mode), 1.0f, from.coat_choice, to.coat_choice);
+    }
+    if (sheen_.exists()) {
+        add(sheen_.eval(o, i), below_coat, from.sheen_choice, to.sheen_choice);
+    }
+    return sum;
+}
+
+BsdfEval LayeredBsdf::eval(Vec3 wo, Vec3 wi, TransportMode mode) const noexcept
+{
+    return grazes(wo) || grazes(wi) ? BsdfEval{} : eval_lobes(side(wo), wo, wi, mode);
+}
+
+/// A smooth coat gives the whole sample, a rough one a direction alone.
+std::optional<BsdfSample> LayeredBsdf::sample_coat(const Side& from, Vec3 wo, Vec2 u,
+                                                   TransportMode mode) const noexcept
+{
+    const bool above = wo.z > 0.0f;
+    const Vec3 o = from_above(wo, above);
+    if (coat_.has_smooth_lobe()) {
+        const std::optional<Vec3> wi = coat_.sample(o, u);
+        return wi ? std::optional(BsdfSample{.wi = from_above(*wi, above)}) : std::nullopt;
+    }
+    std::optional<BsdfSample> mirrored = coat_.mirror(o, mode);
+    if (!mirrored) {
+        return std::nullopt;
+    }
+    mirrored->wi = from_above(mirrored->wi, above);
+    mirrored->weight /= from.coat_choice;
+    mirrored->pdf_fwd.value *= from.coat_choice;
+    mirrored->pdf_rev.value *= side(mirrored->wi).coat_choice;
+    return mirrored;
+}
+
+/// The whole sample where it is a delta lobe's, else the direction that counts.
+std::optional<BsdfSample> LayeredBsdf::sample_base(const Side& from, Vec3 wo, float u_lobe, Vec2 u,
+                                                   TransportMode mode) const noexcept
+{
+    std::optional<BsdfSample> sampled = base_.sample(from.base, wo, u_lobe, u, mode);
+    if (!sampled || !sampled->delta) {
+        return sampled;
+    }
+    const Side to = side(sampled->wi);
+    sampled->weight *= passed(from.below_coat, to.below_coat) *
+                       passed(from.below_sheen, to.below_sheen) / from.base_choice;
+    sampled->pdf_fwd.value *= from.base_choice;
+    sampled->pdf_rev.value *= to.base_choice;
+    return sampled;
+}
+
+std::optional<BsdfSample> LayeredBsdf::sample(Vec3 wo, float u_lobe, Vec2 u,
+                                              TransportMode mode) const noexcept
+{
+    if (grazes(wo)) {
+        return std::nullopt;
+    }
+    constexpr float below_one = 1.0f - 0x1p-24f;
+    const Side from = side(wo);
+    const float above_base = from.coat_choice + from.sheen_choice;
+    std::optional<BsdfSample> sampled;
+    if (u_lobe < from.coat_choice) {
+        sampled = sample_coat(from, wo, u, mode);
+    } else if (u_lobe < above_base) {
+        sampled = BsdfSample{.wi = from_above(Sheen::sample(u), wo.z > 0.0f)};
+    } else if (from.base_choice > 0.0f) {
+        const float u_base = std::min((u_lobe - above_base) / from.base_choice, below_one);
+        sampled = sample_base(from, wo, u_base, u, mode);
+    }
+    if (!sampled || sampled->delta || grazes(sampled->wi)) {
+        return sampled && sampled->delta ? sampled : std::nullopt;
+    }
+    const BsdfEval value = eval_lobes(from, wo, sampled->wi, mode);
+    if (!(value.pdf_fwd.value >= std::numeric_limits<float>::min())) {
+        return std::nullopt;
+    }
+    return BsdfSample{sampled->wi, value.f_cos * (1.0f / value.pdf_fwd.value), value.pdf_fwd,
+                      value.pdf_rev, false};
+}
+
+}  // namespace bdpt

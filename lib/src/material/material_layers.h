@@ -1,0 +1,75 @@
+#pragma once
+
+#include "material/bsdf.h"
+#include "material/channel_albedos.h"
+#include "material/layers.h"
+#include "material/normal_map.h"
+#include "material/shading_point.h"
+#include "material/texture.h"
+
+#include <bdpt/scene_desc.h>
+
+#include <array>
+#include <optional>
+#include <span>
+
+namespace bdpt {
+
+/// Does the material need more than a `GltfBsdf`?
+[[nodiscard]] bool has_layers(const MaterialDesc& desc);
+
+/// The factors and maps of a material's layers. Refers to the images and tables, which must outlive
+/// it; must not move while its BSDFs are in use.
+class MaterialLayers {
+public:
+    MaterialLayers(const MaterialDesc& desc, std::span<const TexelImage> images,
+                   const ChannelAlbedos& albedos, const LayerTables& tables);
+
+    /// With `base` below the layers, whose shading normal is that of `shading`.
+    [[nodiscard]] Bsdf bsdf(const ShadingPoint& point, const Frame& shading,
+                            const GltfParameters& base) const noexcept;
+    /// Set of texture coordinates that the tangent follows, if the layers need one.
+    [[nodiscard]] std::optional<int> tangent_uv_set() const noexcept;
+
+private:
+    struct CoatMaps {
+        std::optional<Texture> factor;
+        std::optional<Texture> roughness;
+        std::optional<NormalMap> normal;
+    };
+    struct SheenMaps {
+        std::optional<Texture> color;
+        std::optional<Texture> roughness;
+    };
+    struct FilmMaps {
+        std::optional<Texture> factor;
+        std::optional<Texture> thickness;
+    };
+    struct TransmissionMaps {
+        std::optional<Texture> factor;
+        std::optional<Texture> color;
+    };
+
+    void add_coat(const ShadingPoint& point, const Frame& shading,
+                  LayeredParameters& layers) const noexcept;
+    void add_sheen(const ShadingPoint& point, LayeredParameters& layers) const noexcept;
+    void add_film(const ShadingPoint& point, LayeredParameters& layers) const noexcept;
+    void add_transmission(const ShadingPoint& point, LayeredParameters& layers) const noexcept;
+    [[nodiscard]] Frame add_anisotropy(const ShadingPoint& point, const Frame& shading,
+                                       LayeredParameters& layers) const noexcept;
+
+    // The factors; their textures are in the maps.
+    ClearcoatDesc coat_;
+    SheenDesc sheen_;
+    AnisotropyDesc anisotropy_;
+    IridescenceDesc film_;
+    DiffuseTransmissionDesc transmission_;
+    CoatMaps coat_maps_;
+    SheenMaps sheen_maps_;
+    FilmMaps film_maps_;
+    TransmissionMaps transmission_maps_;
+    std::optional<Texture> anisotropy_map_;
+    std::array<LayeredConstants, wavelengths> constants_;
+};
+
+}  // namespace bdpt

@@ -1,0 +1,61 @@
+#include "material/normal_map.h"
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+
+namespace bdpt {
+namespace {
+
+/// `normal`, turned towards ng no further than it takes to lie clearly on ng's side.
+[[nodiscard]] Vec3 kept_above(Vec3 normal, Vec3 ng)
+{
+    constexpr float least_cosine = 0.01f;
+    const float cosine = dot(normal, ng);
+    if (cosine >= least_cosine) {
+        return normal;
+    }
+    const Vec3 along = normal - cosine * ng;
+    const float length = std::sqrt(dot(along, along));
+    if (length < 1e-6f) {
+        return ng;  // straight from below: no way to turn is shorter than another
+    }
+    return normalize(along * (std::sqrt(1.0f - least_cosine * least_cosine) / length) +
+                     least_cosine * ng);
+}
+
+}  // namespace
+
+std::optional<TangentAxes> tangent_axes(const ShadingPoint& point) noexcept
+{
+    const Vec3 along(point.tangent);
+    const Vec3 tangent = along - dot(along, point.ns) * point.ns;
+    const float length2 = dot(tangent, tangent);
+    if (!(length2 > 0.0f)) {
+        return std::nullopt;
+    }
+    const Vec3 t = tangent / std::sqrt(length2);
+    return TangentAxes{t, cross(point.ns, t) * point.tangent.w};
+}
+
+Vec3 NormalMap::normal(const ShadingPoint& point) const noexcept
+{
+    const std::optional<TangentAxes> axes = tangent_axes(point);
+    if (!axes) {
+        return point.ns;
+    }
+    const Vec3 n = 2.0f * Vec3(map_.lookup(point.uv)) - 1.0f;
+    const Vec3 world =
+        n.x * scale_ * axes->tangent + n.y * scale_ * axes->bitangent + n.z * point.ns;
+    const float world2 = dot(world, world);
+    return world2 > 0.0f ? kept_above(world / std::sqrt(world2), point.ng) : point.ns;
+}
+
+std::optional<NormalMap> make_normal_map(const std::optional<TextureRef>& ref, float scale,
+                                         std::span<const TexelImage> images)
+{
+    const std::optional<Texture> map = make_texture(ref, images, Encoding::linear);
+    return map ? std::optional(NormalMap(*map, scale)) : std::nullopt;
+}
+
+}  // namespace bdpt

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "material/shading_point.h"
+#include "material/texture.h"
+
+#include <optional>
+#include <span>
+
+namespace bdpt {
+
+/// The unit tangent and bitangent of a point, at right angles to `ns` [glTF 2.0, sec. 3.9.3]; none
+/// where it has no tangent.
+struct TangentAxes {
+    Vec3 tangent;
+    Vec3 bitangent;
+};
+[[nodiscard]] std::optional<TangentAxes> tangent_axes(const ShadingPoint& point) noexcept;
+
+/// A picture of normals in tangent space [glTF 2.0, sec. 3.9.3].
+class NormalMap {
+public:
+    /// `scale` multiplies x and y.
+    NormalMap(const Texture& map, float scale) : map_(map), scale_(scale) {}
+
+    /// Unit, and clearly on the side of `ng`: what leads below is turned up as little as possible.
+    /// `ns` where the point has no tangent.
+    [[nodiscard]] Vec3 normal(const ShadingPoint& point) const noexcept;
+    [[nodiscard]] int uv_set() const noexcept { return map_.uv_set(); }
+
+private:
+    Texture map_;
+    float scale_;
+};
+
+/// The map of a slot, if it has one.
+[[nodiscard]] std::optional<NormalMap> make_normal_map(const std::optional<TextureRef>& ref,
+                                                       float scale,
+                                                       std::span<const TexelImage> images);
+
+}  // namespace bdpt

@@ -1,0 +1,140 @@
+#include "material/sheen_albedo.h"
+
+#include "math/elementary.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace bdpt {
+namespace {
+
+/// The masking functions of the paper end at the horizon, where its fit grows without bound.
+constexpr float least_cosine = 1e-5f;
+
+/// x^y for x > 0.
+[[nodiscard]] float power(float x, float y)
+{
+    return exp_exact(y * log_exact(x));
+}
+
+/// The fit of the paper's section 4, between its two columns.
+[[nodiscard]] float fitted(float x, float alpha)
+{
+    const float share = (1.0f - alpha) * (1.0f - alpha);
+    const float a = glm::mix(21.5473f, 25.3245f, share);
+    const float b = glm::mix(3.82987f, 3.32435f, share);
+    const float c = glm::mix(0.19823f, 0.16801f, share);
+    const float d = glm::mix(-1.97760f, -1.27393f, share);
+    const float e = glm::mix(-4.32054f, -4.85967f, share);
+    return a / (1.0f + b * power(x, c)) + d * x + e;
+}
+
+/// Smith's Lambda.
+[[nodiscard]] float lambda(float cosine, float alpha)
+{
+    if (cosine < 0.5f) {
+        return exp_exact(fitted(cosine, alpha));
+    }
+    const float rest = std::max(least_cosine, 1.0f - cosine);
+    return exp_exact(2.0f * fitted(0.5f, alpha) - fitted(rest, alpha));
+}
+
+/// D(h) of a half vector of any length.
+[[nodiscard]] float distribution(Vec3 h, float alpha)
+{
+    constexpr float least_sine2 = 1e-30f;
+    const float sine2 = (h.x * h.x + h.y * h.y) / dot(h, h);
+    const float exponent = 1.0f / alpha;
+    return (2.0f + exponent) * 0.5f * inv_pi *
+           power(std::clamp(sine2, least_sine2, 1.0f), 0.5f * exponent);
+}
+
+[[nodiscard]] float alpha_of(float roughness)
+{
+    const float used = std::clamp(roughness, SheenAlbedo::least_roughness, 1.0f);
+    return used * used;
+}
+
+/// Midpoints of the azimuth over one half of its symmetric course, and of the root of the cosine.
+[[nodiscard]] float integrate(float cosine, float alpha)
+{
+    constexpr int heights = 40;
+    constexpr int azimuths = 24;
+    const float cos_o = std::max(cosine, least_cosine);
+    const Vec3 wo{std::sqrt(1.0f - cos_o * cos_o), 0.0f, cos_o};
+    const float lambda_o = lambda(cos_o, alpha);
+    float sum = 0.0f;
+    for (int i = 0; i < heights; ++i) {
+        const float root = (static_cast<float>(i) + 0.5f) / heights;
+        const float cos_i = std::max(root * root, least_cosine);
+        const float sine = std::sqrt(1.0f - cos_i * cos_i);
+        float around = 0.0f;
+        for (int j = 0; j < azimuths; ++j) {
+            const SinCos azimuth = sin_cos(pi * (static_cast<float>(j) + 0.5f) / azimuths);
+            around += distribution(wo + Vec3{sine * azimuth.cos, sine * azimuth.sin, cos_i}, alpha);
+        }
+        // d cos = 2 root d root; f cos_i = D / (4 cos_o (1 + Lambda))
+        sum += around * 2.0f * root / (4.0f * cos_o * (1.0f + lambda_o + lambda(cos_i, alpha)));
+    }
+    return sum * 2.0f * pi / (heights * azimuths);
+}
+
+}  // namespace
+
+SheenAlbedo::SheenAlbedo()
+{
+    constexpr float between_nodes = 1.002f;  // an albedo may be greater than at its neighbours
+    for (int row = 0; row < roughness_nodes; ++row) {
+        const float share = static_cast<float>(row) / (roughness_nodes - 1);
+        const float alpha = alpha_of(glm::mix(least_roughness, 1.0f, share));
+        float& greatest = greatest_[static_cast<std::size_t>(row)];
+        greatest = 1.0f;
+        for (int column = 0; column < cosine_nodes; ++column) {
+            const float x = static_cast<float>(column) / (cosine_nodes - 1);
+            const float albedo = integrate(x * x, alpha);
+            table_[static_cast<std::size_t>(row * cosine_nodes + column)] = albedo;
+            greatest = std::max(greatest, between_nodes * albedo);
+        }
+    }
+}
+
+SheenAlbedo::Rows SheenAlbedo::rows_at(float roughness)
+{
+    const float share = (roughness - least_roughness) / (1.0f - least_roughness);
+    const float scaled = std::clamp(share, 0.0f, 1.0f) * (roughness_nodes - 1);
+    const int lower = std::min(static_cast<int>(scaled), roughness_nodes - 2);
+    return {lower, scaled - static_cast<float>(lower)};
+}
+
+float SheenAlbedo::scale(Rows rows) const noexcept
+{
+    const float* row = greatest_.data() + rows.lower;
+    return 1.0f / glm::mix(row[0], row[1], rows.fraction);
+}
+
+float SheenAlbedo::value(Vec3 wo, Vec3 wi, float roughness) const noexcept
+{
+    const float alpha = alpha_of(roughness);
+    const float cos_o = std::max(wo.z, least_cosine);
+    const float cos_i = std::max(wi.z, least_cosine);
+    return scale(rows_at(roughness)) * distribution(wo + wi, alpha) /
+           (4.0f * cos_o * cos_i * (1.0f + lambda(cos_o, alpha) + lambda(cos_i, alpha)));
+}
+
+float SheenAlbedo::directional(float cosine, float roughness) const noexcept
+{
+    const Rows rows = rows_at(roughness);
+    const float scaled = std::sqrt(std::clamp(cosine, 0.0f, 1.0f)) * (cosine_nodes - 1);
+    const int column = std::min(static_cast<int>(scaled), cosine_nodes - 2);
+    const float fraction = scaled - static_cast<float>(column);
+    const float* lower = table_.data() + rows.lower * cosine_nodes + column;
+    const float* upper = lower + cosine_nodes;
+    return scale(rows) * glm::mix(glm::mix(lower[0], lower[1], fraction),
+                                  glm::mix(upper[0], upper[1], fraction), rows.fraction);
+}
+
+}  // namespace bdpt

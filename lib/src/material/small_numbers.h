@@ -1,0 +1,62 @@
+#pragma once
+
+#include <bdpt/types.h>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cstdint>
+
+namespace bdpt {
+
+/// A number in [0, 1] in 16 bits: twice as fine as what a material can be told to be needs.
+class Unit16 {
+public:
+    Unit16() = default;
+    /// Clamped.
+    explicit Unit16(float value)
+        : bits_(static_cast<std::uint16_t>(std::clamp(value, 0.0f, 1.0f) * 65535.0f + 0.5f))
+    {}
+    [[nodiscard]] float value() const { return static_cast<float>(bits_) * (1.0f / 65535.0f); }
+
+private:
+    std::uint16_t bits_ = 0;
+};
+
+/// A colour in [0, 1] in 48 bits.
+class Color16 {
+public:
+    Color16() = default;
+    explicit Color16(Rgb color) : r_(color.r), g_(color.g), b_(color.b) {}
+    [[nodiscard]] Rgb value() const { return {r_.value(), g_.value(), b_.value()}; }
+
+private:
+    Unit16 r_;
+    Unit16 g_;
+    Unit16 b_;
+};
+
+/// A unit vector in 48 bits; exact along the axes, else right to 3e-5 rad.
+class Direction16 {
+public:
+    Direction16() = default;
+    explicit Direction16(Vec3 w) : x_(signed16(w.x)), y_(signed16(w.y)), z_(signed16(w.z)) {}
+    [[nodiscard]] Vec3 value() const
+    {
+        return normalize(
+            Vec3{static_cast<float>(x_), static_cast<float>(y_), static_cast<float>(z_)});
+    }
+
+private:
+    [[nodiscard]] static std::int16_t signed16(float value)
+    {
+        const float scaled = std::clamp(value, -1.0f, 1.0f) * 32767.0f;
+        return static_cast<std::int16_t>(scaled + (scaled < 0.0f ? -0.5f : 0.5f));
+    }
+
+    std::int16_t x_ = 0;
+    std::int16_t y_ = 0;
+    std::int16_t z_ = 32767;
+};
+
+}  // namespace bdpt

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <bdpt/types.h>
+
+#include <cstdint>
+
+namespace bdpt {
+
+/// Which colour of light refracts as its glass says, where the index depends on the wavelength: one
+/// choice for a whole sample, camera and light paths alike [KHR_materials_dispersion has one index
+/// for each channel].
+enum class Wavelength : std::uint8_t { red, green, blue };
+
+inline constexpr int wavelengths = 3;
+
+/// One of them in a third of the samples each, from a number that is uniform in [0, 1).
+[[nodiscard]] constexpr Wavelength choose_wavelength(float u)
+{
+    return u < 1.0f / 3.0f   ? Wavelength::red
+           : u < 2.0f / 3.0f ? Wavelength::green
+                             : Wavelength::blue;
+}
+
+/// What a path counts that has met dispersion: its own channel, for the two others.
+[[nodiscard]] inline Rgb spectral_weight(Wavelength wavelength)
+{
+    Rgb weight(0.0f);
+    weight[static_cast<int>(wavelength)] = static_cast<float>(wavelengths);
+    return weight;
+}
+
+}  // namespace bdpt

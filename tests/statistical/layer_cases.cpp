@@ -1,0 +1,95 @@
+#include "equality_cases.h"
+#include "scene_builder.h"
+
+#include <utility>
+
+namespace bdpt::test {
+namespace {
+
+/// A ball in the room of the other cases, lit by a lamp.
+EqualityCase ball(std::string name, const MaterialDesc& material)
+{
+    const Rgb white(0.7f);
+    SceneBuilder builder;
+    builder.walls(lambertian(white), lambertian({0.7f, 0.5f, 0.3f})).ceiling(lambertian(white));
+    builder.lamp(0.98f, 0.85f, Rgb(4.0f, 3.5f, 3.0f));
+    builder.sphere({0.0f, -0.4f, 0.0f}, 0.55f, material);
+    return {.name = std::move(name), .scene = std::move(builder.desc), .camera = room_camera()};
+}
+
+/// Slopes to four sides.
+TexelImage bumps()
+{
+    return {.width = 2,
+            .height = 2,
+            .rgba = {160, 128, 245, 255, 128, 160, 245, 255, 96, 128, 245, 255, 128, 96, 245, 255}};
+}
+
+/// An even coat over a bumpy base: two shading normals at each point.
+EqualityCase clearcoat()
+{
+    MaterialDesc material = metal({0.9f, 0.5f, 0.3f}, 0.5f);
+    material.normal_texture = TextureRef{.image = ImageId{0}, .scale = {6, 4}};
+    material.clearcoat.factor = 1.0f;
+    material.clearcoat.roughness = 0.3f;
+    EqualityCase result = ball("clearcoat", material);
+    result.scene.images.push_back(bumps());
+    return result;
+}
+
+EqualityCase cloth()
+{
+    MaterialDesc material = lambertian({0.3f, 0.1f, 0.1f});
+    material.sheen.color = {0.9f, 0.8f, 0.5f};
+    material.sheen.roughness = 0.4f;
+    return ball("sheen", material);
+}
+
+/// The ball has texture coordinates, which give it tangents.
+EqualityCase brushed()
+{
+    MaterialDesc material = metal({0.9f, 0.7f, 0.4f}, 0.3f);
+    material.anisotropy.strength = 0.7f;
+    material.anisotropy.rotation = 0.6f;
+    return ball("anisotropy", material);
+}
+
+EqualityCase film()
+{
+    MaterialDesc material = plastic({0.5f, 0.3f, 0.2f}, 0.3f);
+    material.iridescence.factor = 1.0f;
+    material.iridescence.ior = 2.0f;
+    return ball("iridescence", material);
+}
+
+/// A ball of wax, whose inside absorbs.
+EqualityCase translucent()
+{
+    MaterialDesc material = plastic({0.5f, 0.3f, 0.2f}, 0.4f);
+    material.diffuse_transmission.factor = 0.6f;
+    material.diffuse_transmission.color = {0.9f, 0.7f, 0.6f};
+    material.thickness = 1.0f;
+    material.attenuation_color = {0.9f, 0.5f, 0.3f};
+    material.attenuation_distance = 0.5f;
+    return ball("diffuse transmission", material);
+}
+
+/// Rough, so that light tracing and all joins see it; light paths and camera paths share a colour.
+EqualityCase dispersion()
+{
+    MaterialDesc material = glass(0.35f);
+    material.dispersion = 6.0f;
+    EqualityCase result = ball("dispersion", material);
+    result.detectable_bias = 0.04;  // a third of the samples counts for each channel
+    result.detectable_bias_of_light_sampling = 0.08;
+    return result;
+}
+
+}  // namespace
+
+std::vector<EqualityCase> layer_cases()
+{
+    return {clearcoat(), cloth(), brushed(), film(), translucent(), dispersion()};
+}
+
+}  // namespace bdpt::test

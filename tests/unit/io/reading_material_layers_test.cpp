@@ -1,0 +1,216 @@
+#include "catch.hpp"
+#include "gltf_fixture.h"
+#include "picture_fixture.h"
+
+#include <bdpt/scene_desc.h>
+
+using namespace bdpt;
+using namespace bdpt::io;
+
+namespace {
+
+/// A triangle whose material has one extension, with six one-pixel textures of different greys.
+GltfFixture with_extension(const std::string& name, const nlohmann::json& extension)
+{
+    GltfFixture fixture = GltfFixture::triangle();
+    fixture.json["materials"] = {{{"extensions", {{name, extension}}}}};
+    fixture.json["meshes"][0]["primitives"][0]["material"] = 0;
+    fixture.json["extensionsUsed"] = {name};
+    fixture.json["extensionsRequired"] = {name};
+    for (int i = 0; i < 6; ++i) {
+        fixture.json["images"].push_back(
+            {{"uri", "data:image/png;base64," + base64(png(1, 1, 8, 0, {raw({10 * i})}))}});
+        fixture.json["textures"].push_back({{"source", i}});
+    }
+    return fixture;
+}
+
+/// Which of these pictures a reference leads to; -1: none.
+int picture(const LoadedScene& loaded, const std::optional<TextureRef>& ref)
+{
+    if (!ref) {
+        return -1;
+    }
+    return loaded.scene.images.at(static_cast<std::size_t>(ref->image)).rgba.at(0) / 10;
+}
+
+nlohmann::json texture(int index)
+{
+    return {{"index", index}};
+}
+
+}  // namespace
+
+TEST_CASE("clearcoat is read")
+{
+    const LoadedScene loaded =
+        with_extension(
+            "KHR_materials_clearcoat",
+            {{"clearcoatFactor", 0.75},
+             {"clearcoatTexture", texture(1)},
+             {"clearcoatRoughnessFactor", 0.25},
+             {"clearcoatRoughnessTexture", texture(2)},
+             {"clearcoatNormalTexture", {{"index", 3}, {"scale", 0.5}, {"texCoord", 1}}}})
+            .load();
+    CHECK(loaded.warnings.empty());
+    const ClearcoatDesc& coat = loaded.scene.materials.at(0).clearcoat;
+    CHECK(coat.factor == 0.75f);
+    CHECK(coat.roughness == 0.25f);
+    CHECK(coat.normal_scale == 0.5f);
+    CHECK(picture(loaded, coat.texture) == 1);
+    CHECK(picture(loaded, coat.roughness_texture) == 2);
+    CHECK(picture(loaded, coat.normal_texture) == 3);
+    CHECK(coat.normal_texture->uv_set == 1);
+}
+
+TEST_CASE("a coat that is not there has no pictures")
+{
+    const LoadedScene loaded =
+        with_extension("KHR_materials_clearcoat", {{"clearcoatTexture", texture(1)},
+                                                   {"clearcoatRoughnessTexture", texture(2)}})
+            .load();
+    CHECK(loaded.scene.materials.at(0).clearcoat.factor == 0.0f);
+    CHECK(loaded.scene.images.empty());
+    // A smooth coat stays smooth under any texture.
+    const LoadedScene smooth =
+        with_extension("KHR_materials_clearcoat",
+                       {{"clearcoatFactor", 1}, {"clearcoatRoughnessTexture", texture(2)}})
+            .load();
+    CHECK(smooth.scene.images.empty());
+}
+
+TEST_CASE("sheen is read")
+{
+    const LoadedScene loaded =
+        with_extension("KHR_materials_sheen", {{"sheenColorFactor", {0.75, 0.5, 0.25}},
+                                               {"sheenColorTexture", texture(1)},
+                                               {"sheenRoughnessFactor", 0.25},
+                                               {"sheenRoughnessTexture", texture(2)}})
+            .load();
+    CHECK(loaded.warnings.empty());
+    const SheenDesc& sheen = loaded.scene.materials.at(0).sheen;
+    CHECK(sheen.color == Rgb(0.75f, 0.5f, 0.25f));
+    CHECK(sheen.roughness == 0.25f);
+    CHECK(picture(loaded, sheen.color_texture) == 1);
+    CHECK(picture(loaded, sheen.roughness_texture) == 2);
+    const LoadedScene none =
+        with_extension("KHR_materials_sheen", {{"sheenColorTexture", texture(1)}}).load();
+    CHECK(none.scene.materials.at(0).sheen.color == Rgb(0.0f));
+    CHECK(none.scene.images.empty());
+}
+
+TEST_CASE("anisotropy is read")
+{
+    const LoadedScene loaded =
+        with_extension("KHR_materials_anisotropy", {{"anisotropyStrength", 0.75},
+                                                    {"anisotropyRotation", -1.5},
+                                                    {"anisotropyTexture", texture(1)}})
+            .load();
+    CHECK(loaded.warnings.empty());
+    const AnisotropyDesc& anisotropy = loaded.scene.materials.at(0).anisotropy;
+    CHECK(anisotropy.strength == 0.75f);
+    CHECK(anisotropy.rotation == -1.5f);
+    CHECK(picture(loaded, anisotropy.texture) == 1);
+}
+
+TEST_CASE("iridescence is read")
+{
+    const LoadedScene loaded =
+        with_extension("KHR_materials_iridescence", {{"iridescenceFactor", 0.5},
+                                                     {"iridescenceIor", 1.75},
+                                                     {"iridescenceThicknessMinimum", 200},
+                                                     {"iridescenceThicknessMaximum", 800},
+                                                     {"iridescenceTexture", texture(1)},
+                                                     {"iridescenceThicknessTexture", texture(2)}})
+            .load();
+    CHECK(loaded.warnings.empty());
+    const IridescenceDesc& film = loaded.scene.materials.at(0).iridescence;
+    CHECK(film.factor == 0.5f);
+    CHECK(film.ior == 1.75f);
+    CHECK(film.thickness_minimum == 200.0f);
+    CHECK(film.thickness_maximum == 800.0f);
+    CHECK(picture(loaded, film.texture) == 1);
+    CHECK(picture(loaded, film.thickness_texture) == 2);
+    const LoadedScene defaults =
+        with_extension("KHR_materials_iridescence", {{"iridescenceFactor", 1}}).load();
+    CHECK(defaults.scene.materials.at(0).iridescence.ior == 1.3f);
+    CHECK(defaults.scene.materials.at(0).iridescence.thickness_minimum == 100.0f);
+    CHECK(defaults.scene.materials.at(0).iridescence.thickness_maximum == 400.0f);
+}
+
+TEST_CASE("diffuse transmission is read")
+{
+    const LoadedScene loaded = with_extension("KHR_materials_diffuse_transmission",
+                                              {{"diffuseTransmissionFactor", 0.5},
+                                               {"diffuseTransmissionColorFactor", {0.25, 0.5, 1}},
+                                               {"diffuseTransmissionTexture", texture(1)},
+                                               {"diffuseTransmissionColorTexture", texture(2)}})
+                                   .load();
+    CHECK(loaded.warnings.empty());
+    const DiffuseTransmissionDesc& through = loaded.scene.materials.at(0).diffuse_transmission;
+    CHECK(through.factor == 0.5f);
+    CHECK(through.color == Rgb(0.25f, 0.5f, 1.0f));
+    CHECK(picture(loaded, through.texture) == 1);
+    CHECK(picture(loaded, through.color_texture) == 2);
+}
+
+TEST_CASE("specular-glossiness becomes a dielectric with a specular colour")
+{
+    GltfFixture fixture = with_extension("KHR_materials_pbrSpecularGlossiness",
+                                         {{"diffuseFactor", {0.25, 0.5, 0.75, 0.5}},
+                                          {"specularFactor", {1, 0.5, 0.25}},
+                                          {"glossinessFactor", 0.75},
+                                          {"diffuseTexture", texture(1)},
+                                          {"specularGlossinessTexture", texture(2)}});
+    // What viewers without the extension see does not count.
+    fixture.json["materials"][0]["pbrMetallicRoughness"] = {
+        {"metallicFactor", 1}, {"metallicRoughnessTexture", texture(3)}};
+    const LoadedScene loaded = fixture.load();
+    CHECK(loaded.warnings.empty());
+    const MaterialDesc& material = loaded.scene.materials.at(0);
+    CHECK(material.base_color == Vec4(0.25f, 0.5f, 0.75f, 0.5f));
+    CHECK(material.metallic == 0.0f);
+    CHECK(material.roughness == 0.25f);
+    CHECK(material.specular == 1.0f);
+    // Times 0.04, the reflectance of index 1.5.
+    CHECK(material.specular_color.r == Approx(25.0));
+    CHECK(material.specular_color.b == Approx(6.25));
+    CHECK(picture(loaded, material.base_color_texture) == 1);
+    CHECK(picture(loaded, material.specular_color_texture) == 2);
+    CHECK(picture(loaded, material.glossiness_texture) == 2);
+    CHECK_FALSE(material.metallic_roughness_texture);
+    const MaterialDesc defaults =
+        with_extension("KHR_materials_pbrSpecularGlossiness", nlohmann::json::object())
+            .load()
+            .scene.materials.at(0);
+    CHECK(defaults.base_color == Vec4(1.0f));
+    CHECK(defaults.roughness == 0.0f);
+    CHECK(defaults.specular_color.g == Approx(25.0));
+}
+
+TEST_CASE("dispersion is read")
+{
+    const auto dispersion = [](const nlohmann::json& extension) {
+        return with_extension("KHR_materials_dispersion", extension)
+            .load()
+            .scene.materials.at(0)
+            .dispersion;
+    };
+    CHECK(dispersion({{"dispersion", 2.5}}) == 2.5f);
+    CHECK(dispersion(nlohmann::json::object()) == 0.0f);
+    CHECK(dispersion({{"dispersion", -1}}) == 0.0f);
+}
+
+TEST_CASE("values of layers beyond their ranges are brought back, of a wrong type refused")
+{
+    const LoadedScene loaded =
+        with_extension("KHR_materials_clearcoat", {{"clearcoatFactor", 1.5}}).load();
+    CHECK(loaded.scene.materials.at(0).clearcoat.factor == 1.0f);
+    CHECK(warns(loaded.warnings,
+                {"/materials/0/extensions/KHR_materials_clearcoat/clearcoatFactor: 1.5"}));
+    const Error error =
+        with_extension("KHR_materials_clearcoat", {{"clearcoatFactor", "much"}}).error();
+    CHECK(error.code() == ErrorCode::invalid_input);
+    CHECK(contains(error.what(),
+                   "/materials/0/extensions/KHR_materials_clearcoat/clearcoatFactor: must be"));
+}

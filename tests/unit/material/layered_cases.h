@@ -1,0 +1,182 @@
+#pragma once
+
+#include "material/gltf_bsdf.h"
+#include "material/layered_bsdf.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace bdpt::test {
+
+/// A material that the BSDF tests run over.
+struct BsdfCase {
+    std::string name;
+    GltfParameters surface;
+    float ior = 1.5f;
+    /// Its `base` and `constants` do not count.
+    std::optional<LayeredParameters> layers{};
+    /// The coat has a normal of its own: f is reciprocal with other cosines only.
+    bool tilted_coat = false;
+
+    [[nodiscard]] bool refracts() const
+    {
+        return surface.body == Body::solid && surface.transmission > 0.0f;
+    }
+};
+
+/// The model of a case, whichever it is.
+class TestedBsdf {
+public:
+    explicit TestedBsdf(const BsdfCase& tested)
+        : albedo_(std::make_unique<const SpecularAlbedo>(tested.ior)),
+          plain_(tested.surface, *albedo_)
+    {
+        if (tested.layers) {
+            static const LayerTables tables = all_tables();
+            constants_ = std::make_unique<const LayeredConstants>(
+                LayeredConstants{.base = albedo_.get(), .film_ior = 1.8f, .tables = &tables});
+            LayeredParameters layers = *tested.layers;
+            layers.base = tested.surface;
+            layers.constants = constants_.get();
+            layered_.emplace(layers);
+        }
+    }
+
+    [[nodiscard]] BsdfEval eval(Vec3 wo, Vec3 wi, TransportMode mode) const
+    {
+        return layered_ ? layered_->eval(wo, wi, mode) : plain_.eval(wo, wi, mode);
+    }
+    [[nodiscard]] std::optional<BsdfSample> sample(Vec3 wo, float u_lobe, Vec2 u,
+                                                   TransportMode mode) const
+    {
+        return layered_ ? layered_->sample(wo, u_lobe, u, mode)
+                        : plain_.sample(wo, u_lobe, u, mode);
+    }
+    [[nodiscard]] bool has_smooth_lobe() const
+    {
+        return layered_ ? layered_->has_smooth_lobe() : plain_.has_smooth_lobe();
+    }
+
+private:
+    [[nodiscard]] static LayerTables all_tables()
+    {
+        MaterialDesc everything;
+        everything.clearcoat.factor = 1.0f;
+        everything.sheen.color = Rgb(1.0f);
+        return LayerTables({&everything, 1});
+    }
+
+    std::unique_ptr<const SpecularAlbedo> albedo_;
+    std::unique_ptr<const LayeredConstants> constants_;
+    GltfBsdf plain_;
+    std::optional<LayeredBsdf> layered_;
+};
+
+[[nodiscard]] inline LayeredParameters coated(float share, float roughness,
+                                              Vec3 normal = {0.0f, 0.0f, 1.0f},
+                                              LayeredParameters layers = {})
+{
+    layers.coat = Unit16(share);
+    layers.coat_roughness = Unit16(roughness);
+    layers.coat_normal = Direction16(normalize(normal));
+    return layers;
+}
+
+[[nodiscard]] inline LayeredParameters sheen(Rgb color, float roughness,
+                                             LayeredParameters layers = {})
+{
+    layers.sheen = Color16(color);
+    layers.sheen_roughness = Unit16(roughness);
+    return layers;
+}
+
+[[nodiscard]] inline LayeredParameters brushed(float strength, LayeredParameters layers = {})
+{
+    layers.anisotropy = Unit16(strength);
+    return layers;
+}
+
+/// Of index 1.8.
+[[nodiscard]] inline LayeredParameters filmed(float factor, float thickness,
+                                              LayeredParameters layers = {})
+{
+    layers.film = Unit16(factor);
+    layers.film_thickness = thickness;
+    return layers;
+}
+
+[[nodiscard]] inline LayeredParameters translucent(float share, Rgb color,
+                                                   LayeredParameters layers = {})
+{
+    layers.diffuse_transmission = Unit16(share);
+    layers.transmission_color = Color16(color);
+    return layers;
+}
+
+/// Materials with layers, over all kinds of bases.
+[[nodiscard]] inline std::vector<BsdfCase> layered_cases()
+{
+    const Rgb blue{0.2f, 0.5f, 0.8f};
+    const Rgb white{1.0f};
+    constexpr Body thin = Body::thin_walled;
+    constexpr Body solid = Body::solid;
+    const Vec3 tilt{0.3f, -0.2f, 1.0f};
+    return {
+        {"coat 0.2 on lambert", {blue, 0, 1, 0}, 1.5f, coated(1, 0.2f)},
+        {"smooth coat on dielectric 0.5", {blue, 0, 0.5f}, 1.5f, coated(1, 0)},
+        {"half coat 0.4 on metal 0.2", {blue, 1, 0.2f}, 1.5f, coated(0.5f, 0.4f)},
+        {"coat 0.3 on a mirror", {blue, 1, 0}, 1.5f, coated(1, 0.3f)},
+        {"smooth coat on a mirror", {blue, 1, 0}, 1.5f, coated(1, 0)},
+        {"coat 1 on black", {Rgb{0.0f}, 0, 1, 0}, 1.5f, coated(1, 1)},
+        {"coat 0.3 on thin glass 0.4", {blue, 0, 0.4f, 1, white, 1, thin}, 1.5f, coated(1, 0.3f)},
+        {"coat 0.3 on glass 0.4", {blue, 0, 0.4f, 1, white, 0.8f, solid}, 1.4f, coated(1, 0.3f)},
+        {"smooth coat on glass", {white, 0, 0, 1, white, 1, solid}, 1.5f, coated(0.7f, 0)},
+        {"sheen 0.5 on lambert", {blue, 0, 1, 0}, 1.5f, sheen(white, 0.5f)},
+        {"red sheen 0.2 on dielectric 0.6", {blue, 0, 0.6f}, 1.5f, sheen({0.9f, 0.3f, 0.1f}, 0.2f)},
+        {"sheen 1 on a mirror", {blue, 1, 0}, 1.5f, sheen(white, 1)},
+        {"sheen 0.3 on black", {Rgb{0.0f}, 0, 1, 0}, 1.5f, sheen(white, 0.3f)},
+        {"sheen 0.4 on glass 0.4",
+         {blue, 0, 0.4f, 1, white, 0.8f, solid},
+         1.4f,
+         sheen({0.2f, 0.7f, 0.5f}, 0.4f)},
+        {"coat 0.3 on sheen 0.6 on metal 0.4",
+         {blue, 1, 0.4f},
+         1.5f,
+         sheen({0.5f, 0.9f, 0.7f}, 0.6f, coated(0.8f, 0.3f))},
+        {"brushed metal 0.2", {blue, 1, 0.2f}, 1.5f, brushed(0.7f)},
+        {"brushed metal 0.1", {blue, 1, 0.1f}, 1.5f, brushed(0.5f)},
+        {"brushed dielectric 0.4", {blue, 0, 0.4f}, 1.5f, brushed(0.8f)},
+        {"brushed glass 0.3", {white, 0, 0.3f, 1, white, 1, solid}, 1.5f, brushed(0.6f)},
+        {"brushed thin glass 0.3", {blue, 0, 0.3f, 1, white, 0.7f, thin}, 1.5f, brushed(0.6f)},
+        {"brushed ior 1", {blue, 0.5f, 0.4f, 1, white, 1, solid}, 1.0f, brushed(0.6f)},
+        {"film on dielectric 0.3", {blue, 0, 0.3f}, 1.5f, filmed(1, 400)},
+        {"thin film on smooth dielectric", {blue, 0, 0}, 1.5f, filmed(1, 120)},
+        {"half a film on metal 0.3", {blue, 1, 0.3f}, 1.5f, filmed(0.5f, 550)},
+        {"film on glass 0.3", {white, 0, 0.3f, 1, white, 1, solid}, 1.5f, filmed(1, 300)},
+        {"film on thin glass", {white, 0, 0, 1, white, 1, thin}, 1.5f, filmed(1, 300)},
+        {"film without a boundary", {blue, 0, 0.5f, 0}, 1.0f, filmed(1, 250)},
+        {"translucent lambert", {blue, 0, 1, 0}, 1.5f, translucent(0.6f, {0.9f, 0.7f, 0.3f})},
+        {"translucent dielectric 0.4", {blue, 0, 0.4f}, 1.5f, translucent(0.3f, white)},
+        {"wholly translucent smooth", {blue, 0, 0}, 1.5f, translucent(1, {0.5f, 0.9f, 0.2f})},
+        {"translucent half transmission",
+         {blue, 0, 0.4f, 1, white, 0.5f, thin},
+         1.5f,
+         translucent(0.5f, white)},
+        {"translucent in glass",
+         {blue, 0, 0.4f, 1, white, 0.5f, solid},
+         1.5f,
+         translucent(0.5f, white)},
+        {"all layers",
+         {blue, 0.3f, 0.4f, 0.8f, white, 0.3f, thin},
+         1.4f,
+         coated(0.6f, 0.2f, {0, 0, 1},
+                sheen({0.4f, 0.3f, 0.5f}, 0.5f,
+                      brushed(0.5f, filmed(0.7f, 350, translucent(0.4f, {0.9f, 0.5f, 0.4f})))))},
+        {"tilted coat 0.3 on lambert", {blue, 0, 1, 0}, 1.5f, coated(1, 0.3f, tilt), true},
+        {"tilted smooth coat on metal 0.3", {blue, 1, 0.3f}, 1.5f, coated(1, 0, tilt), true},
+    };
+}
+
+}  // namespace bdpt::test

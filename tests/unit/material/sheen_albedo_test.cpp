@@ -1,0 +1,70 @@
+#include "material/sheen_albedo.h"
+
+#include "catch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace bdpt;
+
+namespace {
+
+constexpr double exact_pi = 3.14159265358979323846;
+
+/// The share that is reflected of light from this cosine, by many midpoints.
+double albedo(const SheenAlbedo& sheen, double cosine, float roughness)
+{
+    constexpr int heights = 400;
+    constexpr int azimuths = 200;
+    const Vec3 wo(std::sqrt(1.0 - cosine * cosine), 0.0, cosine);
+    double sum = 0.0;
+    for (int i = 0; i < heights; ++i) {
+        const double root = (i + 0.5) / heights;
+        const double cos_i = root * root;
+        const double sine = std::sqrt(1.0 - cos_i * cos_i);
+        for (int j = 0; j < azimuths; ++j) {
+            const double turn = exact_pi * (j + 0.5) / azimuths;
+            const Vec3 wi(sine * std::cos(turn), sine * std::sin(turn), cos_i);
+            sum += 2.0 * root * cos_i * static_cast<double>(sheen.value(wo, wi, roughness));
+        }
+    }
+    return sum * 2.0 * exact_pi / (heights * azimuths);
+}
+
+}  // namespace
+
+TEST_CASE("the tables of sheen hold what its formula reflects")
+{
+    const SheenAlbedo sheen;
+    for (const float roughness : {0.1f, 0.24f, 0.5f, 0.77f, 1.0f}) {
+        for (const float cosine : {0.004f, 0.03f, 0.1f, 0.4f, 0.9f, 1.0f}) {
+            CAPTURE(roughness, cosine);
+            const double expected = albedo(sheen, static_cast<double>(cosine), roughness);
+            CHECK(sheen.directional(cosine, roughness) == Approx(expected).margin(0.005));
+            CHECK(expected < 1.001);
+        }
+    }
+}
+
+TEST_CASE("sheen has the values worked out by hand")
+{
+    const SheenAlbedo sheen;
+    // alpha = 1: D = 3 sin / (2 pi). At 45 degrees back to where the light comes from, sin of the
+    // half vector is sqrt(1/2). Lambda(cos > 1/2) = exp(2 l(1/2) - l(1 - cos)), where
+    // l(x) = 21.5473 / (1 + 3.82987 x^0.19823) - 1.9776 x - 4.32054.
+    const double c = std::sqrt(0.5);
+    const auto l = [](double x) {
+        return 21.5473 / (1.0 + 3.82987 * std::pow(x, 0.19823)) - 1.9776 * x - 4.32054;
+    };
+    const double lambda = std::exp(2.0 * l(0.5) - l(1.0 - c));
+    const double value = 3.0 * c / (2.0 * exact_pi) / (4.0 * c * c * (1.0 + 2.0 * lambda));
+    const Vec3 w(c, 0.0, c);
+    CHECK(sheen.value(w, w, 1.0f) == Approx(value).epsilon(1e-4));
+    // Fibres are upright: nothing is reflected straight back, and straighter ones reflect less of
+    // light that is not grazing.
+    const Vec3 up(0.0f, 0.0f, 1.0f);
+    CHECK(sheen.value(up, up, 0.5f) < 1e-6f);
+    CHECK(sheen.directional(0.7f, 0.2f) < sheen.directional(0.7f, 0.9f));
+    // The least roughness.
+    CHECK(sheen.value(w, w, 0.0f) == sheen.value(w, w, SheenAlbedo::least_roughness));
+}

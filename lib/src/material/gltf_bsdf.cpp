@@ -305,21 +305,33 @@ std::optional<BsdfSample> BasicGltfBsdf<Features>::sample(const Side& from, Vec3
 }
 
 template <typename Features>
-Rgb BasicGltfBsdf<Features>::under_film(Rgb bare, Rgb f0, float cosine) const noexcept requires rich
+Rgb BasicGltfBsdf<Features>::under_film(Rgb bare, [[maybe_unused]] Rgb f0,
+                                        [[maybe_unused]] float cosine) const noexcept
 {
-    const float factor = rich_.film.factor;
-    return factor == 0.0f ? bare : bare + factor * (rich_.film.reflectance(cosine, f0) - bare);
+    if constexpr (rich) {
+        const float factor = rich_.film.factor;
+        return factor == 0.0f ? bare : bare + factor * (rich_.film.reflectance(cosine, f0) - bare);
+    } else {
+        return bare;
+    }
 }
 
 template <typename Features>
-void BasicGltfBsdf<Features>::add_transmitted(BsdfEval& sum, const Side& from, const Side& to,
-                                              float cos_o, float cos_i) const noexcept requires rich
+void BasicGltfBsdf<Features>::add_transmitted([[maybe_unused]] BsdfEval& sum,
+                                              [[maybe_unused]] const Side& from,
+                                              [[maybe_unused]] const Side& to,
+                                              [[maybe_unused]] float cos_o,
+                                              [[maybe_unused]] float cos_i) const noexcept
 {
-    const float choice = rich_.transmitted_choice;
-    sum.f_cos += rich_.diffuse_transmitted * (from.base_transmitted * to.base_transmitted * cos_i);
-    sum.pdf_fwd.value +=
-        choice * (1.0f - from.specular_choice) * cosine_hemisphere_pdf(cos_i).value;
-    sum.pdf_rev.value += choice * (1.0f - to.specular_choice) * cosine_hemisphere_pdf(cos_o).value;
+    if constexpr (rich) {
+        const float choice = rich_.transmitted_choice;
+        sum.f_cos +=
+            rich_.diffuse_transmitted * (from.base_transmitted * to.base_transmitted * cos_i);
+        sum.pdf_fwd.value +=
+            choice * (1.0f - from.specular_choice) * cosine_hemisphere_pdf(cos_i).value;
+        sum.pdf_rev.value +=
+            choice * (1.0f - to.specular_choice) * cosine_hemisphere_pdf(cos_o).value;
+    }
 }
 
 template class BasicGltfBsdf<PlainFeatures>;

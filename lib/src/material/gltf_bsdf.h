@@ -116,12 +116,12 @@ private:
     [[nodiscard]] float boundary_reflected(SpecularAlbedo::Split split) const noexcept;
     [[nodiscard]] float directional_reflected(float cosine) const noexcept;
     [[nodiscard]] float average_reflected() const noexcept;
-    void add_anisotropy(float strength) requires rich;
-    void add_diffuse_transmission(const Features& features, float diffuse,
-                                  float reaches_base) requires rich;
-    [[nodiscard]] Rgb under_film(Rgb bare, Rgb f0, float cosine) const noexcept requires rich;
+    // Nothing where there are no such features.
+    void add_anisotropy(float strength);
+    void add_diffuse_transmission(const Features& features, float diffuse, float reaches_base);
+    [[nodiscard]] Rgb under_film(Rgb bare, Rgb f0, float cosine) const noexcept;
     void add_transmitted(BsdfEval& sum, const Side& from, const Side& to, float cos_o,
-                         float cos_i) const noexcept requires rich;
+                         float cos_i) const noexcept;
     [[nodiscard]] Shares shares(float cos_outer) const noexcept;
     [[nodiscard]] float cos_outer_of(float cos_microfacet, float z) const noexcept;
     [[nodiscard]] BsdfEval eval_lobes(const Side& from, Vec3 wo, Vec3 wi,
@@ -151,7 +151,7 @@ private:
     const SpecularAlbedo* albedo_ = nullptr;
 
     /// What follows from `RichFeatures`.
-    struct Rich {
+    struct RichState {
         ThinFilm film;
         SpecularAlbedo::Roughness roughness_x;
         float film_f0 = 0.0f;             ///< bound of the reflectance under the film
@@ -159,7 +159,7 @@ private:
         float transmitted_choice = 0.0f;  ///< probability of the other side
     };
     struct Nothing {};
-    [[no_unique_address]] std::conditional_t<rich, Rich, Nothing> rich_;
+    [[no_unique_address]] std::conditional_t<rich, RichState, Nothing> rich_;
 };
 
 /// The plain model, which lives in path vertices.

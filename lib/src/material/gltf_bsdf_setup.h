@@ -50,9 +50,7 @@ BasicGltfBsdf<Features>::BasicGltfBsdf(const GltfParameters& parameters,
     const float diffuse = dielectric * (1.0f - transmission);
     diffuse_ = base_color_ * (diffuse * inv_pi / std::max(reaches_base, least_loss));
     diffuse_weight_ = diffuse * base_max;
-    if constexpr (rich) {
-        add_diffuse_transmission(features, diffuse, std::max(reaches_base, least_loss));
-    }
+    add_diffuse_transmission(features, diffuse, std::max(reaches_base, least_loss));
     transmission_weight_ = transmission_ * base_max;
     // 1/21 is the cosine-weighted average of Schlick's (1 - cos)^5.
     metal_weight_ = metallic_ * (base_max + (1.0f - base_max) / 21.0f);
@@ -63,34 +61,40 @@ BasicGltfBsdf<Features>::BasicGltfBsdf(const GltfParameters& parameters,
 }
 
 template <typename Features>
-void BasicGltfBsdf<Features>::add_anisotropy(float strength) requires rich
+void BasicGltfBsdf<Features>::add_anisotropy([[maybe_unused]] float strength)
 {
-    rich_.roughness_x = roughness_;
-    if (strength == 0.0f) {
-        return;
+    if constexpr (rich) {
+        rich_.roughness_x = roughness_;
+        if (strength == 0.0f) {
+            return;
+        }
+        // KHR_materials_anisotropy: the rougher direction goes to 1 with the square of the
+        // strength.
+        const float along = alpha_.x + (1.0f - alpha_.x) * strength * strength;
+        rich_.roughness_x = SpecularAlbedo::at_roughness(std::sqrt(along));
+        // Grooves are rough or not; what is smooth across them is as smooth as rough lobes can be.
+        alpha_ = along >= smooth_alpha ? Vec2{along, std::max(alpha_.y, smooth_alpha)} : Vec2{0.0f};
     }
-    // KHR_materials_anisotropy: the rougher direction goes to 1 with the square of the strength.
-    const float along = alpha_.x + (1.0f - alpha_.x) * strength * strength;
-    rich_.roughness_x = SpecularAlbedo::at_roughness(std::sqrt(along));
-    // Grooves are rough or not; what is smooth across them is as smooth as rough lobes can be.
-    alpha_ = along >= smooth_alpha ? Vec2{along, std::max(alpha_.y, smooth_alpha)} : Vec2{0.0f};
 }
 
 template <typename Features>
-void BasicGltfBsdf<Features>::add_diffuse_transmission(const Features& features, float diffuse,
-                                                       float reaches_base) requires rich
+void BasicGltfBsdf<Features>::add_diffuse_transmission([[maybe_unused]] const Features& features,
+                                                       [[maybe_unused]] float diffuse,
+                                                       [[maybe_unused]] float reaches_base)
 {
-    const float share = solid_ ? 0.0f : std::clamp(features.diffuse_transmission, 0.0f, 1.0f);
-    if (share == 0.0f) {
-        return;
+    if constexpr (rich) {
+        const float share = solid_ ? 0.0f : std::clamp(features.diffuse_transmission, 0.0f, 1.0f);
+        if (share == 0.0f) {
+            return;
+        }
+        const Rgb color = clamp(features.transmission_color, 0.0f, 1.0f);
+        rich_.diffuse_transmitted = color * (share * diffuse * inv_pi / reaches_base);
+        diffuse_ *= 1.0f - share;
+        const float reflected = (1.0f - share) * diffuse_weight_;
+        const float transmitted = share * diffuse * max_component(color);
+        diffuse_weight_ = reflected + transmitted;
+        rich_.transmitted_choice = diffuse_weight_ > 0.0f ? transmitted / diffuse_weight_ : 0.0f;
     }
-    const Rgb color = clamp(features.transmission_color, 0.0f, 1.0f);
-    rich_.diffuse_transmitted = color * (share * diffuse * inv_pi / reaches_base);
-    diffuse_ *= 1.0f - share;
-    const float reflected = (1.0f - share) * diffuse_weight_;
-    const float transmitted = share * diffuse * max_component(color);
-    diffuse_weight_ = reflected + transmitted;
-    rich_.transmitted_choice = diffuse_weight_ > 0.0f ? transmitted / diffuse_weight_ : 0.0f;
 }
 
 }  // namespace bdpt

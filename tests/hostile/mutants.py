@@ -73,9 +73,11 @@ def remove_member(text, chance):
 
 
 def mutate(data, seed):
-    """One mutant of a .gltf or .glb file."""
+    """One mutant of a scene or a picture."""
     chance = random.Random(seed)
     glb = split_glb(data)
+    if not glb and not data.lstrip().startswith(b"{"):
+        return chance.choice([flip_bits, put_word, truncate])(data, chance)
     if glb and chance.random() < 0.8:
         text, rest = glb
         if rest and chance.random() < 0.4:

@@ -100,7 +100,8 @@ class Runner:
                 outcomes.append(outcome)
                 faults += [f"{words[0]}: {fault}"] if fault else []
             if case.expected == "refuse" and outcomes[0] != "refused" and outcomes[-1] != "refused":
-                faults.append(f"verdict: should be refused: {', '.join(case.codes)}")
+                kind = "escape" if case.group == "escapes" else "verdict"
+                faults.append(f"{kind}: should be refused: {', '.join(case.codes)}")
             if case.expected == "load" and outcomes[0] == "refused":
                 faults.append(f"verdict: should load: {', '.join(case.codes)}: {text.strip()[-200:]}")
             folders = {case.file.resolve().parent, folder.resolve(), pathlib.Path(self.options.scene).resolve().parent}
@@ -165,7 +166,8 @@ def folder_cases(folder, scratch, every):
 def mutant_cases(folders, scratch, count, seed, every):
     """Mutants of files that are whole in themselves or whose neighbours are copied."""
     for folder in folders:
-        files = sorted(file for file in folder.rglob("*") if file.suffix in SCENES and "hostile" not in file.parts)
+        files = sorted(file for file in folder.rglob("*")
+                       if file.suffix in (*SCENES, *ENVIRONMENTS, *TEXTURES) and "hostile" not in file.parts)
         for file in files[::every]:
             if file.stat().st_size > LARGEST_ORIGIN:
                 continue

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Throws files that nobody trusts at the command, and counts what becomes of them.
 
-    sweep.py COMMAND SCENE [FOLDER...] [--mutants N] [--seed N] [--timeout S] [--memory GB] [--every N] [--jobs N]
-             [--trace] [--json FILE]
+    sweep.py COMMAND SCENE [FOLDER...] [--assets NAME] [--mutants N] [--seed N] [--timeout S] [--memory GB]
+             [--every N] [--jobs N] [--trace] [--json FILE] [--keep FOLDER]
 
 Each scene goes through `bdpt info` and `bdpt render`, each environment lights SCENE, which must be sound; any other
 picture becomes a texture. Besides the files of the folders: mutants of those that are sound (N of each small one), and
@@ -209,6 +209,7 @@ def parse(words):
     parser.add_argument("command")
     parser.add_argument("scene", type=pathlib.Path)
     parser.add_argument("folders", nargs="*", type=pathlib.Path)
+    parser.add_argument("--assets", metavar="NAME", help="a folder in that which BDPT_TEST_ASSETS names")
     parser.add_argument("--mutants", type=int, default=0, metavar="N")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--timeout", type=float, default=10.0)
@@ -223,6 +224,12 @@ def parse(words):
 
 def main():
     options = parse(sys.argv[1:])
+    if options.assets is not None:
+        assets = os.environ.get("BDPT_TEST_ASSETS")
+        if not assets:
+            print("skipped: BDPT_TEST_ASSETS does not name a folder of files")
+            sys.exit(77)
+        options.folders.append(pathlib.Path(assets) / options.assets)
     if options.trace and not shutil.which("strace"):
         print("strace is not here, so only planted files tell of escapes")
         options.trace = False

@@ -22,9 +22,10 @@ std::string text(std::uint32_t value)
 }
 
 /// The start of an OpenEXR file and one attribute of a header.
-std::string exr_with(const std::string& name, std::uint32_t size, const std::string& data)
+std::string exr_with(const std::string& name, std::uint32_t size, const std::string& data,
+                     const std::string& type = "unknown")
 {
-    return text(20000630) + text(2) + name + '\0' + "unknown" + '\0' + text(size) + data;
+    return text(20000630) + text(2) + name + '\0' + type + '\0' + text(size) + data;
 }
 
 std::string header_error(const std::string& file)
@@ -77,6 +78,38 @@ TEST_CASE("OpenEXR is not asked to make room for more than there is")
     for (std::size_t length = 0; length < parts.size(); ++length) {
         static_cast<void>(header_error(parts.substr(0, length)));
     }
+}
+
+TEST_CASE("attributes of OpenEXR have the size of their type")
+{
+    using namespace std::string_literals;
+    struct Attribute {
+        std::string type;
+        std::string sound;  // a value of this type
+    };
+    const std::string channel = "R\0"s + std::string(16, 'x');
+    const Attribute attributes[] = {{"float", "1234"},
+                                    {"box2f", std::string(16, 'x')},
+                                    {"lineOrder", "0"},
+                                    {"chlist", channel + channel + '\0'},
+                                    {"preview", text(2) + text(1) + "rgbargba"},
+                                    {"stringvector", text(2) + "ab" + text(0)}};
+    const std::string end(1, '\0');
+    for (const Attribute& attribute : attributes) {
+        CAPTURE(attribute.type);
+        const auto size = static_cast<std::uint32_t>(attribute.sound.size());
+        CHECK(header_error(exr_with("a", size, attribute.sound + end, attribute.type)).empty());
+        // One byte more or less would move all that follows.
+        for (const std::uint32_t wrong : {size - 1, size + 1}) {
+            CHECK(contains(
+                header_error(exr_with("a", wrong, attribute.sound + "????", attribute.type)),
+                "are not the size of its \"" + attribute.type));
+        }
+    }
+    CHECK(contains(header_error(exr_with("a", 8, text(1u << 31) + text(1u << 31), "preview")),
+                   "not the size"));
+    CHECK(contains(header_error(exr_with("a", 8, text(1u << 30) + "abcd", "stringvector")),
+                   "not the size"));
 }
 
 TEST_CASE("an OpenEXR file is checked before it is opened")

@@ -59,6 +59,92 @@ private:
     throw Error(ErrorCode::invalid_input, "OpenEXR: " + what);
 }
 
+struct FixedSize {
+    std::string_view type;
+    std::uint32_t size;
+};
+
+constexpr FixedSize fixed_sizes[] = {{"box2f", 16},
+                                     {"box2i", 16},
+                                     {"chromaticities", 32},
+                                     {"compression", 1},
+                                     {"deepImageState", 1},
+                                     {"double", 8},
+                                     {"envmap", 1},
+                                     {"float", 4},
+                                     {"int", 4},
+                                     {"keycode", 28},
+                                     {"lineOrder", 1},
+                                     {"m33d", 72},
+                                     {"m33f", 36},
+                                     {"m44d", 128},
+                                     {"m44f", 64},
+                                     {"rational", 8},
+                                     {"tiledesc", 9},
+                                     {"timecode", 8},
+                                     {"v2d", 16},
+                                     {"v2f", 8},
+                                     {"v2i", 8},
+                                     {"v3d", 24},
+                                     {"v3f", 12},
+                                     {"v3i", 12}};
+
+/// Bytes that a list of channels takes, whatever its attribute says.
+std::size_t channel_list_size(Cursor cursor)
+{
+    constexpr std::size_t channel_size = 16;
+    const std::size_t before = cursor.left();
+    while (!cursor.read_text().empty()) {
+        cursor.skip(channel_size);
+    }
+    return before - cursor.left();
+}
+
+std::uint64_t preview_size(Cursor cursor)
+{
+    const std::uint64_t width = cursor.read_u32();
+    const std::uint64_t height = cursor.read_u32();
+    // Dimensions of 32 bits: their product fits, four times it may not.
+    return width * height > UINT32_MAX ? UINT64_MAX : 8 + 4 * width * height;
+}
+
+/// Whether texts of the lengths that stand before them fill `size` bytes.
+bool is_text_list(Cursor cursor, std::uint32_t size)
+{
+    std::uint32_t left = size;
+    while (left >= 4) {
+        const std::uint32_t length = cursor.read_u32();
+        left -= 4;
+        if (length > left) {
+            return false;
+        }
+        cursor.skip(length);
+        left -= length;
+    }
+    return left == 0;
+}
+
+/// Values of most types know their own size, and OpenEXR goes by that. Where it is not the one that
+/// the attribute states, the rest of the header would be something else to OpenEXR than to us.
+bool has_size(const Cursor& value, std::string_view type, std::uint32_t size)
+{
+    for (const FixedSize& fixed : fixed_sizes) {
+        if (fixed.type == type) {
+            return fixed.size == size;
+        }
+    }
+    if (type == "chlist") {
+        return channel_list_size(value) == size;
+    }
+    if (type == "preview") {
+        return preview_size(value) == size;
+    }
+    if (type == "stringvector") {
+        return is_text_list(value, size);
+    }
+    return true;
+}
+
 void check_tiles(Cursor description, const ReadLimits& limits)
 {
     const std::uint32_t width = description.read_u32();
@@ -91,11 +177,15 @@ bool check_attribute(Cursor& cursor, const ReadLimits& limits)
     if (name.empty()) {
         return false;
     }
-    static_cast<void>(cursor.read_text());  // its type
+    const std::string_view type = cursor.read_text();
     const std::uint32_t size = cursor.read_u32();
     if (size > cursor.left()) {
         fail(fmt::format("attribute {}: {} bytes, but {} are left", quote(name), size,
                          cursor.left()));
+    }
+    if (!has_size(cursor, type, size)) {
+        fail(fmt::format("attribute {}: {} bytes are not the size of its {}", quote(name), size,
+                         quote(type)));
     }
     if (name == "tiles") {
         check_tiles(cursor, limits);

@@ -15,6 +15,7 @@ public:
     [[nodiscard]] std::filesystem::path write(const std::uint8_t* data, std::size_t size) const
     {
         const std::filesystem::path file = folder_ / "input";
+        std::filesystem::remove(file);  // Some file systems wait for the disk where one is cut off.
         std::ofstream stream(file, std::ios::binary | std::ios::trunc);
         stream.write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
         if (!stream.flush()) {

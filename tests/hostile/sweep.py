@@ -195,9 +195,10 @@ def report(results):
                  for fault in result.faults}
         for group in (result.case.group, "all"):
             counts[group].update(["tried", *({result.outcome} | kinds)])
-    print(f"{'':<16}" + "".join(f"{column:>10}" for column in columns))
+    width = max(map(len, counts)) + 1
+    print(" " * width + "".join(f"{column:>10}" for column in columns))
     for group in [*sorted(set(counts) - {"all"}), "all"]:
-        print(f"{group:<16}" + "".join(f"{counts[group][column]:>10}" for column in columns))
+        print(f"{group:<{width}}" + "".join(f"{counts[group][column]:>10}" for column in columns))
     for result in results:
         for fault in result.faults:
             print(f"FAULT {result.case.group}/{result.case.name}: {fault}")

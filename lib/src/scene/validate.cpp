@@ -170,6 +170,17 @@ void check_direction(const std::string& item, Vec3 direction)
     }
 }
 
+/// How far things may be, and why.
+std::string reach_text(float reach)
+{
+    std::ostringstream text;
+    text << " m from the origin, but " << reach << " m is the most";
+    if (reach < greatest_reach) {
+        text << ", as a mesh that is used more than once is scaled down very much";
+    }
+    return text.str();
+}
+
 void check_position(const std::string& item, Vec3 position, float reach)
 {
     if (!all_finite(&position[0], 3)) {
@@ -178,7 +189,7 @@ void check_position(const std::string& item, Vec3 position, float reach)
     const float extent =
         std::max({std::abs(position.x), std::abs(position.y), std::abs(position.z)});
     if (extent > reach) {
-        fail(item, ": is ", extent, " m from the origin, but ", reach, " m is the most");
+        fail(item, ": is ", extent, reach_text(reach));
     }
 }
 
@@ -195,11 +206,7 @@ void check_reach(const SceneDesc& desc, float reach)
         const float extent = placed_extent(extents[static_cast<std::size_t>(instance.mesh)],
                                            instance.world_from_object);
         if (!(extent <= reach)) {
-            fail(label("instance", i, instance.name), ": reaches ", extent,
-                 " m from the origin, but ", reach, " m is the most",
-                 reach < greatest_reach ? ", as a mesh that is used more than once is scaled down "
-                                          "very much"
-                                        : "");
+            fail(label("instance", i, instance.name), ": reaches ", extent, reach_text(reach));
         }
     }
 }

@@ -62,7 +62,7 @@ def plant(folder):
     yield file, False
 
 
-OPENED = re.compile(r'(?:open|openat|openat2|creat)\((?:AT_FDCWD, |\d+(?:<[^>]*>)?, )?"((?:[^"\\]|\\.)*)"[^=]*= (\d+)')
+OPENED = re.compile(r'(?:open|openat|openat2|creat)\((?:AT_FDCWD, |\d+(?:<[^>]*>)?, )?"((?:[^"\\]|\\.)*)"[^=\n]*= (\d+)')
 
 
 def opened_files(trace):

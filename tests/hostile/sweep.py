@@ -61,7 +61,7 @@ class Runner:
     def call(self, words, folder):
         """(exit code or None after the time is up, stderr, opened files)."""
         trace = folder / "trace"
-        prefix = ["strace", "-f", "-qq", "-s", "4096", "-e", "trace=open,openat,openat2,creat", "-o",
+        prefix = ["strace", "-ff", "-qq", "-s", "4096", "-e", "trace=open,openat,openat2,creat", "-o",
                   str(trace)] if self.options.trace else []
         try:
             done = subprocess.run([*prefix, self.options.command, *words], stdin=subprocess.DEVNULL,
@@ -70,7 +70,8 @@ class Runner:
             code, text = done.returncode, done.stderr.decode("utf-8", "replace")
         except subprocess.TimeoutExpired:
             code, text = None, ""
-        opened = escapes.opened_files(trace.read_text(errors="replace")) if trace.exists() else set()
+        # A file for each thread, so that calls are whole lines.
+        opened = set().union(*(escapes.opened_files(part.read_text(errors="replace")) for part in folder.glob("trace.*")))
         return code, text, opened
 
     def words(self, case, picture, folder):

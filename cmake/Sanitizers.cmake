@@ -1,6 +1,26 @@
 # Applies to everything that is built here.
-if(BDPT_SANITIZE)
-  add_compile_options(-fsanitize=${BDPT_SANITIZE} -fno-omit-frame-pointer
+set(bdpt_sanitizers ${BDPT_SANITIZE})
+
+# Where libFuzzer is missing, tests/fuzz says so and does without.
+set(BDPT_HAS_LIBFUZZER OFF)
+if(BDPT_BUILD_FUZZERS)
+  include(CheckCXXSourceCompiles)
+  set(CMAKE_REQUIRED_FLAGS "-fsanitize=fuzzer")
+  check_cxx_source_compiles("
+    #include <cstddef>
+    #include <cstdint>
+    extern \"C\" int LLVMFuzzerTestOneInput(const std::uint8_t*, std::size_t) { return 0; }"
+    BDPT_LIBFUZZER_LINKS)
+  unset(CMAKE_REQUIRED_FLAGS)
+  set(BDPT_HAS_LIBFUZZER ${BDPT_LIBFUZZER_LINKS})
+endif()
+if(BDPT_HAS_LIBFUZZER)
+  list(APPEND bdpt_sanitizers fuzzer-no-link)
+endif()
+
+if(bdpt_sanitizers)
+  list(JOIN bdpt_sanitizers "," bdpt_sanitizers)
+  add_compile_options(-fsanitize=${bdpt_sanitizers} -fno-omit-frame-pointer
                       -fno-sanitize-recover=all)
-  add_link_options(-fsanitize=${BDPT_SANITIZE})
+  add_link_options(-fsanitize=${bdpt_sanitizers})
 endif()

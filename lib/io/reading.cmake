@@ -9,6 +9,7 @@ target_sources(bdpt_io PRIVATE
   # pictures
   src/image/environment.cpp
   src/image/exr_channels.cpp
+  src/image/exr_header.cpp
   src/image/exr_reader.cpp
   src/image/hdr_reader.cpp
   src/image/oiio_library.cpp

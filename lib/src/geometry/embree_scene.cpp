@@ -3,12 +3,14 @@
 #include "geometry/embree.h"
 #include "geometry/embree_device.h"
 #include "geometry/embree_spheres.h"
+#include "geometry/reach.h"
 
 #include <bdpt/error.h>
 
 #include <glm/geometric.hpp>
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <new>
 #include <string>
@@ -109,6 +111,11 @@ OwnedGeometry new_triangles(RTCDevice device, const std::vector<Vec3>& padded_po
     return geometry;
 }
 
+bool is_within(Vec3 v, float bound)
+{
+    return std::abs(v.x) <= bound && std::abs(v.y) <= bound && std::abs(v.z) <= bound;
+}
+
 RTCRay to_embree(const Ray& ray)
 {
     // A surface through the exact origin counts as behind it, for it is the one that the ray
@@ -139,6 +146,15 @@ struct EmbreeScene::State {
     OwnedScene top;
     std::span<const PlacedMesh> placed;
     HitFilter filter;
+    float reach = 0.0f;
+
+    /// Embree may end the process for other rays. What numbers make of odd scenes, such as NaN,
+    /// must not; such rays meet nothing.
+    [[nodiscard]] bool can_trace(const Ray& ray) const
+    {
+        return is_within(ray.origin, 8.0f * reach) && is_within(ray.direction, 16.0f * reach) &&
+               ray.t_max >= 0.0f;
+    }
 };
 
 EmbreeScene::EmbreeScene(std::span<const InstanceDesc> instances, std::span<PlacedMesh> placed,
@@ -149,6 +165,7 @@ EmbreeScene::EmbreeScene(std::span<const InstanceDesc> instances, std::span<Plac
     State& state = *state_;
     RTCDevice device = state.device.get();
     state.placed = placed;
+    state.reach = reach_of(instances, mesh_count);
     state.filter = {.rule = pass_rule, .placed = placed};
     state.top = new_scene(device);
 
@@ -225,6 +242,9 @@ Isa EmbreeScene::isa() const noexcept
 
 std::optional<RayHit> EmbreeScene::intersect(const Ray& ray) const noexcept
 {
+    if (!state_->can_trace(ray)) [[unlikely]] {
+        return std::nullopt;
+    }
     RTCRayHit query;  // Embree writes the rest of a hit
     query.ray = to_embree(ray);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -249,6 +269,9 @@ std::optional<RayHit> EmbreeScene::intersect(const Ray& ray) const noexcept
 
 bool EmbreeScene::occluded(const Ray& ray) const noexcept
 {
+    if (!state_->can_trace(ray)) [[unlikely]] {
+        return true;  // No light comes along a line that nothing is known of.
+    }
     RTCRay query = to_embree(ray);
     embree::occluded(state_->top.get(), query, ray);
     return query.tfar < 0.0f;

@@ -1,5 +1,6 @@
 #include "render/check_options.h"
 
+#include "geometry/reach.h"
 #include "math/elementary.h"
 
 #include <bdpt/error.h>
@@ -104,6 +105,16 @@ void check_camera(const CameraDesc& camera)
             }
         }
     }
+    const auto check_reach = [&](const char* what, float value) {
+        if (!(std::abs(value) <= greatest_reach)) {
+            throw Error(
+                ErrorCode::invalid_input,
+                item + ": " + what + " is " + std::to_string(value) + " m, beyond what rays reach");
+        }
+    };
+    for (int row = 0; row < 3; ++row) {
+        check_reach("position", camera.world_from_camera[3][row]);
+    }
     const Vec3 side = cross(Vec3(camera.world_from_camera[1]), Vec3(camera.world_from_camera[2]));
     if (!(dot(side, side) > 0.0f)) {
         throw Error(ErrorCode::invalid_input, item + ": transform has no inverse");
@@ -117,6 +128,8 @@ void check_camera(const CameraDesc& camera)
     check_length("lens radius", camera.lens_radius, true);
     check_length("focus distance", camera.focus_distance, false);
     check_length("vertical extent", camera.vertical_extent, false);
+    check_reach("lens radius", camera.lens_radius);
+    check_reach("vertical extent", camera.vertical_extent);
     if (!(camera.vertical_fov > 0.0f && camera.vertical_fov < pi)) {
         throw Error(ErrorCode::invalid_input, item + ": vertical field of view is " +
                                                   std::to_string(camera.vertical_fov) +

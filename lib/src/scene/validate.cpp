@@ -1,5 +1,6 @@
 #include "scene/validate.h"
 
+#include "geometry/reach.h"
 #include "math/elementary.h"
 
 #include <bdpt/error.h>
@@ -7,12 +8,14 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace bdpt {
 namespace {
@@ -196,10 +199,44 @@ void check_direction(const std::string& item, Vec3 direction)
     }
 }
 
-void check_position(const std::string& item, Vec3 position)
+/// How far things may be, and why.
+std::string reach_text(float reach)
+{
+    std::ostringstream text;
+    text << " m from the origin, but " << reach << " m is the most";
+    if (reach < greatest_reach) {
+        text << ", as a mesh that is used more than once is scaled down very much";
+    }
+    return text.str();
+}
+
+void check_position(const std::string& item, Vec3 position, float reach)
 {
     if (!all_finite(&position[0], 3)) {
         fail(item, ": position is not finite");
+    }
+    const float extent =
+        std::max({std::abs(position.x), std::abs(position.y), std::abs(position.z)});
+    if (extent > reach) {
+        fail(item, ": is ", extent, reach_text(reach));
+    }
+}
+
+/// What is traced must be within reach of rays, as they are single-precision numbers.
+void check_reach(const SceneDesc& desc, float reach)
+{
+    std::vector<Vec3> extents;
+    extents.reserve(desc.meshes.size());
+    for (const MeshDesc& mesh : desc.meshes) {
+        extents.push_back(extent_of(mesh));
+    }
+    for (std::size_t i = 0; i < desc.instances.size(); ++i) {
+        const InstanceDesc& instance = desc.instances[i];
+        const float extent = placed_extent(extents[static_cast<std::size_t>(instance.mesh)],
+                                           instance.world_from_object);
+        if (!(extent <= reach)) {
+            fail(label("instance", i, instance.name), ": reaches ", extent, reach_text(reach));
+        }
     }
 }
 
@@ -221,11 +258,12 @@ void check_radius(const std::string& item, float radius, Rgb intensity)
 
 struct LightCheck {
     std::size_t index;
+    float reach;
 
     void operator()(const PointLightDesc& light) const
     {
         const std::string item = label("point light", index, light.name);
-        check_position(item, light.position);
+        check_position(item, light.position, reach);
         check_color(item, "intensity", light.intensity, any_positive);
         check_radius(item, light.radius, light.intensity);
     }
@@ -233,7 +271,7 @@ struct LightCheck {
     void operator()(const SpotLightDesc& light) const
     {
         const std::string item = label("spot light", index, light.name);
-        check_position(item, light.position);
+        check_position(item, light.position, reach);
         check_direction(item, light.direction);
         check_color(item, "intensity", light.intensity, any_positive);
         check_radius(item, light.radius, light.intensity);
@@ -307,9 +345,11 @@ void validate(const SceneDesc& desc)
     for (std::size_t i = 0; i < desc.instances.size(); ++i) {
         check(desc.instances[i], label("instance", i, desc.instances[i].name), desc);
     }
+    const float reach = reach_of(desc.instances, desc.meshes.size());
+    check_reach(desc, reach);
     std::size_t environments = 0;
     for (std::size_t i = 0; i < desc.lights.size(); ++i) {
-        std::visit(LightCheck{i}, desc.lights[i]);
+        std::visit(LightCheck{i, reach}, desc.lights[i]);
         environments += std::holds_alternative<EnvironmentLightDesc>(desc.lights[i]) ? 1U : 0U;
     }
     if (environments > 1) {

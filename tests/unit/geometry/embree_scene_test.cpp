@@ -9,6 +9,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <limits>
 #include <memory>
 #include <span>
 #include <utility>
@@ -221,6 +222,29 @@ TEST_CASE("rays that leave a surface neither meet it again nor skip what is near
             }
         }
     }
+}
+
+TEST_CASE("rays of impossible numbers meet nothing, and end nothing", "[geometry]")
+{
+    SceneBuilder builder;
+    const MeshId mesh = builder.add_mesh(triangle());
+    const Mat4 tiny = glm::scale(Mat4(1.0f), Vec3(1e-9f));
+    builder.place(mesh, test::lambertian(Rgb(0.5f)), tiny);
+    builder.place(mesh, test::lambertian(Rgb(0.5f)), Mat4(1.0f));
+    const Traced scene(std::move(builder.desc));
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+    const Vec3 above(0.25f, 0.25f, 1.0f);
+    const Vec3 down(0.0f, 0.0f, -1.0f);
+    REQUIRE(scene.embree->intersect({.origin = above, .direction = down}).has_value());
+    for (const float odd : {nan, infinity, -infinity, 1e38f, 1e18f, 1e12f}) {
+        CHECK_FALSE(scene.embree->intersect({.origin = Vec3(odd, 0.25f, 1.0f), .direction = down}));
+        CHECK_FALSE(
+            scene.embree->intersect({.origin = above, .direction = Vec3(0.0f, odd, -1.0f)}));
+        CHECK(scene.embree->occluded({.origin = Vec3(0.25f, odd, 1.0f), .direction = down}));
+    }
+    CHECK_FALSE(scene.embree->intersect({.origin = above, .direction = down, .t_max = nan}));
+    CHECK(scene.embree->occluded({.origin = above, .direction = down, .t_max = nan}));
 }
 
 }  // namespace bdpt

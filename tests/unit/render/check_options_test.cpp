@@ -76,6 +76,10 @@ TEST_CASE("cameras without a view are refused by name", "[render]")
     wide.vertical_fov = 3.2f;
     CHECK(message_of([&] { check_camera(wide); }, ErrorCode::invalid_input).find("3.2") !=
           std::string::npos);
+    CameraDesc far = camera;
+    far.world_from_camera[3][1] = -2e15f;
+    CHECK(message_of([&] { check_camera(far); }, ErrorCode::invalid_input)
+              .find("beyond what rays reach") != std::string::npos);
     CameraDesc broken = camera;
     broken.world_from_camera[3][0] = std::numeric_limits<float>::quiet_NaN();
     CHECK(message_of([&] { check_camera(broken); }, ErrorCode::invalid_input).find("finite") !=

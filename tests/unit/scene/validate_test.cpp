@@ -86,6 +86,27 @@ TEST_CASE("instances: references and transforms", "[validate]")
     });
 }
 
+TEST_CASE("everything is within reach of rays", "[validate]")
+{
+    check_refused("instance 0: reaches 2e+15 m from the origin, but 1e+15 m is the most",
+                  [](SceneDesc& d) { d.meshes[0].positions[2].y = -2e15f; });
+    check_refused("instance 0: reaches 3e+15 m",
+                  [](SceneDesc& d) { d.instances[0].world_from_object[3].z = 3e15f; });
+    check_refused("point light 0: is 1e+16 m from the origin",
+                  [](SceneDesc& d) { std::get<PointLightDesc>(d.lights[0]).position.x = -1e16f; });
+    // Shared meshes are traced in their own space, where 1 m is 1e17 units here.
+    const auto scale = [](float factor, int uses) {
+        return [factor, uses](SceneDesc& d) {
+            d.instances[0].world_from_object[0].x = factor;
+            d.instances.resize(static_cast<std::size_t>(uses), d.instances[0]);
+        };
+    };
+    CHECK(refusal(scale(1e-17f, 1)).empty());
+    check_refused("is the most, as a mesh that is used more than once is scaled down very much",
+                  scale(1e-18f, 2));
+    CHECK(refusal(scale(1e-6f, 2)).empty());
+}
+
 TEST_CASE("materials: ranges and textures", "[validate]")
 {
     check_refused("material 0: roughness is 1.5",

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <fstream>
@@ -11,7 +12,7 @@
 
 namespace bdpt::io {
 
-Bytes read_file(const std::filesystem::path& file, std::uint64_t limit)
+Bytes read_file(const std::filesystem::path& file, std::uint64_t limit, std::uint64_t most)
 {
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::status(file, error);
@@ -22,14 +23,15 @@ Bytes read_file(const std::filesystem::path& file, std::uint64_t limit)
     if (!std::filesystem::is_regular_file(status)) {
         throw Error(ErrorCode::not_found, "cannot be read: not a regular file");
     }
-    const std::uint64_t size = std::filesystem::file_size(file, error);
+    const std::uint64_t whole = std::filesystem::file_size(file, error);
     if (error) {
         throw Error(ErrorCode::not_found, "cannot be read: " + error.message());
     }
-    if (size > limit) {
+    if (whole > limit) {
         throw Error(ErrorCode::invalid_input,
-                    fmt::format("{} bytes, but the limit is {}", size, limit));
+                    fmt::format("{} bytes, but the limit is {}", whole, limit));
     }
+    const std::uint64_t size = std::min(whole, most);
     errno = 0;
     std::ifstream stream(file, std::ios::binary);
     if (!stream) {

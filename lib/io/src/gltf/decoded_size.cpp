@@ -11,8 +11,7 @@ void DecodedSize::add(const JsonPlace& place, std::uint64_t count, std::uint64_t
 {
     // Small meshes of few different values are packed very tightly in good faith.
     constexpr std::uint64_t harmless = std::uint64_t{64} << 20;
-    const std::uint64_t left = limits_.buffer_bytes - total_;
-    if (size != 0 && count > left / size) {
+    if (size != 0 && count > left() / size) {
         const long double need = static_cast<long double>(count) * static_cast<long double>(size);
         place.fail(fmt::format("{} elements become {}, but the limit for all buffers is {}", count,
                                human_bytes(need),

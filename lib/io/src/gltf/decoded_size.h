@@ -17,6 +17,9 @@ public:
     void add(const JsonPlace& place, std::uint64_t count, std::uint64_t size,
              std::uint64_t encoded);
 
+    /// What may still be added [bytes].
+    [[nodiscard]] std::uint64_t left() const { return limits_.buffer_bytes - total_; }
+
 private:
     const ReadLimits& limits_;
     std::uint64_t total_ = 0;  // [bytes]

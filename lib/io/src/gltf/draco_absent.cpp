@@ -21,7 +21,7 @@ DracoSize draco_size(ByteView)
     throw Error(ErrorCode::unsupported, message);
 }
 
-DracoMesh decode_draco_mesh(ByteView, std::span<const DracoAttribute>)
+DracoMesh decode_draco_mesh(ByteView, std::span<const DracoAttribute>, std::uint64_t)
 {
     throw Error(ErrorCode::unsupported, message);
 }

@@ -101,7 +101,22 @@ std::vector<std::uint32_t> read_faces(const draco::Mesh& mesh)
     return indices;
 }
 
-DracoMesh decode(ByteView data, std::span<const DracoAttribute> attributes)
+/// There may be more points than the head of the mesh says.
+void check_size(const draco::Mesh& mesh, std::span<const DracoAttribute> attributes,
+                std::uint64_t most)
+{
+    std::uint64_t bytes = 0;
+    for (const DracoAttribute& attribute : attributes) {
+        bytes += std::uint64_t{mesh.num_points()} * attribute.components *
+                 component_size(attribute.component_type);
+    }
+    if (bytes > most) {
+        fail(fmt::format("{} points become {} bytes, but {} are left of the limit",
+                         mesh.num_points(), bytes, most));
+    }
+}
+
+DracoMesh decode(ByteView data, std::span<const DracoAttribute> attributes, std::uint64_t most)
 {
     draco::DecoderBuffer buffer = to_buffer(data);
     draco::StatusOr<std::unique_ptr<draco::Mesh>> decoded =
@@ -110,6 +125,7 @@ DracoMesh decode(ByteView data, std::span<const DracoAttribute> attributes)
         fail("the data cannot be decoded: " + quote(decoded.status().error_msg_string()));
     }
     const draco::Mesh& mesh = *decoded.value();
+    check_size(mesh, attributes, most);
     DracoMesh result;
     result.points = mesh.num_points();
     result.indices = read_faces(mesh);
@@ -160,10 +176,11 @@ DracoSize draco_size(ByteView data)
     return size;
 }
 
-DracoMesh decode_draco_mesh(ByteView data, std::span<const DracoAttribute> attributes)
+DracoMesh decode_draco_mesh(ByteView data, std::span<const DracoAttribute> attributes,
+                            std::uint64_t most)
 {
     try {
-        return decode(data, attributes);
+        return decode(data, attributes, most);
     } catch (const Error&) {
         throw;
     } catch (const std::exception& error) {

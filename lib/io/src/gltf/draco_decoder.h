@@ -35,9 +35,9 @@ struct DracoMesh {
 /// mesh, unsupported for bitstreams other than 2.2, which is that of KHR_draco_mesh_compression.
 [[nodiscard]] DracoSize draco_size(ByteView data);
 
-/// Throws `Error`: invalid_input for data that is broken or lacks an attribute, unsupported in
-/// builds without Draco.
-[[nodiscard]] DracoMesh decode_draco_mesh(ByteView data,
-                                          std::span<const DracoAttribute> attributes);
+/// Throws `Error`: invalid_input for data that is broken, lacks an attribute or has attributes of
+/// more than `most` bytes, unsupported in builds without Draco.
+[[nodiscard]] DracoMesh decode_draco_mesh(ByteView data, std::span<const DracoAttribute> attributes,
+                                          std::uint64_t most);
 
 }  // namespace bdpt::io

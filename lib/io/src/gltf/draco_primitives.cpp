@@ -113,8 +113,12 @@ private:
         try {
             const DracoSize size = draco_size(data);
             size_.add(packed, size.faces, 3 * sizeof(std::uint32_t), data.size());
+            const std::uint64_t left = size_.left();
             size_.add(packed, size.vertices, point_bytes, data.size());
-            mesh = decode_draco_mesh(data, attributes);
+            mesh = decode_draco_mesh(data, attributes, left);
+            if (mesh.points > size.vertices) {
+                size_.add(packed, mesh.points - size.vertices, point_bytes, data.size());
+            }
         } catch (const Error& error) {
             const std::string what = error.what();
             // Limits know their place already.

@@ -44,8 +44,10 @@ void check_version(const JsonPlace& root)
     }
 }
 
-Bytes read_buffer(const JsonPlace& buffer, const std::filesystem::path& folder,
-                  const ReadLimits& limits)
+/// `length` bytes of what the URI names, and one more if there are more. Many buffers may share one
+/// large file.
+Bytes read_buffer(const JsonPlace& buffer, std::uint64_t length,
+                  const std::filesystem::path& folder, const ReadLimits& limits)
 {
     const JsonPlace place = buffer.member("uri");
     const auto& uri = place.value().get_ref<const std::string&>();
@@ -55,7 +57,7 @@ Bytes read_buffer(const JsonPlace& buffer, const std::filesystem::path& folder,
         }
         const std::filesystem::path file = resolve_uri(folder, uri);
         try {
-            return read_file(file, limits.file_bytes);
+            return read_file(file, limits.file_bytes, length + 1);
         } catch (const Error& error) {
             throw Error(error.code(), quote(uri) + ": " + error.what());
         }
@@ -83,8 +85,8 @@ std::vector<Bytes> read_buffers(const JsonPlace& root, std::optional<Bytes> bin,
         if (!in_bin && !buffer.has("uri")) {
             buffer.fail(i == 0 ? "no \"uri\", and there is no BIN chunk" : "no \"uri\"");
         }
-        Bytes bytes = in_bin ? std::move(*bin) : read_buffer(buffer, folder, limits);
         const std::uint64_t length = buffer.member("byteLength").as_unsigned();
+        Bytes bytes = in_bin ? std::move(*bin) : read_buffer(buffer, length, folder, limits);
         if (bytes.size() < length) {
             buffer.member("byteLength")
                 .fail(fmt::format("{} bytes, but there are {}", length, bytes.size()));

@@ -1,6 +1,7 @@
 #include "image/exr_reader.h"
 
 #include "image/exr_channels.h"
+#include "image/exr_header.h"
 #include "image/oiio_library.h"
 
 #include <bdpt/error.h>
@@ -183,6 +184,7 @@ ColorChannels choose_channels(const Imf::ChannelList& channels,
 ExrPicture read(ByteView file, const std::optional<std::string>& layer, const ReadLimits& limits,
                 Warnings& warnings)
 {
+    check_exr_header(file, limits);
     MemoryStream stream(file);
     Imf::InputFile input(stream, 0);
     const Imf::Header& header = input.header();

@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+"""Renders every model of a folder small, and puts the pictures on one sheet for the eye.
+
+    contact_sheet.py COMMAND FOLDER SHEET.png [--size WxH] [--spp N] [--columns N] [--only TEXT]
+                     [--skip NAME,...]
+
+A model is a .gltf or .glb file below FOLDER; a few words of what bdpt said about it go to the standard output, and its
+name stands below its picture. What is refused is a dark tile. Needs oiiotool.
+"""
+
+import argparse
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+
+def parse(words):
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("command")
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("sheet", type=pathlib.Path)
+    parser.add_argument("--size", default="192x144")
+    parser.add_argument("--spp", type=int, default=16)
+    parser.add_argument("--columns", type=int, default=8)
+    parser.add_argument("--only", default="", help="models whose path has this text")
+    parser.add_argument("--skip", default="hostile", help="folders to leave out, with commas between them")
+    return parser.parse_args(words)
+
+
+def find_models(folder, only, skip):
+    files = [file for file in folder.rglob("*") if file.suffix in (".gltf", ".glb")]
+    return sorted(file for file in files
+                  if only in file.relative_to(folder).as_posix() and not set(file.parts) & set(skip.split(",")))
+
+
+def render(command, model, picture, size, spp):
+    """The lines that the command says, without the name of the file."""
+    words = [command, "render", model, "-o", picture, "--size", size, "--spp", str(spp)]
+    done = subprocess.run(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                          text=True, timeout=600, check=False)
+    lines = [line.removeprefix("bdpt: ").replace(f"{model}: ", "") for line in done.stderr.splitlines()]
+    return done.returncode, [line for line in lines if line.startswith(("warning", "error"))]
+
+
+def oiiotool(*words):
+    subprocess.run(["oiiotool", *map(str, words)], check=True)
+
+
+def find_font():
+    """The file of a font without serifs, or None: then there are no names."""
+    if not shutil.which("fc-match"):
+        return None
+    return subprocess.run(["fc-match", "-f", "%{file}", "sans"], capture_output=True, text=True, check=True).stdout
+
+
+def make_tile(picture, tile, text, size, font):
+    """The picture, or nothing, with its name below."""
+    width, height = map(int, size.split("x"))
+    source = [picture] if picture.exists() else ["--pattern", "constant:color=0.1,0,0", size, "3"]
+    name = [f"--text:x=3:y={height + 12}:size=11:color=1,1,1:font={font}", text] if font else []
+    oiiotool(*source, "--ch", "R,G,B", "--cut", f"{width}x{height + 16}+0+0", *name, "-d", "uint8", "-o", tile)
+
+
+def main():
+    options = parse(sys.argv[1:])
+    models = find_models(options.folder, options.only, options.skip)
+    if not models:
+        sys.exit(f"{options.folder}: no models")
+    with tempfile.TemporaryDirectory() as name:
+        tiles, font = [], find_font()
+        for index, model in enumerate(models):
+            picture, tile = (pathlib.Path(name) / f"{index}-{part}.png" for part in ("picture", "tile"))
+            code, lines = render(options.command, model, picture, options.size, options.spp)
+            label = model.relative_to(options.folder).parts[0]
+            print(f"{label}: exit code {code}", *lines, sep="\n    ", flush=True)
+            make_tile(picture, tile, label[:30], options.size, font)
+            tiles.append(tile)
+        rows = -(-len(tiles) // options.columns)
+        oiiotool(*tiles, "--mosaic:pad=4", f"{options.columns}x{rows}", "-o", options.sheet)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,52 @@
+#include "fuzz_target.h"
+#include "image/exr_reader.h"
+#include "image/hdr_reader.h"
+#include "image/texels.h"
+#include "promises.h"
+
+#include <optional>
+#include <stdexcept>
+
+using namespace bdpt;
+using namespace bdpt::io;
+
+namespace {
+
+void check_size(int width, int height, std::size_t pixels)
+{
+    fuzz::promise(width > 0 && height > 0 && width <= fuzz::small_limits.image_side &&
+                      height <= fuzz::small_limits.image_side,
+                  "pictures keep to their limit");
+    fuzz::promise(pixels == static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
+                  "pictures have as many pixels as they say");
+}
+
+void decode(ByteView bytes)
+{
+    if (is_exr(bytes)) {
+        Warnings warnings;
+        const Image image = read_exr(bytes, std::nullopt, fuzz::small_limits, warnings).image;
+        return check_size(image.width, image.height, image.pixels.size());
+    }
+    if (is_hdr(bytes)) {
+        const Image image = read_hdr(bytes, fuzz::small_limits);
+        return check_size(image.width, image.height, image.pixels.size());
+    }
+    const TexelImage image = decode_texels(bytes, fuzz::small_limits);
+    check_size(image.width, image.height, image.rgba.size() / 4);
+}
+
+}  // namespace
+
+/// Pictures of all formats: PNG, JPEG, WebP, OpenEXR and Radiance HDR.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+    try {
+        decode(ByteView(data, size));
+    } catch (const Error& error) {
+        fuzz::check_refusal(error);
+    } catch (const std::runtime_error&) {
+        // A texture that cannot be decoded: the scene does without it.
+    }
+    return 0;
+}

@@ -1,0 +1,226 @@
+#!/usr/bin/env python3
+"""Writes the seeds of the fuzzers: make_seeds.py FOLDER. Needs oiiotool for JPEG and WebP; all else is made here.
+
+FOLDER/scene holds scenes that use what the loader has code for; those of tests/data/compressed go with them.
+FOLDER/image holds a picture of each format.
+"""
+
+import json
+import pathlib
+import struct
+import subprocess
+import sys
+import tempfile
+import zlib
+
+CODES = {5120: "b", 5121: "B", 5122: "h", 5123: "H", 5125: "I", 5126: "f"}
+WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
+
+
+def chunk(name, data):
+    body = name + data
+    return struct.pack(">I", len(data)) + body + struct.pack(">I", zlib.crc32(body))
+
+
+def png(width, height, color_type=6):
+    """Each pixel another colour. 0 is grey, 2 RGB, 6 RGB with alpha."""
+    channels = {0: 1, 2: 3, 6: 4}[color_type]
+    rows = b"".join(b"\0" + bytes((37 * (x + y * width) + 60 * c) % 256 for x in range(width) for c in range(channels))
+                    for y in range(height))
+    head = struct.pack(">IIBBBBB", width, height, 8, color_type, 0, 0, 0)
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
+
+
+def exr(width, height):
+    """OpenEXR: scanlines of half R, G, B, without compression."""
+    def attribute(name, kind, data):
+        return name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<I", len(data)) + data
+
+    channels = b"".join(name + b"\0" + struct.pack("<IIII", 1, 0, 1, 1) for name in (b"B", b"G", b"R")) + b"\0"
+    window = struct.pack("<iiii", 0, 0, width - 1, height - 1)
+    head = struct.pack("<II", 20000630, 2)
+    head += attribute("channels", "chlist", channels) + attribute("compression", "compression", b"\0")
+    head += attribute("dataWindow", "box2i", window) + attribute("displayWindow", "box2i", window)
+    head += attribute("lineOrder", "lineOrder", b"\0") + attribute("pixelAspectRatio", "float", struct.pack("<f", 1))
+    head += attribute("screenWindowCenter", "v2f", struct.pack("<ff", 0, 0))
+    head += attribute("screenWindowWidth", "float", struct.pack("<f", 1)) + b"\0"
+    line = struct.pack(f"<{3 * width}e", *([0.25] * width + [0.5] * width + [1.0] * width))
+    lines = [struct.pack("<iI", y, len(line)) + line for y in range(height)]
+    first = len(head) + 8 * height
+    table = b"".join(struct.pack("<Q", first + y * len(lines[0])) for y in range(height))
+    return head + table + b"".join(lines)
+
+
+def hdr(width, height):
+    """Radiance HDR, flat."""
+    head = f"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n".encode()
+    return head + bytes([128, 64, 32, 129]) * (width * height)
+
+
+class Document:
+    """A glTF document in the making, with one buffer."""
+
+    def __init__(self):
+        self.bytes = b""
+        self.json = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": []}], "nodes": [], "meshes": [],
+                     "materials": [], "accessors": [], "bufferViews": [], "extensionsUsed": []}
+
+    def view(self, data):
+        self.json["bufferViews"].append({"buffer": 0, "byteOffset": len(self.bytes), "byteLength": len(data)})
+        self.bytes += data + b"\0" * (-len(data) % 4)
+        return len(self.json["bufferViews"]) - 1
+
+    def accessor(self, component, kind, values, **more):
+        view = self.view(struct.pack(f"<{len(values)}{CODES[component]}", *values))
+        self.json["accessors"].append({"bufferView": view, "componentType": component, "type": kind,
+                                       "count": len(values) // WIDTHS[kind], **more})
+        return len(self.json["accessors"]) - 1
+
+    def floats(self, kind, *values):
+        return self.accessor(5126, kind, values)
+
+    def sparse(self, count, indices, values):
+        """Displacements of a few vertices; all others are zero."""
+        place = {"bufferView": self.view(bytes(indices)), "componentType": 5121}
+        value_view = self.view(struct.pack(f"<{len(values)}f", *values))
+        self.json["accessors"].append({"componentType": 5126, "type": "VEC3", "count": count, "sparse": {
+            "count": len(indices), "indices": place, "values": {"bufferView": value_view}}})
+        return len(self.json["accessors"]) - 1
+
+    def node(self, **node):
+        self.json["nodes"].append(node)
+        self.json["scenes"][0]["nodes"].append(len(self.json["nodes"]) - 1)
+        return len(self.json["nodes"]) - 1
+
+    def use(self, *extensions):
+        self.json["extensionsUsed"] += extensions
+
+    def glb(self):
+        self.json["buffers"] = [{"byteLength": len(self.bytes)}]
+        text = json.dumps({key: value for key, value in self.json.items() if value}, separators=(",", ":")).encode()
+        text += b" " * (-len(text) % 4)
+        body = struct.pack("<II", len(text), 0x4E4F534A) + text + struct.pack("<II", len(self.bytes), 0x4E4942)
+        return struct.pack("<III", 0x46546C67, 2, 12 + len(body) + len(self.bytes)) + body + self.bytes
+
+
+SQUARE = (0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0)
+CORNERS = (0, 0, 1, 0, 1, 1, 0, 1)
+
+
+def square(document):
+    return {"POSITION": document.floats("VEC3", *SQUARE), "NORMAL": document.floats("VEC3", *(4 * (0, 0, 1))),
+            "TEXCOORD_0": document.floats("VEC2", *CORNERS)}
+
+
+def rig():
+    """A skin of two joints, morph targets (one of them sparse), and an animation of each kind."""
+    document = Document()
+    attributes = square(document)
+    attributes["JOINTS_0"] = document.accessor(5121, "VEC4", 8 * (0, 1))
+    attributes["WEIGHTS_0"] = document.accessor(5121, "VEC4", 4 * (200, 55, 0, 0), normalized=True)
+    targets = [{"POSITION": document.floats("VEC3", *(4 * (0, 0, 0.5))), "NORMAL": document.floats("VEC3", *(12 * (0.1,)))},
+               {"POSITION": document.sparse(4, (1, 3), (0, 0.5, 0, 0.5, 0, 0))}]
+    indices = document.accessor(5123, "SCALAR", (0, 1, 2, 0, 2, 3))
+    document.json["meshes"] = [{"primitives": [{"attributes": attributes, "indices": indices, "targets": targets}],
+                                "weights": [0.2, 0.1]}]
+    inverse = document.floats("MAT4", *(2 * (1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1)))
+    document.node(mesh=0, skin=0, name="skinned")
+    joint = document.node(translation=[0, 0.1, 0], name="joint")
+    other = document.node(rotation=[0, 0, 0.6, 0.8], scale=[1, 2, 1])
+    document.json["skins"] = [{"joints": [joint, other], "inverseBindMatrices": inverse, "skeleton": joint}]
+    times = document.floats("SCALAR", 0, 0.5, 1)
+    samplers = [
+        {"input": times, "output": document.floats("VEC3", *(0.1 * i for i in range(9)))},
+        {"input": times, "output": document.accessor(5122, "VEC4", (0, 0, 0, 32767, 0, 0, 32767, 0, 0, 32767, 0, 0),
+                                                     normalized=True)},
+        {"input": times, "interpolation": "CUBICSPLINE", "output": document.floats("VEC3", *(27 * (1,)))},
+        {"input": times, "interpolation": "STEP", "output": document.floats("SCALAR", 0, 1, 0.5, 0.5, 1, 0)}]
+    paths = [(joint, "translation"), (other, "rotation"), (other, "scale"), (0, "weights")]
+    document.json["animations"] = [{"name": "move", "samplers": samplers, "channels": [
+        {"sampler": i, "target": {"node": node, "path": path}} for i, (node, path) in enumerate(paths)]}]
+    return document.glb()
+
+
+def stage():
+    """Textures, variants of materials, instances, lights, cameras, hidden nodes, XMP, a strip without indices."""
+    document = Document()
+    mapping = {"mappings": [{"material": 1, "variants": [0]}]}
+    indices = document.accessor(5125, "SCALAR", (0, 1, 2, 0, 2, 3))
+    strip = document.floats("VEC3", 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0)
+    colors = document.accessor(5121, "VEC4", 4 * (255, 128, 0, 255), normalized=True)
+    document.json["meshes"] = [
+        {"primitives": [{"attributes": square(document), "indices": indices, "material": 0,
+                         "extensions": {"KHR_materials_variants": mapping}}]},
+        {"primitives": [{"attributes": {"POSITION": strip, "COLOR_0": colors}, "mode": 5, "material": 2}]}]
+    document.json["images"] = [{"bufferView": document.view(png(4, 4)), "mimeType": "image/png"}]
+    document.json["samplers"] = [{"wrapS": 33071, "wrapT": 33648}]
+    document.json["textures"] = [{"source": 0, "sampler": 0}]
+    move = {"KHR_texture_transform": {"offset": [0.1, 0.2], "rotation": 0.3, "scale": [2, 0.5], "texCoord": 0}}
+    base = {"baseColorTexture": {"index": 0, "extensions": move}, "roughnessFactor": 0.4, "metallicFactor": 0.1,
+            "metallicRoughnessTexture": {"index": 0}}
+    glass = {"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_ior": {"ior": 1.4},
+             "KHR_materials_volume": {"thicknessFactor": 1, "attenuationDistance": 2, "attenuationColor": [1, 0.5, 0.2]},
+             "KHR_materials_specular": {"specularFactor": 0.7, "specularColorFactor": [1, 1, 0]}}
+    document.json["materials"] = [
+        {"pbrMetallicRoughness": base, "normalTexture": {"index": 0, "scale": 0.5}, "alphaMode": "MASK"},
+        {"extensions": glass, "doubleSided": True},
+        {"emissiveFactor": [1, 0.5, 0], "emissiveTexture": {"index": 0}, "alphaMode": "BLEND",
+         "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 10}}}]
+    places = {"TRANSLATION": document.floats("VEC3", -1, 0, 0, 1, 0, 0), "SCALE": document.floats("VEC3", *(6 * (0.5,))),
+              "ROTATION": document.accessor(5120, "VEC4", (0, 0, 0, 127, 0, 0, 127, 0), normalized=True)}
+    document.json["cameras"] = [{"type": "perspective", "perspective": {"yfov": 0.8, "znear": 0.1}},
+                                {"type": "orthographic", "orthographic": {"xmag": 1, "ymag": 1, "znear": 0, "zfar": 9}}]
+    document.node(mesh=0, extensions={"EXT_mesh_gpu_instancing": {"attributes": places}})
+    document.node(mesh=1, translation=[0, 0, -1], extensions={"KHR_node_visibility": {"visible": True}})
+    document.node(camera=0, translation=[0.5, 0.5, 4])
+    document.node(camera=1, matrix=[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 5, 1])
+    for i in range(3):
+        document.node(translation=[0, 1, 2], extensions={"KHR_lights_punctual": {"light": i}}, extras={"radius": 0.1})
+    lights = [{"type": "point", "intensity": 10, "range": 5}, {"type": "directional", "color": [1, 0.9, 0.8]},
+              {"type": "spot", "intensity": 5, "spot": {"innerConeAngle": 0.2, "outerConeAngle": 0.6}}]
+    document.json["extensions"] = {
+        "KHR_lights_punctual": {"lights": lights}, "KHR_materials_variants": {"variants": [{"name": "glass"}]},
+        "KHR_xmp_json_ld": {"packets": [{"@context": {"dc": "http://purl.org/dc/elements/1.1/"}, "dc:title": "seed"}]}}
+    document.json["asset"]["extensions"] = {"KHR_xmp_json_ld": {"packet": 0}}
+    document.use("KHR_lights_punctual", "KHR_materials_variants", "KHR_xmp_json_ld", "EXT_mesh_gpu_instancing",
+                 "KHR_node_visibility", "KHR_texture_transform", "KHR_materials_emissive_strength", *glass)
+    return document.glb()
+
+
+def plain():
+    """Text with its buffer as a data URI: a fan, of integers."""
+    positions = "AAAAAAEAAAABAAEAAAABAA=="  # four points of three signed bytes and a byte of padding
+    return json.dumps({
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "children": [1]}, {}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "mode": 6}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5120, "type": "VEC3", "count": 4}],
+        "bufferViews": [{"buffer": 0, "byteLength": 16, "byteStride": 4}],
+        "buffers": [{"byteLength": 16, "uri": "data:application/octet-stream;base64," + positions}],
+        "extensionsUsed": ["KHR_mesh_quantization"], "extensionsRequired": ["KHR_mesh_quantization"]}).encode()
+
+
+def main():
+    folder = pathlib.Path(sys.argv[1])
+    pictures = {"grey.png": png(3, 3, 0), "rgb.png": png(5, 2, 2), "rgba.png": png(4, 4), "halves.exr": exr(4, 2),
+                "flat.hdr": hdr(4, 2)}
+    with tempfile.TemporaryDirectory() as scratch:
+        source = pathlib.Path(scratch) / "source.png"
+        source.write_bytes(png(8, 8, 2))
+        for name in ("small.jpg", "small.webp"):
+            made = pathlib.Path(scratch) / name
+            subprocess.run(["oiiotool", source, "--nosoftwareattrib", "-o", made], check=True)
+            pictures[name] = made.read_bytes()
+        source.write_bytes(exr(16, 16))
+        made = pathlib.Path(scratch) / "tiles.exr"
+        subprocess.run(["oiiotool", source, "--nosoftwareattrib", "--tile", "8", "8", "--compression", "zip", "-o", made],
+                       check=True)
+        pictures["tiles.exr"] = made.read_bytes()
+    scenes = {"rig.glb": rig(), "stage.glb": stage(), "fan.gltf": plain()}
+    for name, files in {"image": pictures, "scene": scenes}.items():
+        (folder / name).mkdir(parents=True, exist_ok=True)
+        for file, data in files.items():
+            (folder / name / file).write_bytes(data)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,79 @@
+#include "fuzz_target.h"
+#include "input_file.h"
+#include "promises.h"
+
+#include <bdpt/framing.h>
+#include <bdpt/io/gltf.h>
+#include <bdpt/render.h>
+
+#include <cmath>
+#include <utility>
+
+using namespace bdpt;
+
+namespace {
+
+EnvironmentLightDesc grey_sky()
+{
+    EnvironmentLightDesc sky;
+    sky.radiance = Image{.width = 1, .height = 1, .pixels = {Rgb(0.5f)}};
+    return sky;
+}
+
+/// Four paths, one for each pixel.
+void render_four(io::LoadedScene loaded)
+{
+    loaded.scene.lights.emplace_back(grey_sky());
+    const Scene scene(std::move(loaded.scene));
+    const CameraDesc camera =
+        loaded.cameras.empty() ? frame_scene(scene, 1.0f).camera : loaded.cameras.front();
+    RenderOptions options;
+    options.width = 2;
+    options.height = 2;
+    options.samples = {0, 1};
+    options.max_depth = 4;
+    options.threads = 1;
+    const Image image = render(scene, camera, options).film.develop();
+    for (const Rgb& pixel : image.pixels) {
+        for (int c = 0; c < 3; ++c) {
+            fuzz::promise(std::isfinite(pixel[c]), "pixels are finite");
+        }
+    }
+}
+
+void load_and_render(const std::filesystem::path& file, const io::GltfOptions& options)
+{
+    try {
+        render_four(io::load_gltf(file, options));
+    } catch (const Error& error) {
+        fuzz::check_refusal(error);
+    }
+}
+
+}  // namespace
+
+/// From a file to four paths of light: at rest, and with animations and a variant of materials.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+    static const fuzz::InputFile input;
+    const std::filesystem::path file = input.write(data, size);
+    io::GltfOptions options;
+    options.limits = fuzz::small_limits;
+    std::size_t variants = 0;
+    std::size_t animations = 0;
+    try {
+        io::LoadedScene loaded = io::load_gltf(file, options);
+        variants = loaded.facts.variant_names.size();
+        animations = loaded.facts.animation_names.size();
+        render_four(std::move(loaded));
+    } catch (const Error& error) {
+        fuzz::check_refusal(error);
+    }
+    if (animations + variants > 0) {
+        options.animation = animations > 0 ? std::optional<std::string>("all") : std::nullopt;
+        options.time = animations > 0 ? std::optional(0.4) : std::nullopt;
+        options.variant = variants > 0 ? std::optional<std::string>("0") : std::nullopt;
+        load_and_render(file, options);
+    }
+    return 0;
+}

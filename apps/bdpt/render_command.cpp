@@ -1,6 +1,6 @@
 #include "render_command.h"
 
-#include <bdpt/harness/bench/integrator_name.h>
+#include <bdpt/harness/bench/option_names.h>
 #include <bdpt/io/tone_map.h>
 #include <bdpt/render.h>
 #include <bdpt/version.h>

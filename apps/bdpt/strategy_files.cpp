@@ -1,7 +1,7 @@
 #include "strategy_files.h"
 
 #include <bdpt/error.h>
-#include <bdpt/harness/bench/integrator_name.h>
+#include <bdpt/harness/bench/option_names.h>
 #include <bdpt/io/output_file.h>
 #include <bdpt/io/png.h>
 #include <fmt/core.h>

@@ -1,8 +1,8 @@
 #include "transport_arguments.h"
 
-#include <bdpt/harness/bench/integrator_name.h>
+#include <bdpt/harness/bench/option_names.h>
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -17,13 +17,6 @@ namespace bdpt::app {
 namespace {
 
 constexpr int longest_path = 1000;  // [edges]
-
-constexpr std::array<std::pair<const char*, Heuristic>, 5> heuristics{
-    {{"balance", Heuristic::balance},
-     {"power", Heuristic::power},
-     {"cutoff", Heuristic::cutoff},
-     {"maximum", Heuristic::maximum},
-     {"uniform", Heuristic::uniform}}};
 
 constexpr std::array<std::pair<const char*, EnvironmentSampling>, 2> environment_samplings{
     {{"plain", EnvironmentSampling::plain}, {"compensated", EnvironmentSampling::compensated}}};
@@ -45,21 +38,22 @@ const char* name_of(const Table& table, Value value)
         ->first;
 }
 
+template <typename Values>
+std::vector<std::string> all_names(const Values& values)
+{
+    std::vector<std::string> names;
+    for (const auto value : values) {
+        names.emplace_back(harness::to_string(value));
+    }
+    return names;
+}
+
 template <typename Table>
 std::vector<std::string> names_of(const Table& table)
 {
     std::vector<std::string> names;
     for (const auto& entry : table) {
         names.emplace_back(entry.first);
-    }
-    return names;
-}
-
-std::vector<std::string> integrator_names()
-{
-    std::vector<std::string> names;
-    for (const IntegratorKind kind : harness::all_integrators) {
-        names.emplace_back(harness::to_string(kind));
     }
     return names;
 }
@@ -177,28 +171,23 @@ void add_transport_options(CLI::App& command, TransportWords& words)
 {
     const auto group = "How to render";
     constexpr int most_light_paths = 4096;
-    command
-        .add_option("--integrator", words.integrator,
-                    "bdpt (the default): bidirectional path tracing; mis: path tracing with light "
-                    "and BSDF sampling; pt: with BSDF sampling only; nee: with light sampling "
-                    "only; lt: light tracing")
-        ->check(CLI::IsMember(integrator_names()))
-        ->type_name("bdpt|pt|mis|nee|lt")
-        ->group(group);
-    command
-        .add_option("--heuristic", words.heuristic,
-                    "How strategies share a path: power (the default), balance, cutoff, maximum, "
-                    "or uniform, for tests")
-        ->check(CLI::IsMember(names_of(heuristics)))
-        ->type_name("balance|power|cutoff|maximum|uniform")
-        ->group(group);
-    command
-        .add_option("--env-sampling", words.environment_sampling,
-                    "How light sampling chooses where an environment is: compensated (the default) "
-                    "leaves even light to BSDF sampling, plain does not")
-        ->check(CLI::IsMember(names_of(environment_samplings)))
-        ->type_name("plain|compensated")
-        ->group(group);
+    const auto add_choice = [&](const char* name, std::string& value,
+                                const std::vector<std::string>& values, const char* help) {
+        command.add_option(name, value, help)
+            ->check(CLI::IsMember(values))
+            ->type_name(fmt::format("{}", fmt::join(values, "|")))
+            ->group(group);
+    };
+    add_choice("--integrator", words.integrator, all_names(harness::all_integrators),
+               "bdpt (the default): bidirectional path tracing; mis: path tracing with light and "
+               "BSDF sampling; pt: with BSDF sampling only; nee: with light sampling only; lt: "
+               "light tracing");
+    add_choice("--heuristic", words.heuristic, all_names(harness::all_heuristics),
+               "How strategies share a path: power (the default), balance, cutoff, maximum, or "
+               "uniform, for tests");
+    add_choice("--env-sampling", words.environment_sampling, names_of(environment_samplings),
+               "How light sampling chooses where an environment is: compensated (the default) "
+               "leaves even light to BSDF sampling, plain does not");
     add_limits(command, words, group);
     command
         .add_option("--light-paths", words.light_paths,
@@ -218,7 +207,7 @@ RenderOptions with_transport(const TransportWords& words, RenderOptions options)
 {
     check_bidirectional(words);
     options.integrator = harness::parse_integrator(words.integrator).value();
-    options.heuristic = value_of(heuristics, words.heuristic);
+    options.heuristic = harness::parse_heuristic(words.heuristic).value();
     options.environment_sampling = value_of(environment_samplings, words.environment_sampling);
     options.max_depth = words.max_depth;
     if (words.only) {
@@ -244,7 +233,7 @@ nlohmann::ordered_json transport_json(const RenderOptions& options)
     constexpr int unlimited = std::numeric_limits<int>::max();
     nlohmann::ordered_json result{
         {"integrator", harness::to_string(options.integrator)},
-        {"heuristic", name_of(heuristics, options.heuristic)},
+        {"heuristic", harness::to_string(options.heuristic)},
         {"environment_sampling", name_of(environment_samplings, options.environment_sampling)},
         {"max_depth", options.max_depth},
         {"min_depth", options.min_depth},

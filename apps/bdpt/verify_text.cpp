@@ -1,6 +1,6 @@
 #include "verify_text.h"
 
-#include <bdpt/harness/bench/integrator_name.h>
+#include <bdpt/harness/bench/option_names.h>
 #include <bdpt/harness/verify/verify_json.h>
 #include <fmt/core.h>
 

@@ -136,6 +136,29 @@ struct MaterialDesc {
     std::optional<TextureRef> specular_color_texture;      ///< sRGB
     std::optional<TextureRef> transmission_texture;        ///< linear; R
     std::optional<TextureRef> glossiness_texture;          ///< linear; A, times 1 - roughness
+
+    /// All that there are, those of the layers included. They point into this object.
+    [[nodiscard]] std::array<const std::optional<TextureRef>*, 18> textures() const
+    {
+        return {&base_color_texture,
+                &metallic_roughness_texture,
+                &normal_texture,
+                &emission_texture,
+                &specular_texture,
+                &specular_color_texture,
+                &transmission_texture,
+                &glossiness_texture,
+                &clearcoat.texture,
+                &clearcoat.roughness_texture,
+                &clearcoat.normal_texture,
+                &sheen.color_texture,
+                &sheen.roughness_texture,
+                &anisotropy.texture,
+                &iridescence.texture,
+                &iridescence.thickness_texture,
+                &diffuse_transmission.texture,
+                &diffuse_transmission.color_texture};
+    }
 };
 
 /// A mesh placed in the world [m]. Meshes are shared: many instances cost one BVH.

@@ -1,6 +1,6 @@
 #include <bdpt/harness/bench/bench_scene.h>
 #include <bdpt/harness/bench/error_floor.h>
-#include <bdpt/harness/bench/integrator_name.h>
+#include <bdpt/harness/bench/option_names.h>
 #include <bdpt/harness/bench/reference.h>
 #include <bdpt/harness/report/packed_image.h>
 

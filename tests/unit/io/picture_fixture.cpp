@@ -119,4 +119,18 @@ std::string red_webp()
         "m8RU8r/+JkAAAA==");
 }
 
+void add_grey_textures(GltfFixture& fixture)
+{
+    for (int i = 0; i < 6; ++i) {
+        fixture.json["images"].push_back(
+            {{"uri", "data:image/png;base64," + base64(png(1, 1, 8, 0, {raw({10 * i})}))}});
+        fixture.json["textures"].push_back({{"source", i}});
+    }
+}
+
+int grey_picture(const LoadedScene& loaded, const std::optional<TextureRef>& ref)
+{
+    return ref ? loaded.scene.images.at(static_cast<std::size_t>(ref->image)).rgba.at(0) / 10 : -1;
+}
+
 }  // namespace bdpt::io

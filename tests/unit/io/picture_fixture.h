@@ -1,6 +1,9 @@
 #pragma once
 
+#include "gltf_fixture.h"
+
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,5 +25,10 @@ namespace bdpt::io {
 [[nodiscard]] std::string orange_jpeg();
 /// 2 x 2 pixels of about (255, 0, 0).
 [[nodiscard]] std::string red_webp();
+
+/// Adds six one-pixel pictures, whose grey level tells them apart, and a texture of each.
+void add_grey_textures(GltfFixture& fixture);
+/// Which of these pictures a reference leads to; -1: none.
+[[nodiscard]] int grey_picture(const LoadedScene& loaded, const std::optional<TextureRef>& ref);
 
 }  // namespace bdpt::io

@@ -17,21 +17,8 @@ GltfFixture with_extension(const std::string& name, const nlohmann::json& extens
     fixture.json["meshes"][0]["primitives"][0]["material"] = 0;
     fixture.json["extensionsUsed"] = {name};
     fixture.json["extensionsRequired"] = {name};
-    for (int i = 0; i < 6; ++i) {
-        fixture.json["images"].push_back(
-            {{"uri", "data:image/png;base64," + base64(png(1, 1, 8, 0, {raw({10 * i})}))}});
-        fixture.json["textures"].push_back({{"source", i}});
-    }
+    add_grey_textures(fixture);
     return fixture;
-}
-
-/// Which of these pictures a reference leads to; -1: none.
-int picture(const LoadedScene& loaded, const std::optional<TextureRef>& ref)
-{
-    if (!ref) {
-        return -1;
-    }
-    return loaded.scene.images.at(static_cast<std::size_t>(ref->image)).rgba.at(0) / 10;
 }
 
 nlohmann::json texture(int index)
@@ -57,9 +44,9 @@ TEST_CASE("clearcoat is read")
     CHECK(coat.factor == 0.75f);
     CHECK(coat.roughness == 0.25f);
     CHECK(coat.normal_scale == 0.5f);
-    CHECK(picture(loaded, coat.texture) == 1);
-    CHECK(picture(loaded, coat.roughness_texture) == 2);
-    CHECK(picture(loaded, coat.normal_texture) == 3);
+    CHECK(grey_picture(loaded, coat.texture) == 1);
+    CHECK(grey_picture(loaded, coat.roughness_texture) == 2);
+    CHECK(grey_picture(loaded, coat.normal_texture) == 3);
     CHECK(coat.normal_texture->uv_set == 1);
 }
 
@@ -91,8 +78,8 @@ TEST_CASE("sheen is read")
     const SheenDesc& sheen = loaded.scene.materials.at(0).sheen;
     CHECK(sheen.color == Rgb(0.75f, 0.5f, 0.25f));
     CHECK(sheen.roughness == 0.25f);
-    CHECK(picture(loaded, sheen.color_texture) == 1);
-    CHECK(picture(loaded, sheen.roughness_texture) == 2);
+    CHECK(grey_picture(loaded, sheen.color_texture) == 1);
+    CHECK(grey_picture(loaded, sheen.roughness_texture) == 2);
     const LoadedScene none =
         with_extension("KHR_materials_sheen", {{"sheenColorTexture", texture(1)}}).load();
     CHECK(none.scene.materials.at(0).sheen.color == Rgb(0.0f));
@@ -110,7 +97,7 @@ TEST_CASE("anisotropy is read")
     const AnisotropyDesc& anisotropy = loaded.scene.materials.at(0).anisotropy;
     CHECK(anisotropy.strength == 0.75f);
     CHECK(anisotropy.rotation == -1.5f);
-    CHECK(picture(loaded, anisotropy.texture) == 1);
+    CHECK(grey_picture(loaded, anisotropy.texture) == 1);
 }
 
 TEST_CASE("iridescence is read")
@@ -129,8 +116,8 @@ TEST_CASE("iridescence is read")
     CHECK(film.ior == 1.75f);
     CHECK(film.thickness_minimum == 200.0f);
     CHECK(film.thickness_maximum == 800.0f);
-    CHECK(picture(loaded, film.texture) == 1);
-    CHECK(picture(loaded, film.thickness_texture) == 2);
+    CHECK(grey_picture(loaded, film.texture) == 1);
+    CHECK(grey_picture(loaded, film.thickness_texture) == 2);
     const LoadedScene defaults =
         with_extension("KHR_materials_iridescence", {{"iridescenceFactor", 1}}).load();
     CHECK(defaults.scene.materials.at(0).iridescence.ior == 1.3f);
@@ -150,8 +137,8 @@ TEST_CASE("diffuse transmission is read")
     const DiffuseTransmissionDesc& through = loaded.scene.materials.at(0).diffuse_transmission;
     CHECK(through.factor == 0.5f);
     CHECK(through.color == Rgb(0.25f, 0.5f, 1.0f));
-    CHECK(picture(loaded, through.texture) == 1);
-    CHECK(picture(loaded, through.color_texture) == 2);
+    CHECK(grey_picture(loaded, through.texture) == 1);
+    CHECK(grey_picture(loaded, through.color_texture) == 2);
 }
 
 TEST_CASE("specular-glossiness becomes a dielectric with a specular colour")
@@ -175,9 +162,9 @@ TEST_CASE("specular-glossiness becomes a dielectric with a specular colour")
     // Times 0.04, the reflectance of index 1.5.
     CHECK(material.specular_color.r == Approx(25.0));
     CHECK(material.specular_color.b == Approx(6.25));
-    CHECK(picture(loaded, material.base_color_texture) == 1);
-    CHECK(picture(loaded, material.specular_color_texture) == 2);
-    CHECK(picture(loaded, material.glossiness_texture) == 2);
+    CHECK(grey_picture(loaded, material.base_color_texture) == 1);
+    CHECK(grey_picture(loaded, material.specular_color_texture) == 2);
+    CHECK(grey_picture(loaded, material.glossiness_texture) == 2);
     CHECK_FALSE(material.metallic_roughness_texture);
     const MaterialDesc defaults =
         with_extension("KHR_materials_pbrSpecularGlossiness", nlohmann::json::object())

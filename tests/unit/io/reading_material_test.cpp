@@ -28,21 +28,8 @@ MaterialDesc load_material(const nlohmann::json& material)
 GltfFixture with_textures(const nlohmann::json& material)
 {
     GltfFixture fixture = with_material(material);
-    for (int i = 0; i < 6; ++i) {
-        fixture.json["images"].push_back(
-            {{"uri", "data:image/png;base64," + base64(png(1, 1, 8, 0, {raw({10 * i})}))}});
-        fixture.json["textures"].push_back({{"source", i}});
-    }
+    add_grey_textures(fixture);
     return fixture;
-}
-
-/// Which of these pictures a reference leads to; -1: none.
-int picture(const LoadedScene& loaded, const std::optional<TextureRef>& ref)
-{
-    if (!ref) {
-        return -1;
-    }
-    return loaded.scene.images.at(static_cast<std::size_t>(ref->image)).rgba.at(0) / 10;
 }
 
 }  // namespace
@@ -172,7 +159,7 @@ TEST_CASE("an unlit material is its base colour, its alpha and its sides")
     CHECK(material.double_sided);
     CHECK(material.alpha_mode == AlphaMode::blend);
     CHECK(material.base_color == Vec4(0.5f, 0.25f, 1.0f, 0.75f));
-    CHECK(picture(loaded, material.base_color_texture) == 2);
+    CHECK(grey_picture(loaded, material.base_color_texture) == 2);
     CHECK_FALSE(material.emission_texture.has_value());
     CHECK_FALSE(material.normal_texture.has_value());
     CHECK(material.emission == Rgb(0.0f));
@@ -197,14 +184,14 @@ TEST_CASE("every texture slot finds its picture")
                 {{"transmissionFactor", 0.5}, {"transmissionTexture", {{"index", 1}}}}}}}})
             .load();
     const MaterialDesc& material = loaded.scene.materials.at(0);
-    CHECK(picture(loaded, material.emission_texture) == 0);
-    CHECK(picture(loaded, material.normal_texture) == 1);
+    CHECK(grey_picture(loaded, material.emission_texture) == 0);
+    CHECK(grey_picture(loaded, material.normal_texture) == 1);
     CHECK(material.normal_scale == 0.5f);
-    CHECK(picture(loaded, material.base_color_texture) == 3);
-    CHECK(picture(loaded, material.metallic_roughness_texture) == 4);
-    CHECK(picture(loaded, material.specular_texture) == 5);
-    CHECK(picture(loaded, material.specular_color_texture) == 0);
-    CHECK(picture(loaded, material.transmission_texture) == 1);
+    CHECK(grey_picture(loaded, material.base_color_texture) == 3);
+    CHECK(grey_picture(loaded, material.metallic_roughness_texture) == 4);
+    CHECK(grey_picture(loaded, material.specular_texture) == 5);
+    CHECK(grey_picture(loaded, material.specular_color_texture) == 0);
+    CHECK(grey_picture(loaded, material.transmission_texture) == 1);
     // Each once, and not that of the occlusion.
     CHECK(loaded.scene.images.size() == 5);
     CHECK(loaded.warnings.empty());

@@ -64,16 +64,7 @@ void add(Hasher& hasher, const MaterialDesc& material)
     hasher.add(material.attenuation_color);
     hasher.add(material.dispersion);
     add_layers(hasher, material);
-    for (const auto* texture :
-         {&material.base_color_texture, &material.metallic_roughness_texture,
-          &material.normal_texture, &material.emission_texture, &material.specular_texture,
-          &material.specular_color_texture, &material.transmission_texture,
-          &material.glossiness_texture, &material.clearcoat.texture,
-          &material.clearcoat.roughness_texture, &material.clearcoat.normal_texture,
-          &material.sheen.color_texture, &material.sheen.roughness_texture,
-          &material.anisotropy.texture, &material.iridescence.texture,
-          &material.iridescence.thickness_texture, &material.diffuse_transmission.texture,
-          &material.diffuse_transmission.color_texture}) {
+    for (const auto* texture : material.textures()) {
         add(hasher, *texture);
     }
 }

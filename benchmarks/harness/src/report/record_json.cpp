@@ -1,5 +1,6 @@
 #include "report/record_json.h"
 
+#include <bdpt/harness/bench/option_names.h>
 #include <bdpt/version.h>
 
 #include <cmath>
@@ -11,23 +12,6 @@ namespace bdpt::harness {
 namespace {
 
 using nlohmann::ordered_json;
-
-const char* name_of(Heuristic heuristic)
-{
-    switch (heuristic) {
-        case Heuristic::balance:
-            return "balance";
-        case Heuristic::power:
-            return "power";
-        case Heuristic::cutoff:
-            return "cutoff";
-        case Heuristic::maximum:
-            return "maximum";
-        case Heuristic::uniform:
-            break;
-    }
-    return "uniform";
-}
 
 ordered_json options_json(const BenchOptions& options)
 {
@@ -44,7 +28,7 @@ ordered_json options_json(const BenchOptions& options)
     result["reference_cpu_seconds"] = 2.0 * options.reference_seconds;
     result["strategy_depth"] = options.strategy_depth;
     result["max_depth"] = render.max_depth;
-    result["heuristic"] = name_of(render.heuristic);
+    result["heuristic"] = to_string(render.heuristic);
     result["sampler"] = render.sampler == SamplerKind::sobol ? "sobol" : "independent";
     result["threads"] = render.threads;
     return result;

@@ -1,4 +1,4 @@
-#include <bdpt/harness/bench/integrator_name.h>
+#include <bdpt/harness/bench/option_names.h>
 #include <bdpt/harness/verify/verify_json.h>
 
 #include <nlohmann/json.hpp>

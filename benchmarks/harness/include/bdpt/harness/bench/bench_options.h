@@ -1,6 +1,6 @@
 #pragma once
 
-#include <bdpt/harness/bench/integrator_name.h>
+#include <bdpt/harness/bench/option_names.h>
 #include <bdpt/render_options.h>
 
 #include <cstdint>

@@ -85,11 +85,54 @@ EqualityCase dispersion()
     return result;
 }
 
+/// Leans by 70 degrees to four sides, and by 30 in between.
+TexelImage steep_bumps()
+{
+    return {.width = 4, .height = 2, .rgba = {247, 128, 171, 255, 192, 128, 238, 255, 8,   128, 171,
+                                              255, 64,  128, 238, 255, 128, 247, 171, 255, 128, 64,
+                                              238, 255, 128, 8,   171, 255, 128, 192, 238, 255}};
+}
+
+EqualityCase steep_map(std::string name, MaterialDesc material)
+{
+    material.normal_texture = TextureRef{.image = ImageId{0}, .scale = {5, 6}};
+    EqualityCase result = ball(std::move(name), material);
+    result.scene.images.push_back(steep_bumps());
+    result.detectable_bias = 0.03;
+    result.detectable_bias_of_light_sampling = 0.05;
+    return result;
+}
+
+/// The map is that of the coat, over a base that has it too.
+EqualityCase steep_coat()
+{
+    MaterialDesc material = plastic({0.6f, 0.3f, 0.2f}, 0.6f);
+    material.clearcoat.factor = 1.0f;
+    material.clearcoat.roughness = 0.4f;
+    material.clearcoat.normal_texture = TextureRef{.image = ImageId{0}, .scale = {3, 4}};
+    return steep_map("coat with a steep normal map", material);
+}
+
 }  // namespace
 
 std::vector<EqualityCase> layer_cases()
 {
     return {clearcoat(), cloth(), brushed(), film(), translucent(), dispersion()};
+}
+
+std::vector<EqualityCase> normal_map_cases()
+{
+    EqualityCase mirror = steep_map("steep normal map, mirror", metal(Rgb(0.9f), 0.0f));
+    mirror.seen_by_lt.reset();
+    EqualityCase clear =
+        steep_map("steep normal map, smooth plastic", plastic({0.6f, 0.3f, 0.2f}, 0.0f));
+    clear.seen_by_lt.reset();
+    return {steep_map("steep normal map, plastic", plastic({0.8f, 0.5f, 0.3f}, 0.5f)),
+            steep_map("steep normal map, rough metal", metal({0.9f, 0.7f, 0.4f}, 0.5f)),
+            steep_map("steep normal map, rough glass", glass(0.5f)),
+            std::move(mirror),
+            std::move(clear),
+            steep_coat()};
 }
 
 }  // namespace bdpt::test

@@ -13,7 +13,7 @@ Bsdf::Bsdf(Vec3 ng, const Frame& shading, Vec3 wo, const GltfBsdf& model) noexce
       ng_(ng),
       local_wo_(shading.to_local(wo)),
       ratio_o_(cosine_ratio(dot(wo, ng), local_wo_.z)),
-      from_(model.side(local_wo_.z)),
+      extra_(model.side(local_wo_.z)),
       model_(model)
 {}
 
@@ -23,14 +23,14 @@ Bsdf::Bsdf(Vec3 ng, const Frame& shading, Vec3 wo, const GltfBsdf& model) noexce
 BsdfEval Bsdf::eval(Vec3 wi, TransportMode mode) const noexcept
 {
     if (!(ratio_o_ > 0.0f)) [[unlikely]] {
-        return eval_layers(wi, mode);
+        return eval_rare(wi, mode);
     }
     const Vec3 local_wi = shading_.to_local(wi);
     const float ratio_i = cosine_ratio(dot(wi, ng_), local_wi.z);
     if (ratio_i == 0.0f) {
         return {};
     }
-    BsdfEval value = model_.plain.eval(from_, local_wo_, local_wi, mode);
+    BsdfEval value = model_.plain.eval(extra_.from, local_wo_, local_wi, mode);
     if (mode == TransportMode::importance) {
         value.f_cos *= ratio_i / ratio_o_;
     }
@@ -40,9 +40,10 @@ BsdfEval Bsdf::eval(Vec3 wi, TransportMode mode) const noexcept
 std::optional<BsdfSample> Bsdf::sample(float u_lobe, Vec2 u, TransportMode mode) const noexcept
 {
     if (!(ratio_o_ > 0.0f)) [[unlikely]] {
-        return sample_layers(u_lobe, u, mode);
+        return sample_rare(u_lobe, u, mode);
     }
-    std::optional<BsdfSample> sampled = model_.plain.sample(from_, local_wo_, u_lobe, u, mode);
+    std::optional<BsdfSample> sampled =
+        model_.plain.sample(extra_.from, local_wo_, u_lobe, u, mode);
     if (!sampled) {
         return std::nullopt;
     }

@@ -3,6 +3,8 @@
 #include "material/bsdf_model.h"
 #include "material/gltf_bsdf.h"
 #include "material/layers.h"
+#include "material/small_numbers.h"
+#include "material/tilted_facet.h"
 #include "math/frame.h"
 
 #include <optional>
@@ -20,6 +22,10 @@ public:
     /// its outside) and in one hemisphere. `wo` is unit, towards the previous vertex of the walk.
     Bsdf(Vec3 ng, const Frame& shading, Vec3 wo, const GltfBsdf& model) noexcept;
     Bsdf(Vec3 ng, const Frame& shading, Vec3 wo, const LayeredParameters& layers) noexcept;
+    /// With a normal map: `facet.z` is its normal and `ns` that of the surface without it, on the
+    /// side of `ng`; both are unit and less than a right angle apart.
+    Bsdf(Vec3 ng, Vec3 ns, const Frame& facet, Vec3 wo, const GltfBsdf& model) noexcept;
+    Bsdf(Vec3 ng, Vec3 ns, const Frame& facet, Vec3 wo, const LayeredParameters& layers) noexcept;
 
     /// `mode` is that of the walk which came from wo.
     [[nodiscard]] BsdfEval eval(Vec3 wi, TransportMode mode) const noexcept;
@@ -30,7 +36,7 @@ public:
     {
         return has_layers() ? layers_connectible() : model_.plain.has_smooth_lobe();
     }
-    /// Unit, on the front side of the surface.
+    /// Unit, on the front side of the surface; that of the normal map, if there is one.
     [[nodiscard]] Vec3 shading_normal() const noexcept { return shading_.z; }
     /// In [0, 1].
     [[nodiscard]] Rgb base_color() const noexcept
@@ -49,11 +55,32 @@ private:
         LayeredParameters layers;
     };
 
-    [[nodiscard]] bool has_layers() const noexcept { return ratio_o_ < 0.0f; }
-    // Apart from the rest, and never within it, which is to stay short: bsdf_layers.cpp.
-    [[nodiscard, gnu::noinline]] BsdfEval eval_layers(Vec3 wi, TransportMode mode) const noexcept;
-    [[nodiscard, gnu::noinline]] std::optional<BsdfSample> sample_layers(
+    /// What is rare: layers, normal maps, or both.
+    struct Rarity {
+        bool layered = false;
+        bool mapped = false;
+        Direction16 ns{};  ///< of mapped surfaces, in the frame of the facet
+    };
+    union Extra {
+        constexpr Extra() : from() {}
+        constexpr explicit Extra(const GltfBsdf::Side& side) : from(side) {}
+        constexpr explicit Extra(const Rarity& what) : rarity(what) {}
+
+        GltfBsdf::Side from;  ///< the side of wo, of a plain model
+        Rarity rarity;        ///< of all others
+    };
+
+    [[nodiscard]] bool is_rare() const noexcept { return ratio_o_ < 0.0f; }
+    [[nodiscard]] bool has_layers() const noexcept { return is_rare() && extra_.rarity.layered; }
+    // Apart from the rest, and never within it, which is to stay short: bsdf_rare.cpp.
+    [[nodiscard, gnu::noinline]] BsdfEval eval_rare(Vec3 wi, TransportMode mode) const noexcept;
+    [[nodiscard, gnu::noinline]] std::optional<BsdfSample> sample_rare(
         float u_lobe, Vec2 u, TransportMode mode) const noexcept;
+    [[nodiscard]] BsdfEval eval_model(Vec3 local_wi, TransportMode mode) const noexcept;
+    [[nodiscard]] std::optional<BsdfSample> sample_model(float u_lobe, Vec2 u,
+                                                         TransportMode mode) const noexcept;
+    [[nodiscard]] TiltedFacet facet() const noexcept;
+    [[nodiscard]] float height(Vec3 local) const noexcept;
     [[nodiscard]] bool layers_connectible() const noexcept;
     [[nodiscard]] Rgb layers_base_color() const noexcept;
 
@@ -61,9 +88,9 @@ private:
     Vec3 ng_{0.0f, 0.0f, 1.0f};
     Vec3 local_wo_{0.0f};
     /// wo.ng / wo.ns; 0 where they differ in sign: nothing scatters. Its sign tells which model it
-    /// is, so that one comparison is enough for both: below 0 for layers.
+    /// is, so that one comparison is enough for both: below 0 for what is rare.
     float ratio_o_ = 0.0f;
-    GltfBsdf::Side from_;  ///< of a plain model
+    Extra extra_;
     Model model_;
 };
 

@@ -114,28 +114,25 @@ BsdfEval LayeredBsdf::eval(Vec3 wo, Vec3 wi, TransportMode mode) const noexcept
     return grazes(wo) || grazes(wi) ? BsdfEval{} : eval_lobes(side(wo), wo, wi, mode);
 }
 
-/// A smooth coat gives the whole sample, a rough one a direction alone.
-std::optional<BsdfSample> LayeredBsdf::sample_coat(const Side& from, Vec3 wo, Vec2 u,
+/// The whole sample where it is a delta lobe's, else the direction that counts.
+std::optional<BsdfSample> LayeredBsdf::sample_coat(const Side& from, Vec3 wo, float u_lobe, Vec2 u,
                                                    TransportMode mode) const noexcept
 {
     const bool above = wo.z > 0.0f;
-    const Vec3 o = from_above(wo, above);
-    if (coat_.has_smooth_lobe()) {
-        const std::optional<Vec3> wi = coat_.sample(o, u);
-        return wi ? std::optional(BsdfSample{.wi = from_above(*wi, above)}) : std::nullopt;
-    }
-    std::optional<BsdfSample> mirrored = coat_.mirror(o, mode);
-    if (!mirrored) {
+    std::optional<BsdfSample> sampled = coat_.sample(from_above(wo, above), u_lobe, u, mode);
+    if (!sampled) {
         return std::nullopt;
     }
-    mirrored->wi = from_above(mirrored->wi, above);
-    mirrored->weight /= from.coat_choice;
-    mirrored->pdf_fwd.value *= from.coat_choice;
-    mirrored->pdf_rev.value *= side(mirrored->wi).coat_choice;
-    return mirrored;
+    sampled->wi = from_above(sampled->wi, above);
+    if (sampled->delta) {
+        sampled->weight /= from.coat_choice;
+        sampled->pdf_fwd.value *= from.coat_choice;
+        sampled->pdf_rev.value *= side(sampled->wi).coat_choice;
+    }
+    return sampled;
 }
 
-/// The whole sample where it is a delta lobe's, else the direction that counts.
+/// The same of the base.
 std::optional<BsdfSample> LayeredBsdf::sample_base(const Side& from, Vec3 wo, float u_lobe, Vec2 u,
                                                    TransportMode mode) const noexcept
 {
@@ -162,7 +159,7 @@ std::optional<BsdfSample> LayeredBsdf::sample(Vec3 wo, float u_lobe, Vec2 u,
     const float above_base = from.coat_choice + from.sheen_choice;
     std::optional<BsdfSample> sampled;
     if (u_lobe < from.coat_choice) {
-        sampled = sample_coat(from, wo, u, mode);
+        sampled = sample_coat(from, wo, u_lobe / from.coat_choice, u, mode);
     } else if (u_lobe < above_base) {
         sampled = BsdfSample{.wi = from_above(Sheen::sample(u), wo.z > 0.0f)};
     } else if (from.base_choice > 0.0f) {

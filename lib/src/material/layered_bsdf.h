@@ -28,6 +28,8 @@ public:
                                                    TransportMode mode) const noexcept;
     /// Scatters into a lobe that is not delta.
     [[nodiscard]] bool has_smooth_lobe() const noexcept;
+    /// Roughly the albedo of the base, > 0.
+    [[nodiscard]] float base_weight() const noexcept { return base_weight_; }
 
 private:
     /// What follows from one direction alone.
@@ -46,15 +48,15 @@ private:
     [[nodiscard]] bool is_covered(Vec3 w) const noexcept { return !solid_ || w.z > 0.0f; }
     [[nodiscard]] BsdfEval eval_lobes(const Side& from, Vec3 wo, Vec3 wi,
                                       TransportMode mode) const noexcept;
-    [[nodiscard]] std::optional<BsdfSample> sample_coat(const Side& from, Vec3 wo, Vec2 u,
-                                                        TransportMode mode) const noexcept;
+    [[nodiscard]] std::optional<BsdfSample> sample_coat(const Side& from, Vec3 wo, float u_lobe,
+                                                        Vec2 u, TransportMode mode) const noexcept;
     [[nodiscard]] std::optional<BsdfSample> sample_base(const Side& from, Vec3 wo, float u_lobe,
                                                         Vec2 u, TransportMode mode) const noexcept;
 
     RichGltfBsdf base_;
     Coat coat_;
     Sheen sheen_;
-    float base_weight_;  ///< roughly the albedo of the base, > 0
+    float base_weight_;
     bool solid_;
 };
 

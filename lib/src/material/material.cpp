@@ -142,10 +142,20 @@ Rgb Material::base_color(const TexturePoint& point) const noexcept
     return base_color_map_ ? color * Rgb(base_color_map_->lookup(point.uv)) : color;
 }
 
+Bsdf Material::placed(const ShadingPoint& point, const GltfBsdf& model) const noexcept
+{
+    const Vec3 normal = shading_normal(point);
+    const Frame frame = Frame::from_normal(normal);
+    if (normal_map_ && normal != point.ns) [[unlikely]] {
+        return {point.ng, point.ns, frame, point.wo, model};
+    }
+    return {point.ng, frame, point.wo, model};
+}
+
 Bsdf Material::bsdf(const ShadingPoint& point) const noexcept
 {
     if (plain_ && point.color == Vec4(1.0f)) {
-        return {point.ng, Frame::from_normal(shading_normal(point)), point.wo, *plain_};
+        return placed(point, *plain_);
     }
     const Rgb base = base_color({.uv = point.uv, .color = point.color});
     if (unlit_) {
@@ -171,11 +181,10 @@ Bsdf Material::bsdf(const ShadingPoint& point) const noexcept
     if (transmission_map_) {
         surface.transmission *= transmission_map_->lookup(point.uv).x;
     }
-    const Frame shading = Frame::from_normal(shading_normal(point));
     if (layers_) {
-        return layers_->bsdf(point, shading, surface);
+        return layers_->bsdf(point, Frame::from_normal(shading_normal(point)), surface);
     }
-    return {point.ng, shading, point.wo, GltfBsdf(surface, albedos_.at(point.wavelength))};
+    return placed(point, GltfBsdf(surface, albedos_.at(point.wavelength)));
 }
 
 Rgb Material::emission(const TexturePoint& point) const noexcept

@@ -77,6 +77,7 @@ private:
     {
         return normal_map_ ? normal_map_->normal(point) : point.ns;
     }
+    [[nodiscard]] Bsdf placed(const ShadingPoint& point, const GltfBsdf& model) const noexcept;
     [[nodiscard]] Rgb base_color(const TexturePoint& point) const noexcept;
     [[nodiscard]] float opacity_of(float alpha) const noexcept;
     void measure_alpha();

@@ -127,6 +127,7 @@ Frame MaterialLayers::add_anisotropy(const ShadingPoint& point, const Frame& sha
 Bsdf MaterialLayers::bsdf(const ShadingPoint& point, const Frame& shading,
                           const GltfParameters& base) const noexcept
 {
+    const bool is_mapped = shading.z != point.ns;
     LayeredParameters layers{.base = base,
                              .constants = &constants_[static_cast<std::size_t>(point.wavelength)]};
     Frame frame = shading;
@@ -145,7 +146,8 @@ Bsdf MaterialLayers::bsdf(const ShadingPoint& point, const Frame& shading,
     if (transmission_.factor > 0.0f) {
         add_transmission(point, layers);
     }
-    return {point.ng, frame, point.wo, layers};
+    return is_mapped ? Bsdf(point.ng, point.ns, frame, point.wo, layers)
+                     : Bsdf(point.ng, frame, point.wo, layers);
 }
 
 }  // namespace bdpt

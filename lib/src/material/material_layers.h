@@ -25,7 +25,8 @@ public:
     MaterialLayers(const MaterialDesc& desc, std::span<const TexelImage> images,
                    const ChannelAlbedos& albedos, const LayerTables& tables);
 
-    /// With `base` below the layers, whose shading normal is that of `shading`.
+    /// With `base` below the layers. The normal of `shading` is that of a normal map, or that of
+    /// the point.
     [[nodiscard]] Bsdf bsdf(const ShadingPoint& point, const Frame& shading,
                             const GltfParameters& base) const noexcept;
     /// Set of texture coordinates that the tangent follows, if the layers need one.

@@ -7,21 +7,21 @@
 namespace bdpt {
 namespace {
 
-/// `normal`, turned towards ng no further than it takes to lie clearly on ng's side.
-[[nodiscard]] Vec3 kept_above(Vec3 normal, Vec3 ng)
+/// `normal`, turned towards `above` no further than it takes to lie clearly on its side.
+[[nodiscard]] Vec3 kept_on_side(Vec3 normal, Vec3 above)
 {
     constexpr float least_cosine = 0.01f;
-    const float cosine = dot(normal, ng);
+    const float cosine = dot(normal, above);
     if (cosine >= least_cosine) {
         return normal;
     }
-    const Vec3 along = normal - cosine * ng;
+    const Vec3 along = normal - cosine * above;
     const float length = std::sqrt(dot(along, along));
     if (length < 1e-6f) {
-        return ng;  // straight from below: no way to turn is shorter than another
+        return above;  // straight from below: no way to turn is shorter than another
     }
     return normalize(along * (std::sqrt(1.0f - least_cosine * least_cosine) / length) +
-                     least_cosine * ng);
+                     least_cosine * above);
 }
 
 }  // namespace
@@ -48,7 +48,7 @@ Vec3 NormalMap::normal(const ShadingPoint& point) const noexcept
     const Vec3 world =
         n.x * scale_ * axes->tangent + n.y * scale_ * axes->bitangent + n.z * point.ns;
     const float world2 = dot(world, world);
-    return world2 > 0.0f ? kept_above(world / std::sqrt(world2), point.ng) : point.ns;
+    return world2 > 0.0f ? kept_on_side(world / std::sqrt(world2), point.ns) : point.ns;
 }
 
 std::optional<NormalMap> make_normal_map(const std::optional<TextureRef>& ref, float scale,

@@ -22,8 +22,8 @@ public:
     /// `scale` multiplies x and y.
     NormalMap(const Texture& map, float scale) : map_(map), scale_(scale) {}
 
-    /// Unit, and clearly on the side of `ng`: what leads below is turned up as little as possible.
-    /// `ns` where the point has no tangent.
+    /// Unit, and clearly on the side of `ns`: what leads below is turned up as little as possible.
+    /// `ns` itself where the point has no tangent.
     [[nodiscard]] Vec3 normal(const ShadingPoint& point) const noexcept;
     [[nodiscard]] int uv_set() const noexcept { return map_.uv_set(); }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "material/bsdf.h"
 #include "material/gltf_bsdf.h"
 #include "material/layered_bsdf.h"
 
@@ -41,6 +42,7 @@ public:
             layers.base = tested.surface;
             layers.constants = constants_.get();
             layered_.emplace(layers);
+            layers_ = layers;
         }
     }
 
@@ -53,6 +55,11 @@ public:
     {
         return layered_ ? layered_->sample(wo, u_lobe, u, mode)
                         : plain_.sample(wo, u_lobe, u, mode);
+    }
+    /// On a facet with the normal `facet.z` of a surface with the normals `ng` and `ns`.
+    [[nodiscard]] Bsdf mapped(Vec3 ng, Vec3 ns, const Frame& facet, Vec3 wo) const
+    {
+        return layers_ ? Bsdf(ng, ns, facet, wo, *layers_) : Bsdf(ng, ns, facet, wo, plain_);
     }
     [[nodiscard]] bool has_smooth_lobe() const
     {
@@ -72,6 +79,7 @@ private:
     std::unique_ptr<const LayeredConstants> constants_;
     GltfBsdf plain_;
     std::optional<LayeredBsdf> layered_;
+    std::optional<LayeredParameters> layers_;
 };
 
 [[nodiscard]] inline LayeredParameters coated(float share, float roughness,

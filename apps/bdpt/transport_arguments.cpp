@@ -28,6 +28,11 @@ constexpr std::array<std::pair<const char*, Heuristic>, 5> heuristics{
 constexpr std::array<std::pair<const char*, EnvironmentSampling>, 2> environment_samplings{
     {{"plain", EnvironmentSampling::plain}, {"compensated", EnvironmentSampling::compensated}}};
 
+constexpr std::array<std::pair<const char*, LightSampling>, 3> light_samplings{
+    {{"auto", LightSampling::automatic},
+     {"power", LightSampling::power},
+     {"tree", LightSampling::tree}}};
+
 /// The value beside `name`, which the parser has found in the table.
 template <typename Table>
 auto value_of(const Table& table, const std::string& name)
@@ -199,6 +204,14 @@ void add_transport_options(CLI::App& command, TransportWords& words)
         ->check(CLI::IsMember(names_of(environment_samplings)))
         ->type_name("plain|compensated")
         ->group(group);
+    command
+        .add_option("--light-sampling", words.light_sampling,
+                    "How light sampling chooses one of many lights: by their power; with a tree, "
+                    "by what each may bring to a point; or auto (the default): with a tree where "
+                    "there are many lights")
+        ->check(CLI::IsMember(names_of(light_samplings)))
+        ->type_name("auto|power|tree")
+        ->group(group);
     add_limits(command, words, group);
     command
         .add_option("--light-paths", words.light_paths,
@@ -220,6 +233,7 @@ RenderOptions with_transport(const TransportWords& words, RenderOptions options)
     options.integrator = harness::parse_integrator(words.integrator).value();
     options.heuristic = value_of(heuristics, words.heuristic);
     options.environment_sampling = value_of(environment_samplings, words.environment_sampling);
+    options.light_sampling = value_of(light_samplings, words.light_sampling);
     options.max_depth = words.max_depth;
     if (words.only) {
         choose_light(*words.only, options);
@@ -246,6 +260,7 @@ nlohmann::ordered_json transport_json(const RenderOptions& options)
         {"integrator", harness::to_string(options.integrator)},
         {"heuristic", name_of(heuristics, options.heuristic)},
         {"environment_sampling", name_of(environment_samplings, options.environment_sampling)},
+        {"light_sampling", name_of(light_samplings, options.light_sampling)},
         {"max_depth", options.max_depth},
         {"min_depth", options.min_depth},
         {"light_paths", options.light_paths},

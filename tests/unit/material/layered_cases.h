@@ -1,5 +1,6 @@
 #pragma once
 
+#include "material/bsdf.h"
 #include "material/gltf_bsdf.h"
 #include "material/layered_bsdf.h"
 
@@ -41,6 +42,7 @@ public:
             layers.base = tested.surface;
             layers.constants = constants_.get();
             layered_.emplace(layers);
+            parameters_ = layers;
         }
     }
 
@@ -53,6 +55,12 @@ public:
     {
         return layered_ ? layered_->sample(wo, u_lobe, u, mode)
                         : plain_.sample(wo, u_lobe, u, mode);
+    }
+    /// At a surface with these normals, seen from wo.
+    [[nodiscard]] Bsdf at(Vec3 ng, Vec3 ns, Vec3 wo) const
+    {
+        const Frame shading = Frame::from_normal(ns);
+        return parameters_ ? Bsdf(ng, shading, wo, *parameters_) : Bsdf(ng, shading, wo, plain_);
     }
     [[nodiscard]] bool has_smooth_lobe() const
     {
@@ -72,6 +80,7 @@ private:
     std::unique_ptr<const LayeredConstants> constants_;
     GltfBsdf plain_;
     std::optional<LayeredBsdf> layered_;
+    std::optional<LayeredParameters> parameters_;
 };
 
 [[nodiscard]] inline LayeredParameters coated(float share, float roughness,

@@ -21,18 +21,20 @@ def radius(theta, phi):
 
 def ball(rings, segments):
     """Positions, normals, texture coordinates and indices of the ball. Seams have their vertices twice."""
-    rows = []
-    for ring in range(rings + 1):
+
+    def row_of(ring):
         theta = math.pi * ring / rings
         row = []
         for i in range(segments + 1):
             phi = 2 * math.pi * (i % segments) / segments
             r = radius(theta, phi)
             row.append((r * math.sin(theta) * math.sin(phi), r * math.cos(theta), r * math.sin(theta) * math.cos(phi)))
-        rows.append(row)
+        return row
+
     positions, normals, uvs = array.array("f"), array.array("f"), array.array("f")
-    for ring, row in enumerate(rows):
-        above, below = rows[max(ring - 1, 0)], rows[min(ring + 1, rings)]
+    row = row_of(0)
+    above, below = row, row_of(1)
+    for ring in range(rings + 1):
         for i, p in enumerate(row):
             a, b = row[(i + 1) % segments], row[(i - 1) % segments]
             e = (a[0] - b[0], a[1] - b[1], a[2] - b[2])
@@ -44,6 +46,8 @@ def ball(rings, segments):
             positions.extend(p)
             normals.extend((n[0] / length, n[1] / length, n[2] / length))
             uvs.extend((i / segments, ring / rings))
+        above, row = row, below
+        below = row_of(ring + 2) if ring + 2 <= rings else row
     indices = array.array("I")
     for ring in range(rings):
         for i in range(segments):
@@ -93,7 +97,7 @@ class Glb:
         self.data += values.tobytes()
         self.json["accessors"].append({"bufferView": len(self.json["bufferViews"]) - 1, "componentType": kind,
                                        "count": len(values) // width,
-                                       "type": {1: "SCALAR", 2: "VEC2", 3: "VEC3"}[width]})
+                                       "type": {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}[width]})
         return len(self.json["accessors"]) - 1
 
     def add(self, mesh, material):

@@ -21,6 +21,11 @@ constexpr int longest_path = 1000;  // [edges]
 constexpr std::array<std::pair<const char*, EnvironmentSampling>, 2> environment_samplings{
     {{"plain", EnvironmentSampling::plain}, {"compensated", EnvironmentSampling::compensated}}};
 
+constexpr std::array<std::pair<const char*, LightSampling>, 3> light_samplings{
+    {{"auto", LightSampling::automatic},
+     {"power", LightSampling::power},
+     {"tree", LightSampling::tree}}};
+
 /// The value beside `name`, which the parser has found in the table.
 template <typename Table>
 auto value_of(const Table& table, const std::string& name)
@@ -188,6 +193,11 @@ void add_transport_options(CLI::App& command, TransportWords& words)
     add_choice("--env-sampling", words.environment_sampling, names_of(environment_samplings),
                "How light sampling chooses where an environment is: compensated (the default) "
                "leaves even light to BSDF sampling, plain does not");
+    add_choice(
+        "--light-sampling", words.light_sampling, names_of(light_samplings),
+        "How light sampling chooses one of many lights: by their power; with a tree, by what "
+        "each may bring to a point; or auto (the default): with a tree where there are many "
+        "lights");
     add_limits(command, words, group);
     command
         .add_option("--light-paths", words.light_paths,
@@ -209,6 +219,7 @@ RenderOptions with_transport(const TransportWords& words, RenderOptions options)
     options.integrator = harness::parse_integrator(words.integrator).value();
     options.heuristic = harness::parse_heuristic(words.heuristic).value();
     options.environment_sampling = value_of(environment_samplings, words.environment_sampling);
+    options.light_sampling = value_of(light_samplings, words.light_sampling);
     options.max_depth = words.max_depth;
     if (words.only) {
         choose_light(*words.only, options);
@@ -235,6 +246,7 @@ nlohmann::ordered_json transport_json(const RenderOptions& options)
         {"integrator", harness::to_string(options.integrator)},
         {"heuristic", harness::to_string(options.heuristic)},
         {"environment_sampling", name_of(environment_samplings, options.environment_sampling)},
+        {"light_sampling", name_of(light_samplings, options.light_sampling)},
         {"max_depth", options.max_depth},
         {"min_depth", options.min_depth},
         {"light_paths", options.light_paths},

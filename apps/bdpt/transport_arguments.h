@@ -19,6 +19,7 @@ struct TransportWords {
     std::string integrator = "bdpt";
     std::string heuristic = "power";
     std::string environment_sampling = "compensated";
+    std::string light_sampling = "auto";
     int max_depth = RenderOptions{}.max_depth;
     std::optional<std::string> only;
     std::optional<int> max_camera_depth;

@@ -34,6 +34,7 @@ TEST_CASE("words about transport become options")
     words.light_paths = 2;
     words.rr_start = 4;
     words.environment_sampling = "plain";
+    words.light_sampling = "tree";
     words.disabled = "s3t0";
     const RenderOptions options = with_transport(words, {});
     CHECK(options.integrator == IntegratorKind::lt);
@@ -45,10 +46,11 @@ TEST_CASE("words about transport become options")
     CHECK(options.light_paths == 2);
     CHECK(options.rr_start == 4);
     CHECK(options.environment_sampling == EnvironmentSampling::plain);
+    CHECK(options.light_sampling == LightSampling::tree);
     CHECK(options.disabled == std::vector{Strategy{3, 0}});
     const auto json = transport_json(options);
     CHECK(json == nlohmann::ordered_json::parse(R"({"integrator": "lt", "heuristic": "cutoff",
-        "environment_sampling": "plain",
+        "environment_sampling": "plain", "light_sampling": "tree",
         "max_depth": 5, "min_depth": 1, "light_paths": 2, "rr_start": 4,
         "max_camera_depth": 3, "max_light_depth": 0, "disabled": ["s3t0"]})"));
 }

@@ -28,6 +28,9 @@ struct EqualityCase {
 /// Those of them with surfaces that are not opaque or not lit.
 [[nodiscard]] std::vector<EqualityCase> alpha_cases();
 
+/// Scenes of so many lights that a tree chooses among them. Not among `equality_cases`.
+[[nodiscard]] std::vector<EqualityCase> many_light_cases();
+
 /// Materials with layers and other extensions of glTF, one each. Not among `equality_cases`.
 [[nodiscard]] std::vector<EqualityCase> layer_cases();
 /// Materials whose normal maps lean by up to 70 degrees. Not among `equality_cases` either.

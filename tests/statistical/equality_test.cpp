@@ -144,6 +144,35 @@ TEST_CASE("all integrators agree: steep normal maps", "[equality][layers]")
     }
 }
 
+TEST_CASE("all integrators agree: many lights", "[equality][tree]")
+{
+    std::uint64_t seed = 400000;
+    for (const EqualityCase& test : many_light_cases()) {
+        seed += 100;
+        DYNAMIC_SECTION(test.name)
+        {
+            check_case(test, seed);
+        }
+    }
+}
+
+TEST_CASE("a tree of lights changes noise only", "[equality][tree]")
+{
+    std::uint64_t seed = 410000;
+    for (const EqualityCase& test : many_light_cases()) {
+        const Scene scene(test.scene);
+        for (const auto kind : {IntegratorKind::mis, IntegratorKind::bdpt}) {
+            RenderOptions power = options(test, kind, ++seed);
+            power.light_sampling = LightSampling::power;
+            RenderOptions tree = options(test, kind, ++seed);
+            tree.light_sampling = LightSampling::tree;
+            TileMeans by_power(scene, test.camera, power);
+            TileMeans by_tree(scene, test.camera, tree);
+            check_equal(test, "power = tree", by_power, by_tree);
+        }
+    }
+}
+
 /// A room with a rough ball of glass, under a lamp of one colour.
 Scene glass_under(Rgb light, float ior, float dispersion)
 {

@@ -53,6 +53,15 @@ enum class EnvironmentSampling : std::uint8_t {
     compensated,
 };
 
+/// How next-event estimation chooses one of many lights.
+enum class LightSampling : std::uint8_t {
+    automatic,  ///< tree in scenes of many lights, else power
+    power,      ///< in proportion to power, wherever they are
+    /// By what they may bring to the point [Conty Estevez and Kulla 2018, "Importance Sampling of
+    /// Many Lights with Adaptive Tree Splitting", without splitting].
+    tree,
+};
+
 /// Half-open range of sample indices. Every index is a fixed set of random numbers, so disjoint
 /// ranges may be rendered apart and their films merged.
 struct SampleRange {
@@ -68,6 +77,7 @@ struct RenderOptions {
     Heuristic heuristic = Heuristic::power;
     SamplerKind sampler = SamplerKind::sobol;
     EnvironmentSampling environment_sampling = EnvironmentSampling::compensated;
+    LightSampling light_sampling = LightSampling::automatic;
     int width = 1280;
     int height = 720;
     /// The part of the image that is rendered; its pixels are those of the whole image, to the bit.

@@ -101,7 +101,7 @@ void BdptIntegrator::add_sample(const SampleId& id, const Films& films, Scratch&
         probe.enter(Phase::walk);
         Sampler own = light_sampler(options_, sampler, x, y, index, i);
         Sample light_sample{.index = index, .sampler = own, .films = films, .pixel = center};
-        trace_light_subpath(world_, camera_, light_limits, strategies_.environment_sampling(), own,
+        trace_light_subpath(world_, camera_, light_limits, strategies_.next_event_sampling(), own,
                             scratch.light_path, probe);
         probe.enter(Phase::weigh);
         scratch.weigher.begin_light_path(scratch.light_path.all());

@@ -18,8 +18,9 @@ struct PathIntegrator::Ray {
     SegmentEnd origin;
     Vec3 direction{0.0f};
     SolidAnglePdf pdf;
-    /// Light sampling at the origin could have found what this ray hits.
+    /// Light sampling at the origin, which is that receiver, could have found what this ray hits.
     bool competes = false;
+    LightReceiver receiver{};
 };
 
 PathIntegrator::PathIntegrator(const World& world, const Camera& camera,
@@ -29,8 +30,10 @@ PathIntegrator::PathIntegrator(const World& world, const Camera& camera,
       options_(options),
       filter_(options.filter),
       // What light sampling leaves out is found by BSDF sampling in `mis` alone.
-      environment_sampling_(options.integrator == IntegratorKind::mis ? options.environment_sampling
-                                                                      : EnvironmentSampling::plain)
+      next_event_sampling_{.environments = options.integrator == IntegratorKind::mis
+                                               ? options.environment_sampling
+                                               : EnvironmentSampling::plain,
+                           .lights = options.light_sampling}
 {}
 
 RenderStats PathIntegrator::render_tile(const Tile& tile, SampleRange samples,
@@ -149,6 +152,9 @@ Rgb PathIntegrator::estimate(Sample& sample, Probe& probe) const
                .direction = scattered->wi,
                .pdf = scattered->pdf_fwd,
                .competes = !scattered->delta && options_.integrator != IntegratorKind::pt};
+        if (ray.competes && world_.lights().uses_tree(next_event_sampling_.lights)) {
+            ray.receiver = {.p = point->end.p, .normal = point->bsdf.opaque_normal(ray.direction)};
+        }
         if (depth >= options_.rr_start) {
             const float survival = std::min(1.0f, max_component(beta));
             if (sampler.next_1d() >= survival) {
@@ -197,9 +203,11 @@ Rgb PathIntegrator::emission(const Ray& ray, LightId light, const LightPoint& hi
         return radiance;
     }
     const LightSet& lights = world_.lights();
-    const float probability = lights.receiver_probability(light, ray.origin.p);
+    const float probability =
+        lights.receiver_probability(light, ray.receiver, next_event_sampling_.lights);
     const AreaPdf pdf =
-        lights[light].pdf_incident(ray.origin.p, hit, environment_sampling_) * probability;
+        lights[light].pdf_incident(ray.origin.p, hit, next_event_sampling_.environments) *
+        probability;
     if (lights[light].is_infinite()) {
         return radiance * bsdf_weight(ray.pdf.value, pdf.value);
     }
@@ -213,7 +221,11 @@ Rgb PathIntegrator::sample_light(const SurfacePoint& point, SegmentKey segment, 
                                  RayCounts& rays, Probe& probe) const
 {
     const Vec2 u_position = sampler.next_2d();
-    const auto choice = world_.lights().choose_for_receiver(point.end.p, sampler.next_fine());
+    const auto receiver = [&point] {
+        return LightReceiver{.p = point.end.p, .normal = point.bsdf.opaque_normal()};
+    };
+    const auto choice = world_.lights().choose_for_receiver(receiver, sampler.next_fine(),
+                                                            next_event_sampling_.lights);
     if (!choice) {
         return Rgb(0.0f);
     }
@@ -221,7 +233,8 @@ Rgb PathIntegrator::sample_light(const SurfacePoint& point, SegmentKey segment, 
     if (options_.integrator == IntegratorKind::pt && !light.is_delta()) {
         return Rgb(0.0f);
     }
-    const auto incident = light.sample_incident(point.end.p, u_position, environment_sampling_);
+    const auto incident =
+        light.sample_incident(point.end.p, u_position, next_event_sampling_.environments);
     if (!incident) {
         return Rgb(0.0f);
     }

@@ -47,7 +47,7 @@ private:
     const Camera& camera_;
     RenderOptions options_;
     PixelFilter filter_;
-    EnvironmentSampling environment_sampling_;
+    NextEventSampling next_event_sampling_;
 };
 
 }  // namespace bdpt

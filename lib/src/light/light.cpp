@@ -95,4 +95,17 @@ Rgb Light::power() const
     return std::visit([](const auto& light) { return light.power(); }, model_);
 }
 
+std::optional<LightBounds> Light::bounds() const
+{
+    return std::visit(
+        [](const auto& light) -> std::optional<LightBounds> {
+            if constexpr (requires { light.bounds(); }) {
+                return light.bounds();
+            } else {
+                return std::nullopt;
+            }
+        },
+        model_);
+}
+
 }  // namespace bdpt

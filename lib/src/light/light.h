@@ -2,6 +2,7 @@
 
 #include "light/directional_light.h"
 #include "light/environment_light.h"
+#include "light/light_bounds.h"
 #include "light/light_samples.h"
 #include "light/punctual_light.h"
 #include "light/sphere_light.h"
@@ -43,6 +44,8 @@ public:
     [[nodiscard]] bool is_infinite() const;
     /// Luminous flux [lm] into the scene.
     [[nodiscard]] Rgb power() const;
+    /// Where it is and shines; nothing for an infinite light.
+    [[nodiscard]] std::optional<LightBounds> bounds() const;
 
     [[nodiscard]] const Model& model() const { return model_; }
 

@@ -3,6 +3,7 @@
 #include "geometry/segment_end.h"
 #include "math/pdf.h"
 
+#include <bdpt/render_options.h>
 #include <bdpt/types.h>
 
 #include <cstdint>
@@ -10,6 +11,12 @@
 namespace bdpt {
 
 enum class LightId : std::uint32_t {};
+
+/// How next-event estimation samples lights. Whoever evaluates its density needs to know.
+struct NextEventSampling {
+    EnvironmentSampling environments = EnvironmentSampling::plain;
+    LightSampling lights = LightSampling::automatic;
+};
 
 /// A point of a light, whatever found it: all that its densities depend on.
 struct LightPoint {

@@ -1,5 +1,7 @@
 #include "light/punctual_light.h"
 
+#include "math/rgb.h"
+
 #include <glm/geometric.hpp>
 
 #include <cmath>
@@ -46,6 +48,15 @@ std::optional<IncidentSample> PunctualLight::sample_incident(Vec3 receiver) cons
                           .weight = intensity_ * (attenuation / distance_squared),
                           .pdf = {1.0f},
                           .pdf_solid_angle = {1.0f}};
+}
+
+LightBounds PunctualLight::bounds() const
+{
+    return {.min = position_,
+            .max = position_,
+            .normals = cone_.full(),
+            .cos_falloff = cone_.cos_falloff(),
+            .intensity = static_cast<double>(luminance(intensity_))};
 }
 
 }  // namespace bdpt

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "light/light_bounds.h"
 #include "light/light_samples.h"
 #include "light/spot_cone.h"
 
@@ -22,6 +23,7 @@ public:
     [[nodiscard]] SolidAnglePdf pdf_direction(Vec3 direction) const { return cone_.pdf(direction); }
     /// Luminous flux [lm].
     [[nodiscard]] Rgb power() const { return intensity_ * cone_.integral(); }
+    [[nodiscard]] LightBounds bounds() const;
 
 private:
     Vec3 position_;

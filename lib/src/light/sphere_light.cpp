@@ -150,4 +150,13 @@ SolidAnglePdf SphereLight::pdf_direction(Vec3 ng, Vec3 direction) const
     return {4.0f * std::max(0.0f, dot(ng, direction)) * cone_.pdf(direction).value};
 }
 
+LightBounds SphereLight::bounds() const
+{
+    return {.min = sphere_.center - sphere_.radius,
+            .max = sphere_.center + sphere_.radius,
+            .normals = cone_.full(),
+            .cos_falloff = cone_.cos_falloff(),
+            .intensity = static_cast<double>(luminance(intensity_))};
+}
+
 }  // namespace bdpt

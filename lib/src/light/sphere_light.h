@@ -1,6 +1,7 @@
 #pragma once
 
 #include "geometry/sphere.h"
+#include "light/light_bounds.h"
 #include "light/light_samples.h"
 #include "light/spot_cone.h"
 
@@ -38,6 +39,7 @@ public:
     [[nodiscard]] SolidAnglePdf pdf_direction(Vec3 ng, Vec3 direction) const;
     /// Luminous flux [lm].
     [[nodiscard]] Rgb power() const { return intensity_ * cone_.integral(); }
+    [[nodiscard]] LightBounds bounds() const;
 
 private:
     Sphere sphere_;

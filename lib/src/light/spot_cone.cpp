@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace bdpt {
 namespace {
@@ -51,6 +52,15 @@ float SpotCone::falloff(Vec3 direction) const
 float SpotCone::solid_angle() const
 {
     return 2.0f * pi * one_minus_cos_outer_;
+}
+
+float SpotCone::cos_falloff() const
+{
+    const auto sine = [](float one_minus_cos) {
+        return std::sqrt(std::max(0.0f, one_minus_cos * (2.0f - one_minus_cos)));
+    };
+    const float cos_outer = 1.0f - one_minus_cos_outer_;
+    return cos_outer * cos_inner_ + sine(one_minus_cos_outer_) * sine(1.0f - cos_inner_);
 }
 
 float SpotCone::integral() const

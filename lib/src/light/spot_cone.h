@@ -1,5 +1,6 @@
 #pragma once
 
+#include "light/direction_cone.h"
 #include "math/pdf.h"
 
 #include <bdpt/types.h>
@@ -26,6 +27,11 @@ public:
     [[nodiscard]] float solid_angle() const;
     /// Of `falloff` over all directions [sr].
     [[nodiscard]] float integral() const;
+
+    /// The directions of the full intensity, and the cosine of the angle from them beyond which
+    /// there is none.
+    [[nodiscard]] DirectionCone full() const { return {.axis = axis_, .cos_angle = cos_inner_}; }
+    [[nodiscard]] float cos_falloff() const;
 
 private:
     [[nodiscard]] bool is_whole() const { return one_minus_cos_outer_ >= 2.0f; }

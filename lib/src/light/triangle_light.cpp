@@ -2,8 +2,10 @@
 
 #include "math/elementary.h"
 #include "math/frame.h"
+#include "math/rgb.h"
 #include "math/warp.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <cmath>
@@ -99,6 +101,18 @@ Rgb TriangleLight::power() const
 {
     const float sides = material_->emits_from_both_sides() ? 2.0f : 1.0f;
     return emission_.mean * (pi * area_ * sides);
+}
+
+LightBounds TriangleLight::bounds() const
+{
+    const auto [a, b, c] = mesh_->corners(triangle_);
+    const bool two_sided = material_->emits_from_both_sides();
+    return {.min = min(min(a, b), c),
+            .max = max(max(a, b), c),
+            .normals = {.axis = ng_, .cos_angle = 1.0f},
+            .cos_falloff = 0.0f,
+            .sides = two_sided ? EmittingSides::both : EmittingSides::front,
+            .intensity = static_cast<double>(luminance(emission_.mean) * area_)};
 }
 
 }  // namespace bdpt

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "geometry/placed_mesh.h"
+#include "light/light_bounds.h"
 #include "light/light_samples.h"
 #include "light/triangle_emission.h"
 #include "material/material.h"
@@ -26,6 +27,7 @@ public:
     [[nodiscard]] AreaPdf pdf_position(Vec2 barycentrics) const;
     /// Emitted luminous flux [lm].
     [[nodiscard]] Rgb power() const;
+    [[nodiscard]] LightBounds bounds() const;
 
 private:
     struct Point {

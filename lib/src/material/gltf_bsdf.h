@@ -96,6 +96,8 @@ public:
     {
         return diffuse_weight_ > 0.0f || (has_specular_ && is_rough());
     }
+    /// Light passes from one side to the other.
+    [[nodiscard]] bool transmits() const noexcept { return transmission_ > 0.0f; }
     [[nodiscard]] Rgb base_color() const noexcept { return base_color_; }
 
 private:

@@ -41,15 +41,16 @@ std::optional<Contribution> hit_light(const World& world, std::span<const PathVe
     }
     probe.enter(Phase::weigh);
     const PathVertex& x1 = before_last(camera);
-    const LightDensities densities =
-        light_densities(world, x0, x1.end, weigher.environment_sampling());
-    return Contribution{.unweighted = value,
-                        .weight = weigher.weight({}, camera,
-                                                 {.light_at_camera_end = densities.emit,
-                                                  .light_at_camera_neighbor = densities.to_next,
-                                                  .camera_at_light_end = {},
-                                                  .camera_at_light_neighbor = {},
-                                                  .next_event = densities.next_event})};
+    const LightDensities densities = light_densities(world, x0, x1.end);
+    return Contribution{
+        .unweighted = value,
+        .weight = weigher.weight(
+            {}, camera,
+            {.light_at_camera_end = densities.emit,
+             .light_at_camera_neighbor = densities.to_next,
+             .camera_at_light_end = {},
+             .camera_at_light_neighbor = {},
+             .next_event = next_event_density(world, x0, x1, weigher.next_event_sampling())})};
 }
 
 template <typename Probe>
@@ -63,13 +64,14 @@ std::optional<Contribution> connect_to_light(const World& world, std::span<const
     }
     sampler.start(SampleUse::next_event, static_cast<std::uint32_t>(camera.size()));
     const Vec2 u_position = sampler.next_2d();
-    const auto choice = world.lights().choose_for_receiver(z.end.p, sampler.next_fine());
+    const NextEventSampling sampling = weigher.next_event_sampling();
+    const auto choice = world.lights().choose_for_receiver([&z] { return light_receiver(z); },
+                                                           sampler.next_fine(), sampling.lights);
     if (!choice) {
         return std::nullopt;
     }
     const Light& light = world.lights()[choice->id];
-    const auto incident =
-        light.sample_incident(z.end.p, u_position, weigher.environment_sampling());
+    const auto incident = light.sample_incident(z.end.p, u_position, sampling.environments);
     if (!incident) {
         return std::nullopt;
     }
@@ -96,8 +98,7 @@ std::optional<Contribution> connect_to_light(const World& world, std::span<const
         return std::nullopt;
     }
     probe.enter(Phase::weigh);
-    const LightDensities densities =
-        light_densities(world, x0, z.end, weigher.environment_sampling());
+    const LightDensities densities = light_densities(world, x0, z.end);
     x0.pdf_fwd = densities.emit;
     const AreaPdf from_camera =
         light.is_infinite()
@@ -124,7 +125,8 @@ std::optional<Splat> connect_light_to_lens(const World& world, const Camera& cam
     // The lens is the receiver; where on it is settled before the light is chosen.
     const SegmentEnd receiver = camera.generate_ray(Vec2(0.0f), u_lens).lens;
     sampler.start(SampleUse::next_event, 1);
-    const auto choice = world.lights().choose_for_receiver(receiver.p, sampler.next_fine());
+    const auto choice = world.lights().choose_for_receiver(
+        LightReceiver{.p = receiver.p}, sampler.next_fine(), weigher.next_event_sampling().lights);
     if (!choice || !can_be_seen_directly(world.lights()[choice->id], camera)) {
         return std::nullopt;
     }
@@ -151,8 +153,7 @@ std::optional<Splat> connect_light_to_lens(const World& world, const Camera& cam
     x0.kind = VertexKind::light;
     x0.end = incident->end;
     x0.barycentrics = incident->barycentrics;
-    const LightDensities densities =
-        light_densities(world, x0, to_lens->lens, weigher.environment_sampling());
+    const LightDensities densities = light_densities(world, x0, to_lens->lens);
     x0.pdf_fwd = densities.emit;
     PathVertex lens;
     lens.kind = VertexKind::camera;
@@ -227,10 +228,9 @@ std::optional<Splat> hit_lens(const World& world, const Subpath& light_path,
     }
     probe.enter(Phase::weigh);
     const auto light = light_path.first(crossing.light_vertices);
-    const AreaPdf next_event = light.size() > 1
-                                   ? light[0].pdf_next_event
-                                   : next_event_density(world, light[0], crossing.lens.end,
-                                                        weigher.environment_sampling());
+    const AreaPdf next_event = light.size() > 1 ? light[0].pdf_next_event
+                                                : next_event_density(world, light[0], crossing.lens,
+                                                                     weigher.next_event_sampling());
     const AreaPdf neighbor = light.size() > 1 ? before_last(light).pdf_rev : AreaPdf{};
     const float weight = weigher.weight_of_hit(light, crossing.lens,
                                                {.light_at_camera_end = crossing.lens.pdf_rev,

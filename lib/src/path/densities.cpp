@@ -12,17 +12,33 @@ bool can_be_seen_directly(const Light& light, const Camera& camera)
     return !light.is_delta() && !light.is_infinite() && camera.is_perspective();
 }
 
-AreaPdf next_event_density(const World& world, const PathVertex& x0, const SegmentEnd& x1,
-                           EnvironmentSampling sampling)
+LightReceiver light_receiver(const PathVertex& x1)
 {
-    const LightPoint point{.p = x0.end.p, .ng = x0.end.ng, .barycentrics = x0.barycentrics};
-    const LightSet& lights = world.lights();
-    return lights[*x0.light].pdf_incident(x1.p, point, sampling) *
-           lights.receiver_probability(*x0.light, x1.p);
+    return {.p = x1.end.p,
+            .normal = x1.kind == VertexKind::surface ? x1.bsdf.opaque_normal() : std::nullopt};
 }
 
-LightDensities light_densities(const World& world, const PathVertex& x0, const SegmentEnd& x1,
-                               EnvironmentSampling sampling)
+LightReceiver light_receiver(const PathVertex& x1, Vec3 to_light)
+{
+    return {
+        .p = x1.end.p,
+        .normal = x1.kind == VertexKind::surface ? x1.bsdf.opaque_normal(to_light) : std::nullopt};
+}
+
+AreaPdf next_event_density(const World& world, const PathVertex& x0, const PathVertex& x1,
+                           NextEventSampling sampling)
+{
+    const LightPoint point{.p = x0.end.p, .ng = x0.end.ng, .barycentrics = x0.barycentrics};
+    const auto receiver = [&x0, &x1] {
+        const bool infinite = x0.kind == VertexKind::infinite;
+        return light_receiver(x1, infinite ? x0.end.p : x0.end.p - x1.end.p);
+    };
+    const LightSet& lights = world.lights();
+    return lights[*x0.light].pdf_incident(x1.end.p, point, sampling.environments) *
+           lights.receiver_probability(*x0.light, receiver, sampling.lights);
+}
+
+LightDensities light_densities(const World& world, const PathVertex& x0, const SegmentEnd& x1)
 {
     const LightSet& lights = world.lights();
     const Light& light = lights[*x0.light];
@@ -33,7 +49,6 @@ LightDensities light_densities(const World& world, const PathVertex& x0, const S
     const LightPoint point{.p = x0.end.p, .ng = x0.end.ng, .barycentrics = x0.barycentrics};
     const float cosine = std::abs(dot(x1.ng, to_light));
     return {.emit = light.pdf_position(point) * lights.emission_probability(*x0.light),
-            .next_event = next_event_density(world, x0, x1, sampling),
             .to_next = infinite ? to_area(world.bounding_sphere().pdf_disk(), cosine)
                                 : to_area(light.pdf_direction(x0.end.ng, -to_light), cosine,
                                           distance_squared)};

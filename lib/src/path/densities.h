@@ -16,19 +16,22 @@ class Camera;
 /// The densities at a light vertex x_0 as seen from its neighbour x_1, whichever strategy made
 /// them.
 struct LightDensities {
-    AreaPdf emit;        ///< x_0 as the start of a light path (s >= 2)
-    AreaPdf next_event;  ///< x_0 sampled from x_1 (s = 1)
-    AreaPdf to_next;     ///< x_1 sampled from x_0 by a light path
+    AreaPdf emit;     ///< x_0 as the start of a light path (s >= 2)
+    AreaPdf to_next;  ///< x_1 sampled from x_0 by a light path
 };
 
-/// x_0 on light `x0.light`, sampled from x_1 by next-event estimation, which samples environments
-/// by `sampling`.
-[[nodiscard]] AreaPdf next_event_density(const World& world, const PathVertex& x0,
-                                         const SegmentEnd& x1, EnvironmentSampling sampling);
+/// x_1 as next-event estimation chooses a light for it: before that is chosen, and when it is known
+/// to be in the direction `to_light`, of any length. The two agree wherever the light is scattered.
+[[nodiscard]] LightReceiver light_receiver(const PathVertex& x1);
+[[nodiscard]] LightReceiver light_receiver(const PathVertex& x1, Vec3 to_light);
 
-/// `x0` is a vertex on light `x0.light`. `sampling`: of next-event estimation.
+/// x_0 on light `x0.light`, sampled from x_1 by next-event estimation.
+[[nodiscard]] AreaPdf next_event_density(const World& world, const PathVertex& x0,
+                                         const PathVertex& x1, NextEventSampling sampling);
+
+/// `x0` is a vertex on light `x0.light`.
 [[nodiscard]] LightDensities light_densities(const World& world, const PathVertex& x0,
-                                             const SegmentEnd& x1, EnvironmentSampling sampling);
+                                             const SegmentEnd& x1);
 
 /// Can the strategy s = t = 1, which joins a light point to a lens point, see this light?
 [[nodiscard]] bool can_be_seen_directly(const Light& light, const Camera& camera);
@@ -64,9 +67,9 @@ public:
     /// straight from the definition [Veach 1997, eq. 9.8]. Valid until the next path.
     [[nodiscard]] std::span<const float> shares();
 
-    [[nodiscard]] EnvironmentSampling environment_sampling() const
+    [[nodiscard]] NextEventSampling next_event_sampling() const
     {
-        return strategies_.environment_sampling();
+        return strategies_.next_event_sampling();
     }
 
 private:

@@ -213,8 +213,7 @@ void trace_camera_subpath(const World& world, const Camera& camera, Vec2 raster,
 
 template <typename Probe>
 void trace_light_subpath(const World& world, const Camera& camera, const WalkLimits& limits,
-                         EnvironmentSampling sampling, Sampler& sampler, Subpath& path,
-                         Probe& probe)
+                         NextEventSampling sampling, Sampler& sampler, Subpath& path, Probe& probe)
 {
     path.clear();
     sampler.start(SampleUse::light_start);
@@ -254,7 +253,7 @@ void trace_light_subpath(const World& world, const Camera& camera, const WalkLim
           .limits = limits},
          step, sampler, path, probe);
     if (path.size() > 1) {
-        start.pdf_next_event = next_event_density(world, start, path[1].end, sampling);
+        start.pdf_next_event = next_event_density(world, start, path[1], sampling);
     }
 }
 
@@ -262,9 +261,9 @@ template void trace_camera_subpath(const World&, const Camera&, Vec2, const Walk
                                    Subpath&, NoProbe&);
 template void trace_camera_subpath(const World&, const Camera&, Vec2, const WalkLimits&, Sampler&,
                                    Subpath&, PhaseClock&);
-template void trace_light_subpath(const World&, const Camera&, const WalkLimits&,
-                                  EnvironmentSampling, Sampler&, Subpath&, NoProbe&);
-template void trace_light_subpath(const World&, const Camera&, const WalkLimits&,
-                                  EnvironmentSampling, Sampler&, Subpath&, PhaseClock&);
+template void trace_light_subpath(const World&, const Camera&, const WalkLimits&, NextEventSampling,
+                                  Sampler&, Subpath&, NoProbe&);
+template void trace_light_subpath(const World&, const Camera&, const WalkLimits&, NextEventSampling,
+                                  Sampler&, Subpath&, PhaseClock&);
 
 }  // namespace bdpt

@@ -24,11 +24,10 @@ void trace_camera_subpath(const World& world, const Camera& camera, Vec2 raster,
                           const WalkLimits& limits, Sampler& sampler, Subpath& path, Probe& probe);
 
 /// Fills `path` from a randomly chosen light; the first vertex is on the light. Records where the
-/// walk crosses the camera's finite lens. Empty when no light has power. `sampling` is how
-/// next-event estimation samples environments, whose density it notes.
+/// walk crosses the camera's finite lens. Empty when no light has power. `sampling` is that of
+/// next-event estimation, whose density it notes.
 template <typename Probe>
 void trace_light_subpath(const World& world, const Camera& camera, const WalkLimits& limits,
-                         EnvironmentSampling sampling, Sampler& sampler, Subpath& path,
-                         Probe& probe);
+                         NextEventSampling sampling, Sampler& sampler, Subpath& path, Probe& probe);
 
 }  // namespace bdpt

@@ -27,8 +27,10 @@ StrategySet::StrategySet(const RenderOptions& options)
                 options.max_camera_depth >= options.max_depth &&
                 options.max_light_depth >= options.max_depth),
       // Images of single strategies show what each finds by itself.
-      environment_sampling_(options.strategy_depth > 0 ? EnvironmentSampling::plain
-                                                       : options.environment_sampling)
+      next_event_sampling_{.environments = options.strategy_depth > 0
+                                               ? EnvironmentSampling::plain
+                                               : options.environment_sampling,
+                           .lights = options.light_sampling}
 {
     counts_.assign(static_cast<std::size_t>(stride_ * stride_), 0.0f);
     for (int s = 0; s < stride_; ++s) {
@@ -47,7 +49,7 @@ StrategySet::StrategySet(const RenderOptions& options)
     }
     for (int t = 2; t + 1 < stride_; ++t) {
         if (uses(1, t) && !uses(0, t + 1)) {
-            environment_sampling_ = EnvironmentSampling::plain;
+            next_event_sampling_.environments = EnvironmentSampling::plain;
         }
     }
 }

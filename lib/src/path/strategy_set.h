@@ -1,5 +1,7 @@
 #pragma once
 
+#include "light/light_samples.h"
+
 #include <bdpt/render_options.h>
 
 #include <vector>
@@ -24,8 +26,9 @@ public:
     [[nodiscard]] bool is_complete() const { return complete_; }
     [[nodiscard]] int light_paths() const { return light_paths_; }
 
-    /// How s = 1 samples environments: as asked for if s = 0 can make every path that it can.
-    [[nodiscard]] EnvironmentSampling environment_sampling() const { return environment_sampling_; }
+    /// How s = 1 samples lights: environments as asked for if s = 0 can make every path that it
+    /// can.
+    [[nodiscard]] NextEventSampling next_event_sampling() const { return next_event_sampling_; }
 
     /// Vertices of the longest subpaths that any strategy needs, the lens or the light included.
     [[nodiscard]] int camera_vertices() const { return camera_vertices_; }
@@ -37,7 +40,7 @@ private:
     bool complete_;
     int camera_vertices_ = 1;
     int light_vertices_ = 0;
-    EnvironmentSampling environment_sampling_;
+    NextEventSampling next_event_sampling_;
     std::vector<float> counts_;
 };
 

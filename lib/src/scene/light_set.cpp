@@ -9,6 +9,9 @@
 namespace bdpt {
 namespace {
 
+/// From so many on a tree is worth the time that it takes; docs/decisions/0033 has the figures.
+constexpr std::size_t many_lights = 8;
+
 /// What `desc` is as a surface, if it has one.
 std::optional<Sphere> sphere_of(const LightDesc& desc)
 {
@@ -109,6 +112,8 @@ LightSet::LightSet(std::span<const InstanceDesc> instances, std::span<const Plac
         }
     }
     by_power_ = powers(lights_);
+    next_event_ = NextEventLights(lights_);
+    prefers_tree_ = next_event_.placed_count() >= many_lights;
 }
 
 std::optional<LightSet::Choice> LightSet::choose_for_emission(Vec2 u) const
@@ -123,16 +128,6 @@ std::optional<LightSet::Choice> LightSet::choose_for_emission(Vec2 u) const
 float LightSet::emission_probability(LightId id) const
 {
     return by_power_.probability(static_cast<std::uint32_t>(id));
-}
-
-std::optional<LightSet::Choice> LightSet::choose_for_receiver(Vec3 /*receiver*/, Vec2 u) const
-{
-    return choose_for_emission(u);
-}
-
-float LightSet::receiver_probability(LightId id, Vec3 /*receiver*/) const
-{
-    return emission_probability(id);
 }
 
 std::optional<LightId> LightSet::of_triangle(std::uint32_t instance, std::uint32_t triangle) const

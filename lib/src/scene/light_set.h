@@ -2,11 +2,13 @@
 
 #include "light/light.h"
 #include "math/alias_table.h"
+#include "scene/next_event_lights.h"
 
 #include <bdpt/scene_desc.h>
 
 #include <optional>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 namespace bdpt {
@@ -18,10 +20,7 @@ namespace bdpt {
 /// estimation are two choices with two densities: the first knows no receiver, the second does.
 class LightSet {
 public:
-    struct Choice {
-        LightId id{};
-        float probability = 0.0f;
-    };
+    using Choice = NextEventLights::Choice;
 
     /// All arguments belong together and outlive this object: `placed[i]` is `instances[i]`.
     LightSet(std::span<const InstanceDesc> instances, std::span<const PlacedMesh> placed,
@@ -38,8 +37,29 @@ public:
     [[nodiscard]] std::optional<Choice> choose_for_emission(Vec2 u) const;
     [[nodiscard]] float emission_probability(LightId id) const;
 
-    [[nodiscard]] std::optional<Choice> choose_for_receiver(Vec3 receiver, Vec2 u) const;
-    [[nodiscard]] float receiver_probability(LightId id, Vec3 receiver) const;
+    /// For next-event estimation; nothing where no light can shine. `receiver` or what it returns
+    /// is the receiver, which the choice by power does not ask for.
+    template <typename Receiver>
+    [[nodiscard]] std::optional<Choice> choose_for_receiver(const Receiver& receiver, Vec2 u,
+                                                            LightSampling sampling) const
+    {
+        return uses_tree(sampling) ? next_event_.choose(stated(receiver), fine_uniform(u))
+                                   : choose_for_emission(u);
+    }
+    /// Of choosing light `id` so; positive if it can shine at the receiver.
+    template <typename Receiver>
+    [[nodiscard]] float receiver_probability(LightId id, const Receiver& receiver,
+                                             LightSampling sampling) const
+    {
+        return uses_tree(sampling) ? next_event_.probability(id, stated(receiver))
+                                   : emission_probability(id);
+    }
+    /// Is `automatic` the tree?
+    [[nodiscard]] bool uses_tree(LightSampling sampling) const
+    {
+        return sampling == LightSampling::tree ||
+               (sampling == LightSampling::automatic && prefers_tree_);
+    }
 
     /// The light that rays find which leave the scene.
     [[nodiscard]] std::optional<LightId> environment() const { return environment_; }
@@ -50,11 +70,23 @@ public:
     [[nodiscard]] LightId of_sphere(std::uint32_t sphere) const { return spheres_[sphere]; }
 
 private:
+    template <typename Receiver>
+    [[nodiscard]] static LightReceiver stated(const Receiver& receiver)
+    {
+        if constexpr (std::is_invocable_v<const Receiver&>) {
+            return receiver();
+        } else {
+            return receiver;
+        }
+    }
+
     std::vector<Light> lights_;
     std::vector<std::optional<std::uint32_t>> first_of_instance_;
     std::vector<LightId> spheres_;
     std::optional<LightId> environment_;
     AliasTable by_power_;
+    NextEventLights next_event_;
+    bool prefers_tree_ = false;
 };
 
 }  // namespace bdpt

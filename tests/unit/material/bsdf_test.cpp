@@ -29,6 +29,41 @@ bool agrees(Vec3 w)
 
 }  // namespace
 
+TEST_CASE("opaque surfaces scatter no light from the other side of their normal")
+{
+    test::Random random(62);
+    int opaque = 0;
+    int scattered = 0;
+    for (const test::BsdfCase& bsdf_case : test::bsdf_cases()) {
+        const test::TestedBsdf placed(bsdf_case);
+        bool transmits = false;
+        for (int i = 0; i < 3000; ++i) {
+            const Vec3 wo = random.direction();
+            const Vec3 wi = random.direction();
+            const Bsdf bsdf = placed.at({0.0f, 0.0f, 1.0f}, tilted_normal(), wo);
+            CAPTURE(bsdf_case.name, wo.x, wo.y, wo.z, wi.x, wi.y, wi.z);
+            REQUIRE(bsdf.opaque_normal().has_value() == bsdf.opaque_normal(wi).has_value());
+            if (is_black(bsdf.eval(wi, TransportMode::radiance).f_cos)) {
+                continue;
+            }
+            transmits = transmits || wo.z * wi.z < 0.0f;
+            if (const auto normal = bsdf.opaque_normal()) {
+                ++scattered;
+                REQUIRE(dot(*normal, wi) > 0.0f);
+                REQUIRE(dot(*normal, wo) > 0.0f);
+                REQUIRE(*normal == *bsdf.opaque_normal(wi));
+            }
+        }
+        const Bsdf above = placed.at({0.0f, 0.0f, 1.0f}, tilted_normal(), tilted_normal());
+        if (above.opaque_normal()) {
+            ++opaque;
+            CHECK_FALSE(transmits);
+        }
+    }
+    CHECK(opaque > 10);
+    CHECK(scattered > 10000);
+}
+
 TEST_CASE("directions between the two normals' horizons scatter nothing")
 {
     const SpecularAlbedo albedo(1.5f);

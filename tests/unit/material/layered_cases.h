@@ -42,7 +42,7 @@ public:
             layers.base = tested.surface;
             layers.constants = constants_.get();
             layered_.emplace(layers);
-            layers_ = layers;
+            parameters_ = layers;
         }
     }
 
@@ -59,7 +59,14 @@ public:
     /// On a facet with the normal `facet.z` of a surface with the normals `ng` and `ns`.
     [[nodiscard]] Bsdf mapped(Vec3 ng, Vec3 ns, const Frame& facet, Vec3 wo) const
     {
-        return layers_ ? Bsdf(ng, ns, facet, wo, *layers_) : Bsdf(ng, ns, facet, wo, plain_);
+        return parameters_ ? Bsdf(ng, ns, facet, wo, *parameters_)
+                           : Bsdf(ng, ns, facet, wo, plain_);
+    }
+    /// At a surface with these normals, seen from wo.
+    [[nodiscard]] Bsdf at(Vec3 ng, Vec3 ns, Vec3 wo) const
+    {
+        const Frame shading = Frame::from_normal(ns);
+        return parameters_ ? Bsdf(ng, shading, wo, *parameters_) : Bsdf(ng, shading, wo, plain_);
     }
     [[nodiscard]] bool has_smooth_lobe() const
     {
@@ -79,7 +86,7 @@ private:
     std::unique_ptr<const LayeredConstants> constants_;
     GltfBsdf plain_;
     std::optional<LayeredBsdf> layered_;
-    std::optional<LayeredParameters> layers_;
+    std::optional<LayeredParameters> parameters_;
 };
 
 [[nodiscard]] inline LayeredParameters coated(float share, float roughness,

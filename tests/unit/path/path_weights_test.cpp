@@ -1,5 +1,6 @@
 #include "camera/camera.h"
 #include "catch.hpp"
+#include "many_lights.h"
 #include "math/sampler.h"
 #include "path/connect.h"
 #include "path/random_walk.h"
@@ -73,7 +74,7 @@ TEST_CASE("weights of all strategies sum to one on traced paths", "[mis]")
             trace_camera_subpath(world, camera, raster, {.max_vertices = camera_path.capacity()},
                                  sampler, camera_path, probe);
             trace_light_subpath(world, camera, {.max_vertices = light_path.capacity()},
-                                strategies.environment_sampling(), sampler, light_path, probe);
+                                strategies.next_event_sampling(), sampler, light_path, probe);
             for (int t = 2; t <= camera_path.size(); ++t) {
                 check(hit_light(world, camera_path.first(t), weigher, probe));
                 if (t <= max_depth) {
@@ -139,6 +140,64 @@ TEST_CASE("joining and hitting agree about the densities of the same path", "[mi
         }
     }
     CHECK(compared > 100);
+}
+
+TEST_CASE("next-event estimation has the density that others are weighed against", "[mis]")
+{
+    // Whoever made a path knows its light and its x_1: both ways to state the receiver must lead to
+    // one density wherever light is scattered.
+    SceneBuilder builder = test::random_lights(4, 40);
+    builder.walls(test::plastic(Rgb(0.7f), 0.3f), test::lambertian(Rgb(0.6f)));
+    builder.sphere({-0.4f, -0.6f, 0.0f}, 0.4f, test::glass(0.3f), 12);
+    builder.sphere({0.5f, -0.6f, 0.2f}, 0.4f, test::lambertian(Rgb(0.5f)), 8);
+    MaterialDesc paper = test::lambertian(Rgb(0.5f));
+    paper.diffuse_transmission.factor = 0.5f;
+    builder.quad({-0.5f, 0.0f, -0.3f}, {0.5f, 0.0f, -0.3f}, {0.5f, 0.6f, 0.1f}, {-0.5f, 0.6f, 0.1f},
+                 paper);
+    builder.light(EnvironmentLightDesc{.radiance = {.width = 1, .height = 1, .pixels = {Rgb(1)}}});
+    const World world(std::move(builder.desc));
+    const Camera camera(test::room_camera(), 16, 16);
+    const NextEventSampling sampling{.lights = LightSampling::tree};
+    Subpath path(5);
+    NoProbe probe;
+    int compared = 0;
+    int through = 0;
+    for (int i = 0; i < 4000; ++i) {
+        Sampler sampler(SamplerKind::independent, 3, i % 16, i / 16 % 16, i);
+        const Vec2 raster = 16.0f * sampler.next_2d();
+        trace_camera_subpath(world, camera, raster, {.max_vertices = path.capacity()}, sampler,
+                             path, probe);
+        for (int t = 2; t <= path.size(); ++t) {
+            const PathVertex& x1 = path[t - 1];
+            if (x1.kind != VertexKind::surface || !x1.connectible) {
+                continue;
+            }
+            const auto choice = world.lights().choose_for_receiver(
+                light_receiver(x1), sampler.next_fine(), sampling.lights);
+            if (!choice) {
+                continue;
+            }
+            const Light& light = world.lights()[choice->id];
+            const auto incident = light.sample_incident(x1.end.p, sampler.next_2d());
+            if (!incident || x1.bsdf.eval(incident->wi, TransportMode::radiance).f_cos.g <= 0.0f) {
+                continue;
+            }
+            PathVertex x0;
+            x0.kind = light.is_infinite() ? VertexKind::infinite : VertexKind::light;
+            x0.light = choice->id;
+            x0.end = incident->end;
+            x0.end.p = light.is_infinite() ? incident->wi : incident->end.p;
+            x0.barycentrics = incident->barycentrics;
+            const float sampled = incident->pdf.value * choice->probability;
+            REQUIRE(next_event_density(world, x0, x1, sampling).value ==
+                    Approx(sampled).epsilon(1e-3));
+            ++compared;
+            const Vec3 to_previous = path[t - 2].end.p - x1.end.p;
+            through += dot(incident->wi, x1.end.ng) * dot(to_previous, x1.end.ng) < 0.0f ? 1 : 0;
+        }
+    }
+    CHECK(compared > 2000);
+    CHECK(through > 50);  // glass and paper
 }
 
 }  // namespace bdpt

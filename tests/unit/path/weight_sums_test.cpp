@@ -92,7 +92,7 @@ TEST_CASE("sums over subpaths weigh joins as all densities of the path do", "[mi
         trace_camera_subpath(world, camera, raster, {.max_vertices = camera_path.capacity()},
                              sampler, camera_path, probe);
         trace_light_subpath(world, camera, {.max_vertices = light_path.capacity()},
-                            strategies.environment_sampling(), sampler, light_path, probe);
+                            strategies.next_event_sampling(), sampler, light_path, probe);
         sums.begin_camera_path(camera_path.all());
         sums.begin_light_path(light_path.all());
         const auto by_sums = weights_of(world, camera, light_path, camera_path, first, sums);

@@ -84,7 +84,8 @@ TEST_CASE("lights are chosen by power, and dark ones never", "[world]")
     const World world(std::move(builder.desc));
     CHECK(world.lights().emission_probability(LightId{0}) == Approx(0.75f));
     CHECK(world.lights().emission_probability(LightId{1}) == 0.0f);
-    CHECK(world.lights().receiver_probability(LightId{2}, Vec3(0.0f)) == Approx(0.25f));
+    CHECK(world.lights().receiver_probability(LightId{2}, LightReceiver{}, LightSampling::power) ==
+          Approx(0.25f));
     for (int i = 0; i < 100; ++i) {
         const auto choice =
             world.lights().choose_for_emission({(static_cast<float>(i) + 0.5f) / 100.0f, 0.5f});

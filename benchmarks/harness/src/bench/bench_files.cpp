@@ -111,6 +111,7 @@ ordered_json render_settings(const BenchScene& scene, const RenderOptions& optio
             {"heuristic", static_cast<int>(options.heuristic)},
             {"sampler", options.sampler == SamplerKind::sobol ? "sobol" : "independent"},
             {"environment_sampling", static_cast<int>(options.environment_sampling)},
+            {"light_sampling", static_cast<int>(options.light_sampling)},
             {"filter", static_cast<int>(options.filter.kind)},
             {"filter_radius", options.filter.radius.value_or(default_radius(options.filter.kind))},
             {"clamp", clamp}};

@@ -1,0 +1,84 @@
+#!/usr/bin/env python3
+"""Prints how scenes load that are large in one respect: scale_table.py BDPT [KIND...] [--count KIND=N] [--rounds 3].
+
+BDPT is the command. Each scene of make_scale_scene.py is written to a temporary folder (--folder), rendered to 32 x 32
+pixels with one sample each, and deleted before the next. The table has, for the median round, the time to read the file,
+to build the scene and to render, the time from the start of the process to its end, and its greatest memory.
+"""
+
+import argparse
+import json
+import os
+import pathlib
+import statistics
+import subprocess
+import sys
+import tempfile
+
+from make_scale_scene import COUNTS
+
+MAKER = pathlib.Path(__file__).parent / "make_scale_scene.py"
+
+
+def run(command):
+    """Seconds and greatest resident set [bytes] of a process."""
+    begin = os.times().elapsed
+    process = subprocess.Popen(command)
+    _, status, usage = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    if process.returncode != 0:
+        sys.exit(f"{' '.join(command)} ended with exit code {process.returncode}")
+    return os.times().elapsed - begin, usage.ru_maxrss * 1024
+
+
+def measure(bdpt, scene, folder, threads):
+    """One line's figures: those of --stats, and what the process took."""
+    stats = folder / "stats.json"
+    command = [bdpt, "render", str(scene), "--size", "32x32", "--spp", "1", "--quiet", "-o", str(folder / "out.exr"),
+               "--stats", str(stats)] + (["--threads", str(threads)] if threads else [])
+    seconds, memory = run(command)
+    return {**json.loads(stats.read_text(encoding="utf-8"))["seconds"], "process": seconds, "memory": memory}
+
+
+def line(kind, count, size, rounds, empty):
+    """`empty`: bytes of a process that renders next to nothing."""
+    median = {key: statistics.median(r[key] for r in rounds) for key in rounds[0]}
+    each = (median["memory"] - empty) / count
+    return (f"| {count:,} {kind} | {size / 1e6:.0f} MB | {median['load']:.2f} s | {median['build']:.2f} s "
+            f"| {median['render']:.2f} s | {median['process']:.2f} s | {median['memory'] / 1e6:.0f} MB | {each:,.0f} |")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("bdpt", help="the command that renders")
+    parser.add_argument("kinds", nargs="*", metavar="KIND", help="all if none is given")
+    parser.add_argument("--count", action="append", default=[], metavar="KIND=N")
+    parser.add_argument("--rounds", type=int, default=3)
+    parser.add_argument("--threads", type=int, default=0)
+    parser.add_argument("--folder", help="where scenes are written; at most 400 MB at a time")
+    arguments = parser.parse_args()
+    counts = {**COUNTS, **{kind: int(number) for kind, number in (c.split("=") for c in arguments.count)}}
+    kinds = arguments.kinds or list(COUNTS)
+    for kind in {*kinds, *counts} - COUNTS.keys():
+        sys.exit(f"no such kind of scene: {kind}; there are {', '.join(COUNTS)}")
+    print("| scene | file | read | build | first picture | in all | peak memory | bytes each |\n|---|---|---|---|---|---|---|---|")
+    with tempfile.TemporaryDirectory(dir=arguments.folder) as temporary:
+        folder = pathlib.Path(temporary)
+
+        def figures(kind, count):
+            scene = folder / f"{kind}.glb"
+            subprocess.run([sys.executable, str(MAKER), kind, str(scene), "--count", str(count)], check=True)
+            size = scene.stat().st_size
+            rounds = [measure(arguments.bdpt, scene, folder, arguments.threads) for _ in range(arguments.rounds)]
+            scene.unlink()
+            return size, rounds
+
+        _, rounds = figures("triangles", 8)
+        empty = statistics.median(r["memory"] for r in rounds)
+        for kind in kinds:
+            size, rounds = figures(kind, counts[kind])
+            print(line(kind, counts[kind], size, rounds, empty), flush=True)
+
+
+if __name__ == "__main__":
+    main()

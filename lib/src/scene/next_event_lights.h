@@ -1,0 +1,52 @@
+#pragma once
+
+#include "light/light.h"
+#include "light/light_tree.h"
+#include "math/alias_table.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace bdpt {
+
+/// One of all lights, for a receiver: those at a place by a tree, and beside it those at infinity,
+/// by power. Between the two half of the choice is by power and half is even, for neither can be
+/// told to be hidden from the receiver.
+class NextEventLights {
+public:
+    struct Choice {
+        LightId id{};
+        float probability = 0.0f;
+    };
+
+    NextEventLights() = default;
+    explicit NextEventLights(std::span<const Light> lights);
+
+    /// `u` in [0, 1). Nothing where no light can shine.
+    [[nodiscard]] std::optional<Choice> choose(const LightReceiver& receiver,
+                                               double u) const noexcept;
+    [[nodiscard]] float probability(LightId id, const LightReceiver& receiver) const noexcept;
+
+    /// Lights that have a place and power.
+    [[nodiscard]] std::size_t placed_count() const noexcept { return placed_.size(); }
+
+private:
+    /// Where a light is found: its number among those of its group.
+    struct Slot {
+        enum class Group : std::uint8_t { none, placed, infinite };
+        Group group = Group::none;
+        std::uint32_t number = 0;
+    };
+
+    std::vector<Slot> slots_;  ///< of each light
+    LightTree tree_;
+    std::vector<LightId> placed_;    ///< of the tree's numbers
+    std::vector<LightId> infinite_;  ///< of the table's numbers
+    AliasTable by_power_;            ///< of infinite lights
+    double placed_share_ = 0.0;      ///< probability of the tree
+};
+
+}  // namespace bdpt

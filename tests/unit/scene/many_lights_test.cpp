@@ -1,0 +1,208 @@
+#include "many_lights.h"
+
+#include "catch.hpp"
+#include "chi_square.h"
+#include "math/rgb.h"
+#include "scene/world.h"
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace bdpt {
+namespace {
+
+using test::Random;
+using test::SceneBuilder;
+
+constexpr auto by_tree = LightSampling::tree;
+
+/// With light from infinity too.
+SceneDesc everything(std::uint64_t seed, int count)
+{
+    SceneBuilder builder = test::random_lights(seed, count);
+    builder.light(DirectionalLightDesc{.direction = {0.3f, -1.0f, 0.2f}, .illuminance = Rgb(0.5f)});
+    builder.light(DirectionalLightDesc{.direction = {1.0f, 0.0f, 0.0f}, .illuminance = Rgb(0.1f)});
+    builder.light(PointLightDesc{.intensity = Rgb(0.0f)});
+    builder.light(EnvironmentLightDesc{.radiance = {.width = 1, .height = 1, .pixels = {Rgb(1)}}});
+    return std::move(builder.desc);
+}
+
+/// Somewhere about the cube; every third time within a light's own box or very near to it.
+LightReceiver random_receiver(const World& world, Random& random)
+{
+    Vec3 p = 1.5f * Vec3(random.next(), random.next(), random.next()) - 0.75f;
+    const auto id =
+        static_cast<std::uint32_t>(random.next() * static_cast<float>(world.lights().size()));
+    if (const auto bounds = world.lights()[LightId{id}].bounds(); bounds && random.next() < 0.33f) {
+        const float near = std::pow(10.0f, -6.0f * random.next());
+        p = mix(bounds->min, bounds->max, Vec3(random.next(), random.next(), random.next())) +
+            near * random.direction();
+    }
+    LightReceiver receiver{.p = p};
+    if (random.next() < 0.7f) {
+        receiver.normal = random.direction();
+    }
+    return receiver;
+}
+
+std::vector<double> probabilities(const World& world, const LightReceiver& receiver)
+{
+    std::vector<double> result;
+    for (std::uint32_t id = 0; id < world.lights().size(); ++id) {
+        result.push_back(static_cast<double>(
+            world.lights().receiver_probability(LightId{id}, receiver, by_tree)));
+    }
+    return result;
+}
+
+}  // namespace
+
+TEST_CASE("no light is lost that can shine at a point", "[light][tree]")
+{
+    int contributions = 0;
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+        const World world(everything(seed, 90));
+        const LightSet& lights = world.lights();
+        Random random(100 + seed);
+        for (int i = 0; i < 60; ++i) {
+            const LightReceiver receiver = random_receiver(world, random);
+            for (std::uint32_t id = 0; id < lights.size(); ++id) {
+                const float chosen = lights.receiver_probability(LightId{id}, receiver, by_tree);
+                for (int k = 0; k < 8; ++k) {
+                    const auto incident =
+                        lights[LightId{id}].sample_incident(receiver.p, random.next_2d());
+                    const bool brings =
+                        incident && !is_black(incident->weight) &&
+                        (!receiver.normal || dot(*receiver.normal, incident->wi) > 0.0f);
+                    contributions += brings ? 1 : 0;
+                    if (brings && !(chosen > 0.0f)) {
+                        CAPTURE(seed, i, id, incident->distance, incident->weight.g);
+                        FAIL("a light that shines has the probability 0");
+                    }
+                }
+            }
+        }
+    }
+    CHECK(contributions > 100000);
+}
+
+TEST_CASE("lights are chosen as often as their probabilities say", "[light][tree]")
+{
+    constexpr int samples = 40000;
+    constexpr double significance = 1e-4;
+    int several = 0;
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+        const World world(everything(seed, 60));
+        Random random(200 + seed);
+        for (int i = 0; i < 12; ++i) {
+            const LightReceiver receiver = random_receiver(world, random);
+            std::vector<double> expected = probabilities(world, receiver);
+            std::vector<double> counts(expected.size() + 1, 0.0);
+            for (int k = 0; k < samples; ++k) {
+                const auto choice =
+                    world.lights().choose_for_receiver(receiver, random.next_2d(), by_tree);
+                const std::size_t id =
+                    choice ? static_cast<std::size_t>(choice->id) : expected.size();
+                if (choice) {
+                    REQUIRE(static_cast<double>(choice->probability) == expected[id]);
+                }
+                counts[id] += 1.0;
+            }
+            double sum = 0.0;
+            for (const double p : expected) {
+                sum += p;
+            }
+            CHECK(sum <= 1.0 + 1e-5);
+            // What is left is the chance that no light is chosen.
+            expected.push_back(std::max(0.0, 1.0 - sum));
+            if (expected.back() < 1e-6) {
+                CHECK(counts.back() == 0.0);
+                expected.pop_back();
+                counts.pop_back();
+            }
+            const test::ChiSquare result = test::chi_square(counts, expected);
+            if (result.degrees >= 1) {
+                ++several;
+                CAPTURE(seed, i, result.statistic, result.degrees);
+                CHECK(result.p_value > test::sidak(significance, 36));
+                CHECK(result.least_detectable(test::sidak(significance, 36)) < 0.1);
+            }
+        }
+    }
+    CHECK(several > 30);
+}
+
+TEST_CASE("light from infinity has a share of its own", "[light][tree]")
+{
+    const World world(everything(3, 30));
+    const LightSet& lights = world.lights();
+    Random random(6);
+    double placed = 0.0;
+    std::vector<double> infinite;
+    for (const double share : {0.0, 1.0}) {
+        const LightReceiver receiver{.p = Vec3(static_cast<float>(share))};
+        placed = 0.0;
+        infinite.clear();
+        for (std::uint32_t id = 0; id < lights.size(); ++id) {
+            const auto p =
+                static_cast<double>(lights.receiver_probability(LightId{id}, receiver, by_tree));
+            if (lights[LightId{id}].is_infinite()) {
+                infinite.push_back(p);
+            } else {
+                placed += p;
+            }
+        }
+        REQUIRE(infinite.size() == 3);
+        const double sum = infinite[0] + infinite[1] + infinite[2];
+        CHECK(sum >= 0.25);
+        CHECK(sum <= 0.75);
+        CHECK(infinite[0] / infinite[1] == Approx(5.0));  // among themselves by power
+        CHECK(placed + sum <= 1.0 + 1e-5);
+    }
+}
+
+TEST_CASE("scenes of lights at infinity, or at places, alone", "[light][tree]")
+{
+    SceneBuilder sun;
+    sun.light(DirectionalLightDesc{});
+    const World far(std::move(sun.desc));
+    CHECK(far.lights().receiver_probability(LightId{0}, LightReceiver{}, by_tree) == 1.0f);
+    CHECK(far.lights().choose_for_receiver(LightReceiver{}, {0.9f, 0.0f}, by_tree)->probability ==
+          1.0f);
+    SceneBuilder dark;
+    dark.light(PointLightDesc{.intensity = Rgb(0.0f)});
+    const World black(std::move(dark.desc));
+    CHECK(black.lights().receiver_probability(LightId{0}, LightReceiver{}, by_tree) == 0.0f);
+    CHECK_FALSE(
+        black.lights().choose_for_receiver(LightReceiver{}, {0.5f, 0.0f}, by_tree).has_value());
+    SceneBuilder lamp;
+    lamp.light(PointLightDesc{.position = {1, 0, 0}});
+    const World near(std::move(lamp.desc));
+    CHECK(near.lights().receiver_probability(LightId{0}, LightReceiver{}, by_tree) == 1.0f);
+}
+
+TEST_CASE("few lights are chosen by power, many by the tree", "[light][tree]")
+{
+    for (const int count : {2, 300}) {
+        const World world(std::move(test::random_lights(9, count).desc));
+        const LightSet& lights = world.lights();
+        const LightReceiver receiver{.p = {0.2f, 0.3f, 0.4f}};
+        bool differs = false;
+        for (std::uint32_t id = 0; id < lights.size(); ++id) {
+            const auto p = [&](LightSampling sampling) {
+                return lights.receiver_probability(LightId{id}, receiver, sampling);
+            };
+            CHECK(p(LightSampling::automatic) ==
+                  p(count == 2 ? LightSampling::power : LightSampling::tree));
+            CHECK(p(LightSampling::power) == lights.emission_probability(LightId{id}));
+            differs = differs || p(LightSampling::tree) != p(LightSampling::power);
+        }
+        CHECK(differs);
+    }
+}
+
+}  // namespace bdpt

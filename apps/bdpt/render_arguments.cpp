@@ -210,7 +210,8 @@ void add_view_options(CLI::App& command, RenderWords& words)
     command
         .add_option("--env", words.environment,
                     "Light from all around: an equirectangular .exr or .hdr, none, or the default "
-                    "sky, which scenes without light get by themselves")
+                    "sky, which scenes without light get by themselves. It takes the place of the "
+                    "environment that a file brings")
         ->type_name("FILE|none|default")
         ->group(group);
     add_lens_options(command, words.lens);

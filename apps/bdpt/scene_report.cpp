@@ -53,6 +53,12 @@ struct LightText {
         return fmt::format("directional \"{}\" towards {}, {} lx", light.name,
                            to_text(light.direction), to_text(light.illuminance));
     }
+    std::string operator()(const ProfileLightDesc& light) const
+    {
+        return fmt::format("profile {} \"{}\" at {}, times {}",
+                           static_cast<std::size_t>(light.profile), light.name,
+                           to_text(light.position), to_text(light.scale));
+    }
     std::string operator()(const EnvironmentLightDesc& light) const
     {
         return fmt::format("environment {}x{}", light.radiance.width, light.radiance.height);

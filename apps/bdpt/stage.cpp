@@ -9,6 +9,8 @@
 #include <chrono>
 #include <optional>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include "default_lights.h"
 #include "view.h"
@@ -26,12 +28,21 @@ struct LitScene {
     std::vector<std::string> warnings;
 };
 
-/// Adds the environment that was asked for or, where all is dark, the default one.
+bool is_environment(const LightDesc& light)
+{
+    return std::holds_alternative<EnvironmentLightDesc>(light);
+}
+
+/// Adds the environment that was asked for or, where all is dark, the default one. What is asked
+/// for takes the place of the file's own.
 LitScene add_environment(SceneDesc desc, const RenderArguments& arguments)
 {
     LitScene lit{std::move(desc), Sky::none, "none", {}};
     const std::string file = arguments.file.string();
     const std::string choice = arguments.environment.value_or("");
+    if (!choice.empty()) {
+        std::erase_if(lit.desc.lights, is_environment);
+    }
     if (choice == "none") {
         if (!has_light(lit.desc)) {
             lit.warnings.push_back(fmt::format("{}: no light: the picture will be black", file));
@@ -48,6 +59,9 @@ LitScene add_environment(SceneDesc desc, const RenderArguments& arguments)
         lit.sky = Sky::chosen;
         lit.environment_name = choice;
         lit.desc.lights.push_back(std::move(loaded.light));
+    } else if (std::any_of(lit.desc.lights.begin(), lit.desc.lights.end(), is_environment)) {
+        lit.sky = Sky::chosen;
+        lit.environment_name = "scene";
     } else if (!has_light(lit.desc)) {
         lit.warnings.push_back(fmt::format(
             "{}: no light: lit by the default environment, a soft sky (--env chooses another)",

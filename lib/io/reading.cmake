@@ -7,6 +7,7 @@ target_sources(bdpt_io PRIVATE
   src/file/uri.cpp
   src/file/warnings.cpp
   # pictures
+  src/image/cube_map.cpp
   src/image/environment.cpp
   src/image/exr_channels.cpp
   src/image/exr_header.cpp
@@ -15,6 +16,10 @@ target_sources(bdpt_io PRIVATE
   src/image/oiio_library.cpp
   src/image/read_image.cpp
   src/image/texels.cpp
+  # light profiles
+  src/ies/ies_file.cpp
+  src/ies/ies_numbers.cpp
+  src/ies/ies_profile.cpp
   # glTF: checks before tinygltf
   src/gltf/decoded_size.cpp
   src/gltf/draco_primitives.cpp
@@ -37,10 +42,12 @@ target_sources(bdpt_io PRIVATE
   src/gltf/data_budget.cpp
   src/gltf/facts.cpp
   src/gltf/gltf.cpp
+  src/gltf/image_based_light.cpp
   src/gltf/image_table.cpp
   src/gltf/instancing.cpp
   src/gltf/keyframes.cpp
   src/gltf/light.cpp
+  src/gltf/light_profiles.cpp
   src/gltf/material.cpp
   src/gltf/material_layers.cpp
   src/gltf/material_values.cpp

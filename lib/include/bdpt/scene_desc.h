@@ -17,6 +17,7 @@ namespace bdpt {
 enum class MeshId : std::uint32_t {};
 enum class MaterialId : std::uint32_t {};
 enum class ImageId : std::uint32_t {};
+enum class ProfileId : std::uint32_t {};
 
 /// Triangles with one material, in object space [m].
 struct MeshDesc {
@@ -192,6 +193,24 @@ struct SpotLightDesc {
     float radius = 0.0f;
 };
 
+/// The intensities of a luminaire by direction, on a grid of two angles: the polar angle from -z,
+/// and the azimuth around that axis, from +x towards +y. Between the angles of the grid intensities
+/// are bilinear in both; beyond its first and last ones it is dark.
+struct LightProfile {
+    std::vector<float> polar_angles;  ///< [rad] two or more, ascending, in [0, pi]
+    std::vector<float> azimuths;      ///< [rad] ascending over at most a turn; one: round
+    std::vector<float> intensities;   ///< [cd] those of all polar angles for each azimuth, >= 0
+};
+
+/// A point light that shines as a measured luminaire does [EXT_lights_ies].
+struct ProfileLightDesc {
+    std::string name{};
+    Vec3 position{0.0f};
+    Mat3 world_from_light{1.0f};  ///< orthonormal; may mirror
+    Rgb scale{1.0f};              ///< >= 0, times the intensities of the profile
+    ProfileId profile{};
+};
+
 /// Light from infinity out of one direction, like the sun's [KHR_lights_punctual].
 struct DirectionalLightDesc {
     std::string name{};
@@ -206,8 +225,8 @@ struct EnvironmentLightDesc {
     Mat3 world_from_environment{1.0f};  ///< rotation
 };
 
-using LightDesc =
-    std::variant<PointLightDesc, SpotLightDesc, DirectionalLightDesc, EnvironmentLightDesc>;
+using LightDesc = std::variant<PointLightDesc, SpotLightDesc, DirectionalLightDesc,
+                               EnvironmentLightDesc, ProfileLightDesc>;
 
 /// Everything that light meets, as plain data: what a loader fills in and what `Scene` is built
 /// from. Emissive triangles are lights by their material.
@@ -216,6 +235,7 @@ struct SceneDesc {
     std::vector<MaterialDesc> materials;
     std::vector<MeshDesc> meshes;
     std::vector<InstanceDesc> instances;
+    std::vector<LightProfile> profiles;
     std::vector<LightDesc> lights;  ///< at most one environment
 };
 

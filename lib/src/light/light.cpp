@@ -18,6 +18,9 @@ std::optional<EmissionSample> Light::sample_emission(Vec2 u_position, Vec2 u_dir
     if (const auto* light = std::get_if<DirectionalLight>(&model_)) {
         return light->sample_emission(u_position);
     }
+    if (const auto* light = std::get_if<ProfileLight>(&model_)) {
+        return light->sample_emission(u_direction);
+    }
     return std::get<EnvironmentLight>(model_).sample_emission(u_position, u_direction);
 }
 
@@ -35,6 +38,9 @@ std::optional<IncidentSample> Light::sample_incident(Vec3 receiver, Vec2 u,
     }
     if (const auto* light = std::get_if<DirectionalLight>(&model_)) {
         return light->sample_incident();
+    }
+    if (const auto* light = std::get_if<ProfileLight>(&model_)) {
+        return light->sample_incident(receiver);
     }
     return std::get<EnvironmentLight>(model_).sample_incident(u, sampling);
 }
@@ -75,13 +81,17 @@ SolidAnglePdf Light::pdf_direction(Vec3 ng, Vec3 direction) const
     if (const auto* light = std::get_if<PunctualLight>(&model_)) {
         return light->pdf_direction(direction);
     }
+    if (const auto* light = std::get_if<ProfileLight>(&model_)) {
+        return light->pdf_direction(direction);
+    }
     return {};
 }
 
 bool Light::is_delta() const
 {
     return std::holds_alternative<PunctualLight>(model_) ||
-           std::holds_alternative<DirectionalLight>(model_);
+           std::holds_alternative<DirectionalLight>(model_) ||
+           std::holds_alternative<ProfileLight>(model_);
 }
 
 bool Light::is_infinite() const

@@ -4,6 +4,7 @@
 #include "light/environment_light.h"
 #include "light/light_bounds.h"
 #include "light/light_samples.h"
+#include "light/profile_light.h"
 #include "light/punctual_light.h"
 #include "light/sphere_light.h"
 #include "light/triangle_light.h"
@@ -17,8 +18,8 @@ namespace bdpt {
 /// Any light. To add a kind, add it to `Model` and to the functions in light.cpp.
 class Light {
 public:
-    using Model =
-        std::variant<TriangleLight, SphereLight, PunctualLight, DirectionalLight, EnvironmentLight>;
+    using Model = std::variant<TriangleLight, SphereLight, PunctualLight, DirectionalLight,
+                               EnvironmentLight, ProfileLight>;
 
     explicit Light(Model model) : model_(std::move(model)) {}
 

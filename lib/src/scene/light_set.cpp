@@ -28,15 +28,18 @@ std::optional<Sphere> sphere_of(const LightDesc& desc)
 }
 
 /// `sphere`: the number that the light gets if it is one.
-Light make_light(const LightDesc& desc, const BoundingSphere& bounds, std::uint32_t sphere)
+Light make_light(const LightDesc& desc, std::span<const IntensityProfile> profiles,
+                 const BoundingSphere& bounds, std::uint32_t sphere)
 {
     return std::visit(
-        [&bounds, sphere](const auto& d) {
+        [profiles, &bounds, sphere](const auto& d) {
             using T = std::decay_t<decltype(d)>;
             if constexpr (std::is_same_v<T, DirectionalLightDesc>) {
                 return Light(DirectionalLight(d, bounds));
             } else if constexpr (std::is_same_v<T, EnvironmentLightDesc>) {
                 return Light(EnvironmentLight(d, bounds));
+            } else if constexpr (std::is_same_v<T, ProfileLightDesc>) {
+                return Light(ProfileLight(d, profiles[static_cast<std::size_t>(d.profile)]));
             } else if (d.radius > 0.0f) {
                 return Light(SphereLight(d, sphere));
             } else {
@@ -87,7 +90,7 @@ std::vector<Sphere> light_spheres(std::span<const LightDesc> lights)
 
 LightSet::LightSet(std::span<const InstanceDesc> instances, std::span<const PlacedMesh> placed,
                    std::span<const Material> materials, std::span<const LightDesc> lights,
-                   const BoundingSphere& bounds)
+                   std::span<const IntensityProfile> profiles, const BoundingSphere& bounds)
     : first_of_instance_(instances.size())
 {
     const int most_samples = most_emission_samples(instances, placed, materials);
@@ -103,7 +106,8 @@ LightSet::LightSet(std::span<const InstanceDesc> instances, std::span<const Plac
     }
     for (const LightDesc& desc : lights) {
         const LightId id{static_cast<std::uint32_t>(lights_.size())};
-        lights_.push_back(make_light(desc, bounds, static_cast<std::uint32_t>(spheres_.size())));
+        lights_.push_back(
+            make_light(desc, profiles, bounds, static_cast<std::uint32_t>(spheres_.size())));
         if (std::holds_alternative<EnvironmentLightDesc>(desc)) {
             environment_ = id;
         }

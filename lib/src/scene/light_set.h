@@ -1,5 +1,6 @@
 #pragma once
 
+#include "light/intensity_profile.h"
 #include "light/light.h"
 #include "math/alias_table.h"
 #include "scene/next_event_lights.h"
@@ -25,7 +26,7 @@ public:
     /// All arguments belong together and outlive this object: `placed[i]` is `instances[i]`.
     LightSet(std::span<const InstanceDesc> instances, std::span<const PlacedMesh> placed,
              std::span<const Material> materials, std::span<const LightDesc> lights,
-             const BoundingSphere& bounds);
+             std::span<const IntensityProfile> profiles, const BoundingSphere& bounds);
 
     [[nodiscard]] std::size_t size() const { return lights_.size(); }
     [[nodiscard]] const Light& operator[](LightId id) const

@@ -1,54 +1,19 @@
 #include "scene/validate.h"
 
 #include "geometry/reach.h"
-#include "math/elementary.h"
-
-#include <bdpt/error.h>
+#include "scene/validate_lights.h"
+#include "scene/value_checks.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
-#include <sstream>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace bdpt {
 namespace {
-
-template <typename... Parts>
-[[noreturn]] void fail(const Parts&... parts)
-{
-    std::ostringstream message;
-    (message << ... << parts);
-    throw Error(ErrorCode::invalid_input, message.str());
-}
-
-/// `mesh 3 "chair"`
-std::string label(std::string_view kind, std::size_t index, const std::string& name)
-{
-    std::string text = std::string(kind) + " " + std::to_string(index);
-    return name.empty() ? text : text + " \"" + name + "\"";
-}
-
-std::size_t area(int width, int height)
-{
-    return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-}
-
-bool all_finite(const float* values, int count)
-{
-    for (int i = 0; i < count; ++i) {
-        if (!std::isfinite(values[i])) {
-            return false;
-        }
-    }
-    return true;
-}
 
 template <typename T>
 void check_attribute(const std::string& item, const char* what, const std::vector<T>& values,
@@ -82,23 +47,6 @@ void check(const MeshDesc& mesh, const std::string& item)
         }
     }
 }
-
-void check_range(const std::string& item, const char* what, float value, float low, float high)
-{
-    if (!(value >= low && value <= high)) {
-        fail(item, ": ", what, " is ", value, ", not in [", low, ", ", high, "]");
-    }
-}
-
-template <typename Color>
-void check_color(const std::string& item, const char* what, const Color& value, float high)
-{
-    for (int c = 0; c < Color::length(); ++c) {
-        check_range(item, what, value[c], 0.0f, high);
-    }
-}
-
-constexpr float any_positive = std::numeric_limits<float>::max();
 
 void check(const TextureRef& texture, const std::string& item, std::size_t image_count)
 {
@@ -183,36 +131,6 @@ void check(const InstanceDesc& instance, const std::string& item, const SceneDes
     }
 }
 
-void check_direction(const std::string& item, Vec3 direction)
-{
-    if (!all_finite(&direction[0], 3) || !(dot(direction, direction) > 0.0f)) {
-        fail(item, ": direction is zero or not finite");
-    }
-}
-
-/// How far things may be, and why.
-std::string reach_text(float reach)
-{
-    std::ostringstream text;
-    text << " m from the origin, but " << reach << " m is the most";
-    if (reach < greatest_reach) {
-        text << ", as a mesh that is used more than once is scaled down very much";
-    }
-    return text.str();
-}
-
-void check_position(const std::string& item, Vec3 position, float reach)
-{
-    if (!all_finite(&position[0], 3)) {
-        fail(item, ": position is not finite");
-    }
-    const float extent =
-        std::max({std::abs(position.x), std::abs(position.y), std::abs(position.z)});
-    if (extent > reach) {
-        fail(item, ": is ", extent, reach_text(reach));
-    }
-}
-
 /// What is traced must be within reach of rays, as they are single-precision numbers.
 void check_reach(const SceneDesc& desc, float reach)
 {
@@ -230,78 +148,6 @@ void check_reach(const SceneDesc& desc, float reach)
         }
     }
 }
-
-void check_radius(const std::string& item, float radius, Rgb intensity)
-{
-    constexpr float least = 1e-15f;  // the area of the ball stays a normal float
-    constexpr float most = 1e15f;
-    if (radius == 0.0f) {
-        return;
-    }
-    if (!(radius >= least && radius <= most)) {
-        fail(item, ": radius is ", radius, ", neither 0 nor in [", least, ", ", most, "]");
-    }
-    const Rgb radiance = intensity / (pi * radius * radius);
-    if (!all_finite(&radiance[0], 3)) {
-        fail(item, ": radius ", radius, " is too small for the intensity");
-    }
-}
-
-struct LightCheck {
-    std::size_t index;
-    float reach;
-
-    void operator()(const PointLightDesc& light) const
-    {
-        const std::string item = label("point light", index, light.name);
-        check_position(item, light.position, reach);
-        check_color(item, "intensity", light.intensity, any_positive);
-        check_radius(item, light.radius, light.intensity);
-    }
-
-    void operator()(const SpotLightDesc& light) const
-    {
-        const std::string item = label("spot light", index, light.name);
-        check_position(item, light.position, reach);
-        check_direction(item, light.direction);
-        check_color(item, "intensity", light.intensity, any_positive);
-        check_radius(item, light.radius, light.intensity);
-        check_range(item, "inner cone angle", light.inner_cone_angle, 0.0f, 0.5f * pi);
-        check_range(item, "outer cone angle", light.outer_cone_angle, 1e-4f, 0.5f * pi + 1e-6f);
-        if (!(light.inner_cone_angle < light.outer_cone_angle)) {
-            fail(item, ": inner cone angle ", light.inner_cone_angle,
-                 " is not below the outer cone angle ", light.outer_cone_angle);
-        }
-    }
-
-    void operator()(const DirectionalLightDesc& light) const
-    {
-        const std::string item = label("directional light", index, light.name);
-        check_direction(item, light.direction);
-        check_color(item, "illuminance", light.illuminance, any_positive);
-    }
-
-    void operator()(const EnvironmentLightDesc& light) const
-    {
-        const std::string item = label("environment light", index, "");
-        const Image& image = light.radiance;
-        if (image.width < 1 || image.height < 1 ||
-            image.pixels.size() != area(image.width, image.height)) {
-            fail(item, ": picture of ", image.width, " x ", image.height, " with ",
-                 image.pixels.size(), " pixels");
-        }
-        for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-            const auto column = i % static_cast<std::size_t>(image.width);
-            const auto row = i / static_cast<std::size_t>(image.width);
-            check_color(
-                item + ": pixel (" + std::to_string(column) + ", " + std::to_string(row) + ")",
-                "radiance", image.pixels[i], any_positive);
-        }
-        if (!all_finite(&light.world_from_environment[0][0], 9)) {
-            fail(item, ": rotation is not finite");
-        }
-    }
-};
 
 void check(const TexelImage& image, const std::string& item)
 {
@@ -338,14 +184,7 @@ void validate(const SceneDesc& desc)
     }
     const float reach = reach_of(desc.instances, desc.meshes.size());
     check_reach(desc, reach);
-    std::size_t environments = 0;
-    for (std::size_t i = 0; i < desc.lights.size(); ++i) {
-        std::visit(LightCheck{i, reach}, desc.lights[i]);
-        environments += std::holds_alternative<EnvironmentLightDesc>(desc.lights[i]) ? 1U : 0U;
-    }
-    if (environments > 1) {
-        fail("there are ", environments, " environment lights, but one is the most");
-    }
+    validate_lights(desc, reach);
 }
 
 SceneCounts count(const SceneDesc& desc)

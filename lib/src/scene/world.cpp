@@ -66,8 +66,12 @@ World::World(SceneDesc desc, Isa isa) : desc_(std::move(desc))
     sphere_ = sphere_around(bounds_);
     embree_ = std::make_unique<const EmbreeScene>(desc_.instances, placed_, desc_.meshes.size(),
                                                   spheres_, pass_rule(), isa);
+    profiles_.reserve(desc_.profiles.size());
+    for (const LightProfile& profile : desc_.profiles) {
+        profiles_.emplace_back(profile);
+    }
     lights_ = std::make_unique<const LightSet>(desc_.instances, placed_, materials_, desc_.lights,
-                                               sphere_);
+                                               profiles_, sphere_);
     counts_ = count(desc_);
     counts_.lights = lights_->size();
     counts_.emissive_triangles = lights_->size() - desc_.lights.size();

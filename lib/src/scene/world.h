@@ -3,6 +3,7 @@
 #include "geometry/embree_scene.h"
 #include "geometry/segment_end.h"
 #include "geometry/sphere.h"
+#include "light/intensity_profile.h"
 #include "material/bsdf.h"
 #include "material/material.h"
 #include "math/probe.h"
@@ -102,6 +103,7 @@ private:
     BoundingSphere sphere_;
     SceneCounts counts_;
     std::unique_ptr<const EmbreeScene> embree_;
+    std::vector<IntensityProfile> profiles_;
     std::unique_ptr<const LightSet> lights_;
 };
 

@@ -67,6 +67,14 @@ TEST_CASE("all that a picture depends on is in the hash of a scene, names are no
         [](SceneDesc& s) { s.instances[1].world_from_object[3].x = 0.1f; },
         [](SceneDesc& s) { s.lights.emplace_back(PointLightDesc{}); },
         [](SceneDesc& s) { s.lights.emplace_back(SpotLightDesc{}); },
+        [](SceneDesc& s) { s.lights.emplace_back(ProfileLightDesc{}); },
+        [](SceneDesc& s) { s.lights.emplace_back(ProfileLightDesc{.scale = Rgb(2.0f)}); },
+        [](SceneDesc& s) {
+            s.profiles.push_back({{0.0f, 1.0f}, {0.0f}, {1.0f, 2.0f}});
+        },
+        [](SceneDesc& s) {
+            s.profiles.push_back({{0.0f, 1.0f}, {0.0f}, {1.0f, 3.0f}});
+        },
         [](SceneDesc& s) {
             s.lights.emplace_back(EnvironmentLightDesc{.radiance = flat(2, 1, Rgb(1.0f))});
         },

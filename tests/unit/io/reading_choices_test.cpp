@@ -151,7 +151,8 @@ TEST_CASE("attributes of instances must fit")
     little.limits.mesh_bytes = 3000;
     CHECK(std::string(fixture.error(little).what()).empty());
     fixture.json["nodes"][0]["name"] = std::string(1000, 'n');
-    CHECK(contains(fixture.error(little).what(), "/nodes/0: vertices, key frames and instances"));
+    CHECK(contains(fixture.error(little).what(),
+                   "/nodes/0: vertices, key frames, light profiles and instances"));
 
     GltfFixture many = instanced({{"TRANSLATION", 2}});
     many.json["accessors"].push_back(

@@ -272,8 +272,9 @@ TEST_CASE("vertex data is counted against a limit as often as it is used")
     const Error error = fixture.error(options);
     CHECK(error.code() == ErrorCode::invalid_input);
     CAPTURE(error.what());
-    CHECK(
-        contains(error.what(), "/meshes/2/primitives/0: vertices, key frames and instances need"));
+    CHECK(contains(
+        error.what(),
+        "/meshes/2/primitives/0: vertices, key frames, light profiles and instances need"));
     CHECK(contains(error.what(), "but the limit is 1.3 kB"));
 }
 

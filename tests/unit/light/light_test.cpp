@@ -26,6 +26,14 @@ Image sky()
     return image;
 }
 
+/// Brighter below than above, and not the same all around.
+LightProfile luminaire()
+{
+    return {.polar_angles = {0.0f, 0.5f, 1.2f, 2.5f},
+            .azimuths = {0.0f, 1.5f, 4.0f, 2.0f * pi},
+            .intensities = {3, 4, 1, 0, 3, 2, 5, 0.5f, 3, 1, 0, 0, 3, 4, 1, 0}};
+}
+
 EnvironmentLight environment(Image image)
 {
     return EnvironmentLight(
@@ -155,6 +163,8 @@ TEST_CASE("emission weights integrate to the power, for every kind of light", "[
                                 .outer_cone_angle = 0.9f,
                                 .radius = 0.7f});
     builder.light(DirectionalLightDesc{.direction = {1, -2, 3}, .illuminance = Rgb(2.0f)});
+    builder.desc.profiles.push_back(luminaire());
+    builder.light(ProfileLightDesc{.scale = {1.0f, 2.0f, 0.5f}});
     builder.light(EnvironmentLightDesc{.radiance = sky()});
     const World world(std::move(builder.desc));
     test::Random random(3);
@@ -201,6 +211,10 @@ TEST_CASE("light paths bring to a surface what next-event estimation finds there
                                 .inner_cone_angle = 0.1f,
                                 .outer_cone_angle = 0.5f,
                                 .radius = 0.3f});
+    builder.desc.profiles.push_back(luminaire());
+    builder.light(ProfileLightDesc{
+        .position = {0.2f, 1.2f, 0.1f},
+        .world_from_light = Mat3(glm::rotate(Mat4(1.0f), -1.3f, Vec3(1.0f, 0.0f, 0.0f)))});
     // The receiver is part of the scene, for light from infinity is aimed at its bounds.
     builder.quad({-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}, test::lambertian(Rgb(0.5f)));
     const World world(std::move(builder.desc));

@@ -27,6 +27,10 @@ SceneDesc everything(std::uint64_t seed, int count)
     builder.light(DirectionalLightDesc{.direction = {0.3f, -1.0f, 0.2f}, .illuminance = Rgb(0.5f)});
     builder.light(DirectionalLightDesc{.direction = {1.0f, 0.0f, 0.0f}, .illuminance = Rgb(0.1f)});
     builder.light(PointLightDesc{.intensity = Rgb(0.0f)});
+    builder.desc.profiles.push_back({.polar_angles = {0.0f, 0.5f, 1.2f},
+                                     .azimuths = {0.0f},
+                                     .intensities = {1.0f, 2.0f, 0.5f}});
+    builder.light(ProfileLightDesc{.position = {0.2f, 0.5f, -0.3f}, .scale = Rgb(3.0f)});
     builder.light(EnvironmentLightDesc{.radiance = {.width = 1, .height = 1, .pixels = {Rgb(1)}}});
     return std::move(builder.desc);
 }

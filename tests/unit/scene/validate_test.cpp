@@ -178,4 +178,48 @@ TEST_CASE("lights and images", "[validate]")
                   [](SceneDesc& d) { d.images[0].width = 2; });
 }
 
+TEST_CASE("light profiles", "[validate]")
+{
+    const LightProfile sound{.polar_angles = {0.0f, 1.0f},
+                             .azimuths = {0.0f, 6.2831853f},
+                             .intensities = {1.0f, 2.0f, 1.0f, 2.0f}};
+    const auto with =
+        [&sound](const std::function<void(LightProfile&, ProfileLightDesc&)>& change) {
+            return [&sound, change](SceneDesc& d) {
+                LightProfile profile = sound;
+                ProfileLightDesc light{.name = "lantern"};
+                change(profile, light);
+                d.profiles.push_back(profile);
+                d.lights.emplace_back(light);
+            };
+        };
+    CHECK(refusal(with([](LightProfile&, ProfileLightDesc&) {})).empty());
+    check_refused("light profile 0: 2 polar angles and 2 azimuths, but 3 intensities",
+                  with([](LightProfile& p, ProfileLightDesc&) { p.intensities.pop_back(); }));
+    check_refused("light profile 0: 1 polar angles", with([](LightProfile& p, ProfileLightDesc&) {
+                      p.polar_angles.pop_back();
+                      p.intensities.resize(2);
+                  }));
+    check_refused("light profile 0: polar angle 1 is -1, not above",
+                  with([](LightProfile& p, ProfileLightDesc&) { p.polar_angles[1] = -1.0f; }));
+    check_refused("light profile 0: polar angle is 3.2",
+                  with([](LightProfile& p, ProfileLightDesc&) { p.polar_angles[1] = 3.2f; }));
+    check_refused("light profile 0: azimuth 0 is nan",
+                  with([](LightProfile& p, ProfileLightDesc&) { p.azimuths[0] = nan_value; }));
+    check_refused("light profile 0: turn of the azimuths is 7",
+                  with([](LightProfile& p, ProfileLightDesc&) { p.azimuths[1] = 7.0f; }));
+    check_refused("light profile 0: intensity is -1",
+                  with([](LightProfile& p, ProfileLightDesc&) { p.intensities[2] = -1.0f; }));
+    check_refused("profile light 2 \"lantern\": profile 1, but there are 1 profiles",
+                  with([](LightProfile&, ProfileLightDesc& l) { l.profile = ProfileId{1}; }));
+    check_refused("profile light 2 \"lantern\": axes are not orthonormal",
+                  with([](LightProfile&, ProfileLightDesc& l) { l.world_from_light[1].x = 0.1f; }));
+    check_refused("profile light 2 \"lantern\": scale is -1",
+                  with([](LightProfile&, ProfileLightDesc& l) { l.scale.g = -1.0f; }));
+    check_refused("profile light 2 \"lantern\": intensity is inf",
+                  with([](LightProfile&, ProfileLightDesc& l) { l.scale.b = 3e38f; }));
+    check_refused("profile light 2 \"lantern\": is 1e+16",
+                  with([](LightProfile&, ProfileLightDesc& l) { l.position.y = 1e16f; }));
+}
+
 }  // namespace bdpt

@@ -112,6 +112,21 @@ void add(Hasher& hasher, const EnvironmentLightDesc& light)
     hasher.add(light.world_from_environment);
 }
 
+void add(Hasher& hasher, const LightProfile& profile)
+{
+    hasher.add_array(profile.polar_angles);
+    hasher.add_array(profile.azimuths);
+    hasher.add_array(profile.intensities);
+}
+
+void add(Hasher& hasher, const ProfileLightDesc& light)
+{
+    hasher.add(light.position);
+    hasher.add(light.world_from_light);
+    hasher.add(light.scale);
+    hasher.add(light.profile);
+}
+
 }  // namespace
 
 std::uint64_t content_hash(const SceneDesc& scene)
@@ -136,6 +151,10 @@ std::uint64_t content_hash(const SceneDesc& scene)
         hasher.add(instance.mesh);
         hasher.add(instance.material);
         hasher.add(instance.world_from_object);
+    }
+    // Without their number, so that scenes that have none keep the hash of older reports.
+    for (const LightProfile& profile : scene.profiles) {
+        add(hasher, profile);
     }
     hasher.add(scene.lights.size());
     for (const LightDesc& light : scene.lights) {

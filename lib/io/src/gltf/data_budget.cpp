@@ -14,9 +14,11 @@ void DataBudget::spend(const std::string& place, std::uint64_t count, std::uint6
     if (size != 0 && count > left / size) {
         const long double need = static_cast<long double>(count) * static_cast<long double>(size) +
                                  static_cast<long double>(spent_);
-        throw Error(ErrorCode::invalid_input,
-                    fmt::format("{}: vertices, key frames and instances need {}, but the limit is {}", place,
-                                human_bytes(need), human_bytes(static_cast<long double>(limit_))));
+        throw Error(
+            ErrorCode::invalid_input,
+            fmt::format("{}: vertices, key frames, light profiles and instances need {}, but the "
+                        "limit is {}",
+                        place, human_bytes(need), human_bytes(static_cast<long double>(limit_))));
     }
     spent_ += count * size;
 }

@@ -7,8 +7,9 @@
 
 namespace bdpt::io {
 
-/// What the decoded vertices, triangles, key frames and instances of one file cost. An accessor counts each
-/// time it is used: a few bytes of JSON may name one of gigabytes a thousand times.
+/// What the decoded vertices, triangles, key frames, light profiles and instances of one file cost.
+/// An accessor counts each time it is used: a few bytes of JSON may name one of gigabytes a
+/// thousand times.
 class DataBudget {
 public:
     explicit DataBudget(const ReadLimits& limits) : limit_(limits.mesh_bytes) {}

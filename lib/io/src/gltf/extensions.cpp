@@ -39,6 +39,9 @@ constexpr std::array table{
                      "where meshoptimizer is installed; not the filter COLOR"},
     ExtensionSupport{"KHR_node_visibility", supported, ""},
     ExtensionSupport{"KHR_texture_transform", supported, ""},
+    ExtensionSupport{"EXT_lights_ies", supported, "TILT is ignored"},
+    ExtensionSupport{"EXT_lights_image_based", supported,
+                     "the sharpest pictures only; --env takes its place"},
     ExtensionSupport{"EXT_mesh_gpu_instancing", supported, ""},
     ExtensionSupport{"EXT_meshopt_compression", supported, "where meshoptimizer is installed"},
     ExtensionSupport{"EXT_texture_webp", supported, ""},
@@ -58,7 +61,6 @@ constexpr std::array table{
     ExtensionSupport{"KHR_texture_basisu", ignored, "only fallback pictures are read"},
     ExtensionSupport{"MSFT_texture_dds", ignored, "only fallback pictures are read"},
     ExtensionSupport{"EXT_texture_avif", ignored, "only fallback pictures are read"},
-    ExtensionSupport{"EXT_lights_image_based", ignored, "give an environment by --env"},
 };
 
 /// Does this build lack the library for an extension?

@@ -1,5 +1,8 @@
 #include "gltf/model.h"
 
+#include "file/read_file.h"
+#include "file/uri.h"
+
 #include <bdpt/error.h>
 
 #include <fmt/format.h>
@@ -42,20 +45,44 @@ void for_each(Json& document, const char* section, const Visit& visit)
     }
 }
 
+ImageSource take_source(Json& holder)
+{
+    ImageSource source;
+    if (holder.contains("uri")) {
+        source.uri = std::move(holder["uri"].get_ref<std::string&>());
+    } else if (holder.contains("bufferView")) {
+        source.buffer_view = holder["bufferView"].get<std::size_t>();
+    }
+    return source;
+}
+
 std::vector<ImageSource> take_images(Json& document)
 {
     std::vector<ImageSource> images;
-    for_each(document, "images", [&images](Json& image) {
-        ImageSource source;
-        if (image.contains("uri")) {
-            source.uri = std::move(image["uri"].get_ref<std::string&>());
-        } else if (image.contains("bufferView")) {
-            source.buffer_view = image["bufferView"].get<std::size_t>();
-        }
-        images.push_back(std::move(source));
-    });
+    for_each(document, "images", [&images](Json& image) { images.push_back(take_source(image)); });
     document.erase("images");
     return images;
+}
+
+/// The array "lights" of an extension of the document, which is taken away.
+Json take_lights(Json& document, const char* extension)
+{
+    const auto extensions = document.find("extensions");
+    if (extensions == document.end() || !extensions->contains(extension)) {
+        return Json::array();
+    }
+    Json taken = std::move((*extensions)[extension]);
+    extensions->erase(extension);
+    return taken.contains("lights") ? std::move(taken["lights"]) : Json::array();
+}
+
+std::vector<ImageSource> take_profiles(Json& document)
+{
+    std::vector<ImageSource> profiles;
+    for (Json& profile : take_lights(document, "EXT_lights_ies")) {
+        profiles.push_back(take_source(profile));
+    }
+    return profiles;
 }
 
 Json take_motion(Json& document)
@@ -94,6 +121,11 @@ void simplify(Json& document)
             for (const char* name : {"xmag", "ymag", "znear", "zfar"}) {
                 camera["orthographic"].emplace(name, 1.0);
             }
+        }
+    });
+    for_each(document, "nodes", [](Json& node) {
+        if (node.contains("extensions") && node["extensions"].contains("EXT_lights_ies")) {
+            widen_integers(node["extensions"]["EXT_lights_ies"]);
         }
     });
     for_each(document, "materials", [](Json& material) {
@@ -145,11 +177,40 @@ std::string one_line(std::string text)
 
 }  // namespace
 
+Bytes read_source(const GltfModel& model, const ImageSource& source, std::uint64_t limit)
+{
+    if (source.buffer_view) {
+        const tinygltf::BufferView& view = model.structs.bufferViews[*source.buffer_view];
+        if (view.byteLength > limit) {
+            throw Error(
+                ErrorCode::invalid_input,
+                fmt::format("a view of {} bytes, but the limit is {}", view.byteLength, limit));
+        }
+        const Bytes& data = model.structs.buffers[static_cast<std::size_t>(view.buffer)].data;
+        const ByteView bytes = ByteView(data).subspan(view.byteOffset, view.byteLength);
+        return {bytes.begin(), bytes.end()};
+    }
+    if (source.uri.empty()) {
+        throw Error(ErrorCode::invalid_input, "neither \"uri\" nor \"bufferView\"");
+    }
+    if (is_data_uri(source.uri)) {
+        return decode_data_uri(source.uri, limit);
+    }
+    const std::filesystem::path file = resolve_uri(model.folder, source.uri);
+    try {
+        return read_file(file, limit);
+    } catch (const Error& error) {
+        throw Error(error.code(), quote(source.uri) + ": " + error.what());
+    }
+}
+
 GltfModel build_model(CheckedGltf checked)
 {
     GltfModel model;
     model.folder = std::move(checked.folder);
     model.images = take_images(checked.document);
+    model.light_profiles = take_profiles(checked.document);
+    model.environments = take_lights(checked.document, "EXT_lights_image_based");
     model.motion = take_motion(checked.document);
     std::size_t index = 0;
     for_each(checked.document, "buffers", [&](const Json& buffer) {

@@ -101,23 +101,19 @@ std::vector<Bytes> read_buffers(const JsonPlace& root, std::optional<Bytes> bin,
     return buffers;
 }
 
-/// All images' URIs, also of those that no material uses: a file that points outside of its folder
-/// is refused as a whole.
-void check_image_uris(const JsonPlace& root, const std::filesystem::path& folder)
+/// The URIs of all images or light profiles, also of those that nothing uses: a file that points
+/// outside of its folder is refused as a whole.
+void check_uris(const JsonPlace& holders, const std::filesystem::path& folder)
 {
-    if (!root.has("images")) {
-        return;
-    }
-    const JsonPlace images = root.member("images");
-    for (std::size_t i = 0; i < images.size(); ++i) {
-        const JsonPlace image = images.element(i);
-        if (image.has("uri") && image.has("bufferView")) {
-            image.fail("both \"uri\" and \"bufferView\"");
+    for (std::size_t i = 0; i < holders.size(); ++i) {
+        const JsonPlace holder = holders.element(i);
+        if (holder.has("uri") && holder.has("bufferView")) {
+            holder.fail("both \"uri\" and \"bufferView\"");
         }
-        if (!image.has("uri")) {
+        if (!holder.has("uri")) {
             continue;
         }
-        const JsonPlace place = image.member("uri");
+        const JsonPlace place = holder.member("uri");
         const auto& uri = place.value().get_ref<const std::string&>();
         if (is_data_uri(uri)) {
             continue;
@@ -127,6 +123,24 @@ void check_image_uris(const JsonPlace& root, const std::filesystem::path& folder
         } catch (const Error& error) {
             place.fail(error.what(), error.code());
         }
+    }
+}
+
+void check_uris_of_all(const JsonPlace& root, const std::filesystem::path& folder)
+{
+    if (root.has("images")) {
+        check_uris(root.member("images"), folder);
+    }
+    if (!root.has("extensions")) {
+        return;
+    }
+    const JsonPlace extensions = root.member("extensions");
+    if (!extensions.has("EXT_lights_ies")) {
+        return;
+    }
+    const JsonPlace profiles = extensions.member("EXT_lights_ies");
+    if (profiles.has("lights")) {
+        check_uris(profiles.member("lights"), folder);
     }
 }
 
@@ -162,7 +176,7 @@ CheckedGltf read_checked_gltf(const std::filesystem::path& file, const ReadLimit
     check_schema(root);
     check_layout(root, limits, warnings);
     check_node_graph(root, limits);
-    check_image_uris(root, result.folder);
+    check_uris_of_all(root, result.folder);
     result.buffers = read_buffers(root, std::move(bin), result.folder, limits, warnings);
     decode_meshopt_views(result.document, result.buffers, limits);
     decode_draco_primitives(result.document, result.buffers, limits);

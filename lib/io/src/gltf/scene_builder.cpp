@@ -3,9 +3,11 @@
 #include "gltf/animation.h"
 #include "gltf/camera.h"
 #include "gltf/data_budget.h"
+#include "gltf/image_based_light.h"
 #include "gltf/image_table.h"
 #include "gltf/instancing.h"
 #include "gltf/light.h"
+#include "gltf/light_profiles.h"
 #include "gltf/material.h"
 #include "gltf/mesh_table.h"
 #include "gltf/model.h"
@@ -48,6 +50,7 @@ public:
           warnings_(warnings),
           images_(model, limits, result_.scene.images, warnings),
           textures_(model.structs, images_, warnings),
+          profiles_(model, limits, budget, result_.scene.profiles, warnings),
           transforms_(model.structs, warnings),
           meshes_(model, limits, transforms_, budget, result_.scene.meshes, warnings),
           visited_(model.structs.nodes.size(), false)
@@ -100,6 +103,9 @@ private:
     {
         const glm::dmat4& world = transforms_.world(node);
         if (std::optional<LightDesc> light = read_light(model_, node, world, warnings_)) {
+            result_.scene.lights.push_back(std::move(*light));
+        }
+        if (std::optional<LightDesc> light = profiles_.read(node, world)) {
             result_.scene.lights.push_back(std::move(*light));
         }
         const tinygltf::Node& source = model_.nodes[node];
@@ -182,6 +188,7 @@ private:
     LoadedScene result_;
     ImageTable images_;
     TextureResolver textures_;
+    LightProfiles profiles_;
     NodeTransforms transforms_;
     MeshTable meshes_;
     std::vector<bool> visited_;
@@ -219,8 +226,15 @@ LoadedScene build_scene(CheckedGltf checked, const SceneChoice& choice, const Re
     for (const std::size_t animation : choice.animations) {
         apply_animation(model, animation, choice.time, budget, warnings);
     }
-    return SceneBuilder(model, choice.variant, limits, budget, warnings)
-        .build(find_roots(model.structs, choice.scene));
+    LoadedScene loaded = SceneBuilder(model, choice.variant, limits, budget, warnings)
+                             .build(find_roots(model.structs, choice.scene));
+    if (choice.scene) {
+        if (std::optional<EnvironmentLightDesc> environment =
+                read_image_based_light(model, *choice.scene, limits, warnings)) {
+            loaded.scene.lights.emplace_back(std::move(*environment));
+        }
+    }
+    return loaded;
 }
 
 }  // namespace bdpt::io

@@ -27,20 +27,6 @@ glm::dmat4 from_matrix(const std::vector<double>& values, const std::string& pla
     return matrix;
 }
 
-glm::dmat4 rotation(const std::vector<double>& xyzw, const std::string& place, Warnings& warnings)
-{
-    const glm::dquat given(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
-    const double length = glm::length(given);
-    // Single-precision values and a few digits of text are not worth a word.
-    constexpr double tolerance = 1e-3;
-    if (std::abs(length - 1.0) > tolerance) {
-        warnings.add(length > 0.0 ? "a rotation that is not of unit length is normalised"
-                                  : "a rotation of length 0 is ignored",
-                     fmt::format("{}/rotation: length {}", place, length));
-    }
-    return length > 0.0 ? glm::mat4_cast(given / length) : glm::dmat4(1.0);
-}
-
 /// Of x >= 0. That of the C library may differ between machines.
 double cube_root(double x)
 {
@@ -89,6 +75,35 @@ Vec3 transform_direction(const glm::dmat4& world_from_node, const glm::dvec3& di
         return {0.0f, 0.0f, -1.0f};
     }
     return Vec3(turned / length);
+}
+
+glm::dmat4 rotation(const std::vector<double>& xyzw, const std::string& place, Warnings& warnings)
+{
+    const glm::dquat given(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
+    const double length = glm::length(given);
+    // Single-precision values and a few digits of text are not worth a word.
+    constexpr double tolerance = 1e-3;
+    if (std::abs(length - 1.0) > tolerance) {
+        warnings.add(length > 0.0 ? "a rotation that is not of unit length is normalised"
+                                  : "a rotation of length 0 is ignored",
+                     fmt::format("{}/rotation: length {}", place, length));
+    }
+    return length > 0.0 ? glm::mat4_cast(given / length) : glm::dmat4(1.0);
+}
+
+Mat3 axes_of(const glm::dmat4& world_from_node)
+{
+    const glm::dmat3 m(world_from_node);
+    const glm::dvec3 z(-transform_direction(world_from_node, {0.0, 0.0, -1.0}));
+    // Where the transform leaves no x, any axis will do.
+    glm::dvec3 x = m[0] - glm::dot(m[0], z) * z;
+    if (!(glm::length(x) > 1e-9 * glm::length(m[0])) || !std::isfinite(glm::length(x))) {
+        const glm::dvec3 other = std::abs(z.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+        x = other - glm::dot(other, z) * z;
+    }
+    x = glm::normalize(x);
+    const double side = glm::determinant(m) < 0.0 ? -1.0 : 1.0;
+    return Mat3(Vec3(x), Vec3(side * glm::cross(z, x)), Vec3(z));
 }
 
 bool is_finite(const Mat4& matrix)

@@ -8,6 +8,8 @@
 #include <glm/mat4x4.hpp>
 
 #include <cstddef>
+#include <string>
+#include <vector>
 
 namespace bdpt::io {
 
@@ -20,6 +22,14 @@ namespace bdpt::io {
 /// transform leaves none.
 [[nodiscard]] Vec3 transform_direction(const glm::dmat4& world_from_node,
                                        const glm::dvec3& direction);
+
+/// The rotation of a quaternion (x, y, z, w); of unit length or made so, with a warning.
+[[nodiscard]] glm::dmat4 rotation(const std::vector<double>& xyzw, const std::string& place,
+                                  Warnings& warnings);
+
+/// What is left of a transform without scale and shear: orthonormal axes. -z points where the
+/// transform takes it and x as near as it can; it mirrors if the transform does.
+[[nodiscard]] Mat3 axes_of(const glm::dmat4& world_from_node);
 
 /// Are all elements finite?
 [[nodiscard]] bool is_finite(const Mat4& matrix);

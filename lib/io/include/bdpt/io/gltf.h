@@ -65,14 +65,14 @@ struct GltfFacts {
     std::size_t skins = 0;
     std::size_t animations = 0;
     std::vector<ExtensionUse> extensions;
-    /// The packet of KHR_xmp_json_ld or KHR_xmp that the file has about itself, JSON-LD; empty: none
-    /// of up to 1 MiB.
+    /// The packet of KHR_xmp_json_ld or KHR_xmp that the file has about itself, JSON-LD; empty:
+    /// none of up to 1 MiB.
     std::string xmp;
 };
 
 /// What `load_gltf` read.
 struct LoadedScene {
-    SceneDesc scene;                    ///< without an environment; glTF has none
+    SceneDesc scene;  ///< its environment, if it has one (EXT_lights_image_based), is a light
     std::vector<CameraDesc> cameras;    ///< those of the scene's nodes, in the order of the nodes
     std::vector<std::string> warnings;  ///< one line each, without the file's name
     GltfFacts facts;

@@ -16,7 +16,8 @@ struct ReadLimits {
     std::size_t nodes = 1'000'000;
     std::size_t node_depth = 512;
     std::size_t instances = 10'000'000;
-    /// Of vertices, key frames and instances, decoded; an accessor counts as often as it is used.
+    /// Of vertices, key frames, light profiles and instances, decoded; an accessor counts as often
+    /// as it is used.
     std::uint64_t mesh_bytes = std::uint64_t{16} << 30;
     std::uint64_t triangles = 500'000'000;                 ///< of all meshes, each mesh once
     int image_side = 16384;                                ///< [pixels]

@@ -1,0 +1,186 @@
+#include "ies/ies_file.h"
+
+#include "file/uri.h"
+#include "ies/ies_numbers.h"
+
+#include <bdpt/error.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <limits>
+#include <string_view>
+
+namespace bdpt::io {
+
+namespace {
+
+std::string_view trimmed(std::string_view text)
+{
+    constexpr std::string_view blanks = " \t\r\v\f";
+    const std::size_t begin = std::min(text.find_first_not_of(blanks), text.size());
+    text.remove_prefix(begin);
+    return text.substr(0, text.find_last_not_of(blanks) + 1);
+}
+
+/// The lines of a text; each is taken off its front.
+struct Lines {
+    std::string_view rest;
+    std::size_t number = 0;  // of the line that was taken last
+
+    std::string_view take()
+    {
+        const std::size_t end = std::min(rest.find('\n'), rest.size());
+        const std::string_view line = trimmed(rest.substr(0, end));
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+        ++number;
+        return line;
+    }
+};
+
+/// What follows `TILT=`, in capitals; nothing in other lines.
+std::string tilt_of(std::string_view line)
+{
+    std::string text;
+    for (const char c : line.substr(0, 300)) {
+        text.push_back(static_cast<char>(std::toupper(static_cast<unsigned char>(c))));
+    }
+    if (!text.starts_with("TILT")) {
+        return {};
+    }
+    const std::string_view after = trimmed(std::string_view(text).substr(4));
+    return after.starts_with('=') ? std::string(trimmed(after.substr(1))) : std::string();
+}
+
+/// Does the number after the ballast factor count? Later versions use its place otherwise.
+bool has_ballast_lamp_factor(std::string_view first_line, const std::string& place,
+                             Warnings& warnings)
+{
+    if (first_line.starts_with("IESNA:LM-63-2002") || first_line.starts_with("IES:LM-63-2019")) {
+        return false;
+    }
+    if (!first_line.starts_with("IESNA:LM-63-1995")) {
+        warnings.add("a light profile of an unknown or older version is read as of LM-63-95",
+                     fmt::format("{}: {}", place, quote(first_line)));
+    }
+    return true;
+}
+
+/// Takes what describes lamps that burn tilted off the numbers.
+void skip_tilt(IesNumbers& numbers)
+{
+    static_cast<void>(numbers.next("the lamp-to-luminaire geometry"));
+    const long pairs = numbers.next_integer("the number of tilt angles", 0, most_ies_values);
+    for (long i = 0; i < 2 * pairs; ++i) {
+        static_cast<void>(numbers.next("a tilt angle or factor"));
+    }
+}
+
+std::vector<double> read_angles(IesNumbers& numbers, std::string_view what, long count)
+{
+    constexpr double least_step = 2e-3;  // [degrees] no measurement is finer
+    std::vector<double> angles;
+    for (long i = 0; i < count; ++i) {
+        const double angle = numbers.next(fmt::format("{} angle {}", what, i));
+        if (!angles.empty() && !(angle >= angles.back() + least_step)) {
+            numbers.fail(fmt::format("{} angle {} is {}, not above {} before it", what, i, angle,
+                                     angles.back()));
+        }
+        angles.push_back(angle);
+    }
+    return angles;
+}
+
+double read_factor(IesNumbers& numbers, std::string_view what)
+{
+    const double factor = numbers.next(what);
+    if (!(factor >= 0.0)) {
+        numbers.fail(fmt::format("{} is {}, but must not be negative", what, factor));
+    }
+    return factor;
+}
+
+void read_candelas(IesNumbers& numbers, double factor, const std::string& place, Warnings& warnings,
+                   IesFile& file)
+{
+    const std::size_t count = file.vertical_angles.size() * file.horizontal_angles.size();
+    file.candelas.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const double given = numbers.next("an intensity");
+        if (given < 0.0) {
+            warnings.add("a negative intensity of a light profile is taken as 0",
+                         fmt::format("{}: {} cd", place, given));
+        }
+        const double value = std::max(given, 0.0) * factor;
+        if (!(value <= static_cast<double>(std::numeric_limits<float>::max()))) {
+            numbers.fail(fmt::format("an intensity of {} cd is too great", value));
+        }
+        file.candelas.push_back(static_cast<float>(value));
+    }
+}
+
+}  // namespace
+
+IesFile read_ies(ByteView bytes, const std::string& place, Warnings& warnings)
+{
+    if (bytes.size() > most_ies_bytes) {
+        throw Error(ErrorCode::invalid_input,
+                    fmt::format("a light profile of {} bytes, but the limit is {}", bytes.size(),
+                                most_ies_bytes));
+    }
+    const std::string all(bytes.begin(), bytes.end());
+    constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+    Lines lines{.rest = all};
+    if (lines.rest.starts_with(byte_order_mark)) {
+        lines.rest.remove_prefix(byte_order_mark.size());
+    }
+    const std::string_view first = lines.take();
+    std::string tilt = tilt_of(first);
+    while (tilt.empty() && !lines.rest.empty()) {
+        tilt = tilt_of(lines.take());
+    }
+    if (tilt.empty()) {
+        throw Error(ErrorCode::invalid_input, "no line that begins with TILT=: not an IES file");
+    }
+    const bool ballast_lamp_factor = has_ballast_lamp_factor(first, place, warnings);
+    IesNumbers numbers(lines.rest, lines.number + 1);
+    if (tilt != "NONE") {
+        warnings.add("the TILT of a light profile is ignored",
+                     fmt::format("{}: {}", place, quote(tilt)));
+    }
+    if (tilt == "INCLUDE") {
+        skip_tilt(numbers);
+    }
+
+    IesFile file;
+    static_cast<void>(numbers.next("the number of lamps"));
+    static_cast<void>(numbers.next("the lumens per lamp"));
+    double factor = read_factor(numbers, "the candela multiplier");
+    const long vertical = numbers.next_integer("the number of vertical angles", 2, most_ies_values);
+    const long horizontal =
+        numbers.next_integer("the number of horizontal angles", 1, most_ies_values / vertical);
+    file.photometry = static_cast<Photometry>(numbers.next_integer("the photometric type", 1, 3));
+    for (const char* what : {"the units type", "the width", "the length", "the height"}) {
+        static_cast<void>(numbers.next(what));
+    }
+    factor *= read_factor(numbers, "the ballast factor");
+    const double next_factor = numbers.next("the number after the ballast factor");
+    if (ballast_lamp_factor) {
+        if (!(next_factor >= 0.0)) {
+            numbers.fail(fmt::format("the ballast-lamp factor is {}, but must not be negative",
+                                     next_factor));
+        }
+        factor *= next_factor;
+    }
+    static_cast<void>(numbers.next("the input watts"));
+    file.vertical_angles = read_angles(numbers, "vertical", vertical);
+    file.horizontal_angles = read_angles(numbers, "horizontal", horizontal);
+    read_candelas(numbers, factor, place, warnings, file);
+    if (!numbers.at_end()) {
+        warnings.add("what follows the intensities of a light profile is ignored", place);
+    }
+    return file;
+}
+
+}  // namespace bdpt::io

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cmath>
+
+namespace bdpt::io {
+
+/// A point of the unit circle.
+struct CirclePoint {
+    double sin = 0.0;
+    double cos = 1.0;
+};
+
+/// The point at this part of a turn, to the last digits. The sine of the C library may differ
+/// between machines.
+[[nodiscard]] inline CirclePoint circle_point(double turns)
+{
+    const double quadrant = std::floor(4.0 * turns + 0.5);
+    const double x = (turns - 0.25 * quadrant) * 6.283185307179586;
+    // Taylor series on |x| <= pi/4, from their ends.
+    const double x2 = x * x;
+    double s = 1.0;
+    double c = 1.0;
+    for (int n = 16; n >= 2; n -= 2) {
+        s = 1.0 - s * x2 / (n * (n + 1));
+        c = 1.0 - c * x2 / (n * (n - 1));
+    }
+    s *= x;
+    switch (static_cast<int>(quadrant - 4.0 * std::floor(0.25 * quadrant))) {
+        case 1:
+            return {c, -s};
+        case 2:
+            return {-s, -c};
+        case 3:
+            return {-c, s};
+        default:
+            return {s, c};
+    }
+}
+
+}  // namespace bdpt::io

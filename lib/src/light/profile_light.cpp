@@ -1,0 +1,72 @@
+#include "light/profile_light.h"
+
+#include "math/rgb.h"
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <cmath>
+
+namespace bdpt {
+
+ProfileLight::ProfileLight(const ProfileLightDesc& desc, const IntensityProfile& profile)
+    : profile_(&profile),
+      position_(desc.position),
+      world_from_light_(desc.world_from_light),
+      scale_(desc.scale)
+{}
+
+Vec3 ProfileLight::to_local(Vec3 direction) const
+{
+    return transpose(world_from_light_) * direction;
+}
+
+std::optional<EmissionSample> ProfileLight::sample_emission(Vec2 u) const
+{
+    const auto from = profile_->sample(u);
+    if (!from) {
+        return std::nullopt;
+    }
+    return EmissionSample{.end = {.p = position_},
+                          .direction = normalize(world_from_light_ * from->direction),
+                          .weight = scale_ * (from->intensity / from->pdf.value),
+                          .pdf_position = {1.0f},
+                          .pdf_direction = from->pdf};
+}
+
+std::optional<IncidentSample> ProfileLight::sample_incident(Vec3 receiver) const
+{
+    const Vec3 to_light = position_ - receiver;
+    const float distance_squared = dot(to_light, to_light);
+    if (!(distance_squared > 0.0f)) {
+        return std::nullopt;
+    }
+    const float distance = std::sqrt(distance_squared);
+    const Vec3 wi = to_light / distance;
+    const float intensity = profile_->intensity(to_local(-wi));
+    if (intensity == 0.0f) {
+        return std::nullopt;
+    }
+    return IncidentSample{.end = {.p = position_},
+                          .wi = wi,
+                          .distance = distance,
+                          .weight = scale_ * (intensity / distance_squared),
+                          .pdf = {1.0f},
+                          .pdf_solid_angle = {1.0f}};
+}
+
+SolidAnglePdf ProfileLight::pdf_direction(Vec3 direction) const
+{
+    return profile_->pdf(to_local(direction));
+}
+
+LightBounds ProfileLight::bounds() const
+{
+    return {.min = position_,
+            .max = position_,
+            .normals = {},
+            .cos_falloff = 1.0f,
+            .intensity = static_cast<double>(luminance(scale_) * profile_->peak())};
+}
+
+}  // namespace bdpt

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "light/intensity_profile.h"
+#include "light/light_bounds.h"
+#include "light/light_samples.h"
+
+#include <bdpt/scene_desc.h>
+
+#include <optional>
+
+namespace bdpt {
+
+/// A point light that shines by a profile [EXT_lights_ies]: delta in position, like
+/// `PunctualLight`.
+class ProfileLight {
+public:
+    /// `profile` is that of the description and outlives the light.
+    ProfileLight(const ProfileLightDesc& desc, const IntensityProfile& profile);
+
+    /// Directions are drawn by their intensity; none from a profile that is black.
+    [[nodiscard]] std::optional<EmissionSample> sample_emission(Vec2 u) const;
+    [[nodiscard]] std::optional<IncidentSample> sample_incident(Vec3 receiver) const;
+    [[nodiscard]] SolidAnglePdf pdf_direction(Vec3 direction) const;
+    /// Luminous flux [lm].
+    [[nodiscard]] Rgb power() const { return scale_ * profile_->flux(); }
+    /// Of a light that may shine everywhere.
+    [[nodiscard]] LightBounds bounds() const;
+
+private:
+    [[nodiscard]] Vec3 to_local(Vec3 direction) const;
+
+    const IntensityProfile* profile_;
+    Vec3 position_;
+    Mat3 world_from_light_;
+    Rgb scale_;
+};
+
+}  // namespace bdpt

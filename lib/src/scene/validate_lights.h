@@ -1,0 +1,16 @@
+#pragma once
+
+#include <bdpt/scene_desc.h>
+
+#include <string>
+
+namespace bdpt {
+
+/// Throws `Error` (invalid_input) for the first value of the lights and their profiles that no
+/// scene can have. `reach`: how far from the origin lights may be [m].
+void validate_lights(const SceneDesc& desc, float reach);
+
+/// How far things may be, and why: the end of a message.
+[[nodiscard]] std::string reach_text(float reach);
+
+}  // namespace bdpt

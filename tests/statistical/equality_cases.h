@@ -31,4 +31,7 @@ struct EqualityCase {
 /// Materials with layers and other extensions of glTF, one each. Not among `equality_cases`.
 [[nodiscard]] std::vector<EqualityCase> layer_cases();
 
+/// What moves while the shutter is open. Not among `equality_cases`.
+[[nodiscard]] std::vector<EqualityCase> motion_cases();
+
 }  // namespace bdpt::test

@@ -42,7 +42,7 @@ std::optional<Contribution> hit_light(const World& world, std::span<const PathVe
     probe.enter(Phase::weigh);
     const PathVertex& x1 = before_last(camera);
     const LightDensities densities =
-        light_densities(world, x0, x1.end, weigher.environment_sampling());
+        light_densities(world, x0, x1.end, weigher.environment_sampling(), weigher.time());
     return Contribution{.unweighted = value,
                         .weight = weigher.weight({}, camera,
                                                  {.light_at_camera_end = densities.emit,
@@ -69,7 +69,7 @@ std::optional<Contribution> connect_to_light(const World& world, std::span<const
     }
     const Light& light = world.lights()[choice->id];
     const auto incident =
-        light.sample_incident(z.end.p, u_position, weigher.environment_sampling());
+        light.sample_incident(z.end.p, u_position, weigher.environment_sampling(), weigher.time());
     if (!incident) {
         return std::nullopt;
     }
@@ -97,7 +97,7 @@ std::optional<Contribution> connect_to_light(const World& world, std::span<const
     }
     probe.enter(Phase::weigh);
     const LightDensities densities =
-        light_densities(world, x0, z.end, weigher.environment_sampling());
+        light_densities(world, x0, z.end, weigher.environment_sampling(), weigher.time());
     x0.pdf_fwd = densities.emit;
     const AreaPdf from_camera =
         light.is_infinite()
@@ -128,7 +128,8 @@ std::optional<Splat> connect_light_to_lens(const World& world, const Camera& cam
     if (!choice || !can_be_seen_directly(world.lights()[choice->id], camera)) {
         return std::nullopt;
     }
-    const auto incident = world.lights()[choice->id].sample_incident(receiver.p, sampler.next_2d());
+    const auto incident = world.lights()[choice->id].sample_incident(
+        receiver.p, sampler.next_2d(), EnvironmentSampling::plain, weigher.time());
     if (!incident) {
         return std::nullopt;
     }
@@ -152,7 +153,7 @@ std::optional<Splat> connect_light_to_lens(const World& world, const Camera& cam
     x0.end = incident->end;
     x0.barycentrics = incident->barycentrics;
     const LightDensities densities =
-        light_densities(world, x0, to_lens->lens, weigher.environment_sampling());
+        light_densities(world, x0, to_lens->lens, weigher.environment_sampling(), weigher.time());
     x0.pdf_fwd = densities.emit;
     PathVertex lens;
     lens.kind = VertexKind::camera;
@@ -227,10 +228,10 @@ std::optional<Splat> hit_lens(const World& world, const Subpath& light_path,
     }
     probe.enter(Phase::weigh);
     const auto light = light_path.first(crossing.light_vertices);
-    const AreaPdf next_event = light.size() > 1
-                                   ? light[0].pdf_next_event
-                                   : next_event_density(world, light[0], crossing.lens.end,
-                                                        weigher.environment_sampling());
+    const AreaPdf next_event =
+        light.size() > 1 ? light[0].pdf_next_event
+                         : next_event_density(world, light[0], crossing.lens.end,
+                                              weigher.environment_sampling(), weigher.time());
     const AreaPdf neighbor = light.size() > 1 ? before_last(light).pdf_rev : AreaPdf{};
     const float weight = weigher.weight_of_hit(light, crossing.lens,
                                                {.light_at_camera_end = crossing.lens.pdf_rev,

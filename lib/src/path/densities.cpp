@@ -7,22 +7,31 @@
 #include <cmath>
 
 namespace bdpt {
+namespace {
+
+LightPoint light_point(const PathVertex& x0, float time)
+{
+    return {.p = x0.end.p, .ng = x0.end.ng, .barycentrics = x0.barycentrics, .time = time};
+}
+
+}  // namespace
+
 bool can_be_seen_directly(const Light& light, const Camera& camera)
 {
     return !light.is_delta() && !light.is_infinite() && camera.is_perspective();
 }
 
 AreaPdf next_event_density(const World& world, const PathVertex& x0, const SegmentEnd& x1,
-                           EnvironmentSampling sampling)
+                           EnvironmentSampling sampling, float time)
 {
-    const LightPoint point{.p = x0.end.p, .ng = x0.end.ng, .barycentrics = x0.barycentrics};
+    const LightPoint point = light_point(x0, time);
     const LightSet& lights = world.lights();
     return lights[*x0.light].pdf_incident(x1.p, point, sampling) *
            lights.receiver_probability(*x0.light, x1.p);
 }
 
 LightDensities light_densities(const World& world, const PathVertex& x0, const SegmentEnd& x1,
-                               EnvironmentSampling sampling)
+                               EnvironmentSampling sampling, float time)
 {
     const LightSet& lights = world.lights();
     const Light& light = lights[*x0.light];
@@ -30,12 +39,12 @@ LightDensities light_densities(const World& world, const PathVertex& x0, const S
     const Vec3 offset = x0.end.p - x1.p;
     const float distance_squared = dot(offset, offset);
     const Vec3 to_light = infinite ? x0.end.p : offset / std::sqrt(distance_squared);
-    const LightPoint point{.p = x0.end.p, .ng = x0.end.ng, .barycentrics = x0.barycentrics};
+    const LightPoint point = light_point(x0, time);
     const float cosine = std::abs(dot(x1.ng, to_light));
     return {.emit = light.pdf_position(point) * lights.emission_probability(*x0.light),
-            .next_event = next_event_density(world, x0, x1, sampling),
+            .next_event = next_event_density(world, x0, x1, sampling, time),
             .to_next = infinite ? to_area(world.bounding_sphere().pdf_disk(), cosine)
-                                : to_area(light.pdf_direction(x0.end.ng, -to_light), cosine,
+                                : to_area(light.pdf_direction(x0.end.ng, -to_light, time), cosine,
                                           distance_squared)};
 }
 

@@ -22,13 +22,15 @@ struct LightDensities {
 };
 
 /// x_0 on light `x0.light`, sampled from x_1 by next-event estimation, which samples environments
-/// by `sampling`.
+/// by `sampling`, at a time of the shutter.
 [[nodiscard]] AreaPdf next_event_density(const World& world, const PathVertex& x0,
-                                         const SegmentEnd& x1, EnvironmentSampling sampling);
+                                         const SegmentEnd& x1, EnvironmentSampling sampling,
+                                         float time);
 
 /// `x0` is a vertex on light `x0.light`. `sampling`: of next-event estimation.
 [[nodiscard]] LightDensities light_densities(const World& world, const PathVertex& x0,
-                                             const SegmentEnd& x1, EnvironmentSampling sampling);
+                                             const SegmentEnd& x1, EnvironmentSampling sampling,
+                                             float time);
 
 /// Can the strategy s = t = 1, which joins a light point to a lens point, see this light?
 [[nodiscard]] bool can_be_seen_directly(const Light& light, const Camera& camera);
@@ -40,6 +42,10 @@ public:
     /// `strategies` and `camera` must outlive this object.
     PathWeigher(const World& world, const Camera& camera, const StrategySet& strategies,
                 Heuristic heuristic, int max_vertices);
+
+    /// The time of the paths to come; 0 until it is set.
+    void set_time(float time) { time_ = time; }
+    [[nodiscard]] float time() const { return time_; }
 
     /// Sums up once what the weights of all prefixes of a subpath share, where that is possible.
     /// From then on every call of `weight` must be for such prefixes; without, each call gathers
@@ -90,6 +96,7 @@ private:
     std::optional<WeightSums> sums_;
     bool uses_sums_ = false;
     bool keeps_paths_ = false;
+    float time_ = 0.0f;
     std::vector<float> shares_;
 };
 

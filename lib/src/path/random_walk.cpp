@@ -224,7 +224,7 @@ void trace_light_subpath(const World& world, const Camera& camera, const WalkLim
         return;
     }
     const Light& light = world.lights()[choice->id];
-    const auto emitted = light.sample_emission(u_position, sampler.next_2d());
+    const auto emitted = light.sample_emission(u_position, sampler.next_2d(), sampler.time());
     if (!emitted || is_black(emitted->weight)) {
         return;
     }
@@ -254,7 +254,8 @@ void trace_light_subpath(const World& world, const Camera& camera, const WalkLim
           .limits = limits},
          step, sampler, path, probe);
     if (path.size() > 1) {
-        start.pdf_next_event = next_event_density(world, start, path[1].end, sampling);
+        start.pdf_next_event =
+            next_event_density(world, start, path[1].end, sampling, sampler.time());
     }
 }
 

@@ -2,8 +2,7 @@
 
 #include "geometry/reach.h"
 #include "math/elementary.h"
-
-#include <bdpt/error.h>
+#include "scene/complaints.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -12,28 +11,11 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <sstream>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace bdpt {
 namespace {
-
-template <typename... Parts>
-[[noreturn]] void fail(const Parts&... parts)
-{
-    std::ostringstream message;
-    (message << ... << parts);
-    throw Error(ErrorCode::invalid_input, message.str());
-}
-
-/// `mesh 3 "chair"`
-std::string label(std::string_view kind, std::size_t index, const std::string& name)
-{
-    std::string text = std::string(kind) + " " + std::to_string(index);
-    return name.empty() ? text : text + " \"" + name + "\"";
-}
 
 std::size_t area(int width, int height)
 {
@@ -199,17 +181,6 @@ void check_direction(const std::string& item, Vec3 direction)
     }
 }
 
-/// How far things may be, and why.
-std::string reach_text(float reach)
-{
-    std::ostringstream text;
-    text << " m from the origin, but " << reach << " m is the most";
-    if (reach < greatest_reach) {
-        text << ", as a mesh that is used more than once is scaled down very much";
-    }
-    return text.str();
-}
-
 void check_position(const std::string& item, Vec3 position, float reach)
 {
     if (!all_finite(&position[0], 3)) {
@@ -355,6 +326,7 @@ void validate(const SceneDesc& desc)
     if (environments > 1) {
         fail("there are ", environments, " environment lights, but one is the most");
     }
+    check_motion(desc, reach);
 }
 
 SceneCounts count(const SceneDesc& desc)

@@ -36,4 +36,7 @@ struct EqualityCase {
 /// Materials whose normal maps lean by up to 70 degrees. Not among `equality_cases` either.
 [[nodiscard]] std::vector<EqualityCase> normal_map_cases();
 
+/// What moves while the shutter is open. Not among `equality_cases`.
+[[nodiscard]] std::vector<EqualityCase> motion_cases();
+
 }  // namespace bdpt::test

@@ -173,6 +173,18 @@ TEST_CASE("a tree of lights changes noise only", "[equality][tree]")
     }
 }
 
+TEST_CASE("all integrators agree: what moves", "[equality][motion]")
+{
+    std::uint64_t seed = 420000;
+    for (const EqualityCase& test : motion_cases()) {
+        seed += 100;
+        DYNAMIC_SECTION(test.name)
+        {
+            check_case(test, seed);
+        }
+    }
+}
+
 /// A room with a rough ball of glass, under a lamp of one colour.
 Scene glass_under(Rgb light, float ior, float dispersion)
 {

@@ -2,11 +2,13 @@
 
 #include "catch.hpp"
 #include "equal_means.h"
+#include "moving_scenes.h"
 #include "scene_builder.h"
 
 #include <cstdlib>
 #include <iostream>
 #include <string>
+#include <utility>
 
 namespace bdpt::test {
 namespace {
@@ -81,13 +83,14 @@ void check_equal(const std::string& what, TileMeans& a, TileMeans& b, double det
 }
 
 /// All strategies for paths of one length against path tracing with both kinds of sampling.
-void check_each_strategy(const Scene& scene, const CameraDesc& camera, int edges, int last_s)
+void check_each_strategy(const Scene& scene, const CameraDesc& camera, int edges, int last_s,
+                         double detectable_bias = 0.06)
 {
     TileMeans reference(scene, camera, options(IntegratorKind::mis, edges, edges));
     for (int s = 0; s <= last_s; ++s) {
         TileMeans alone(scene, camera, only(s, edges));
         check_equal("s = " + std::to_string(s) + " of " + std::to_string(edges) + " edges",
-                    reference, alone, 0.06);
+                    reference, alone, detectable_bias);
     }
 }
 
@@ -114,6 +117,34 @@ TEST_CASE("each strategy alone, orthographic", "[strategies]")
     const Scene scene = open_stage();
     check_each_strategy(scene, parallel(), 1, 0);
     check_each_strategy(scene, parallel(), 2, 2);
+}
+
+TEST_CASE("each strategy alone, all of it moving", "[strategies][motion]")
+{
+    SceneBuilder builder;
+    builder.quad({-1, -1, 1}, {1, -1, 1}, {1, -1, -1}, {-1, -1, -1},
+                 lambertian({0.8f, 0.6f, 0.4f}));
+    move_last(builder, 2, [](float t) {
+        return glm::rotate(translation({0.0f, 0.2f * t, 0.0f}), 0.5f * t, Vec3(0.0f, 0.0f, 1.0f));
+    });
+    builder.sphere({0.1f, -0.1f, 0.1f}, 0.35f, lambertian({0.5f, 0.7f, 0.9f}), 24);
+    deform(builder.desc.meshes.back(), 3,
+           [](Vec3 p, float t) { return Vec3(p.x * (1.0f + 0.5f * t), p.y + 0.5f * t, p.z); });
+    builder.lamp(1.0f, 1.1f, Rgb(4.0f, 3.5f, 3.0f));
+    move_last(builder, 4, [](float t) {
+        return glm::scale(glm::rotate(translation({0.4f * t, 0.0f, 0.0f}), 0.9f * t - 0.4f,
+                                      Vec3(0.0f, 0.0f, 1.0f)),
+                          Vec3(0.6f + 0.5f * t, 1.0f, 1.0f));
+    });
+    const Scene scene(std::move(builder.desc));
+    const CameraDesc lens = moving(thin_lens());
+    constexpr double bias = 0.1;
+    check_each_strategy(scene, lens, 1, 2, bias);
+    check_each_strategy(scene, lens, 2, 3, bias);
+    TileMeans reference(scene, lens, options(IntegratorKind::mis, 3, 3));
+    TileMeans joined(scene, lens, only(2, 3));
+    check_equal("s = 2 of 3 edges", reference, joined, bias);
+    check_each_strategy(scene, moving(parallel()), 2, 2, bias);
 }
 
 TEST_CASE("all integrators agree through all cameras", "[strategies]")

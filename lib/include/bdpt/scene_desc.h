@@ -19,6 +19,17 @@ enum class MaterialId : std::uint32_t {};
 enum class ImageId : std::uint32_t {};
 enum class ProfileId : std::uint32_t {};
 
+// What moves while the shutter is open has a `motion` or `turn`: its values at equally spaced later
+// moments, the last one when the shutter closes; the first value is that of the opening. Straight
+// lines join them (bdpt/motion.h). Empty: it stands still.
+
+/// The vertices of a mesh at a later moment: as many of each as the mesh has.
+struct MeshPose {
+    std::vector<Vec3> positions;
+    std::vector<Vec3> normals;
+    std::vector<Vec4> tangents;
+};
+
 /// Triangles with one material, in object space [m].
 struct MeshDesc {
     std::string name{};
@@ -26,8 +37,9 @@ struct MeshDesc {
     std::vector<Vec3> normals;   ///< empty: use face normals
     std::vector<Vec4> tangents;  ///< xyz and handedness (+1, -1); empty: derived from uvs[0]
     std::array<std::vector<Vec2>, 2> uvs;  ///< empty: all (0, 0); v grows downwards (glTF)
-    std::vector<Vec4> colors;      ///< linear RGBA that multiplies the base colour; empty: white
-    std::vector<UVec3> triangles;  ///< counter-clockwise from the front
+    std::vector<Vec4> colors;        ///< linear RGBA that multiplies the base colour; empty: white
+    std::vector<UVec3> triangles;    ///< counter-clockwise from the front
+    std::vector<MeshPose> motion{};  ///< of a mesh that deforms
 };
 
 /// What a texture shows outside of [0, 1]; names as in glTF 2.0.
@@ -168,6 +180,8 @@ struct InstanceDesc {
     MeshId mesh{};
     MaterialId material{};
     Mat4 world_from_object{1.0f};  ///< affine, invertible; a negative determinant is fine
+    /// Invertible on the way, too (`can_move`). As many steps as its mesh has, if both have any.
+    std::vector<Mat4> motion{};
 };
 
 /// Shines alike in all directions; intensity over distance squared [KHR_lights_punctual].
@@ -178,6 +192,7 @@ struct PointLightDesc {
     /// [m] 0: a point. Else a ball of radiance intensity / (pi radius^2), seen like any surface; it
     /// hides what is behind it and reflects nothing.
     float radius = 0.0f;
+    std::vector<Vec3> motion{};  ///< of the position
 };
 
 /// A point light in a cone, smooth from the inner to the outer angle [KHR_lights_punctual].
@@ -191,6 +206,8 @@ struct SpotLightDesc {
     /// [m] As for point lights; the falloff is that of the direction in which light leaves the
     /// ball.
     float radius = 0.0f;
+    std::vector<Vec3> motion{};  ///< of the position
+    std::vector<Vec3> turn{};    ///< of the direction, by less than 90 degrees a step
 };
 
 /// The intensities of a luminaire by direction, on a grid of two angles: the polar angle from -z,
@@ -209,6 +226,7 @@ struct ProfileLightDesc {
     Mat3 world_from_light{1.0f};  ///< orthonormal; may mirror
     Rgb scale{1.0f};              ///< >= 0, times the intensities of the profile
     ProfileId profile{};
+    std::vector<Vec3> motion{};  ///< as of point lights; it does not turn
 };
 
 /// Light from infinity out of one direction, like the sun's [KHR_lights_punctual].
@@ -216,6 +234,7 @@ struct DirectionalLightDesc {
     std::string name{};
     Vec3 direction{0.0f, 0.0f, -1.0f};  ///< the way the light travels; of any length but 0
     Rgb illuminance{1.0f};              ///< [lx] on a surface that faces the light
+    std::vector<Vec3> turn{};           ///< of the direction, by less than 90 degrees a step
 };
 
 /// Light from infinity. `radiance` is equirectangular [nit]: its top row is +y, its centre column
@@ -252,6 +271,7 @@ struct CameraDesc {
     float focus_distance = 1.0f;      ///< of the plane that a thin lens shows sharp [m], > 0
     /// Width over height that the scene's author had in mind, if any. The film's own wins.
     std::optional<float> aspect_ratio{};
+    std::vector<Mat4> motion{};  ///< as of instances
 };
 
 }  // namespace bdpt

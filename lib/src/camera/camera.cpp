@@ -15,18 +15,13 @@ Camera::Camera(const CameraDesc& desc, int width, int height)
 {}
 
 Camera::Camera(const CameraDesc& desc, int width, int height, const RasterBounds& visible)
-    : position_(desc.world_from_camera[3]),
-      film_size_(width, height),
+    : film_size_(width, height),
       visible_(visible),
       perspective_(desc.projection == Projection::perspective),
       lens_radius_(perspective_ ? desc.lens_radius : 0.0f),
       focus_distance_(lens_radius_ > 0.0f ? desc.focus_distance : 1.0f)
 {
-    // Only where the camera looks and what is up for it count; scale and shear of its node do not.
-    const Vec3 back = normalize(Vec3(desc.world_from_camera[2]));
-    const Vec3 right = normalize(cross(Vec3(desc.world_from_camera[1]), back));
-    world_from_camera_ = Mat3(right, cross(back, right), back);
-
+    look_from(desc.world_from_camera);
     const SinCos half = sin_cos(0.5f * desc.vertical_fov);
     half_extent_.y = perspective_ ? half.sin / half.cos : 0.5f * desc.vertical_extent;
     half_extent_.x = half_extent_.y * film_size_.x / film_size_.y;
@@ -34,6 +29,22 @@ Camera::Camera(const CameraDesc& desc, int width, int height, const RasterBounds
     if (has_finite_lens()) {
         pdf_lens_ = {1.0f / (pi * lens_radius_ * lens_radius_)};
     }
+}
+
+void Camera::look_from(const Mat4& world_from_camera)
+{
+    // Only where the camera looks and what is up for it count; scale and shear of its node do not.
+    const Vec3 back = normalize(Vec3(world_from_camera[2]));
+    const Vec3 right = normalize(cross(Vec3(world_from_camera[1]), back));
+    world_from_camera_ = Mat3(right, cross(back, right), back);
+    position_ = Vec3(world_from_camera[3]);
+}
+
+Camera Camera::moved_to(const Mat4& world_from_camera) const
+{
+    Camera result = *this;
+    result.look_from(world_from_camera);
+    return result;
 }
 
 Vec3 Camera::to_local(Vec3 world_vector) const

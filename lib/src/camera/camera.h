@@ -58,6 +58,9 @@ public:
     /// Connections to the lens are wanted within `visible` only; it may reach beyond the film.
     Camera(const CameraDesc& desc, int width, int height, const RasterBounds& visible);
 
+    /// The same camera in another pose, which `can_move` from the first.
+    [[nodiscard]] Camera moved_to(const Mat4& world_from_camera) const;
+
     [[nodiscard]] bool is_perspective() const { return perspective_; }
     /// Can light hit the lens by chance?
     [[nodiscard]] bool has_finite_lens() const { return lens_radius_ > 0.0f; }
@@ -73,6 +76,7 @@ public:
     [[nodiscard]] std::optional<LensHit> hit_lens(Vec3 origin, Vec3 direction) const;
 
 private:
+    void look_from(const Mat4& world_from_camera);
     [[nodiscard]] Vec3 to_local(Vec3 world_vector) const;
     [[nodiscard]] bool is_visible(Vec2 raster) const;
     [[nodiscard]] Vec3 lens_point(Vec2 u_lens) const;  // local

@@ -92,14 +92,20 @@ void let_pass(RTCDevice device, RTCGeometry geometry, const HitFilter& filter)
     rtcSetGeometryOccludedFilterFunction(geometry, &filter_hit);
 }
 
+/// Vertices of a mesh, at one or more equally spaced times.
+using PaddedPositions = std::vector<std::vector<Vec3>>;
+
 /// `filter` is null where no ray passes; it must outlive the geometry, like the vectors.
-OwnedGeometry new_triangles(RTCDevice device, const std::vector<Vec3>& padded_positions,
+OwnedGeometry new_triangles(RTCDevice device, const PaddedPositions& positions,
                             const std::vector<UVec3>& triangles, const HitFilter* filter)
 {
     OwnedGeometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
-    rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                               padded_positions.data(), 0, sizeof(Vec3),
-                               padded_positions.size() - 1);
+    rtcSetGeometryTimeStepCount(geometry.get(), static_cast<unsigned>(positions.size()));
+    for (std::size_t step = 0; step < positions.size(); ++step) {
+        rtcSetSharedGeometryBuffer(
+            geometry.get(), RTC_BUFFER_TYPE_VERTEX, static_cast<unsigned>(step), RTC_FORMAT_FLOAT3,
+            positions[step].data(), 0, sizeof(Vec3), positions[step].size() - 1);
+    }
     rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                triangles.data(), 0, sizeof(UVec3), triangles.size());
     rtcSetGeometryMask(geometry.get(), all_rays);
@@ -108,6 +114,37 @@ OwnedGeometry new_triangles(RTCDevice device, const std::vector<Vec3>& padded_po
     }
     rtcCommitGeometry(geometry.get());
     check_embree(device, "take over a mesh");
+    return geometry;
+}
+
+/// All vertices in the world: at each step, if they move.
+PaddedPositions world_positions(const PlacedMesh& placed)
+{
+    PaddedPositions result;
+    const std::size_t vertices = placed.mesh().positions.size();
+    for (std::size_t step = 0; step <= placed.steps(); ++step) {
+        std::vector<Vec3> world;
+        world.reserve(vertices + 1);
+        for (std::size_t vertex = 0; vertex < vertices; ++vertex) {
+            world.push_back(placed.world_point_at(step, vertex));
+        }
+        result.push_back(padded(std::move(world)));
+    }
+    return result;
+}
+
+OwnedGeometry new_instance(RTCDevice device, RTCScene mesh, const PlacedMesh& placed)
+{
+    OwnedGeometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE));
+    rtcSetGeometryInstancedScene(geometry.get(), mesh);
+    rtcSetGeometryTimeStepCount(geometry.get(), static_cast<unsigned>(placed.steps() + 1));
+    for (std::size_t step = 0; step <= placed.steps(); ++step) {
+        rtcSetGeometryTransform(geometry.get(), static_cast<unsigned>(step),
+                                RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &placed.transform_at(step)[0][0]);
+    }
+    rtcSetGeometryMask(geometry.get(), all_rays);
+    rtcCommitGeometry(geometry.get());
+    check_embree(device, "place a mesh");
     return geometry;
 }
 
@@ -128,7 +165,7 @@ RTCRay to_embree(const Ray& ray)
             .dir_x = ray.direction.x,
             .dir_y = ray.direction.y,
             .dir_z = ray.direction.z,
-            .time = 0.0f,
+            .time = ray.segment.time,
             .tfar = ray.t_max,
             .mask = all_rays,
             .id = ray.ignored_sphere,
@@ -141,8 +178,8 @@ struct EmbreeScene::State {
     explicit State(Isa isa) : device(isa) {}
 
     EmbreeDevice device;
-    std::vector<OwnedScene> shared;  // by mesh; null for meshes that are used at most once
-    std::vector<std::vector<Vec3>> positions;  // what Embree reads: by mesh or by instance
+    std::vector<OwnedScene> shared;          // by mesh; null for those that are in the top level
+    std::vector<PaddedPositions> positions;  // what Embree reads: by mesh or by instance
     OwnedScene top;
     std::span<const PlacedMesh> placed;
     HitFilter filter;
@@ -180,8 +217,6 @@ EmbreeScene::EmbreeScene(std::span<const InstanceDesc> instances, std::span<Plac
         }
     }
     state.shared.resize(mesh_count);
-    state.positions.reserve(mesh_count);  // at most one entry for each used mesh: never moves
-
     for (std::size_t i = 0; i < instances.size(); ++i) {
         const auto mesh = static_cast<std::size_t>(instances[i].mesh);
         const MeshDesc& desc = placed[i].mesh();
@@ -189,21 +224,19 @@ EmbreeScene::EmbreeScene(std::span<const InstanceDesc> instances, std::span<Plac
         if (desc.triangles.empty()) {
             continue;
         }
-        if (uses[mesh] == 1) {
-            std::vector<Vec3> world;
-            world.reserve(desc.positions.size() + 1);
-            for (const Vec3& p : desc.positions) {
-                world.push_back(placed[i].world_point(p));
+        if (placed[i].deforms() || (uses[mesh] == 1 && !placed[i].moves())) {
+            state.positions.push_back(world_positions(placed[i]));
+            const PaddedPositions& world = state.positions.back();
+            if (!placed[i].moves()) {
+                placed[i].use_world_positions(world.front().data());
             }
-            state.positions.push_back(padded(std::move(world)));
-            placed[i].use_world_positions(state.positions.back().data());
             const OwnedGeometry geometry =
-                new_triangles(device, state.positions.back(), desc.triangles, filters[mesh]);
+                new_triangles(device, world, desc.triangles, filters[mesh]);
             rtcAttachGeometryByID(state.top.get(), geometry.get(), id);
             continue;
         }
         if (!state.shared[mesh]) {
-            state.positions.push_back(padded(desc.positions));
+            state.positions.push_back({padded(desc.positions)});
             state.shared[mesh] = new_scene(device);
             const OwnedGeometry geometry =
                 new_triangles(device, state.positions.back(), desc.triangles, filters[mesh]);
@@ -211,12 +244,7 @@ EmbreeScene::EmbreeScene(std::span<const InstanceDesc> instances, std::span<Plac
             rtcCommitScene(state.shared[mesh].get());
             check_embree(device, "build the BVH of a mesh");
         }
-        const OwnedGeometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE));
-        rtcSetGeometryInstancedScene(geometry.get(), state.shared[mesh].get());
-        rtcSetGeometryTransform(geometry.get(), 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR,
-                                &instances[i].world_from_object[0][0]);
-        rtcSetGeometryMask(geometry.get(), all_rays);
-        rtcCommitGeometry(geometry.get());
+        const OwnedGeometry geometry = new_instance(device, state.shared[mesh].get(), placed[i]);
         rtcAttachGeometryByID(state.top.get(), geometry.get(), id);
     }
     if (!spheres.empty()) {

@@ -15,8 +15,8 @@
 namespace bdpt {
 
 /// The ray-tracing acceleration structure over all instances and spheres; the only class that calls
-/// Embree. A mesh that is used once goes into the top level in world space; one that is used more
-/// often gets a BVH of its own, shared by its instances.
+/// Embree. A mesh that is used once and stands still goes into the top level in world space, and so
+/// does each use of one that deforms; others get a BVH of their own, shared by their instances.
 class EmbreeScene {
 public:
     /// `placed[i]` belongs to `instances[i]`; both must outlive this object, and meshes that went

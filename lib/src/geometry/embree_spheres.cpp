@@ -1,5 +1,7 @@
 #include "geometry/embree_spheres.h"
 
+#include <glm/common.hpp>
+
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -17,8 +19,12 @@ const Sphere& sphere_of(const void* spheres, unsigned index)
 void set_bounds(const RTCBoundsFunctionArguments* args)
 {
     const Sphere& sphere = sphere_of(args->geometryUserPtr, args->primID);
-    const Vec3 low = sphere.center - sphere.radius;
-    const Vec3 high = sphere.center + sphere.radius;
+    Vec3 low = sphere.center - sphere.radius;
+    Vec3 high = sphere.center + sphere.radius;
+    for (const Vec3& center : sphere.motion) {
+        low = min(low, center - sphere.radius);
+        high = max(high, center + sphere.radius);
+    }
     args->bounds_o->lower_x = std::nextafter(low.x, -infinity);
     args->bounds_o->lower_y = std::nextafter(low.y, -infinity);
     args->bounds_o->lower_z = std::nextafter(low.z, -infinity);
@@ -32,7 +38,8 @@ std::optional<SphereHit> hit_of(const RTCRay& ray, const void* spheres, unsigned
     if (ray.id == index) {
         return std::nullopt;
     }
-    return intersect(sphere_of(spheres, index),
+    const Sphere& sphere = sphere_of(spheres, index);
+    return intersect(sphere.motion.empty() ? sphere : sphere.at(ray.time),
                      {.origin = {ray.org_x, ray.org_y, ray.org_z},
                       .direction = {ray.dir_x, ray.dir_y, ray.dir_z},
                       .t_max = ray.tfar},

@@ -1,5 +1,6 @@
 #include "geometry/placed_mesh.h"
 
+#include "geometry/motion.h"
 #include "geometry/rounding.h"
 
 #include <glm/common.hpp>
@@ -57,6 +58,15 @@ BoundedPoint bounded_point(const std::array<Vec3, 3>& corners, Vec2 barycentrics
             rounding_bound(rounded_operations) * max_axis(extent(corners))};
 }
 
+/// Of a corner that goes `way` in one of `steps` steps and is at most `size` from the origin. Both
+/// we and Embree interpolate, and a mesh that keeps its shape is tested in its own space; the time
+/// within the step is as inexact as the number of steps is great.
+float moving_error(Vec3 size, Vec3 way, std::size_t steps)
+{
+    return rounding_bound(3 * rounded_operations) * max_axis(size) +
+           rounding_bound(4 * static_cast<int>(steps)) * max_axis(way);
+}
+
 /// Transposed cofactors: the inverse transpose times the determinant, so it cannot divide by zero.
 Mat3 cofactors(const Mat3& m)
 {
@@ -65,58 +75,143 @@ Mat3 cofactors(const Mat3& m)
 
 }  // namespace
 
+Placement::Placement(const Mat4& world_from_object)
+    : linear(world_from_object),
+      translation(world_from_object[3]),
+      front_sign(std::copysign(1.0f, glm::determinant(linear)))
+{
+    normal_matrix = front_sign * cofactors(linear);
+}
+
+PlacedMesh::PlacedMesh(const MeshDesc& mesh, const InstanceDesc& instance)
+    : PlacedMesh(mesh, instance.world_from_object)
+{
+    motion_ = instance.motion;
+    steps_ = std::max(steps_, motion_.size());
+}
+
 PlacedMesh::PlacedMesh(const MeshDesc& mesh, const Mat4& world_from_object)
     : mesh_(&mesh),
-      linear_(world_from_object),
-      translation_(world_from_object[3]),
-      front_sign_(std::copysign(1.0f, glm::determinant(linear_)))
+      steps_(mesh.motion.size()),
+      first_(world_from_object),
+      transform_(world_from_object)
+{}
+
+const Mat4& PlacedMesh::transform_at(std::size_t step) const
 {
-    normal_matrix_ = front_sign_ * cofactors(linear_);
+    return at_step(transform_, motion_, step);
 }
 
-Vec3 PlacedMesh::world_point(Vec3 object_point) const
+Vec3 PlacedMesh::world_point_at(std::size_t step, std::size_t vertex) const
 {
-    return linear_ * object_point + translation_;
+    const bool at_first = step == 0 || !deforms();
+    const auto& positions = at_first ? mesh_->positions : mesh_->motion[step - 1].positions;
+    const Mat4& transform = transform_at(step);
+    return Mat3(transform) * positions[vertex] + Vec3(transform[3]);
 }
 
-std::array<Vec3, 3> PlacedMesh::corners(std::uint32_t triangle) const
+Placement PlacedMesh::placement(float time) const
+{
+    return motion_.empty() ? first_ : Placement(at_time(transform_, motion_, time));
+}
+
+PlacedMesh::Moment PlacedMesh::rigid_moment(const UVec3& vertices, float time) const
+{
+    const TimeStep step = time_step(time, steps_);
+    const Mat4& from = transform_at(step.index);
+    const Mat4& to = transform_at(step.index + 1);
+    const Placement placement(between(from, to, step.fraction));
+    const auto& p = mesh_->positions;
+    const std::array<Vec3, 3> in_object{p[vertices.x], p[vertices.y], p[vertices.z]};
+    const Vec3 size = extent(in_object);
+    const auto stretched = [&size](const Mat4& m) {
+        return abs(Vec3(m[0])) * size.x + abs(Vec3(m[1])) * size.y + abs(Vec3(m[2])) * size.z +
+               abs(Vec3(m[3]));
+    };
+    return {
+        .corners = {placement.point(in_object[0]), placement.point(in_object[1]),
+                    placement.point(in_object[2])},
+        .error = moving_error(max(stretched(from), stretched(to)), stretched(to - from), steps_)};
+}
+
+PlacedMesh::Moment PlacedMesh::deforming_moment(const UVec3& vertices, float time) const
+{
+    const TimeStep step = time_step(time, steps_);
+    Moment moment{};
+    Vec3 size(0.0f);
+    Vec3 way(0.0f);
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+        const std::size_t vertex = vertices[static_cast<int>(corner)];
+        const Vec3 from = world_point_at(step.index, vertex);
+        const Vec3 to = world_point_at(step.index + 1, vertex);
+        moment.corners[corner] = between(from, to, step.fraction);
+        size = max(size, max(abs(from), abs(to)));
+        way = max(way, abs(to - from));
+    }
+    moment.error = moving_error(size, way, steps_);
+    return moment;
+}
+
+PlacedMesh::Moment PlacedMesh::moment(std::uint32_t triangle, float time) const
+{
+    const UVec3& vertices = mesh_->triangles[triangle];
+    return deforms() ? deforming_moment(vertices, time) : rigid_moment(vertices, time);
+}
+
+std::array<Vec3, 3> PlacedMesh::corners(std::uint32_t triangle, float time) const
 {
     const UVec3& i = mesh_->triangles[triangle];
     if (world_positions_ != nullptr) {
         return {world_positions_[i.x], world_positions_[i.y], world_positions_[i.z]};
     }
+    if (moves()) {
+        return moment(triangle, time).corners;
+    }
     const auto& p = mesh_->positions;
     return {world_point(p[i.x]), world_point(p[i.y]), world_point(p[i.z])};
 }
 
-BoundedPoint PlacedMesh::point(std::uint32_t triangle, Vec2 barycentrics) const
+BoundedPoint PlacedMesh::point(std::uint32_t triangle, Vec2 barycentrics, float time) const
 {
     if (world_positions_ != nullptr) {
         return bounded_point(corners(triangle), barycentrics);
     }
+    if (moves()) {
+        const Moment at = moment(triangle, time);
+        return {interpolated(at.corners, barycentrics), at.error};
+    }
     const UVec3& i = mesh_->triangles[triangle];
     const auto& p = mesh_->positions;
     const std::array<Vec3, 3> in_object{p[i.x], p[i.y], p[i.z]};
-    const Mat3 magnitudes(abs(linear_[0]), abs(linear_[1]), abs(linear_[2]));
-    const Vec3 world_size = magnitudes * extent(in_object) + abs(translation_);
+    const Mat3& linear = first_.linear;
+    const Mat3 magnitudes(abs(linear[0]), abs(linear[1]), abs(linear[2]));
+    const Vec3 world_size = magnitudes * extent(in_object) + abs(first_.translation);
     return {world_point(interpolated(in_object, barycentrics)),
             rounding_bound(2 * rounded_operations) * max_axis(world_size)};
 }
 
 TriangleHit PlacedMesh::hit(std::uint32_t triangle, const Ray& ray) const
 {
+    if (moves()) {
+        const Moment at = moment(triangle, ray.segment.time);
+        const Vec2 barycentrics = barycentrics_of(at.corners, ray);
+        const auto& [a, b, c] = at.corners;
+        return {.barycentrics = barycentrics,
+                .normal = front_sign() * cross(b - a, c - a),
+                .point = {interpolated(at.corners, barycentrics), at.error}};
+    }
     const std::array<Vec3, 3> corners = this->corners(triangle);
     const Vec2 barycentrics = barycentrics_of(corners, ray);
     return {.barycentrics = barycentrics,
-            .normal = front_sign_ * cross(corners[1] - corners[0], corners[2] - corners[0]),
+            .normal = front_sign() * cross(corners[1] - corners[0], corners[2] - corners[0]),
             .point = world_positions_ != nullptr ? bounded_point(corners, barycentrics)
                                                  : point(triangle, barycentrics)};
 }
 
-Vec3 PlacedMesh::area_normal(std::uint32_t triangle) const
+Vec3 PlacedMesh::area_normal(std::uint32_t triangle, float time) const
 {
-    const auto [a, b, c] = corners(triangle);
-    return front_sign_ * cross(b - a, c - a);
+    const auto [a, b, c] = corners(triangle, time);
+    return front_sign() * cross(b - a, c - a);
 }
 
 std::array<Vec2, 2> PlacedMesh::uv(std::uint32_t triangle, Vec2 barycentrics) const
@@ -130,28 +225,34 @@ std::array<Vec2, 2> PlacedMesh::uv(std::uint32_t triangle, Vec2 barycentrics) co
     return result;
 }
 
-Vec3 PlacedMesh::shading_normal(std::uint32_t triangle, Vec2 barycentrics) const
+Vec3 PlacedMesh::shading_normal(std::uint32_t triangle, Vec2 barycentrics, float time) const
 {
     if (mesh_->normals.empty()) {
         return Vec3(0.0f);
     }
-    const Vec3 n = world_normal(interpolate(mesh_->normals, triangle, barycentrics));
+    const Vec3 n =
+        moves() ? placement(time).normal_matrix *
+                      interpolate(mesh_->normals, &MeshPose::normals, triangle, barycentrics, time)
+                : world_normal(interpolate(mesh_->normals, triangle, barycentrics));
     const float length_squared = dot(n, n);
     return length_squared > 0.0f ? n / std::sqrt(length_squared) : Vec3(0.0f);
 }
 
-Vec4 PlacedMesh::tangent(std::uint32_t triangle, Vec2 barycentrics, int uv_set) const
+Vec4 PlacedMesh::tangent(std::uint32_t triangle, Vec2 barycentrics, int uv_set, float time) const
 {
     if (!mesh_->tangents.empty()) {
-        const Vec4 t = interpolate(mesh_->tangents, triangle, barycentrics);
-        return {world_vector(Vec3(t)), std::copysign(front_sign_, front_sign_ * t.w)};
+        const Vec4 t = moves() ? interpolate(mesh_->tangents, &MeshPose::tangents, triangle,
+                                             barycentrics, time)
+                               : interpolate(mesh_->tangents, triangle, barycentrics);
+        const Vec3 along = moves() ? placement(time).linear * Vec3(t) : world_vector(Vec3(t));
+        return {along, std::copysign(front_sign(), front_sign() * t.w)};
     }
     const auto& uvs = mesh_->uvs[static_cast<std::size_t>(uv_set)];
     if (uvs.empty()) {
         return Vec4(0.0f);
     }
     const UVec3& i = mesh_->triangles[triangle];
-    const auto [a, b, c] = corners(triangle);
+    const auto [a, b, c] = corners(triangle, time);
     const Vec2 d1 = uvs[i.y] - uvs[i.x];
     const Vec2 d2 = uvs[i.z] - uvs[i.x];
     const float area = d1.x * d2.y - d1.y * d2.x;  // signed, of the triangle in the texture
@@ -161,7 +262,7 @@ Vec4 PlacedMesh::tangent(std::uint32_t triangle, Vec2 barycentrics, int uv_set) 
     const Vec3 along_u = std::copysign(1.0f, area) * (d2.y * (b - a) - d1.y * (c - a));
     // v grows downwards in glTF and the bitangent points up in the picture. A triangle that is not
     // mirrored in the texture has its corners clockwise there, so the area is negative.
-    return {along_u, -std::copysign(front_sign_, area * front_sign_)};
+    return {along_u, -std::copysign(front_sign(), area * front_sign())};
 }
 
 Vec4 PlacedMesh::color(std::uint32_t triangle, Vec2 barycentrics) const

@@ -1,17 +1,41 @@
 #pragma once
 
+#include "geometry/motion.h"
 #include "geometry/ray.h"
 
 #include <bdpt/scene_desc.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace bdpt {
 
-/// A mesh as one instance places it in the world. Refers to the mesh, which must outlive it.
+/// Where a transform takes things.
+struct Placement {
+    explicit Placement(const Mat4& world_from_object);
+
+    [[nodiscard]] Vec3 point(Vec3 object_point) const
+    {
+        return linear * object_point + translation;
+    }
+
+    Mat3 linear;
+    Vec3 translation;
+    Mat3 normal_matrix;
+    float front_sign;  ///< -1 when it mirrors, else +1
+};
+
+/// A mesh as one instance places it in the world. Refers to both, which must outlive it. Times are
+/// in [0, 1] while the shutter is open, and count where something moves.
+///
+/// What moves does so as Embree moves it: along straight lines from step to step, of matrices in
+/// the case of a mesh that keeps its shape, of vertices in the world if it deforms.
 class PlacedMesh {
 public:
+    PlacedMesh(const MeshDesc& mesh, const InstanceDesc& instance);
+    /// Its instance stands still.
     PlacedMesh(const MeshDesc& mesh, const Mat4& world_from_object);
 
     [[nodiscard]] const MeshDesc& mesh() const { return *mesh_; }
@@ -22,38 +46,65 @@ public:
 
     /// +1, or -1 when the transform mirrors: the front is then where the corners run clockwise
     /// (glTF 2.0, sec. 3.7.4 "Instantiation").
-    [[nodiscard]] float front_sign() const { return front_sign_; }
+    [[nodiscard]] float front_sign() const { return first_.front_sign; }
 
-    [[nodiscard]] Vec3 world_point(Vec3 object_point) const;
-    [[nodiscard]] Vec3 world_vector(Vec3 object_vector) const { return linear_ * object_vector; }
+    /// Does it deform, or its instance move?
+    [[nodiscard]] bool moves() const { return steps_ > 0; }
+    [[nodiscard]] bool deforms() const { return !mesh_->motion.empty(); }
+    /// Of the motion, after the opening; 0: it stands still.
+    [[nodiscard]] std::size_t steps() const { return steps_; }
+    /// Transform and vertex number `step`, in [0, steps()].
+    [[nodiscard]] const Mat4& transform_at(std::size_t step) const;
+    [[nodiscard]] Vec3 world_point_at(std::size_t step, std::size_t vertex) const;
+
+    // When the shutter opens.
+    [[nodiscard]] Vec3 world_point(Vec3 object_point) const { return first_.point(object_point); }
+    [[nodiscard]] Vec3 world_vector(Vec3 object_vector) const
+    {
+        return first_.linear * object_vector;
+    }
     /// Keeps the side: the front in object space is the front in the world. Any length.
     [[nodiscard]] Vec3 world_normal(Vec3 object_normal) const
     {
-        return normal_matrix_ * object_normal;
+        return first_.normal_matrix * object_normal;
     }
 
     /// Corners in the world.
-    [[nodiscard]] std::array<Vec3, 3> corners(std::uint32_t triangle) const;
+    [[nodiscard]] std::array<Vec3, 3> corners(std::uint32_t triangle, float time = 0.0f) const;
     /// Barycentrics are those of the second and third corner.
-    [[nodiscard]] BoundedPoint point(std::uint32_t triangle, Vec2 barycentrics) const;
+    [[nodiscard]] BoundedPoint point(std::uint32_t triangle, Vec2 barycentrics,
+                                     float time = 0.0f) const;
     /// Where the line of the ray crosses the plane of the triangle. Embree knows it too, but from
     /// reciprocals that CPUs of different makers approximate differently; this is the same on all.
     [[nodiscard]] TriangleHit hit(std::uint32_t triangle, const Ray& ray) const;
     /// Front normal from the corners, in the world, unnormalised; its length is twice the area.
-    [[nodiscard]] Vec3 area_normal(std::uint32_t triangle) const;
+    [[nodiscard]] Vec3 area_normal(std::uint32_t triangle, float time = 0.0f) const;
 
     [[nodiscard]] std::array<Vec2, 2> uv(std::uint32_t triangle, Vec2 barycentrics) const;
     /// Interpolated and unit; zero when the mesh has no normals.
-    [[nodiscard]] Vec3 shading_normal(std::uint32_t triangle, Vec2 barycentrics) const;
+    [[nodiscard]] Vec3 shading_normal(std::uint32_t triangle, Vec2 barycentrics,
+                                      float time = 0.0f) const;
     /// Tangent and handedness for normal maps: the mesh's own, else along texture coordinate u of
     /// set `uv_set`; zero when neither exists.
-    [[nodiscard]] Vec4 tangent(std::uint32_t triangle, Vec2 barycentrics, int uv_set) const;
+    [[nodiscard]] Vec4 tangent(std::uint32_t triangle, Vec2 barycentrics, int uv_set,
+                               float time = 0.0f) const;
     [[nodiscard]] Vec4 color(std::uint32_t triangle, Vec2 barycentrics) const;
 
-    /// From now on corners are read from `positions` (world space, one for each vertex).
+    /// From now on corners are read from `positions` (world space, one for each vertex); for what
+    /// stands still.
     void use_world_positions(const Vec3* positions) { world_positions_ = positions; }
 
 private:
+    /// A triangle in the world at a time.
+    struct Moment {
+        std::array<Vec3, 3> corners;
+        float error;  ///< as that of `BoundedPoint`
+    };
+    [[nodiscard]] Moment rigid_moment(const UVec3& vertices, float time) const;
+    [[nodiscard]] Moment deforming_moment(const UVec3& vertices, float time) const;
+    [[nodiscard]] Moment moment(std::uint32_t triangle, float time) const;
+    [[nodiscard]] Placement placement(float time) const;
+
     template <typename T>
     [[nodiscard]] T interpolate(const std::vector<T>& values, std::uint32_t triangle,
                                 Vec2 barycentrics) const
@@ -62,13 +113,27 @@ private:
         return (1.0f - barycentrics.x - barycentrics.y) * values[i.x] +
                barycentrics.x * values[i.y] + barycentrics.y * values[i.z];
     }
+    /// The same of what moves with the mesh: `first` when the shutter opens, `later` in each pose.
+    template <typename T>
+    [[nodiscard]] T interpolate(const std::vector<T>& first, std::vector<T> MeshPose::*later,
+                                std::uint32_t triangle, Vec2 barycentrics, float time) const
+    {
+        if (!deforms()) {
+            return interpolate(first, triangle, barycentrics);
+        }
+        const TimeStep step = time_step(time, mesh_->motion.size());
+        const auto& from = step.index == 0 ? first : mesh_->motion[step.index - 1].*later;
+        const auto& to = mesh_->motion[step.index].*later;
+        return between(interpolate(from, triangle, barycentrics),
+                       interpolate(to, triangle, barycentrics), step.fraction);
+    }
 
     const MeshDesc* mesh_;
     const Vec3* world_positions_ = nullptr;
-    Mat3 linear_;
-    Vec3 translation_;
-    Mat3 normal_matrix_;
-    float front_sign_;
+    std::size_t steps_;
+    Placement first_;  // when the shutter opens
+    Mat4 transform_;   // the same
+    std::span<const Mat4> motion_;
 };
 
 }  // namespace bdpt

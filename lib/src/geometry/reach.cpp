@@ -1,5 +1,7 @@
 #include "geometry/reach.h"
 
+#include "geometry/motion.h"
+
 #include <glm/common.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
@@ -30,10 +32,17 @@ float reach_of(std::span<const InstanceDesc> instances, std::size_t mesh_count)
         count = std::min(count + 1, 2);
     }
     double reach = static_cast<double>(greatest_reach);
+    const auto bring_within = [&reach](double most) {
+        reach = most * reach <= in_object_space ? reach : in_object_space / most;
+    };
     for (const InstanceDesc& instance : instances) {
         if (uses[static_cast<std::size_t>(instance.mesh)] > 1) {
-            const double most = stretch(inverse(glm::dmat3(instance.world_from_object)));
-            reach = most * reach <= in_object_space ? reach : in_object_space / most;
+            bring_within(stretch(inverse(glm::dmat3(instance.world_from_object))));
+        }
+        const std::span<const Mat4> motion = instance.motion;
+        for (std::size_t i = 0; i < motion.size(); ++i) {
+            const Mat4& from = at_step(instance.world_from_object, motion, i);
+            bring_within(motion_bounds(from, motion[i]).inverse_stretch);
         }
     }
     return std::isfinite(reach) ? static_cast<float>(reach) : 0.0f;
@@ -42,8 +51,14 @@ float reach_of(std::span<const InstanceDesc> instances, std::size_t mesh_count)
 Vec3 extent_of(const MeshDesc& mesh)
 {
     Vec3 extent(0.0f);
-    for (const Vec3& position : mesh.positions) {
-        extent = max(extent, abs(position));
+    const auto take_in = [&extent](const std::vector<Vec3>& positions) {
+        for (const Vec3& position : positions) {
+            extent = max(extent, abs(position));
+        }
+    };
+    take_in(mesh.positions);
+    for (const MeshPose& pose : mesh.motion) {
+        take_in(pose.positions);
     }
     return extent;
 }

@@ -12,11 +12,12 @@ namespace bdpt {
 inline constexpr float greatest_reach = 1e15f;
 
 /// How far from the origin surfaces and lights of a scene may be [m]. At most `greatest_reach`, and
-/// less when a mesh that several instances share is scaled down very much: Embree takes rays to the
-/// space of such a mesh, and ends the process when a coordinate is above 1.8e18 there.
+/// less when a mesh that several instances share, or one that moves, is scaled down very much:
+/// Embree takes rays to the space of such a mesh, and ends the process when a coordinate is
+/// above 1.8e18 there.
 [[nodiscard]] float reach_of(std::span<const InstanceDesc> instances, std::size_t mesh_count);
 
-/// The greatest coordinate of the corners of a mesh's bounds.
+/// The greatest coordinate of the corners of a mesh's bounds, in all of its poses.
 [[nodiscard]] Vec3 extent_of(const MeshDesc& mesh);
 
 /// The greatest coordinate that a mesh of this extent can have in the world [m].

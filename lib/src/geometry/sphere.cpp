@@ -1,5 +1,6 @@
 #include "geometry/sphere.h"
 
+#include "geometry/motion.h"
 #include "geometry/rounding.h"
 
 #include <glm/common.hpp>
@@ -9,6 +10,11 @@
 #include <cmath>
 
 namespace bdpt {
+
+Sphere Sphere::at(float time) const
+{
+    return {.center = at_time(center, motion, time), .radius = radius};
+}
 
 BoundedPoint Sphere::point(Vec3 normal) const
 {

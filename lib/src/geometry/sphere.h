@@ -6,13 +6,18 @@
 #include <bdpt/types.h>
 
 #include <optional>
+#include <span>
 
 namespace bdpt {
 
 /// The surface of a ball. Its normals point outwards.
 struct Sphere {
     Vec3 center{0.0f};
-    float radius = 1.0f;  ///< [m], > 0
+    float radius = 1.0f;             ///< [m], > 0
+    std::span<const Vec3> motion{};  ///< of the centre, as in `PointLightDesc`; owned by others
+
+    /// Where it is at a time in [0, 1], standing still.
+    [[nodiscard]] Sphere at(float time) const;
 
     /// The point whose unit normal is given, with a bound of how far it may lie off the surface.
     [[nodiscard]] BoundedPoint point(Vec3 normal) const;

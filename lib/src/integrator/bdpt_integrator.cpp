@@ -1,6 +1,7 @@
 #include "integrator/bdpt_integrator.h"
 
-#include "camera/camera.h"
+#include "camera/moving_camera.h"
+#include "integrator/sample_start.h"
 #include "integrator/sample_timer.h"
 #include "math/sampler.h"
 #include "path/random_walk.h"
@@ -25,12 +26,13 @@ Sampler light_sampler(const RenderOptions& options, const Sampler& first, int x,
     }
     Sampler own(options.sampler, options.seed + number * odd, x, y, index);
     own.set_wavelength(first.wavelength());
+    own.set_time(first.time());
     return own;
 }
 
 }  // namespace
 
-BdptIntegrator::BdptIntegrator(const World& world, const Camera& camera,
+BdptIntegrator::BdptIntegrator(const World& world, const MovingCamera& camera,
                                const RenderOptions& options)
     : world_(world),
       camera_(camera),
@@ -44,7 +46,7 @@ RenderStats BdptIntegrator::render_tile(const Tile& tile, SampleRange samples,
 {
     Scratch scratch{.light_path = Subpath(strategies_.light_vertices()),
                     .camera_path = Subpath(strategies_.camera_vertices()),
-                    .weigher = PathWeigher(world_, camera_, strategies_, options_.heuristic,
+                    .weigher = PathWeigher(world_, camera_.first(), strategies_, options_.heuristic,
                                            options_.max_depth + 1),
                     .splats = {},
                     .stats = {}};
@@ -77,16 +79,15 @@ void BdptIntegrator::add_sample(const SampleId& id, const Films& films, Scratch&
     const auto [x, y, index] = id;
     Sampler sampler(options_.sampler, options_.seed, x, y, index);
     const Vec2 center(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
-    Sample sample{.index = index, .sampler = sampler, .films = films, .pixel = center};
-    sampler.start(SampleUse::film);
-    const Vec2 raster = filter_.sample_raster(x, y, sampler.next_2d());
-    if (world_.disperses()) {
-        sampler.set_wavelength(choose_wavelength(sampler.next_1d()));
-    }
+    const Vec2 raster = start_sample(sampler, filter_, world_, camera_, x, y);
+    const Camera camera = camera_.at(sampler.time());
+    Sample sample{
+        .index = index, .sampler = sampler, .camera = camera, .films = films, .pixel = center};
+    scratch.weigher.set_time(sampler.time());
     // Light paths outside of a crop can splat into it.
     const bool wanted = films.film.region().contains(x, y);
     const int camera_vertices = wanted ? strategies_.camera_vertices() : 1;
-    trace_camera_subpath(world_, camera_, raster,
+    trace_camera_subpath(world_, camera, raster,
                          {.max_vertices = camera_vertices, .rr_start = options_.rr_start}, sampler,
                          scratch.camera_path, probe);
     probe.enter(Phase::weigh);
@@ -100,8 +101,9 @@ void BdptIntegrator::add_sample(const SampleId& id, const Films& films, Scratch&
     for (int i = 0; i < options_.light_paths; ++i) {
         probe.enter(Phase::walk);
         Sampler own = light_sampler(options_, sampler, x, y, index, i);
-        Sample light_sample{.index = index, .sampler = own, .films = films, .pixel = center};
-        trace_light_subpath(world_, camera_, light_limits, strategies_.next_event_sampling(), own,
+        Sample light_sample{
+            .index = index, .sampler = own, .camera = camera, .films = films, .pixel = center};
+        trace_light_subpath(world_, camera, light_limits, strategies_.next_event_sampling(), own,
                             scratch.light_path, probe);
         probe.enter(Phase::weigh);
         scratch.weigher.begin_light_path(scratch.light_path.all());
@@ -173,7 +175,7 @@ void BdptIntegrator::splat_light_path(Sample& sample, Scratch& scratch, Probe& p
         if (!strategies_.uses(s, 1)) {
             continue;
         }
-        const auto splat = connect_to_lens(world_, camera_, path.first(s), sample.sampler,
+        const auto splat = connect_to_lens(world_, sample.camera, path.first(s), sample.sampler,
                                            scratch.weigher, scratch.stats.rays, probe);
         if (splat) {
             add_splat({.s = s, .t = 1}, *splat, static_cast<std::uint32_t>(2 * s), sample, scratch,
@@ -197,10 +199,10 @@ void BdptIntegrator::splat_light_path(Sample& sample, Scratch& scratch, Probe& p
 template <typename Probe>
 void BdptIntegrator::splat_light(Sample& sample, Scratch& scratch, Probe& probe) const
 {
-    if (!strategies_.uses(1, 1) || !camera_.is_perspective()) {
+    if (!strategies_.uses(1, 1) || !sample.camera.is_perspective()) {
         return;
     }
-    const auto splat = connect_light_to_lens(world_, camera_, sample.sampler, scratch.weigher,
+    const auto splat = connect_light_to_lens(world_, sample.camera, sample.sampler, scratch.weigher,
                                              scratch.stats.rays, probe);
     if (splat) {
         add_splat({.s = 1, .t = 1}, *splat, 1, sample, scratch, probe);

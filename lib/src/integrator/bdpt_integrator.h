@@ -13,7 +13,7 @@ namespace bdpt {
 /// strategies t <= 1 alone.
 class BdptIntegrator final : public Integrator {
 public:
-    BdptIntegrator(const World& world, const Camera& camera, const RenderOptions& options);
+    BdptIntegrator(const World& world, const MovingCamera& camera, const RenderOptions& options);
     [[nodiscard]] RenderStats render_tile(const Tile& tile, SampleRange samples,
                                           const Films& films) const override;
     [[nodiscard]] bool splats() const override { return true; }
@@ -36,6 +36,7 @@ private:
     struct Sample {
         std::int64_t index;
         Sampler& sampler;
+        const Camera& camera;  // at its time
         const Films& films;
         Vec2 pixel;  // centre [pixels]
     };
@@ -78,7 +79,7 @@ private:
     static void add_pending_splats(const Sample& sample, Scratch& scratch);
 
     const World& world_;
-    const Camera& camera_;
+    const MovingCamera& camera_;
     RenderOptions options_;
     PixelFilter filter_;
     StrategySet strategies_;

@@ -11,7 +11,7 @@
 
 namespace bdpt {
 
-class Camera;
+class MovingCamera;
 class World;
 struct TimeSheet;
 
@@ -48,7 +48,7 @@ public:
 
 /// `options` have been checked. The world and the camera must outlive the integrator.
 [[nodiscard]] std::unique_ptr<const Integrator> make_integrator(const World& world,
-                                                                const Camera& camera,
+                                                                const MovingCamera& camera,
                                                                 const RenderOptions& options);
 
 }  // namespace bdpt

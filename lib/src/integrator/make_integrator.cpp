@@ -4,7 +4,7 @@
 
 namespace bdpt {
 
-std::unique_ptr<const Integrator> make_integrator(const World& world, const Camera& camera,
+std::unique_ptr<const Integrator> make_integrator(const World& world, const MovingCamera& camera,
                                                   const RenderOptions& options)
 {
     if (options.integrator == IntegratorKind::bdpt || options.integrator == IntegratorKind::lt) {

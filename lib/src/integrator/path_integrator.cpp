@@ -1,6 +1,7 @@
 #include "integrator/path_integrator.h"
 
-#include "camera/camera.h"
+#include "camera/moving_camera.h"
+#include "integrator/sample_start.h"
 #include "integrator/sample_timer.h"
 #include "math/rgb.h"
 #include "math/sampler.h"
@@ -23,7 +24,7 @@ struct PathIntegrator::Ray {
     LightReceiver receiver{};
 };
 
-PathIntegrator::PathIntegrator(const World& world, const Camera& camera,
+PathIntegrator::PathIntegrator(const World& world, const MovingCamera& camera,
                                const RenderOptions& options)
     : world_(world),
       camera_(camera),
@@ -45,14 +46,12 @@ RenderStats PathIntegrator::render_tile(const Tile& tile, SampleRange samples,
             for (std::int64_t index = samples.begin; index < samples.end; ++index) {
                 SampleTimer timer(films.times, x, y, index);
                 Sampler sampler(options_.sampler, options_.seed, x, y, index);
-                sampler.start(SampleUse::film);
-                const Vec2 raster = filter_.sample_raster(x, y, sampler.next_2d());
-                if (world_.disperses()) {
-                    sampler.set_wavelength(choose_wavelength(sampler.next_1d()));
-                }
+                const Vec2 raster = start_sample(sampler, filter_, world_, camera_, x, y);
+                const Camera camera = camera_.at(sampler.time());
                 Sample sample{.pixel = Vec2(x, y) + 0.5f,
                               .raster = raster,
                               .sampler = sampler,
+                              .camera = camera,
                               .films = films,
                               .rays = stats.rays};
                 const auto add_sample = [&](auto& probe) {
@@ -79,8 +78,8 @@ Rgb PathIntegrator::estimate(Sample& sample, Probe& probe) const
     Sampler& sampler = sample.sampler;
     RayCounts& rays = sample.rays;
     sampler.start(SampleUse::lens);
-    const Vec2 u_lens = camera_.has_finite_lens() ? sampler.next_2d() : Vec2(0.0f);
-    const CameraRay first = camera_.generate_ray(sample.raster, u_lens);
+    const Vec2 u_lens = sample.camera.has_finite_lens() ? sampler.next_2d() : Vec2(0.0f);
+    const CameraRay first = sample.camera.generate_ray(sample.raster, u_lens);
     Ray ray{.origin = first.lens, .direction = first.direction, .pdf = first.pdf_direction};
     Rgb radiance(0.0f);
     Rgb beta(1.0f);
@@ -121,8 +120,10 @@ Rgb PathIntegrator::estimate(Sample& sample, Probe& probe) const
                                      std::sqrt(distance_squared));
         if (point->light) {
             const PhaseScope scope(probe, Phase::weigh);
-            const LightPoint hit{
-                .p = point->end.p, .ng = point->end.ng, .barycentrics = point->barycentrics};
+            const LightPoint hit{.p = point->end.p,
+                                 .ng = point->end.ng,
+                                 .barycentrics = point->barycentrics,
+                                 .time = sampler.time()};
             measure({.s = 0, .t = depth + 1},
                     beta * emission(ray, *point->light, hit, point->emission));
         }
@@ -233,8 +234,8 @@ Rgb PathIntegrator::sample_light(const SurfacePoint& point, SegmentKey segment, 
     if (options_.integrator == IntegratorKind::pt && !light.is_delta()) {
         return Rgb(0.0f);
     }
-    const auto incident =
-        light.sample_incident(point.end.p, u_position, next_event_sampling_.environments);
+    const auto incident = light.sample_incident(point.end.p, u_position,
+                                                next_event_sampling_.environments, sampler.time());
     if (!incident) {
         return Rgb(0.0f);
     }

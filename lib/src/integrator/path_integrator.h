@@ -7,6 +7,7 @@
 
 namespace bdpt {
 
+class Camera;
 class Sampler;
 
 /// Path tracing from the camera. `pt` finds lights by BSDF sampling alone, but for delta lights,
@@ -14,7 +15,7 @@ class Sampler;
 /// `nee` takes light sampling and drops what BSDF sampling finds that it could have found.
 class PathIntegrator final : public Integrator {
 public:
-    PathIntegrator(const World& world, const Camera& camera, const RenderOptions& options);
+    PathIntegrator(const World& world, const MovingCamera& camera, const RenderOptions& options);
     [[nodiscard]] RenderStats render_tile(const Tile& tile, SampleRange samples,
                                           const Films& films) const override;
     [[nodiscard]] bool splats() const override { return false; }
@@ -26,6 +27,7 @@ private:
         Vec2 pixel;   // centre [pixels]
         Vec2 raster;  // where the camera ray goes through [pixels]
         Sampler& sampler;
+        const Camera& camera;  // at its time
         const Films& films;
         RayCounts& rays;
     };
@@ -44,7 +46,7 @@ private:
     [[nodiscard]] float bsdf_weight(float bsdf_pdf, float light_pdf) const;
 
     const World& world_;
-    const Camera& camera_;
+    const MovingCamera& camera_;
     RenderOptions options_;
     PixelFilter filter_;
     NextEventSampling next_event_sampling_;

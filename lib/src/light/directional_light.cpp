@@ -1,5 +1,6 @@
 #include "light/directional_light.h"
 
+#include "geometry/motion.h"
 #include "light/parallel_rays.h"
 
 #include <glm/geometric.hpp>
@@ -9,22 +10,32 @@
 namespace bdpt {
 
 DirectionalLight::DirectionalLight(const DirectionalLightDesc& desc, const BoundingSphere& bounds)
-    : direction_(normalize(desc.direction)), illuminance_(desc.illuminance), bounds_(bounds)
+    : direction_(normalize(desc.direction)),
+      illuminance_(desc.illuminance),
+      bounds_(bounds),
+      axis_(desc.direction),
+      turn_(desc.turn)
 {}
 
-EmissionSample DirectionalLight::sample_emission(Vec2 u) const
+Vec3 DirectionalLight::direction(float time) const
 {
-    return {.end = {.p = sample_entry(bounds_, direction_, u)},
-            .direction = direction_,
+    return turn_.empty() ? direction_ : normalize(at_time(axis_, turn_, time));
+}
+
+EmissionSample DirectionalLight::sample_emission(Vec2 u, float time) const
+{
+    const Vec3 direction = this->direction(time);
+    return {.end = {.p = sample_entry(bounds_, direction, u)},
+            .direction = direction,
             .weight = illuminance_ / bounds_.pdf_disk().value,
             .pdf_position = {1.0f},
             .pdf_direction = {}};
 }
 
-IncidentSample DirectionalLight::sample_incident() const
+IncidentSample DirectionalLight::sample_incident(float time) const
 {
     return {.end = {},
-            .wi = -direction_,
+            .wi = -direction(time),
             .distance = std::numeric_limits<float>::infinity(),
             .weight = illuminance_,
             .pdf = {1.0f},

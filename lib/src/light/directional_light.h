@@ -5,22 +5,29 @@
 
 #include <bdpt/scene_desc.h>
 
+#include <span>
+
 namespace bdpt {
 
 /// Parallel light from infinity: delta in direction.
 class DirectionalLight {
 public:
+    /// The motion of `desc` must outlive this.
     DirectionalLight(const DirectionalLightDesc& desc, const BoundingSphere& bounds);
 
-    [[nodiscard]] EmissionSample sample_emission(Vec2 u) const;
-    [[nodiscard]] IncidentSample sample_incident() const;
+    [[nodiscard]] EmissionSample sample_emission(Vec2 u, float time = 0.0f) const;
+    [[nodiscard]] IncidentSample sample_incident(float time = 0.0f) const;
     /// Luminous flux through the scene's disk [lm].
     [[nodiscard]] Rgb power() const;
 
 private:
+    [[nodiscard]] Vec3 direction(float time) const;
+
     Vec3 direction_;
     Rgb illuminance_;
     BoundingSphere bounds_;
+    Vec3 axis_;  ///< as described, of any length
+    std::span<const Vec3> turn_;
 };
 
 }  // namespace bdpt

@@ -4,43 +4,44 @@
 
 namespace bdpt {
 
-std::optional<EmissionSample> Light::sample_emission(Vec2 u_position, Vec2 u_direction) const
+std::optional<EmissionSample> Light::sample_emission(Vec2 u_position, Vec2 u_direction,
+                                                     float time) const
 {
     if (const auto* light = std::get_if<TriangleLight>(&model_)) {
-        return light->sample_emission(u_position, u_direction);
+        return light->sample_emission(u_position, u_direction, time);
     }
     if (const auto* light = std::get_if<SphereLight>(&model_)) {
-        return light->sample_emission(u_position, u_direction);
+        return light->sample_emission(u_position, u_direction, time);
     }
     if (const auto* light = std::get_if<PunctualLight>(&model_)) {
-        return light->sample_emission(u_direction);
+        return light->sample_emission(u_direction, time);
     }
     if (const auto* light = std::get_if<DirectionalLight>(&model_)) {
-        return light->sample_emission(u_position);
+        return light->sample_emission(u_position, time);
     }
     if (const auto* light = std::get_if<ProfileLight>(&model_)) {
-        return light->sample_emission(u_direction);
+        return light->sample_emission(u_direction, time);
     }
     return std::get<EnvironmentLight>(model_).sample_emission(u_position, u_direction);
 }
 
 std::optional<IncidentSample> Light::sample_incident(Vec3 receiver, Vec2 u,
-                                                     EnvironmentSampling sampling) const
+                                                     EnvironmentSampling sampling, float time) const
 {
     if (const auto* light = std::get_if<TriangleLight>(&model_)) {
-        return light->sample_incident(receiver, u);
+        return light->sample_incident(receiver, u, time);
     }
     if (const auto* light = std::get_if<SphereLight>(&model_)) {
-        return light->sample_incident(receiver, u);
+        return light->sample_incident(receiver, u, time);
     }
     if (const auto* light = std::get_if<PunctualLight>(&model_)) {
-        return light->sample_incident(receiver);
+        return light->sample_incident(receiver, time);
     }
     if (const auto* light = std::get_if<DirectionalLight>(&model_)) {
-        return light->sample_incident();
+        return light->sample_incident(time);
     }
     if (const auto* light = std::get_if<ProfileLight>(&model_)) {
-        return light->sample_incident(receiver);
+        return light->sample_incident(receiver, time);
     }
     return std::get<EnvironmentLight>(model_).sample_incident(u, sampling);
 }
@@ -48,7 +49,7 @@ std::optional<IncidentSample> Light::sample_incident(Vec3 receiver, Vec2 u,
 AreaPdf Light::pdf_position(const LightPoint& x0) const
 {
     if (const auto* light = std::get_if<TriangleLight>(&model_)) {
-        return light->pdf_position(x0.barycentrics);
+        return light->pdf_position(x0.barycentrics, x0.time);
     }
     if (const auto* light = std::get_if<SphereLight>(&model_)) {
         return light->pdf_position();
@@ -62,7 +63,7 @@ AreaPdf Light::pdf_position(const LightPoint& x0) const
 AreaPdf Light::pdf_incident(Vec3 receiver, const LightPoint& x0, EnvironmentSampling sampling) const
 {
     if (const auto* light = std::get_if<SphereLight>(&model_)) {
-        return light->pdf_incident(receiver, x0.p, x0.ng);
+        return light->pdf_incident(receiver, x0.p, x0.ng, x0.time);
     }
     if (const auto* light = std::get_if<EnvironmentLight>(&model_)) {
         return {light->pdf_incident(x0.p, sampling).value};
@@ -70,16 +71,16 @@ AreaPdf Light::pdf_incident(Vec3 receiver, const LightPoint& x0, EnvironmentSamp
     return pdf_position(x0);  // the other kinds sample the same points for every receiver
 }
 
-SolidAnglePdf Light::pdf_direction(Vec3 ng, Vec3 direction) const
+SolidAnglePdf Light::pdf_direction(Vec3 ng, Vec3 direction, float time) const
 {
     if (const auto* light = std::get_if<TriangleLight>(&model_)) {
         return light->pdf_direction(dot(ng, direction));
     }
     if (const auto* light = std::get_if<SphereLight>(&model_)) {
-        return light->pdf_direction(ng, direction);
+        return light->pdf_direction(ng, direction, time);
     }
     if (const auto* light = std::get_if<PunctualLight>(&model_)) {
-        return light->pdf_direction(direction);
+        return light->pdf_direction(direction, time);
     }
     if (const auto* light = std::get_if<ProfileLight>(&model_)) {
         return light->pdf_direction(direction);

@@ -23,11 +23,12 @@ public:
 
     explicit Light(Model model) : model_(std::move(model)) {}
 
-    [[nodiscard]] std::optional<EmissionSample> sample_emission(Vec2 u_position,
-                                                                Vec2 u_direction) const;
+    [[nodiscard]] std::optional<EmissionSample> sample_emission(Vec2 u_position, Vec2 u_direction,
+                                                                float time = 0.0f) const;
     /// `sampling` counts for environments.
     [[nodiscard]] std::optional<IncidentSample> sample_incident(
-        Vec3 receiver, Vec2 u, EnvironmentSampling sampling = EnvironmentSampling::plain) const;
+        Vec3 receiver, Vec2 u, EnvironmentSampling sampling = EnvironmentSampling::plain,
+        float time = 0.0f) const;
 
     /// Of x_0 as the start of a light path: on the surface, or for an infinite light of the
     /// direction; 1 for a delta light.
@@ -38,14 +39,14 @@ public:
         EnvironmentSampling sampling = EnvironmentSampling::plain) const;
     /// Of the direction of a light path that leaves a finite light at a point with the normal `ng`,
     /// zero if none. `SphereLight` says which factor of the joint density this is.
-    [[nodiscard]] SolidAnglePdf pdf_direction(Vec3 ng, Vec3 direction) const;
+    [[nodiscard]] SolidAnglePdf pdf_direction(Vec3 ng, Vec3 direction, float time = 0.0f) const;
 
     /// No ray hits it by chance: s = 0 is impossible.
     [[nodiscard]] bool is_delta() const;
     [[nodiscard]] bool is_infinite() const;
-    /// Luminous flux [lm] into the scene.
+    /// Luminous flux [lm] into the scene; the mean while the shutter is open, about.
     [[nodiscard]] Rgb power() const;
-    /// Where it is and shines; nothing for an infinite light.
+    /// Where it is and shines while the shutter is open; nothing for an infinite light.
     [[nodiscard]] std::optional<LightBounds> bounds() const;
 
     [[nodiscard]] const Model& model() const { return model_; }

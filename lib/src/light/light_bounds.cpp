@@ -9,6 +9,12 @@
 
 namespace bdpt {
 
+void LightBounds::contain(Vec3 p)
+{
+    min = glm::min(min, p);
+    max = glm::max(max, p);
+}
+
 LightBounds merged(const LightBounds& a, const LightBounds& b)
 {
     const bool both = a.sides == EmittingSides::both || b.sides == EmittingSides::both;

@@ -22,6 +22,8 @@ struct LightBounds {
     double intensity = 0.0;                      ///< luminance of the greatest, added up [cd]
 
     [[nodiscard]] Vec3 center() const { return 0.5f * min + 0.5f * max; }
+    /// Makes the box larger.
+    void contain(Vec3 p);
 };
 
 [[nodiscard]] LightBounds merged(const LightBounds& a, const LightBounds& b);

@@ -23,6 +23,7 @@ struct LightPoint {
     Vec3 p{0.0f};             ///< infinite lights: the unit direction towards the light
     Vec3 ng{0.0f};            ///< unit; zero when on no surface
     Vec2 barycentrics{0.0f};  ///< of triangles
+    float time = 0.0f;        ///< of the sample, as everywhere: in [0, 1] while the shutter is open
 };
 
 /// Light leaving a light: the first vertex of a light subpath and the direction to the second. The

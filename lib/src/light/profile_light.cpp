@@ -1,5 +1,6 @@
 #include "light/profile_light.h"
 
+#include "geometry/motion.h"
 #include "math/rgb.h"
 
 #include <glm/geometric.hpp>
@@ -12,6 +13,7 @@ namespace bdpt {
 ProfileLight::ProfileLight(const ProfileLightDesc& desc, const IntensityProfile& profile)
     : profile_(&profile),
       position_(desc.position),
+      motion_(desc.motion),
       world_from_light_(desc.world_from_light),
       scale_(desc.scale)
 {}
@@ -21,22 +23,23 @@ Vec3 ProfileLight::to_local(Vec3 direction) const
     return transpose(world_from_light_) * direction;
 }
 
-std::optional<EmissionSample> ProfileLight::sample_emission(Vec2 u) const
+std::optional<EmissionSample> ProfileLight::sample_emission(Vec2 u, float time) const
 {
     const auto from = profile_->sample(u);
     if (!from) {
         return std::nullopt;
     }
-    return EmissionSample{.end = {.p = position_},
+    return EmissionSample{.end = {.p = at_time(position_, motion_, time)},
                           .direction = normalize(world_from_light_ * from->direction),
                           .weight = scale_ * (from->intensity / from->pdf.value),
                           .pdf_position = {1.0f},
                           .pdf_direction = from->pdf};
 }
 
-std::optional<IncidentSample> ProfileLight::sample_incident(Vec3 receiver) const
+std::optional<IncidentSample> ProfileLight::sample_incident(Vec3 receiver, float time) const
 {
-    const Vec3 to_light = position_ - receiver;
+    const Vec3 position = at_time(position_, motion_, time);
+    const Vec3 to_light = position - receiver;
     const float distance_squared = dot(to_light, to_light);
     if (!(distance_squared > 0.0f)) {
         return std::nullopt;
@@ -47,7 +50,7 @@ std::optional<IncidentSample> ProfileLight::sample_incident(Vec3 receiver) const
     if (intensity == 0.0f) {
         return std::nullopt;
     }
-    return IncidentSample{.end = {.p = position_},
+    return IncidentSample{.end = {.p = position},
                           .wi = wi,
                           .distance = distance,
                           .weight = scale_ * (intensity / distance_squared),
@@ -62,11 +65,15 @@ SolidAnglePdf ProfileLight::pdf_direction(Vec3 direction) const
 
 LightBounds ProfileLight::bounds() const
 {
-    return {.min = position_,
-            .max = position_,
-            .normals = {},
-            .cos_falloff = 1.0f,
-            .intensity = static_cast<double>(luminance(scale_) * profile_->peak())};
+    LightBounds result{.min = position_,
+                       .max = position_,
+                       .normals = {},
+                       .cos_falloff = 1.0f,
+                       .intensity = static_cast<double>(luminance(scale_) * profile_->peak())};
+    for (const Vec3 later : motion_) {
+        result.contain(later);
+    }
+    return result;
 }
 
 }  // namespace bdpt

@@ -7,6 +7,7 @@
 #include <bdpt/scene_desc.h>
 
 #include <optional>
+#include <span>
 
 namespace bdpt {
 
@@ -14,12 +15,13 @@ namespace bdpt {
 /// `PunctualLight`.
 class ProfileLight {
 public:
-    /// `profile` is that of the description and outlives the light.
+    /// `profile` is that of the description; it and the motion outlive the light.
     ProfileLight(const ProfileLightDesc& desc, const IntensityProfile& profile);
 
     /// Directions are drawn by their intensity; none from a profile that is black.
-    [[nodiscard]] std::optional<EmissionSample> sample_emission(Vec2 u) const;
-    [[nodiscard]] std::optional<IncidentSample> sample_incident(Vec3 receiver) const;
+    [[nodiscard]] std::optional<EmissionSample> sample_emission(Vec2 u, float time = 0.0f) const;
+    [[nodiscard]] std::optional<IncidentSample> sample_incident(Vec3 receiver,
+                                                                float time = 0.0f) const;
     [[nodiscard]] SolidAnglePdf pdf_direction(Vec3 direction) const;
     /// Luminous flux [lm].
     [[nodiscard]] Rgb power() const { return scale_ * profile_->flux(); }
@@ -31,6 +33,7 @@ private:
 
     const IntensityProfile* profile_;
     Vec3 position_;
+    std::span<const Vec3> motion_;
     Mat3 world_from_light_;
     Rgb scale_;
 };

@@ -1,5 +1,6 @@
 #include "light/punctual_light.h"
 
+#include "geometry/motion.h"
 #include "math/rgb.h"
 
 #include <glm/geometric.hpp>
@@ -9,40 +10,55 @@
 namespace bdpt {
 
 PunctualLight::PunctualLight(const PointLightDesc& desc)
-    : position_(desc.position), intensity_(desc.intensity)
+    : position_(desc.position), intensity_(desc.intensity), motion_(desc.motion)
 {}
 
 PunctualLight::PunctualLight(const SpotLightDesc& desc)
     : position_(desc.position),
       intensity_(desc.intensity),
-      cone_(desc.direction, desc.inner_cone_angle, desc.outer_cone_angle)
+      cone_(desc.direction, desc.inner_cone_angle, desc.outer_cone_angle),
+      axis_(desc.direction),
+      motion_(desc.motion),
+      turn_(desc.turn)
 {}
 
-EmissionSample PunctualLight::sample_emission(Vec2 u) const
+Vec3 PunctualLight::position(float time) const
 {
-    const Vec3 direction = cone_.sample(u);
-    const float omega = cone_.solid_angle();
-    return {.end = {.p = position_},
+    return at_time(position_, motion_, time);
+}
+
+SpotCone PunctualLight::cone(float time) const
+{
+    return turn_.empty() ? cone_ : cone_.around(at_time(axis_, turn_, time));
+}
+
+EmissionSample PunctualLight::sample_emission(Vec2 u, float time) const
+{
+    const SpotCone cone = this->cone(time);
+    const Vec3 direction = cone.sample(u);
+    const float omega = cone.solid_angle();
+    return {.end = {.p = position(time)},
             .direction = direction,
-            .weight = intensity_ * (cone_.falloff(direction) * omega),
+            .weight = intensity_ * (cone.falloff(direction) * omega),
             .pdf_position = {1.0f},
             .pdf_direction = {1.0f / omega}};
 }
 
-std::optional<IncidentSample> PunctualLight::sample_incident(Vec3 receiver) const
+std::optional<IncidentSample> PunctualLight::sample_incident(Vec3 receiver, float time) const
 {
-    const Vec3 to_light = position_ - receiver;
+    const Vec3 position = this->position(time);
+    const Vec3 to_light = position - receiver;
     const float distance_squared = dot(to_light, to_light);
     if (!(distance_squared > 0.0f)) {
         return std::nullopt;
     }
     const float distance = std::sqrt(distance_squared);
     const Vec3 wi = to_light / distance;
-    const float attenuation = cone_.falloff(-wi);
+    const float attenuation = cone(time).falloff(-wi);
     if (attenuation == 0.0f) {
         return std::nullopt;
     }
-    return IncidentSample{.end = {.p = position_},
+    return IncidentSample{.end = {.p = position},
                           .wi = wi,
                           .distance = distance,
                           .weight = intensity_ * (attenuation / distance_squared),
@@ -52,11 +68,15 @@ std::optional<IncidentSample> PunctualLight::sample_incident(Vec3 receiver) cons
 
 LightBounds PunctualLight::bounds() const
 {
-    return {.min = position_,
-            .max = position_,
-            .normals = cone_.full(),
-            .cos_falloff = cone_.cos_falloff(),
-            .intensity = static_cast<double>(luminance(intensity_))};
+    LightBounds result{.min = position_,
+                       .max = position_,
+                       .normals = turn_.empty() ? cone_.full() : DirectionCone{},
+                       .cos_falloff = cone_.cos_falloff(),
+                       .intensity = static_cast<double>(luminance(intensity_))};
+    for (const Vec3 later : motion_) {
+        result.contain(later);
+    }
+    return result;
 }
 
 }  // namespace bdpt

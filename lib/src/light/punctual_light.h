@@ -7,6 +7,7 @@
 #include <bdpt/scene_desc.h>
 
 #include <optional>
+#include <span>
 
 namespace bdpt {
 
@@ -14,21 +15,32 @@ namespace bdpt {
 /// light is a spot whose cone is the whole sphere.
 class PunctualLight {
 public:
+    /// The motion of `desc` must outlive this.
     explicit PunctualLight(const PointLightDesc& desc);
     explicit PunctualLight(const SpotLightDesc& desc);
 
     /// Directions are uniform in the cone.
-    [[nodiscard]] EmissionSample sample_emission(Vec2 u) const;
-    [[nodiscard]] std::optional<IncidentSample> sample_incident(Vec3 receiver) const;
-    [[nodiscard]] SolidAnglePdf pdf_direction(Vec3 direction) const { return cone_.pdf(direction); }
+    [[nodiscard]] EmissionSample sample_emission(Vec2 u, float time = 0.0f) const;
+    [[nodiscard]] std::optional<IncidentSample> sample_incident(Vec3 receiver,
+                                                                float time = 0.0f) const;
+    [[nodiscard]] SolidAnglePdf pdf_direction(Vec3 direction, float time = 0.0f) const
+    {
+        return cone(time).pdf(direction);
+    }
     /// Luminous flux [lm].
     [[nodiscard]] Rgb power() const { return intensity_ * cone_.integral(); }
     [[nodiscard]] LightBounds bounds() const;
 
 private:
+    [[nodiscard]] Vec3 position(float time) const;
+    [[nodiscard]] SpotCone cone(float time) const;
+
     Vec3 position_;
     Rgb intensity_;  // [cd]
     SpotCone cone_;
+    Vec3 axis_{0.0f, 0.0f, 1.0f};
+    std::span<const Vec3> motion_;
+    std::span<const Vec3> turn_;
 };
 
 }  // namespace bdpt

@@ -1,5 +1,6 @@
 #include "light/sphere_light.h"
 
+#include "geometry/motion.h"
 #include "math/elementary.h"
 #include "math/frame.h"
 #include "math/rgb.h"
@@ -65,58 +66,67 @@ Vec3 sample_visible_normal(const View& view, Vec2 u)
 }  // namespace
 
 SphereLight::SphereLight(const PointLightDesc& desc, std::uint32_t number)
-    : sphere_{.center = desc.position, .radius = desc.radius},
+    : sphere_{.center = desc.position, .radius = desc.radius, .motion = desc.motion},
       number_(number),
       intensity_(desc.intensity)
 {}
 
 SphereLight::SphereLight(const SpotLightDesc& desc, std::uint32_t number)
-    : sphere_{.center = desc.position, .radius = desc.radius},
+    : sphere_{.center = desc.position, .radius = desc.radius, .motion = desc.motion},
       number_(number),
       intensity_(desc.intensity),
-      cone_(desc.direction, desc.inner_cone_angle, desc.outer_cone_angle)
+      cone_(desc.direction, desc.inner_cone_angle, desc.outer_cone_angle),
+      axis_(desc.direction),
+      turn_(desc.turn)
 {}
 
-SegmentEnd SphereLight::surface(Vec3 ng) const
+SpotCone SphereLight::cone(float time) const
 {
-    const BoundedPoint at = sphere_.point(ng);
+    return turn_.empty() ? cone_ : cone_.around(at_time(axis_, turn_, time));
+}
+
+SegmentEnd SphereLight::surface(Vec3 ng, float time) const
+{
+    const BoundedPoint at = sphere_.at(time).point(ng);
     return {.p = at.p, .error = at.error, .ng = ng, .sphere = number_};
 }
 
-Rgb SphereLight::radiance(Vec3 direction) const
+Rgb SphereLight::radiance(Vec3 direction, float time) const
 {
-    return intensity_ * (cone_.falloff(direction) / (pi * sphere_.radius * sphere_.radius));
+    return intensity_ * (cone(time).falloff(direction) / (pi * sphere_.radius * sphere_.radius));
 }
 
-std::optional<EmissionSample> SphereLight::sample_emission(Vec2 u_position, Vec2 u_direction) const
+std::optional<EmissionSample> SphereLight::sample_emission(Vec2 u_position, Vec2 u_direction,
+                                                           float time) const
 {
-    const Vec3 direction = cone_.sample(u_direction);
+    const SpotCone cone = this->cone(time);
+    const Vec3 direction = cone.sample(u_direction);
     const Vec3 on_disk = square_to_cosine_hemisphere(u_position);
     if (on_disk.z <= 0.0f) {
         return std::nullopt;
     }
     const Vec3 ng = Frame::from_normal(direction).to_world(on_disk);
     // Le cos / (cos / (pi r^2) / solid angle): the cosine and the disk cancel.
-    return EmissionSample{.end = surface(ng),
+    return EmissionSample{.end = surface(ng, time),
                           .direction = direction,
-                          .weight = intensity_ * (cone_.falloff(direction) * cone_.solid_angle()),
+                          .weight = intensity_ * (cone.falloff(direction) * cone.solid_angle()),
                           .pdf_position = pdf_position(),
-                          .pdf_direction = {4.0f * on_disk.z / cone_.solid_angle()}};
+                          .pdf_direction = {4.0f * on_disk.z / cone.solid_angle()}};
 }
 
-std::optional<IncidentSample> SphereLight::sample_incident(Vec3 receiver, Vec2 u) const
+std::optional<IncidentSample> SphereLight::sample_incident(Vec3 receiver, Vec2 u, float time) const
 {
-    const auto view = view_from(receiver, sphere_);
+    const auto view = view_from(receiver, sphere_.at(time));
     if (!view) {
         return std::nullopt;
     }
-    const SegmentEnd end = surface(sample_visible_normal(*view, u));
+    const SegmentEnd end = surface(sample_visible_normal(*view, u), time);
     const Vec3 to_light = end.p - receiver;
     const float distance_squared = dot(to_light, to_light);
     const float distance = std::sqrt(distance_squared);
     const Vec3 wi = to_light / distance;
     const float cosine = -dot(end.ng, wi);
-    const Rgb radiance = this->radiance(-wi);
+    const Rgb radiance = this->radiance(-wi, time);
     if (!(distance_squared > 0.0f) || !(cosine > 0.0f) || is_black(radiance)) {
         return std::nullopt;
     }
@@ -133,9 +143,9 @@ AreaPdf SphereLight::pdf_position() const
     return {0.25f * inv_pi / (sphere_.radius * sphere_.radius)};
 }
 
-AreaPdf SphereLight::pdf_incident(Vec3 receiver, Vec3 p, Vec3 ng) const
+AreaPdf SphereLight::pdf_incident(Vec3 receiver, Vec3 p, Vec3 ng, float time) const
 {
-    const auto view = view_from(receiver, sphere_);
+    const auto view = view_from(receiver, sphere_.at(time));
     const Vec3 to_light = p - receiver;
     const float distance_squared = dot(to_light, to_light);
     const float cosine = -dot(ng, to_light / std::sqrt(distance_squared));
@@ -145,18 +155,23 @@ AreaPdf SphereLight::pdf_incident(Vec3 receiver, Vec3 p, Vec3 ng) const
     return to_area(view->pdf(), cosine, distance_squared);
 }
 
-SolidAnglePdf SphereLight::pdf_direction(Vec3 ng, Vec3 direction) const
+SolidAnglePdf SphereLight::pdf_direction(Vec3 ng, Vec3 direction, float time) const
 {
-    return {4.0f * std::max(0.0f, dot(ng, direction)) * cone_.pdf(direction).value};
+    return {4.0f * std::max(0.0f, dot(ng, direction)) * cone(time).pdf(direction).value};
 }
 
 LightBounds SphereLight::bounds() const
 {
-    return {.min = sphere_.center - sphere_.radius,
-            .max = sphere_.center + sphere_.radius,
-            .normals = cone_.full(),
-            .cos_falloff = cone_.cos_falloff(),
-            .intensity = static_cast<double>(luminance(intensity_))};
+    LightBounds result{.min = sphere_.center - sphere_.radius,
+                       .max = sphere_.center + sphere_.radius,
+                       .normals = turn_.empty() ? cone_.full() : DirectionCone{},
+                       .cos_falloff = cone_.cos_falloff(),
+                       .intensity = static_cast<double>(luminance(intensity_))};
+    for (const Vec3 later : sphere_.motion) {
+        result.contain(later - sphere_.radius);
+        result.contain(later + sphere_.radius);
+    }
+    return result;
 }
 
 }  // namespace bdpt

@@ -8,6 +8,7 @@
 #include <bdpt/scene_desc.h>
 
 #include <optional>
+#include <span>
 
 namespace bdpt {
 
@@ -16,36 +17,41 @@ namespace bdpt {
 /// *direction* of the light, equally at all points of the ball.
 class SphereLight {
 public:
-    /// `number`: of the sphere in the scene's geometry.
+    /// `number`: of the sphere in the scene's geometry. The motion of `desc` must outlive this.
     SphereLight(const PointLightDesc& desc, std::uint32_t number);
     SphereLight(const SpotLightDesc& desc, std::uint32_t number);
 
     /// The point with the unit normal `ng`.
-    [[nodiscard]] SegmentEnd surface(Vec3 ng) const;
+    [[nodiscard]] SegmentEnd surface(Vec3 ng, float time = 0.0f) const;
     /// In a unit direction away from the ball [nit].
-    [[nodiscard]] Rgb radiance(Vec3 direction) const;
+    [[nodiscard]] Rgb radiance(Vec3 direction, float time = 0.0f) const;
 
     /// Directions are uniform in the spot's cone, and points uniform on the disk that the ball is
     /// as seen from there: for a point light that is area times cosine.
-    [[nodiscard]] std::optional<EmissionSample> sample_emission(Vec2 u_position,
-                                                                Vec2 u_direction) const;
+    [[nodiscard]] std::optional<EmissionSample> sample_emission(Vec2 u_position, Vec2 u_direction,
+                                                                float time = 0.0f) const;
     /// Directions are uniform in the cone that the ball fills; none from inside of it.
-    [[nodiscard]] std::optional<IncidentSample> sample_incident(Vec3 receiver, Vec2 u) const;
+    [[nodiscard]] std::optional<IncidentSample> sample_incident(Vec3 receiver, Vec2 u,
+                                                                float time = 0.0f) const;
 
     /// Uniform over the area. For a spot that is not the density of the position alone; but its
     /// product with `pdf_direction` is that of both, and nothing else is ever used.
     [[nodiscard]] AreaPdf pdf_position() const;
-    [[nodiscard]] AreaPdf pdf_incident(Vec3 receiver, Vec3 p, Vec3 ng) const;
-    [[nodiscard]] SolidAnglePdf pdf_direction(Vec3 ng, Vec3 direction) const;
+    [[nodiscard]] AreaPdf pdf_incident(Vec3 receiver, Vec3 p, Vec3 ng, float time = 0.0f) const;
+    [[nodiscard]] SolidAnglePdf pdf_direction(Vec3 ng, Vec3 direction, float time = 0.0f) const;
     /// Luminous flux [lm].
     [[nodiscard]] Rgb power() const { return intensity_ * cone_.integral(); }
     [[nodiscard]] LightBounds bounds() const;
 
 private:
+    [[nodiscard]] SpotCone cone(float time) const;
+
     Sphere sphere_;
     std::uint32_t number_;
     Rgb intensity_;  // [cd]
     SpotCone cone_;
+    Vec3 axis_{0.0f, 0.0f, 1.0f};
+    std::span<const Vec3> turn_;
 };
 
 }  // namespace bdpt

@@ -27,6 +27,13 @@ SpotCone::SpotCone(Vec3 axis, float inner_angle, float outer_angle)
       one_minus_cos_outer_(cone_height(outer_angle))
 {}
 
+SpotCone SpotCone::around(Vec3 axis) const
+{
+    SpotCone result = *this;
+    result.axis_ = normalize(axis);
+    return result;
+}
+
 Vec3 SpotCone::sample(Vec2 u) const
 {
     return Frame::from_normal(axis_).to_world(square_to_cone(u, one_minus_cos_outer_));

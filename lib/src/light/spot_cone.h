@@ -16,6 +16,9 @@ public:
     /// Around `axis`, which has any length; angles [rad] from it as in `SpotLightDesc`.
     SpotCone(Vec3 axis, float inner_angle, float outer_angle);
 
+    /// The same around another axis.
+    [[nodiscard]] SpotCone around(Vec3 axis) const;
+
     /// Uniform within the outer cone, unit.
     [[nodiscard]] Vec3 sample(Vec2 u) const;
     /// Of `sample`.

@@ -12,34 +12,64 @@
 
 namespace bdpt {
 
+TriangleLight::Facing TriangleLight::facing_of(Vec3 area_normal)
+{
+    const float area = 0.5f * std::sqrt(dot(area_normal, area_normal));
+    return {.area = area, .ng = area_normal / (2.0f * area)};
+}
+
 TriangleLight::TriangleLight(const PlacedMesh& mesh, const Material& material,
                              std::uint32_t triangle, int most_samples)
     : mesh_(&mesh),
       material_(&material),
       triangle_(triangle),
+      first_(facing_of(mesh.area_normal(triangle))),
+      mean_area_(mean_area()),
       emission_(measure_emission(mesh, material, triangle, most_samples))
+{}
+
+TriangleLight::Facing TriangleLight::facing(float time) const
 {
-    const Vec3 normal = mesh.area_normal(triangle);
-    area_ = 0.5f * std::sqrt(dot(normal, normal));
-    ng_ = normal / (2.0f * area_);
+    return mesh_->moves() ? facing_of(mesh_->area_normal(triangle_, time)) : first_;
 }
 
-TriangleLight::Point TriangleLight::point(Vec2 u) const
+float TriangleLight::mean_area() const
 {
+    // The area normal is a polynomial between two steps, so it cannot vanish at all of these.
+    const std::size_t last = 4 * mesh_->steps();
+    float sum = first_.area;
+    for (std::size_t i = 1; i <= last; ++i) {
+        sum += facing(static_cast<float>(i) / static_cast<float>(last)).area;
+    }
+    return sum / static_cast<float>(last + 1);
+}
+
+std::optional<TriangleLight::Point> TriangleLight::point(Vec2 u, float time) const
+{
+    const Facing facing = this->facing(time);
+    if (!(facing.area > 0.0f)) {
+        return std::nullopt;
+    }
     const Vec2 barycentrics =
         square_to_triangle(emission_.spread ? emission_.spread->sample(u).point : u);
-    const BoundedPoint at = mesh_->point(triangle_, barycentrics);
-    return {
-        .end = {.p = at.p, .error = at.error, .ng = ng_, .absorption = material_->absorption()},
+    const BoundedPoint at = mesh_->point(triangle_, barycentrics, time);
+    return Point{
+        .end = {.p = at.p,
+                .error = at.error,
+                .ng = facing.ng,
+                .absorption = material_->absorption()},
         .barycentrics = barycentrics,
-        .pdf = pdf_position(barycentrics),
+        .pdf = pdf_position(barycentrics, facing),
         .radiance = material_->expected_emission(texture_point(*mesh_, triangle_, barycentrics))};
 }
 
-std::optional<EmissionSample> TriangleLight::sample_emission(Vec2 u_position,
-                                                             Vec2 u_direction) const
+std::optional<EmissionSample> TriangleLight::sample_emission(Vec2 u_position, Vec2 u_direction,
+                                                             float time) const
 {
-    const Point from = point(u_position);
+    const auto from = point(u_position, time);
+    if (!from) {
+        return std::nullopt;
+    }
     const bool two_sided = material_->emits_from_both_sides();
     float side = 1.0f;
     if (two_sided) {
@@ -52,41 +82,50 @@ std::optional<EmissionSample> TriangleLight::sample_emission(Vec2 u_position,
     }
     // Le cos / (pdf * cos/pi): the cosine cancels.
     const float sides = two_sided ? 2.0f : 1.0f;
-    return EmissionSample{.end = from.end,
-                          .barycentrics = from.barycentrics,
-                          .direction = Frame::from_normal(side * from.end.ng).to_world(local),
-                          .weight = from.radiance * (pi * sides / from.pdf.value),
-                          .pdf_position = from.pdf,
+    return EmissionSample{.end = from->end,
+                          .barycentrics = from->barycentrics,
+                          .direction = Frame::from_normal(side * from->end.ng).to_world(local),
+                          .weight = from->radiance * (pi * sides / from->pdf.value),
+                          .pdf_position = from->pdf,
                           .pdf_direction = pdf_direction(side * local.z)};
 }
 
-std::optional<IncidentSample> TriangleLight::sample_incident(Vec3 receiver, Vec2 u) const
+std::optional<IncidentSample> TriangleLight::sample_incident(Vec3 receiver, Vec2 u,
+                                                             float time) const
 {
-    const Point from = point(u);
-    const Vec3 to_light = from.end.p - receiver;
+    const auto from = point(u, time);
+    if (!from) {
+        return std::nullopt;
+    }
+    const Vec3 to_light = from->end.p - receiver;
     const float distance_squared = dot(to_light, to_light);
     const float distance = std::sqrt(distance_squared);
     const Vec3 wi = to_light / distance;
-    const float cosine = dot(from.end.ng, -wi);
+    const float cosine = dot(from->end.ng, -wi);
     const bool dark_side = cosine < 0.0f && !material_->emits_from_both_sides();
     if (!(distance_squared > 0.0f) || cosine == 0.0f || dark_side) {
         return std::nullopt;
     }
     const float geometry = std::abs(cosine) / distance_squared;
-    return IncidentSample{.end = from.end,
-                          .barycentrics = from.barycentrics,
+    return IncidentSample{.end = from->end,
+                          .barycentrics = from->barycentrics,
                           .wi = wi,
                           .distance = distance,
-                          .weight = from.radiance * (geometry / from.pdf.value),
-                          .pdf = from.pdf,
-                          .pdf_solid_angle = {from.pdf.value / geometry}};
+                          .weight = from->radiance * (geometry / from->pdf.value),
+                          .pdf = from->pdf,
+                          .pdf_solid_angle = {from->pdf.value / geometry}};
 }
 
-AreaPdf TriangleLight::pdf_position(Vec2 barycentrics) const
+AreaPdf TriangleLight::pdf_position(Vec2 barycentrics, const Facing& at) const
 {
     const float spread =
         emission_.spread ? emission_.spread->pdf(triangle_to_square(barycentrics)) : 1.0f;
-    return {spread / area_};
+    return {spread / at.area};
+}
+
+AreaPdf TriangleLight::pdf_position(Vec2 barycentrics, float time) const
+{
+    return pdf_position(barycentrics, facing(time));
 }
 
 SolidAnglePdf TriangleLight::pdf_direction(float cosine) const
@@ -100,19 +139,36 @@ SolidAnglePdf TriangleLight::pdf_direction(float cosine) const
 Rgb TriangleLight::power() const
 {
     const float sides = material_->emits_from_both_sides() ? 2.0f : 1.0f;
-    return emission_.mean * (pi * area_ * sides);
+    return emission_.mean * (pi * mean_area_ * sides);
 }
 
 LightBounds TriangleLight::bounds() const
 {
-    const auto [a, b, c] = mesh_->corners(triangle_);
+    auto corners = mesh_->corners(triangle_);
     const bool two_sided = material_->emits_from_both_sides();
-    return {.min = min(min(a, b), c),
-            .max = max(max(a, b), c),
-            .normals = {.axis = ng_, .cos_angle = 1.0f},
-            .cos_falloff = 0.0f,
-            .sides = two_sided ? EmittingSides::both : EmittingSides::front,
-            .intensity = static_cast<double>(luminance(emission_.mean) * area_)};
+    LightBounds result{.min = min(min(corners[0], corners[1]), corners[2]),
+                       .max = max(max(corners[0], corners[1]), corners[2]),
+                       .normals = {.axis = first_.ng, .cos_angle = 1.0f},
+                       .cos_falloff = 0.0f,
+                       .sides = two_sided ? EmittingSides::both : EmittingSides::front,
+                       .intensity = static_cast<double>(luminance(emission_.mean) * mean_area_)};
+    if (!mesh_->moves()) {
+        return result;
+    }
+    result.normals = {};
+    // Between two steps a corner runs along a parabola at most, within its three control points.
+    const auto steps = static_cast<float>(mesh_->steps());
+    for (std::size_t step = 1; step <= mesh_->steps(); ++step) {
+        const auto end = static_cast<float>(step);
+        const auto halfway = mesh_->corners(triangle_, (end - 0.5f) / steps);
+        const auto next = mesh_->corners(triangle_, end / steps);
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            result.contain(next[i]);
+            result.contain(2.0f * halfway[i] - 0.5f * (corners[i] + next[i]));
+        }
+        corners = next;
+    }
+    return result;
 }
 
 }  // namespace bdpt

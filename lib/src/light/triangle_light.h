@@ -18,14 +18,15 @@ public:
     TriangleLight(const PlacedMesh& mesh, const Material& material, std::uint32_t triangle,
                   int most_samples);
 
-    [[nodiscard]] std::optional<EmissionSample> sample_emission(Vec2 u_position,
-                                                                Vec2 u_direction) const;
-    [[nodiscard]] std::optional<IncidentSample> sample_incident(Vec3 receiver, Vec2 u) const;
+    [[nodiscard]] std::optional<EmissionSample> sample_emission(Vec2 u_position, Vec2 u_direction,
+                                                                float time = 0.0f) const;
+    [[nodiscard]] std::optional<IncidentSample> sample_incident(Vec3 receiver, Vec2 u,
+                                                                float time = 0.0f) const;
 
     /// Density of a light path's direction; `cosine` is that to the front normal.
     [[nodiscard]] SolidAnglePdf pdf_direction(float cosine) const;
-    [[nodiscard]] AreaPdf pdf_position(Vec2 barycentrics) const;
-    /// Emitted luminous flux [lm].
+    [[nodiscard]] AreaPdf pdf_position(Vec2 barycentrics, float time = 0.0f) const;
+    /// Emitted luminous flux [lm]; the mean at and between the steps of a motion.
     [[nodiscard]] Rgb power() const;
     [[nodiscard]] LightBounds bounds() const;
 
@@ -36,13 +37,23 @@ private:
         AreaPdf pdf;
         Rgb radiance;
     };
-    [[nodiscard]] Point point(Vec2 u) const;
+    /// Nothing where the triangle has no area at that time.
+    [[nodiscard]] std::optional<Point> point(Vec2 u, float time) const;
+
+    struct Facing {
+        float area;
+        Vec3 ng;  ///< unit; not finite without an area
+    };
+    [[nodiscard]] static Facing facing_of(Vec3 area_normal);
+    [[nodiscard]] Facing facing(float time) const;
+    [[nodiscard]] float mean_area() const;
+    [[nodiscard]] AreaPdf pdf_position(Vec2 barycentrics, const Facing& at) const;
 
     const PlacedMesh* mesh_;
     const Material* material_;
     std::uint32_t triangle_;
-    float area_;
-    Vec3 ng_;  ///< unit; zero without an area
+    Facing first_;  ///< when the shutter opens
+    float mean_area_;
     TriangleEmission emission_;
 };
 

@@ -12,6 +12,7 @@ namespace bdpt {
 struct SegmentKey {
     std::uint64_t value = 0;
     Wavelength wavelength = Wavelength::green;  ///< of the whole sample
+    float time = 0.0f;  ///< of the whole sample, in [0, 1] while the shutter is open
 
     /// Uniform in [0, 1), a multiple of 2^-24: the number of a surface for this segment.
     [[nodiscard]] constexpr float at_surface(std::uint32_t instance,

@@ -41,16 +41,16 @@ std::optional<Contribution> hit_light(const World& world, std::span<const PathVe
     }
     probe.enter(Phase::weigh);
     const PathVertex& x1 = before_last(camera);
-    const LightDensities densities = light_densities(world, x0, x1.end);
-    return Contribution{
-        .unweighted = value,
-        .weight = weigher.weight(
-            {}, camera,
-            {.light_at_camera_end = densities.emit,
-             .light_at_camera_neighbor = densities.to_next,
-             .camera_at_light_end = {},
-             .camera_at_light_neighbor = {},
-             .next_event = next_event_density(world, x0, x1, weigher.next_event_sampling())})};
+    const LightDensities densities = light_densities(world, x0, x1.end, weigher.time());
+    return Contribution{.unweighted = value,
+                        .weight = weigher.weight(
+                            {}, camera,
+                            {.light_at_camera_end = densities.emit,
+                             .light_at_camera_neighbor = densities.to_next,
+                             .camera_at_light_end = {},
+                             .camera_at_light_neighbor = {},
+                             .next_event = next_event_density(
+                                 world, x0, x1, weigher.next_event_sampling(), weigher.time())})};
 }
 
 template <typename Probe>
@@ -71,7 +71,8 @@ std::optional<Contribution> connect_to_light(const World& world, std::span<const
         return std::nullopt;
     }
     const Light& light = world.lights()[choice->id];
-    const auto incident = light.sample_incident(z.end.p, u_position, sampling.environments);
+    const auto incident =
+        light.sample_incident(z.end.p, u_position, sampling.environments, weigher.time());
     if (!incident) {
         return std::nullopt;
     }
@@ -98,7 +99,7 @@ std::optional<Contribution> connect_to_light(const World& world, std::span<const
         return std::nullopt;
     }
     probe.enter(Phase::weigh);
-    const LightDensities densities = light_densities(world, x0, z.end);
+    const LightDensities densities = light_densities(world, x0, z.end, weigher.time());
     x0.pdf_fwd = densities.emit;
     const AreaPdf from_camera =
         light.is_infinite()
@@ -130,7 +131,8 @@ std::optional<Splat> connect_light_to_lens(const World& world, const Camera& cam
     if (!choice || !can_be_seen_directly(world.lights()[choice->id], camera)) {
         return std::nullopt;
     }
-    const auto incident = world.lights()[choice->id].sample_incident(receiver.p, sampler.next_2d());
+    const auto incident = world.lights()[choice->id].sample_incident(
+        receiver.p, sampler.next_2d(), EnvironmentSampling::plain, weigher.time());
     if (!incident) {
         return std::nullopt;
     }
@@ -153,7 +155,7 @@ std::optional<Splat> connect_light_to_lens(const World& world, const Camera& cam
     x0.kind = VertexKind::light;
     x0.end = incident->end;
     x0.barycentrics = incident->barycentrics;
-    const LightDensities densities = light_densities(world, x0, to_lens->lens);
+    const LightDensities densities = light_densities(world, x0, to_lens->lens, weigher.time());
     x0.pdf_fwd = densities.emit;
     PathVertex lens;
     lens.kind = VertexKind::camera;
@@ -228,9 +230,10 @@ std::optional<Splat> hit_lens(const World& world, const Subpath& light_path,
     }
     probe.enter(Phase::weigh);
     const auto light = light_path.first(crossing.light_vertices);
-    const AreaPdf next_event = light.size() > 1 ? light[0].pdf_next_event
-                                                : next_event_density(world, light[0], crossing.lens,
-                                                                     weigher.next_event_sampling());
+    const AreaPdf next_event =
+        light.size() > 1 ? light[0].pdf_next_event
+                         : next_event_density(world, light[0], crossing.lens,
+                                              weigher.next_event_sampling(), weigher.time());
     const AreaPdf neighbor = light.size() > 1 ? before_last(light).pdf_rev : AreaPdf{};
     const float weight = weigher.weight_of_hit(light, crossing.lens,
                                                {.light_at_camera_end = crossing.lens.pdf_rev,

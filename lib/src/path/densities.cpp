@@ -7,6 +7,15 @@
 #include <cmath>
 
 namespace bdpt {
+namespace {
+
+LightPoint light_point(const PathVertex& x0, float time)
+{
+    return {.p = x0.end.p, .ng = x0.end.ng, .barycentrics = x0.barycentrics, .time = time};
+}
+
+}  // namespace
+
 bool can_be_seen_directly(const Light& light, const Camera& camera)
 {
     return !light.is_delta() && !light.is_infinite() && camera.is_perspective();
@@ -26,9 +35,9 @@ LightReceiver light_receiver(const PathVertex& x1, Vec3 to_light)
 }
 
 AreaPdf next_event_density(const World& world, const PathVertex& x0, const PathVertex& x1,
-                           NextEventSampling sampling)
+                           NextEventSampling sampling, float time)
 {
-    const LightPoint point{.p = x0.end.p, .ng = x0.end.ng, .barycentrics = x0.barycentrics};
+    const LightPoint point = light_point(x0, time);
     const auto receiver = [&x0, &x1] {
         const bool infinite = x0.kind == VertexKind::infinite;
         return light_receiver(x1, infinite ? x0.end.p : x0.end.p - x1.end.p);
@@ -38,7 +47,8 @@ AreaPdf next_event_density(const World& world, const PathVertex& x0, const PathV
            lights.receiver_probability(*x0.light, receiver, sampling.lights);
 }
 
-LightDensities light_densities(const World& world, const PathVertex& x0, const SegmentEnd& x1)
+LightDensities light_densities(const World& world, const PathVertex& x0, const SegmentEnd& x1,
+                               float time)
 {
     const LightSet& lights = world.lights();
     const Light& light = lights[*x0.light];
@@ -46,11 +56,11 @@ LightDensities light_densities(const World& world, const PathVertex& x0, const S
     const Vec3 offset = x0.end.p - x1.p;
     const float distance_squared = dot(offset, offset);
     const Vec3 to_light = infinite ? x0.end.p : offset / std::sqrt(distance_squared);
-    const LightPoint point{.p = x0.end.p, .ng = x0.end.ng, .barycentrics = x0.barycentrics};
+    const LightPoint point = light_point(x0, time);
     const float cosine = std::abs(dot(x1.ng, to_light));
     return {.emit = light.pdf_position(point) * lights.emission_probability(*x0.light),
             .to_next = infinite ? to_area(world.bounding_sphere().pdf_disk(), cosine)
-                                : to_area(light.pdf_direction(x0.end.ng, -to_light), cosine,
+                                : to_area(light.pdf_direction(x0.end.ng, -to_light, time), cosine,
                                           distance_squared)};
 }
 

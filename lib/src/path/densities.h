@@ -25,13 +25,14 @@ struct LightDensities {
 [[nodiscard]] LightReceiver light_receiver(const PathVertex& x1);
 [[nodiscard]] LightReceiver light_receiver(const PathVertex& x1, Vec3 to_light);
 
-/// x_0 on light `x0.light`, sampled from x_1 by next-event estimation.
+/// x_0 on light `x0.light`, sampled from x_1 by next-event estimation, at a time of the shutter.
 [[nodiscard]] AreaPdf next_event_density(const World& world, const PathVertex& x0,
-                                         const PathVertex& x1, NextEventSampling sampling);
+                                         const PathVertex& x1, NextEventSampling sampling,
+                                         float time);
 
 /// `x0` is a vertex on light `x0.light`.
 [[nodiscard]] LightDensities light_densities(const World& world, const PathVertex& x0,
-                                             const SegmentEnd& x1);
+                                             const SegmentEnd& x1, float time);
 
 /// Can the strategy s = t = 1, which joins a light point to a lens point, see this light?
 [[nodiscard]] bool can_be_seen_directly(const Light& light, const Camera& camera);
@@ -43,6 +44,10 @@ public:
     /// `strategies` and `camera` must outlive this object.
     PathWeigher(const World& world, const Camera& camera, const StrategySet& strategies,
                 Heuristic heuristic, int max_vertices);
+
+    /// The time of the paths to come; 0 until it is set.
+    void set_time(float time) { time_ = time; }
+    [[nodiscard]] float time() const { return time_; }
 
     /// Sums up once what the weights of all prefixes of a subpath share, where that is possible.
     /// From then on every call of `weight` must be for such prefixes; without, each call gathers
@@ -93,6 +98,7 @@ private:
     std::optional<WeightSums> sums_;
     bool uses_sums_ = false;
     bool keeps_paths_ = false;
+    float time_ = 0.0f;
     std::vector<float> shares_;
 };
 

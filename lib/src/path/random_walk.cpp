@@ -223,7 +223,7 @@ void trace_light_subpath(const World& world, const Camera& camera, const WalkLim
         return;
     }
     const Light& light = world.lights()[choice->id];
-    const auto emitted = light.sample_emission(u_position, sampler.next_2d());
+    const auto emitted = light.sample_emission(u_position, sampler.next_2d(), sampler.time());
     if (!emitted || is_black(emitted->weight)) {
         return;
     }
@@ -253,7 +253,7 @@ void trace_light_subpath(const World& world, const Camera& camera, const WalkLim
           .limits = limits},
          step, sampler, path, probe);
     if (path.size() > 1) {
-        start.pdf_next_event = next_event_density(world, start, path[1], sampling);
+        start.pdf_next_event = next_event_density(world, start, path[1], sampling, sampler.time());
     }
 }
 

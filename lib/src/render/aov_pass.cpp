@@ -1,6 +1,7 @@
 #include "render/aov_pass.h"
 
-#include "camera/camera.h"
+#include "camera/moving_camera.h"
+#include "integrator/sample_start.h"
 #include "math/sampler.h"
 #include "scene/world.h"
 
@@ -8,7 +9,7 @@
 
 namespace bdpt {
 
-AovPass::AovPass(const World& world, const Camera& camera, const RenderOptions& options)
+AovPass::AovPass(const World& world, const MovingCamera& camera, const RenderOptions& options)
     : world_(world), camera_(camera), options_(options), filter_(options.filter)
 {}
 
@@ -35,11 +36,11 @@ std::optional<PrimaryHit> AovPass::first_hit(int x, int y, std::int64_t sample_i
 {
     // The random numbers of the integrators' camera rays.
     Sampler sampler(options_.sampler, options_.seed, x, y, sample_index);
-    sampler.start(SampleUse::film);
-    const Vec2 raster = filter_.sample_raster(x, y, sampler.next_2d());
+    const Vec2 raster = start_sample(sampler, filter_, world_, camera_, x, y);
+    const Camera camera = camera_.at(sampler.time());
     sampler.start(SampleUse::lens);
-    const Vec2 u_lens = camera_.has_finite_lens() ? sampler.next_2d() : Vec2(0.0f);
-    const CameraRay ray = camera_.generate_ray(raster, u_lens);
+    const Vec2 u_lens = camera.has_finite_lens() ? sampler.next_2d() : Vec2(0.0f);
+    const CameraRay ray = camera.generate_ray(raster, u_lens);
     const auto point = world_.intersect(ray.lens, ray.direction, sampler.segment_key(0, 1));
     if (!point) {
         return std::nullopt;
@@ -48,7 +49,7 @@ std::optional<PrimaryHit> AovPass::first_hit(int x, int y, std::int64_t sample_i
     return PrimaryHit{.albedo = point->bsdf.base_color(),
                       .normal = dot(normal, ray.direction) > 0.0f ? -normal : normal,
                       .position = point->end.p,
-                      .depth = camera_.depth(point->end.p)};
+                      .depth = camera.depth(point->end.p)};
 }
 
 }  // namespace bdpt

@@ -9,12 +9,12 @@
 
 namespace bdpt {
 
-/// Follows the camera rays of a render once more, to the first surface only: the same for every
-/// integrator.
+/// Follows the camera rays of a render once more, at their own times, to the first surface only:
+/// the same for every integrator.
 class AovPass {
 public:
     /// The world and the camera must outlive this.
-    AovPass(const World& world, const Camera& camera, const RenderOptions& options);
+    AovPass(const World& world, const MovingCamera& camera, const RenderOptions& options);
     /// Adds the samples of the pixels of `tile` that are in the film's region. Returns the work
     /// that it was.
     [[nodiscard]] RenderStats render_tile(const Tile& tile, SampleRange samples,
@@ -25,7 +25,7 @@ private:
                                                       std::int64_t sample_index) const;
 
     const World& world_;
-    const Camera& camera_;
+    const MovingCamera& camera_;
     RenderOptions options_;
     PixelFilter filter_;
 };

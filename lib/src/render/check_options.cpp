@@ -4,6 +4,7 @@
 #include "math/elementary.h"
 
 #include <bdpt/error.h>
+#include <bdpt/motion.h>
 
 #include <glm/geometric.hpp>
 
@@ -49,6 +50,50 @@ void check_filter(const FilterOptions& filter)
     if (!(radius >= least && radius <= most)) {
         throw Error(ErrorCode::usage,
                     "filter radius is " + std::to_string(radius) + " pixels, not in [0.01, 16]");
+    }
+}
+
+void check_within_reach(const std::string& item, const char* what, float value)
+{
+    if (!(std::abs(value) <= greatest_reach)) {
+        throw Error(ErrorCode::invalid_input, item + ": " + what + " is " + std::to_string(value) +
+                                                  " m, beyond what rays reach");
+    }
+}
+
+/// Of a camera called `item`.
+void check_pose(const std::string& item, const Mat4& world_from_camera)
+{
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 4; ++row) {
+            if (!std::isfinite(world_from_camera[column][row])) {
+                throw Error(ErrorCode::invalid_input, item + ": transform is not finite");
+            }
+        }
+    }
+    for (int row = 0; row < 3; ++row) {
+        check_within_reach(item, "position", world_from_camera[3][row]);
+    }
+    const Vec3 side = cross(Vec3(world_from_camera[1]), Vec3(world_from_camera[2]));
+    if (!(dot(side, side) > 0.0f)) {
+        throw Error(ErrorCode::invalid_input, item + ": transform has no inverse");
+    }
+}
+
+void check_motion(const std::string& item, const CameraDesc& camera)
+{
+    if (camera.motion.size() > most_time_steps) {
+        throw Error(ErrorCode::invalid_input,
+                    item + ": motion of " + std::to_string(camera.motion.size()) + " steps, but " +
+                        std::to_string(most_time_steps) + " is the most");
+    }
+    for (std::size_t i = 0; i < camera.motion.size(); ++i) {
+        const std::string step = item + ": motion, step " + std::to_string(i);
+        check_pose(step, camera.motion[i]);
+        if (!can_move(i == 0 ? camera.world_from_camera : camera.motion[i - 1], camera.motion[i])) {
+            throw Error(ErrorCode::invalid_input,
+                        step + ": on the way to it some transform has no inverse; give more steps");
+        }
     }
 }
 
@@ -98,27 +143,11 @@ void check_camera(const CameraDesc& camera)
 {
     const std::string item =
         camera.name.empty() ? std::string("camera") : "camera \"" + camera.name + "\"";
-    for (int column = 0; column < 4; ++column) {
-        for (int row = 0; row < 4; ++row) {
-            if (!std::isfinite(camera.world_from_camera[column][row])) {
-                throw Error(ErrorCode::invalid_input, item + ": transform is not finite");
-            }
-        }
-    }
     const auto check_reach = [&](const char* what, float value) {
-        if (!(std::abs(value) <= greatest_reach)) {
-            throw Error(
-                ErrorCode::invalid_input,
-                item + ": " + what + " is " + std::to_string(value) + " m, beyond what rays reach");
-        }
+        check_within_reach(item, what, value);
     };
-    for (int row = 0; row < 3; ++row) {
-        check_reach("position", camera.world_from_camera[3][row]);
-    }
-    const Vec3 side = cross(Vec3(camera.world_from_camera[1]), Vec3(camera.world_from_camera[2]));
-    if (!(dot(side, side) > 0.0f)) {
-        throw Error(ErrorCode::invalid_input, item + ": transform has no inverse");
-    }
+    check_pose(item, camera.world_from_camera);
+    check_motion(item, camera);
     const auto check_length = [&](const char* what, float value, bool zero_is_fine) {
         if (!(value > 0.0f || (zero_is_fine && value == 0.0f)) || !std::isfinite(value)) {
             throw Error(ErrorCode::invalid_input,

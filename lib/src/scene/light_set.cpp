@@ -19,7 +19,7 @@ std::optional<Sphere> sphere_of(const LightDesc& desc)
         [](const auto& d) -> std::optional<Sphere> {
             if constexpr (requires { d.radius; }) {
                 if (d.radius > 0.0f) {
-                    return Sphere{.center = d.position, .radius = d.radius};
+                    return Sphere{.center = d.position, .radius = d.radius, .motion = d.motion};
                 }
             }
             return std::nullopt;

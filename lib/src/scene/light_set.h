@@ -14,7 +14,8 @@
 
 namespace bdpt {
 
-/// The spheres that point and spot lights with a radius are, in their order.
+/// The spheres that point and spot lights with a radius are, in their order; `lights` must outlive
+/// them.
 [[nodiscard]] std::vector<Sphere> light_spheres(std::span<const LightDesc> lights);
 
 /// All lights of a scene and how one of them is chosen. Starting a light path and next-event

@@ -1,6 +1,7 @@
 #include "scene/validate.h"
 
 #include "geometry/reach.h"
+#include "scene/check_motion.h"
 #include "scene/validate_lights.h"
 #include "scene/value_checks.h"
 
@@ -185,6 +186,7 @@ void validate(const SceneDesc& desc)
     const float reach = reach_of(desc.instances, desc.meshes.size());
     check_reach(desc, reach);
     validate_lights(desc, reach);
+    check_motion(desc, reach);
 }
 
 SceneCounts count(const SceneDesc& desc)

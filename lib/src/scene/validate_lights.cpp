@@ -191,7 +191,7 @@ std::string reach_text(float reach)
     std::ostringstream text;
     text << " m from the origin, but " << reach << " m is the most";
     if (reach < greatest_reach) {
-        text << ", as a mesh that is used more than once is scaled down very much";
+        text << ", as a mesh that is used more than once or moves is scaled down very much";
     }
     return text.str();
 }

@@ -21,17 +21,41 @@ Bounds bounds_of(std::span<const PlacedMesh> placed, std::span<const Sphere> sph
     for (const PlacedMesh& mesh : placed) {
         for (const UVec3& triangle : mesh.mesh().triangles) {
             for (int corner = 0; corner < 3; ++corner) {
-                const Vec3 p = mesh.world_point(mesh.mesh().positions[triangle[corner]]);
-                bounds.min = min(bounds.min, p);
-                bounds.max = max(bounds.max, p);
+                for (std::size_t step = 0; step <= mesh.steps(); ++step) {
+                    const Vec3 p = mesh.world_point_at(step, triangle[corner]);
+                    bounds.min = min(bounds.min, p);
+                    bounds.max = max(bounds.max, p);
+                }
             }
         }
     }
+    const auto add_ball = [&bounds](Vec3 center, float radius) {
+        bounds.min = min(bounds.min, center - radius);
+        bounds.max = max(bounds.max, center + radius);
+    };
     for (const Sphere& sphere : spheres) {
-        bounds.min = min(bounds.min, sphere.center - sphere.radius);
-        bounds.max = max(bounds.max, sphere.center + sphere.radius);
+        add_ball(sphere.center, sphere.radius);
+        for (const Vec3& center : sphere.motion) {
+            add_ball(center, sphere.radius);
+        }
     }
     return bounds.min.x <= bounds.max.x ? bounds : Bounds{};
+}
+
+bool light_moves(const LightDesc& light)
+{
+    return std::visit(
+        [](const auto& l) {
+            bool moves = false;
+            if constexpr (requires { l.motion; }) {
+                moves = moves || !l.motion.empty();
+            }
+            if constexpr (requires { l.turn; }) {
+                moves = moves || !l.turn.empty();
+            }
+            return moves;
+        },
+        light);
 }
 
 BoundingSphere sphere_around(const Bounds& bounds)
@@ -58,9 +82,11 @@ World::World(SceneDesc desc, Isa isa) : desc_(std::move(desc))
     }
     placed_.reserve(desc_.instances.size());
     for (const InstanceDesc& instance : desc_.instances) {
-        placed_.emplace_back(desc_.meshes[static_cast<std::size_t>(instance.mesh)],
-                             instance.world_from_object);
+        placed_.emplace_back(desc_.meshes[static_cast<std::size_t>(instance.mesh)], instance);
     }
+    moves_ = std::any_of(placed_.begin(), placed_.end(),
+                         [](const PlacedMesh& mesh) { return mesh.moves(); }) ||
+             std::any_of(desc_.lights.begin(), desc_.lights.end(), light_moves);
     spheres_ = light_spheres(desc_.lights);
     bounds_ = bounds_of(placed_, spheres_);
     sphere_ = sphere_around(bounds_);
@@ -131,50 +157,50 @@ std::optional<RayHit> World::first_hit(const SegmentEnd& from, Vec3 direction,
                                .segment = segment});
 }
 
-SurfacePoint World::point_of(const RayHit& hit, Vec3 direction,
-                             Wavelength wavelength) const noexcept
+SurfacePoint World::point_of(const RayHit& hit, Vec3 direction, SegmentKey segment) const noexcept
 {
     if (hit.sphere != no_sphere) [[unlikely]] {
-        return sphere_point(hit, direction);
+        return sphere_point(hit, direction, segment.time);
     }
-    return surface_point(hit, direction, wavelength);
+    return surface_point(hit, direction, segment);
 }
 
 /// Spheres are lights: they emit from their outside and reflect nothing.
-SurfacePoint World::sphere_point(const RayHit& hit, Vec3 direction) const noexcept
+SurfacePoint World::sphere_point(const RayHit& hit, Vec3 direction, float time) const noexcept
 {
     const LightId id = lights_->of_sphere(hit.sphere);
     const auto& light = std::get<SphereLight>((*lights_)[id].model());
     const bool outside = dot(hit.at.normal, direction) < 0.0f;
-    return {.end = light.surface(hit.at.normal),
+    return {.end = light.surface(hit.at.normal, time),
             .bsdf = Bsdf(),
-            .emission = outside ? light.radiance(-direction) : Rgb(0.0f),
+            .emission = outside ? light.radiance(-direction, time) : Rgb(0.0f),
             .light = id};
 }
 
 SurfacePoint World::surface_point(const RayHit& hit, Vec3 direction,
-                                  Wavelength wavelength) const noexcept
+                                  SegmentKey segment) const noexcept
 {
     const PlacedMesh& mesh = placed_[hit.instance];
     const Material& material = material_of(hit.instance);
 
     const float length_squared = dot(hit.at.normal, hit.at.normal);
     const Vec3 ng = length_squared > 0.0f ? hit.at.normal / std::sqrt(length_squared) : -direction;
-    Vec3 ns = mesh.shading_normal(hit.triangle, hit.at.barycentrics);
+    Vec3 ns = mesh.shading_normal(hit.triangle, hit.at.barycentrics, segment.time);
     const float side = dot(ns, ng);
     ns = side > 0.0f ? ns : side < 0.0f ? -ns : ng;
 
     const TexturePoint at = texture_point(mesh, hit.triangle, hit.at.barycentrics);
     const auto tangent_uv_set = material.tangent_uv_set();
-    const ShadingPoint shading{
-        .ng = ng,
-        .ns = ns,
-        .tangent = tangent_uv_set ? mesh.tangent(hit.triangle, hit.at.barycentrics, *tangent_uv_set)
-                                  : Vec4(0.0f),
-        .uv = at.uv,
-        .color = at.color,
-        .wavelength = wavelength,
-        .wo = -direction};
+    const ShadingPoint shading{.ng = ng,
+                               .ns = ns,
+                               .tangent = tangent_uv_set
+                                              ? mesh.tangent(hit.triangle, hit.at.barycentrics,
+                                                             *tangent_uv_set, segment.time)
+                                              : Vec4(0.0f),
+                               .uv = at.uv,
+                               .color = at.color,
+                               .wavelength = segment.wavelength,
+                               .wo = -direction};
 
     SurfacePoint result{.end = {.p = hit.at.point.p,
                                 .error = hit.at.point.error,

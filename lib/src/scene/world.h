@@ -42,7 +42,7 @@ public:
     // Each segment of a path needs a key of its own (docs/mis.md).
 
     /// The first surface that a ray meets from `from` in the unit direction `direction`, as light
-    /// of the segment's wavelength sees it.
+    /// of the segment's wavelength sees it, at the segment's time.
     [[nodiscard]] std::optional<SurfacePoint> intersect(const SegmentEnd& from, Vec3 direction,
                                                         SegmentKey segment) const noexcept
     {
@@ -60,7 +60,7 @@ public:
             return std::nullopt;
         }
         const PhaseScope scope(probe, Phase::shade);
-        return point_of(*hit, direction, segment.wavelength);
+        return point_of(*hit, direction, segment);
     }
     /// What is left of light between two points: zero when it meets a surface in between, else what
     /// the medium lets through.
@@ -73,6 +73,8 @@ public:
     [[nodiscard]] const LightSet& lights() const { return *lights_; }
     /// Does any material?
     [[nodiscard]] bool disperses() const { return disperses_; }
+    /// Does anything, while the shutter is open?
+    [[nodiscard]] bool moves() const { return moves_; }
     [[nodiscard]] const BoundingSphere& bounding_sphere() const { return sphere_; }
     [[nodiscard]] const Bounds& bounds() const { return bounds_; }
     [[nodiscard]] const SceneCounts& counts() const { return counts_; }
@@ -87,16 +89,18 @@ private:
     [[nodiscard]] std::optional<RayHit> first_hit(const SegmentEnd& from, Vec3 direction,
                                                   SegmentKey segment) const noexcept;
     [[nodiscard]] SurfacePoint point_of(const RayHit& hit, Vec3 direction,
-                                        Wavelength wavelength) const noexcept;
+                                        SegmentKey segment) const noexcept;
     [[nodiscard]] SurfacePoint surface_point(const RayHit& hit, Vec3 direction,
-                                             Wavelength wavelength) const noexcept;
-    [[nodiscard]] SurfacePoint sphere_point(const RayHit& hit, Vec3 direction) const noexcept;
+                                             SegmentKey segment) const noexcept;
+    [[nodiscard]] SurfacePoint sphere_point(const RayHit& hit, Vec3 direction,
+                                            float time) const noexcept;
 
     SceneDesc desc_;
     std::map<float, std::unique_ptr<const SpecularAlbedo>> albedos_;  // by index of refraction
     std::unique_ptr<const LayerTables> layer_tables_;                 // if any material needs them
     std::vector<Material> materials_;
     bool disperses_ = false;
+    bool moves_ = false;
     std::vector<PlacedMesh> placed_;
     std::vector<Sphere> spheres_;
     Bounds bounds_;

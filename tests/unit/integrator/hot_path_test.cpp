@@ -1,5 +1,5 @@
 #include "call_counter.h"
-#include "camera/camera.h"
+#include "camera/moving_camera.h"
 #include "catch.hpp"
 #include "integrator/integrator.h"
 #include "integrator/sample_timer.h"
@@ -155,7 +155,7 @@ void check_costs_nothing_a_sample(const std::function<void(std::int64_t)>& rende
 
 void check(const World& world, const CameraDesc& desc, const RenderOptions& options)
 {
-    const Camera camera(desc, size, size);
+    const MovingCamera camera(desc, Camera(desc, size, size));
     const auto integrator = make_integrator(world, camera, options);
     Film film(FilmLayout{.width = size,
                          .height = size,
@@ -237,7 +237,7 @@ TEST_CASE("hot path: nor do AOVs", "[hot_path]")
     RenderOptions options = options_of(IntegratorKind::bdpt);
     options.aovs = {Aov::albedo, Aov::normal, Aov::depth, Aov::position};
     for (const CameraDesc& desc : cameras()) {
-        const Camera camera(desc, size, size);
+        const MovingCamera camera(desc, Camera(desc, size, size));
         const AovPass pass(world, camera, options);
         AovFilm film(region, options.aovs);
         check_costs_nothing_a_sample([&](std::int64_t samples) {
@@ -249,7 +249,7 @@ TEST_CASE("hot path: nor do AOVs", "[hot_path]")
 TEST_CASE("hot path: nor does a profile", "[hot_path]")
 {
     const World world(everything());
-    const Camera camera(cameras()[0], size, size);
+    const MovingCamera camera(Camera(cameras()[0], size, size));
     for (const auto kind : {IntegratorKind::bdpt, IntegratorKind::mis}) {
         CAPTURE(static_cast<int>(kind));
         const auto integrator = make_integrator(world, camera, options_of(kind));

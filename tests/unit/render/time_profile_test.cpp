@@ -1,4 +1,4 @@
-#include "camera/camera.h"
+#include "camera/moving_camera.h"
 #include "integrator/integrator.h"
 #include "integrator/sample_timer.h"
 #include "render/time_recorder.h"
@@ -64,7 +64,7 @@ int for_clocked_samples(const RenderOptions& options,
                         const std::function<void(const SampleTicks&, const RenderStats&)>& check)
 {
     const Scene scene(closed_room());
-    const Camera camera(CameraDesc{}, width, height);
+    const MovingCamera camera(Camera(CameraDesc{}, width, height));
     const auto integrator = make_integrator(scene.world(), camera, options);
     const PixelRect whole{.x0 = 0, .y0 = 0, .x1 = width, .y1 = height};
     Film film({.width = width, .height = height, .region = whole, .splats = SplatImage::present});

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <variant>
+#include <vector>
 
 #include "bench/hasher.h"
 
@@ -69,6 +70,15 @@ void add(Hasher& hasher, const MaterialDesc& material)
     }
 }
 
+/// What stands still has the hash that it had before anything could move.
+template <typename T>
+void add_motion(Hasher& hasher, const std::vector<T>& motion)
+{
+    if (!motion.empty()) {
+        hasher.add_array(motion);
+    }
+}
+
 void add(Hasher& hasher, const MeshDesc& mesh)
 {
     hasher.add_array(mesh.positions);
@@ -79,6 +89,11 @@ void add(Hasher& hasher, const MeshDesc& mesh)
     }
     hasher.add_array(mesh.colors);
     hasher.add_array(mesh.triangles);
+    for (const MeshPose& pose : mesh.motion) {
+        hasher.add_array(pose.positions);
+        hasher.add_array(pose.normals);
+        hasher.add_array(pose.tangents);
+    }
 }
 
 void add(Hasher& hasher, const PointLightDesc& light)
@@ -86,6 +101,7 @@ void add(Hasher& hasher, const PointLightDesc& light)
     hasher.add(light.position);
     hasher.add(light.intensity);
     hasher.add(light.radius);
+    add_motion(hasher, light.motion);
 }
 
 void add(Hasher& hasher, const SpotLightDesc& light)
@@ -96,12 +112,15 @@ void add(Hasher& hasher, const SpotLightDesc& light)
     hasher.add(light.inner_cone_angle);
     hasher.add(light.outer_cone_angle);
     hasher.add(light.radius);
+    add_motion(hasher, light.motion);
+    add_motion(hasher, light.turn);
 }
 
 void add(Hasher& hasher, const DirectionalLightDesc& light)
 {
     hasher.add(light.direction);
     hasher.add(light.illuminance);
+    add_motion(hasher, light.turn);
 }
 
 void add(Hasher& hasher, const EnvironmentLightDesc& light)
@@ -151,6 +170,7 @@ std::uint64_t content_hash(const SceneDesc& scene)
         hasher.add(instance.mesh);
         hasher.add(instance.material);
         hasher.add(instance.world_from_object);
+        add_motion(hasher, instance.motion);
     }
     // Without their number, so that scenes that have none keep the hash of older reports.
     for (const LightProfile& profile : scene.profiles) {
@@ -173,6 +193,7 @@ std::uint64_t content_hash(const CameraDesc& camera)
     hasher.add(camera.vertical_extent);
     hasher.add(camera.lens_radius);
     hasher.add(camera.focus_distance);
+    add_motion(hasher, camera.motion);
     return hasher.hash();
 }
 

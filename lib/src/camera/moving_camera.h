@@ -1,0 +1,33 @@
+#pragma once
+
+#include "camera/camera.h"
+
+#include <bdpt/scene_desc.h>
+
+#include <vector>
+
+namespace bdpt {
+
+/// A camera while the shutter is open.
+class MovingCamera {
+public:
+    /// Stands still.
+    explicit MovingCamera(const Camera& camera) : first_(camera) {}
+    /// `camera` is `desc` on its film; moves as `desc` does.
+    MovingCamera(const CameraDesc& desc, const Camera& camera)
+        : first_(camera), pose_(desc.world_from_camera), motion_(desc.motion)
+    {}
+
+    [[nodiscard]] bool moves() const { return !motion_.empty(); }
+    /// When the shutter opens.
+    [[nodiscard]] const Camera& first() const { return first_; }
+    /// At a time in [0, 1]: its matrix goes straight from step to step, its axes stay orthonormal.
+    [[nodiscard]] Camera at(float time) const;
+
+private:
+    Camera first_;
+    Mat4 pose_{1.0f};  ///< when the shutter opens
+    std::vector<Mat4> motion_;
+};
+
+}  // namespace bdpt

@@ -1,0 +1,192 @@
+#include "scene/check_motion.h"
+
+#include "geometry/motion.h"
+#include "geometry/reach.h"
+#include "scene/validate_lights.h"
+#include "scene/value_checks.h"
+
+#include <bdpt/motion.h>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+namespace bdpt {
+namespace {
+
+template <typename T>
+bool is_finite(const T& value)
+{
+    if constexpr (requires {
+                      value.length();
+                      value[0][0];
+                  }) {
+        for (int i = 0; i < T::length(); ++i) {
+            if (!is_finite(value[i])) {
+                return false;
+            }
+        }
+        return true;
+    } else {
+        for (int i = 0; i < T::length(); ++i) {
+            if (!std::isfinite(value[i])) {
+                return false;
+            }
+        }
+        return true;
+    }
+}
+
+void check_steps(const std::string& item, std::size_t steps)
+{
+    if (steps > most_time_steps) {
+        fail(item, ": motion of ", steps, " steps, but ", most_time_steps, " is the most");
+    }
+}
+
+std::string step_label(const std::string& item, std::size_t step)
+{
+    return item + ": motion, step " + std::to_string(step);
+}
+
+template <typename T>
+void check_values(const std::string& item, const char* what, const std::vector<T>& values,
+                  std::size_t wanted)
+{
+    if (values.size() != wanted) {
+        fail(item, ": ", values.size(), " ", what, ", but the mesh has ", wanted);
+    }
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (!is_finite(values[i])) {
+            fail(item, ": ", what, " ", i, " is not finite");
+        }
+    }
+}
+
+void check(const MeshDesc& mesh, const std::string& item)
+{
+    check_steps(item, mesh.motion.size());
+    for (std::size_t i = 0; i < mesh.motion.size(); ++i) {
+        const MeshPose& pose = mesh.motion[i];
+        const std::string step = step_label(item, i);
+        check_values(step, "positions", pose.positions, mesh.positions.size());
+        check_values(step, "normals", pose.normals, mesh.normals.size());
+        check_values(step, "tangents", pose.tangents, mesh.tangents.size());
+    }
+}
+
+/// `extent`: of the mesh in all of its poses.
+void check(const InstanceDesc& instance, const std::string& item, const MeshDesc& mesh, Vec3 extent,
+           float reach)
+{
+    const std::span<const Mat4> motion = instance.motion;
+    check_steps(item, motion.size());
+    if (!motion.empty() && !mesh.motion.empty() && motion.size() != mesh.motion.size()) {
+        fail(item, ": motion of ", motion.size(), " steps, but its mesh has ", mesh.motion.size());
+    }
+    const auto check_extent = [&](const Mat4& transform) {
+        const float placed = placed_extent(extent, transform);
+        if (!(placed <= reach)) {
+            fail(item, ": reaches ", placed, reach_text(reach));
+        }
+    };
+    check_extent(instance.world_from_object);
+    for (std::size_t i = 0; i < motion.size(); ++i) {
+        const std::string step = step_label(item, i);
+        if (!is_finite(motion[i])) {
+            fail(step, ": transform is not finite");
+        }
+        if (!can_move(at_step(instance.world_from_object, motion, i), motion[i])) {
+            fail(step, ": on the way to it some transform has no inverse; give more steps");
+        }
+        check_extent(motion[i]);
+    }
+}
+
+void check_positions(const std::string& item, const std::vector<Vec3>& motion, float reach)
+{
+    check_steps(item, motion.size());
+    for (std::size_t i = 0; i < motion.size(); ++i) {
+        const Vec3 size = abs(motion[i]);
+        const float extent = std::max({size.x, size.y, size.z});
+        if (!is_finite(motion[i])) {
+            fail(step_label(item, i), ": position is not finite");
+        }
+        if (extent > reach) {
+            fail(step_label(item, i), ": is ", extent, reach_text(reach));
+        }
+    }
+}
+
+void check_directions(const std::string& item, Vec3 first, std::span<const Vec3> turn)
+{
+    check_steps(item, turn.size());
+    for (std::size_t i = 0; i < turn.size(); ++i) {
+        if (!is_finite(turn[i]) || !(dot(turn[i], turn[i]) > 0.0f)) {
+            fail(step_label(item, i), ": direction is zero or not finite");
+        }
+        if (!can_turn(at_step(first, turn, i), turn[i])) {
+            fail(step_label(item, i), ": direction turns by 90 degrees or more; give more steps");
+        }
+    }
+}
+
+struct LightMotionCheck {
+    std::size_t index;
+    float reach;
+
+    void operator()(const PointLightDesc& light) const
+    {
+        check_positions(label("point light", index, light.name), light.motion, reach);
+    }
+
+    void operator()(const SpotLightDesc& light) const
+    {
+        const std::string item = label("spot light", index, light.name);
+        check_positions(item, light.motion, reach);
+        check_directions(item, light.direction, light.turn);
+    }
+
+    void operator()(const DirectionalLightDesc& light) const
+    {
+        check_directions(label("directional light", index, light.name), light.direction,
+                         light.turn);
+    }
+
+    void operator()(const ProfileLightDesc& light) const
+    {
+        check_positions(label("profile light", index, light.name), light.motion, reach);
+    }
+
+    void operator()(const EnvironmentLightDesc& /*light*/) const {}
+};
+
+}  // namespace
+
+void check_motion(const SceneDesc& desc, float reach)
+{
+    std::vector<Vec3> extents;
+    extents.reserve(desc.meshes.size());
+    for (std::size_t i = 0; i < desc.meshes.size(); ++i) {
+        const MeshDesc& mesh = desc.meshes[i];
+        check(mesh, label("mesh", i, mesh.name));
+        extents.push_back(extent_of(mesh));
+    }
+    for (std::size_t i = 0; i < desc.instances.size(); ++i) {
+        const InstanceDesc& instance = desc.instances[i];
+        const auto mesh = static_cast<std::size_t>(instance.mesh);
+        if (!instance.motion.empty() || !desc.meshes[mesh].motion.empty()) {
+            check(instance, label("instance", i, instance.name), desc.meshes[mesh], extents[mesh],
+                  reach);
+        }
+    }
+    for (std::size_t i = 0; i < desc.lights.size(); ++i) {
+        std::visit(LightMotionCheck{i, reach}, desc.lights[i]);
+    }
+}
+
+}  // namespace bdpt

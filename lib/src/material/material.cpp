@@ -144,12 +144,10 @@ Rgb Material::base_color(const TexturePoint& point) const noexcept
 
 Bsdf Material::placed(const ShadingPoint& point, const GltfBsdf& model) const noexcept
 {
-    const Vec3 normal = shading_normal(point);
-    const Frame frame = Frame::from_normal(normal);
-    if (normal_map_ && normal != point.ns) [[unlikely]] {
-        return {point.ng, point.ns, frame, point.wo, model};
+    if (!normal_map_) {
+        return {point.ng, Frame::from_normal(point.ns), point.wo, model};
     }
-    return {point.ng, frame, point.wo, model};
+    return {point.ng, point.ns, Frame::from_normal(normal_map_->normal(point)), point.wo, model};
 }
 
 Bsdf Material::bsdf(const ShadingPoint& point) const noexcept

@@ -2,8 +2,6 @@
 
 #include "light/light_tree_builder.h"
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,18 +15,28 @@ struct Angle {
     float sin;
 };
 
+float greater(float a, float b)
+{
+    return a > b ? a : b;
+}
+
 Angle angle_of(float cosine)
 {
-    return {cosine, std::sqrt(std::max(0.0f, (1.0f - cosine) * (1.0f + cosine)))};
+    return {cosine, std::sqrt(greater((1.0f - cosine) * (1.0f + cosine), 0.0f))};
+}
+
+/// In [0, pi / 2].
+Angle angle_of_sine(float sine)
+{
+    return {angle_of(sine).sin, sine};
 }
 
 /// a - b, and 0 where b is the greater.
 Angle less(Angle a, Angle b)
 {
-    if (a.cos > b.cos) {
-        return {1.0f, 0.0f};
-    }
-    return {a.cos * b.cos + a.sin * b.sin, std::max(0.0f, a.sin * b.cos - a.cos * b.sin)};
+    const float cosine = a.cos * b.cos + a.sin * b.sin;
+    const float sine = a.sin * b.cos - a.cos * b.sin;
+    return {a.cos > b.cos ? 1.0f : cosine, a.cos > b.cos ? 0.0f : greater(sine, 0.0f)};
 }
 
 /// Cosines of small angles between large ones are off by less than this: what is darker by no more
@@ -39,45 +47,69 @@ constexpr float slack = 2e-3f;
 constexpr float least_emitted = 0.01f;
 constexpr float least_received = 0.05f;
 
+/// A probability as what is weighed and divided by: 0 where a float has no digits left.
+float usable(double probability)
+{
+    const auto rounded = static_cast<float>(probability);
+    return rounded >= std::numeric_limits<float>::min() ? rounded : 0.0f;
+}
+
 }  // namespace
 
-double LightTreeNode::importance(const LightReceiver& receiver) const noexcept
+LightQuad::Four<double> LightQuad::importance(const LightReceiver& receiver) const noexcept
 {
-    const Vec3 to_center = center - receiver.p;
-    const float distance_squared = dot(to_center, to_center);
-    const double greatest = static_cast<double>(intensity);
-    if (!(distance_squared > radius_squared)) {
-        return greatest / static_cast<double>(radius_squared);
+    const Vec3 p = receiver.p;
+    const Vec3 normal = receiver.normal.value_or(Vec3(0.0f));
+    const float least_cosine = receiver.normal ? -1.0f : 1.0f;
+    Four<float> factor;
+    Four<float> squared;
+    // Selections in place of branches, and one type of numbers: all four at once.
+    for (std::size_t i = 0; i < width; ++i) {
+        const float dx = x[i] - p.x;
+        const float dy = y[i] - p.y;
+        const float dz = z[i] - p.z;
+        const float to_center = dx * dx + dy * dy + dz * dz;
+        const float inside = radius[i] * radius[i];
+        const float distance_squared = to_center > inside ? to_center : inside;
+        const float inverse = 1.0f / std::sqrt(distance_squared);
+        const Angle size = angle_of_sine(radius[i] * inverse);
+
+        const float along = -inverse * (axis_x[i] * dx + axis_y[i] * dy + axis_z[i] * dz);
+        const Angle from_axis = angle_of(both_sides[i] > 0.0f ? std::abs(along) : along);
+        const float emitted = less(less(from_axis, {cos_spread[i], sin_spread[i]}), size).cos;
+        const float above = inverse * (normal.x * dx + normal.y * dy + normal.z * dz);
+        const float received = greater(less(angle_of(above), size).cos, least_cosine);
+
+        float cosines = greater(emitted, least_emitted) * greater(received, least_received);
+        cosines = emitted >= cos_falloff[i] - slack ? cosines : 0.0f;
+        cosines = received >= -slack ? cosines : 0.0f;
+        factor[i] = to_center > inside ? cosines : 1.0f;  // from within no angle is known
+        squared[i] = distance_squared;
     }
-    const float inverse_squared = 1.0f / distance_squared;
-    const Vec3 w = to_center * std::sqrt(inverse_squared);
-    const float sin2_size = radius_squared * inverse_squared;
-    const Angle size{std::sqrt(std::max(0.0f, 1.0f - sin2_size)), std::sqrt(sin2_size)};
-    float lit = 1.0f;
-    if (cos_spread > -1.0f) {
-        const float along = -dot(axis, w);
-        const Angle from_axis = angle_of(sides == EmittingSides::both ? std::abs(along) : along);
-        const float cosine = less(less(from_axis, {cos_spread, sin_spread}), size).cos;
-        if (cosine < cos_falloff - slack) {
-            return 0.0;
-        }
-        lit = std::max(cosine, least_emitted);
+    Four<double> result;
+    for (std::size_t i = 0; i < width; ++i) {
+        result[i] = static_cast<double>(intensity[i]) * static_cast<double>(factor[i]) /
+                    static_cast<double>(squared[i]);
     }
-    if (receiver.normal) {
-        const float cosine = less(angle_of(dot(*receiver.normal, w)), size).cos;
-        if (cosine < -slack) {
-            return 0.0;
-        }
-        lit *= std::max(cosine, least_received);
-    }
-    return greatest * static_cast<double>(lit) / static_cast<double>(distance_squared);
+    return result;
 }
 
 LightTree::LightTree(std::span<const LightBounds> lights)
 {
-    LightTreeBuilder builder(lights);
-    nodes_ = std::move(builder.nodes);
-    trails_ = std::move(builder.trails);
+    *this = LightTreeBuilder(lights).take();
+}
+
+LightTree::View LightTree::look(const Node& node, const LightReceiver& receiver) const noexcept
+{
+    View view;
+    for (std::uint32_t q = 0; q < node.quad_count; ++q) {
+        const auto part = quads_[node.first_quad + q].importance(receiver);
+        for (std::size_t i = 0; i < LightQuad::width; ++i) {
+            view.importance[LightQuad::width * q + i] = part[i];
+            view.sum += part[i];
+        }
+    }
+    return view;
 }
 
 std::optional<LightTree::Choice> LightTree::sample(const LightReceiver& receiver,
@@ -86,56 +118,55 @@ std::optional<LightTree::Choice> LightTree::sample(const LightReceiver& receiver
     if (nodes_.empty()) {
         return std::nullopt;
     }
-    const LightTreeNode* node = nodes_.data();
     double probability = 1.0;
-    while (!node->is_leaf) {
-        const LightTreeNode* children = &nodes_[node->content];
-        const double first = children[0].importance(receiver);
-        const double second = children[1].importance(receiver);
-        const double sum = first + second;
-        if (!(sum > 0.0)) {
+    for (const Node* node = nodes_.data();;) {
+        const View view = look(*node, receiver);
+        if (!(view.sum > 0.0)) {
             return std::nullopt;
         }
-        const double share = first / sum;
-        if (u < share) {
-            node = &children[0];
-            probability *= share;
-            u /= share;
-        } else {
-            const double rest = second / sum;
-            node = &children[1];
-            probability *= rest;
-            constexpr double below_one = 1.0 - 0x1p-53;
-            u = std::min((u - share) / rest, below_one);
+        // The last one that is lit takes what rounding leaves.
+        double rest = u * view.sum;
+        std::size_t chosen = 0;
+        double share = 0.0;
+        for (std::size_t i = 0; i < LightQuad::width * node->quad_count; ++i) {
+            if (view.importance[i] > 0.0) {
+                rest -= share;
+                chosen = i;
+                share = view.importance[i];
+                if (rest < share) {
+                    break;
+                }
+            }
         }
+        probability *= share / view.sum;
+        constexpr double below_one = 1.0 - 0x1p-53;
+        u = std::clamp(rest / share, 0.0, below_one);
+        const LightQuad& quad = quads_[node->first_quad + chosen / LightQuad::width];
+        const std::uint32_t group = quad.group[chosen % LightQuad::width];
+        if ((group & LightQuad::single) != 0) {
+            const float rounded = usable(probability);
+            return rounded > 0.0f ? std::optional(Choice{group - LightQuad::single, rounded})
+                                  : std::nullopt;
+        }
+        node = &nodes_[group];
     }
-    const auto rounded = static_cast<float>(probability);
-    if (!(rounded >= std::numeric_limits<float>::min())) {
-        return std::nullopt;
-    }
-    return Choice{.light = node->content, .probability = rounded};
 }
 
 float LightTree::probability(std::uint32_t light, const LightReceiver& receiver) const noexcept
 {
-    const LightTreeNode* node = nodes_.data();
-    std::uint64_t trail = trails_[light];
     double probability = 1.0;
-    while (!node->is_leaf) {
-        const LightTreeNode* children = &nodes_[node->content];
-        const double first = children[0].importance(receiver);
-        const double second = children[1].importance(receiver);
-        const bool takes_second = (trail & 1U) != 0;
-        const double taken = takes_second ? second : first;
-        if (!(taken > 0.0)) {
+    for (std::uint32_t slot = slots_[light]; slot != no_slot;) {
+        const auto quad = static_cast<std::uint32_t>(slot / LightQuad::width);
+        const Node& node = nodes_[owners_[quad]];
+        const View view = look(node, receiver);
+        const double own = view.importance[slot - LightQuad::width * std::size_t{node.first_quad}];
+        if (!(own > 0.0)) {
             return 0.0f;
         }
-        probability *= taken / (first + second);
-        node = &children[takes_second ? 1 : 0];
-        trail >>= 1U;
+        probability *= own / view.sum;
+        slot = node.parent_slot;
     }
-    const auto rounded = static_cast<float>(probability);
-    return rounded >= std::numeric_limits<float>::min() ? rounded : 0.0f;
+    return usable(probability);
 }
 
 }  // namespace bdpt

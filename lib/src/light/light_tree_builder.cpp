@@ -14,9 +14,8 @@ namespace bdpt {
 namespace {
 
 constexpr std::size_t bin_count = 12;
-/// Below this depth lights are halved whatever that costs, so that a trail of 64 bits is enough for
-/// all numbers of lights of 32 bits.
-constexpr std::uint32_t deepest_choice = 30;
+/// Below this depth lights are halved whatever that costs, so that no way down is long.
+constexpr int deepest_choice = 16;
 
 using Bins = std::array<std::optional<LightBounds>, bin_count>;
 
@@ -68,30 +67,23 @@ Division cheapest(const Bins& bins, int axis, double elongation)
     return best;
 }
 
-LightTreeNode node_around(const LightBounds& bounds, double inverse_total)
+/// Of a sphere around the box: a little more, so that rounding leaves nothing outside, neither
+/// corners nor sampled points.
+float radius_of(const LightBounds& bounds)
 {
     const Vec3 half = 0.5f * bounds.max - 0.5f * bounds.min;
     const Vec3 farthest = max(abs(bounds.min), abs(bounds.max));
     constexpr float epsilon = std::numeric_limits<float>::epsilon();
-    // A little more, so that rounding leaves nothing outside, neither corners nor sampled points.
     const float radius = 1.00001f * std::sqrt(dot(half, half)) +
                          8.0f * epsilon * std::max({farthest.x, farthest.y, farthest.z});
-    const float cos_spread = bounds.normals.cos_angle;
-    return {.center = bounds.center(),
-            .radius_squared = std::max(radius * radius, 1e-30f),
-            .axis = bounds.normals.axis,
-            .cos_spread = cos_spread,
-            .sin_spread = std::sqrt(std::max(0.0f, (1.0f - cos_spread) * (1.0f + cos_spread))),
-            .cos_falloff = bounds.cos_falloff,
-            .intensity = static_cast<float>(bounds.intensity * inverse_total),
-            .sides = bounds.sides};
+    return std::max(radius, 1e-15f);
 }
 
 }  // namespace
 
-LightTreeBuilder::LightTreeBuilder(std::span<const LightBounds> lights)
-    : trails(lights.size()), lights_(lights)
+LightTreeBuilder::LightTreeBuilder(std::span<const LightBounds> lights) : lights_(lights)
 {
+    tree_.slots_.resize(lights.size());
     if (lights.empty()) {
         return;
     }
@@ -102,39 +94,94 @@ LightTreeBuilder::LightTreeBuilder(std::span<const LightBounds> lights)
     inverse_total_ = 1.0 / total;
     std::vector<std::uint32_t> ids(lights.size());
     std::iota(ids.begin(), ids.end(), 0U);
-    nodes.reserve(2 * lights.size() - 1);
-    nodes.emplace_back();
-    build(ids, {});
+    build(ids, LightTree::no_slot, 0);
 }
 
-void LightTreeBuilder::build(std::span<std::uint32_t> ids, Place place)
+LightTreeBuilder::Group LightTreeBuilder::group_of(std::span<std::uint32_t> ids) const
 {
-    LightBounds whole = lights_[ids[0]];
+    LightBounds bounds = lights_[ids[0]];
     for (const std::uint32_t id : ids.subspan(1)) {
-        whole = merged(whole, lights_[id]);
+        bounds = merged(bounds, lights_[id]);
     }
-    LightTreeNode node = node_around(whole, inverse_total_);
-    if (ids.size() == 1) {
-        node.is_leaf = true;
-        node.content = ids[0];
-        trails[ids[0]] = place.trail;
-        nodes[place.node] = node;
-        return;
-    }
-    const auto first_child = static_cast<std::uint32_t>(nodes.size());
-    node.content = first_child;
-    nodes[place.node] = node;
-    nodes.resize(nodes.size() + 2);
-    const std::size_t middle =
-        place.depth < deepest_choice && ids.size() > 2 ? split(ids, whole) : ids.size() / 2;
-    build(ids.first(middle), {.node = first_child, .depth = place.depth + 1, .trail = place.trail});
-    build(ids.subspan(middle), {.node = first_child + 1,
-                                .depth = place.depth + 1,
-                                .trail = place.trail | std::uint64_t{1} << place.depth});
+    return {.ids = ids, .bounds = bounds, .cost = ids.size() > 1 ? cost(bounds) : 0.0};
 }
 
-std::size_t LightTreeBuilder::split(std::span<std::uint32_t> ids, const LightBounds& whole)
+void LightTreeBuilder::build(std::span<std::uint32_t> ids, std::uint32_t parent_slot, int depth)
 {
+    std::array<Group, LightTree::most_children> groups;
+    std::size_t count = 1;
+    groups[0] = group_of(ids);
+    while (count < groups.size()) {
+        // Single lights have no cost; others may have none either, at one place.
+        const auto dearest = std::max_element(
+            groups.begin(), groups.begin() + static_cast<std::ptrdiff_t>(count),
+            [](const Group& a, const Group& b) {
+                return a.cost != b.cost ? a.cost < b.cost : a.ids.size() < b.ids.size();
+            });
+        if (dearest->ids.size() < 2) {
+            break;
+        }
+        const std::span<std::uint32_t> all = dearest->ids;
+        const std::size_t middle =
+            depth < deepest_choice ? split(all, dearest->bounds) : all.size() / 2;
+        *dearest = group_of(all.first(middle));
+        groups[count] = group_of(all.subspan(middle));
+        ++count;
+    }
+    const auto node = static_cast<std::uint32_t>(tree_.nodes_.size());
+    const std::size_t first_quad = tree_.quads_.size();
+    const std::size_t quad_count = (count + LightQuad::width - 1) / LightQuad::width;
+    tree_.nodes_.push_back({.first_quad = static_cast<std::uint32_t>(first_quad),
+                            .quad_count = static_cast<std::uint32_t>(quad_count),
+                            .parent_slot = parent_slot});
+    tree_.quads_.resize(first_quad + quad_count);
+    tree_.owners_.resize(first_quad + quad_count, node);
+    for (std::size_t i = 0; i < count; ++i) {
+        put(groups[i], LightQuad::width * first_quad + i);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        if (groups[i].ids.size() < 2) {
+            continue;
+        }
+        const std::size_t slot = LightQuad::width * first_quad + i;
+        tree_.quads_[slot / LightQuad::width].group[slot % LightQuad::width] =
+            static_cast<std::uint32_t>(tree_.nodes_.size());
+        build(groups[i].ids, static_cast<std::uint32_t>(slot), depth + 1);
+    }
+}
+
+/// But for the node that it is.
+void LightTreeBuilder::put(const Group& group, std::size_t slot)
+{
+    const LightBounds& bounds = group.bounds;
+    const Vec3 center = bounds.center();
+    const Vec3 axis = bounds.normals.axis;
+    const float cos_spread = bounds.normals.cos_angle;
+    LightQuad& quad = tree_.quads_[slot / LightQuad::width];
+    const std::size_t i = slot % LightQuad::width;
+    quad.x[i] = center.x;
+    quad.y[i] = center.y;
+    quad.z[i] = center.z;
+    quad.radius[i] = radius_of(bounds);
+    quad.axis_x[i] = axis.x;
+    quad.axis_y[i] = axis.y;
+    quad.axis_z[i] = axis.z;
+    quad.cos_spread[i] = cos_spread;
+    quad.sin_spread[i] = std::sqrt(std::max(0.0f, (1.0f - cos_spread) * (1.0f + cos_spread)));
+    quad.cos_falloff[i] = bounds.cos_falloff;
+    quad.intensity[i] = static_cast<float>(bounds.intensity * inverse_total_);
+    quad.both_sides[i] = bounds.sides == EmittingSides::both ? 1.0f : 0.0f;
+    if (group.ids.size() == 1) {
+        quad.group[i] = LightQuad::single + group.ids[0];
+        tree_.slots_[group.ids[0]] = static_cast<std::uint32_t>(slot);
+    }
+}
+
+std::size_t LightTreeBuilder::split(std::span<std::uint32_t> ids, const LightBounds& whole) const
+{
+    if (ids.size() == 2) {
+        return 1;
+    }
     Vec3 low = lights_[ids[0]].center();
     Vec3 high = low;
     for (const std::uint32_t id : ids) {

@@ -214,7 +214,8 @@ TEST_CASE("lights in any number and place make a tree", "[light][tree]")
                 tree.sample(receiver, (k + static_cast<double>(random.next())) / 100.0);
             if (choice) {
                 REQUIRE(choice->light < lights.size());
-                REQUIRE(choice->probability == tree.probability(choice->light, receiver));
+                REQUIRE(choice->probability ==
+                        Approx(tree.probability(choice->light, receiver)).epsilon(1e-6));
             }
         }
     }

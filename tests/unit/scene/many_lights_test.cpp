@@ -112,7 +112,8 @@ TEST_CASE("lights are chosen as often as their probabilities say", "[light][tree
                 const std::size_t id =
                     choice ? static_cast<std::size_t>(choice->id) : expected.size();
                 if (choice) {
-                    REQUIRE(static_cast<double>(choice->probability) == expected[id]);
+                    REQUIRE(static_cast<double>(choice->probability) ==
+                            Approx(expected[id]).epsilon(1e-6));
                 }
                 counts[id] += 1.0;
             }

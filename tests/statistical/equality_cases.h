@@ -28,6 +28,9 @@ struct EqualityCase {
 /// Those of them with surfaces that are not opaque or not lit.
 [[nodiscard]] std::vector<EqualityCase> alpha_cases();
 
+/// A luminaire with a measured profile, alone and among other lights. Not among `equality_cases`.
+[[nodiscard]] std::vector<EqualityCase> profile_cases();
+
 /// Materials with layers and other extensions of glTF, one each. Not among `equality_cases`.
 [[nodiscard]] std::vector<EqualityCase> layer_cases();
 

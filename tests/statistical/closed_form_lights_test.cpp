@@ -103,6 +103,26 @@ TEST_CASE("sphere spot light: the cone is that of the direction of emission", "[
     check_irradiance(std::move(builder), radiance * pi_double * sine * sine);
 }
 
+TEST_CASE("profile light: E = I cos / d^2, with I between the angles of the grid", "[closed-form]")
+{
+    // -z of the profile points down and its x axis to +x. The patch lies at an angle of 0.6 rad
+    // from the axis, towards azimuth 0.5: a fifth of the way from 0.5 to 1, half of that from 0
+    // to 1.
+    const Mat3 hanging(Vec3(1, 0, 0), Vec3(0, 0, -1), Vec3(0, 1, 0));
+    const double distance = 1.3;
+    const Vec3 to_patch(std::sin(0.6) * std::cos(0.5), std::sin(0.6) * std::sin(0.5),
+                        -std::cos(0.6));
+    SceneBuilder builder = floor();
+    builder.desc.profiles.push_back({.polar_angles = {0.0f, 0.5f, 1.0f},
+                                     .azimuths = {0.0f, 1.0f},
+                                     .intensities = {1.0f, 2.0f, 7.0f, 1.0f, 6.0f, 1.0f}});
+    builder.light(ProfileLightDesc{.position = static_cast<float>(distance) * -(hanging * to_patch),
+                                   .world_from_light = hanging,
+                                   .scale = Rgb(3.0f)});
+    const double intensity = 3.0 * (0.5 * (0.8 * 2.0 + 0.2 * 7.0) + 0.5 * (0.8 * 6.0 + 0.2 * 1.0));
+    check_irradiance(std::move(builder), intensity * std::cos(0.6) / (distance * distance));
+}
+
 TEST_CASE("disk light of triangles: E = pi L R^2 / (R^2 + d^2)", "[closed-form]")
 {
     constexpr int corners = 400;

@@ -30,6 +30,8 @@ struct EqualityCase {
 
 /// Scenes of so many lights that a tree chooses among them. Not among `equality_cases`.
 [[nodiscard]] std::vector<EqualityCase> many_light_cases();
+/// A luminaire with a measured profile, alone and among other lights. Not among `equality_cases`.
+[[nodiscard]] std::vector<EqualityCase> profile_cases();
 
 /// Materials with layers and other extensions of glTF, one each. Not among `equality_cases`.
 [[nodiscard]] std::vector<EqualityCase> layer_cases();

@@ -90,7 +90,7 @@ void check_samplers(const EqualityCase& test, std::uint64_t first_seed)
 }
 
 /// Every fourth case from `first`: shares that run side by side.
-void check_cases(std::size_t first)
+void check_every_fourth(std::size_t first)
 {
     const auto cases = equality_cases();
     for (std::size_t i = first; i < cases.size(); i += 4) {
@@ -98,62 +98,53 @@ void check_cases(std::size_t first)
     }
 }
 
+/// `seed`: before that of the first case.
+void check_cases(const std::vector<EqualityCase>& cases, std::uint64_t seed)
+{
+    for (const EqualityCase& test : cases) {
+        seed += 100;
+        DYNAMIC_SECTION(test.name)
+        {
+            check_case(test, seed);
+        }
+    }
+}
+
 }  // namespace
 
 TEST_CASE("all integrators agree: cases 0, 4, ...", "[equality]")
 {
-    check_cases(0);
+    check_every_fourth(0);
 }
 
 TEST_CASE("all integrators agree: cases 1, 5, ...", "[equality]")
 {
-    check_cases(1);
+    check_every_fourth(1);
 }
 
 TEST_CASE("all integrators agree: cases 2, 6, ...", "[equality]")
 {
-    check_cases(2);
+    check_every_fourth(2);
 }
 
 TEST_CASE("all integrators agree: cases 3, 7, ...", "[equality]")
 {
-    check_cases(3);
+    check_every_fourth(3);
 }
 
 TEST_CASE("all integrators agree: layered materials", "[equality][layers]")
 {
-    std::uint64_t seed = 300000;
-    for (const EqualityCase& test : layer_cases()) {
-        seed += 100;
-        DYNAMIC_SECTION(test.name)
-        {
-            check_case(test, seed);
-        }
-    }
+    check_cases(layer_cases(), 300000);
 }
 
 TEST_CASE("all integrators agree: steep normal maps", "[equality][layers]")
 {
-    std::uint64_t seed = 310000;
-    for (const EqualityCase& test : normal_map_cases()) {
-        seed += 100;
-        DYNAMIC_SECTION(test.name)
-        {
-            check_case(test, seed);
-        }
-    }
+    check_cases(normal_map_cases(), 310000);
 }
 
 TEST_CASE("all integrators agree: many lights", "[equality][tree]")
 {
-    std::uint64_t seed = 400000;
-    for (const EqualityCase& test : many_light_cases()) {
-        seed += 100;
-        DYNAMIC_SECTION(test.name)
-        {
-            check_case(test, seed);
-        }
-    }
+    check_cases(many_light_cases(), 400000);
 }
 
 TEST_CASE("a tree of lights changes noise only", "[equality][tree]")
@@ -175,14 +166,12 @@ TEST_CASE("a tree of lights changes noise only", "[equality][tree]")
 
 TEST_CASE("all integrators agree: what moves", "[equality][motion]")
 {
-    std::uint64_t seed = 420000;
-    for (const EqualityCase& test : motion_cases()) {
-        seed += 100;
-        DYNAMIC_SECTION(test.name)
-        {
-            check_case(test, seed);
-        }
-    }
+    check_cases(motion_cases(), 420000);
+}
+
+TEST_CASE("all integrators agree: light profiles", "[equality][profiles]")
+{
+    check_cases(profile_cases(), 430000);
 }
 
 /// A room with a rough ball of glass, under a lamp of one colour.

@@ -60,8 +60,8 @@ Rgb CubeMap::lookup(const Vec3& direction) const
 
 Image to_equirectangular(const CubeMap& cube, int height)
 {
-    // Nine lookups a texel: closer than the texels of the faces, so that none is missed.
-    constexpr int parts = 3;
+    // Sixteen lookups a texel: close enough for the corners of faces, where texels look small.
+    constexpr int parts = 4;
     const int width = 2 * height;
     std::vector<CirclePoint> azimuths;
     for (int i = 0; i < parts * width; ++i) {

@@ -15,6 +15,7 @@ from gltf_builder import Gltf, rotation_about, sub
 from hidden_light_scenes import HIDDEN_LIGHT_SCENES
 from layer_scenes import LAYER_SCENES
 from materials import SOLID_GLASS, THIN_GLASS
+from motion_scenes import MOTION_SCENES
 from shapes import box_quads, coil, flipped, height_field, quads, sphere
 from specular_scenes import SPECULAR_SCENES
 
@@ -270,6 +271,7 @@ SCENES = {
     **FEATURE_SCENES,
     **SPECULAR_SCENES,
     **LAYER_SCENES,
+    **MOTION_SCENES,
 }
 
 

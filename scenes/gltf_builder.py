@@ -66,7 +66,7 @@ class Gltf:
             "scene": 0,
             "scenes": [{"name": title, "nodes": []}],
             "nodes": [], "cameras": [], "materials": [], "meshes": [], "textures": [], "images": [], "samplers": [],
-            "accessors": [], "bufferViews": [],
+            "accessors": [], "bufferViews": [], "skins": [], "animations": [],
         }
 
     def _append(self, key, item):
@@ -93,16 +93,24 @@ class Gltf:
             description["max"] = [max(f[i] for f in floats) for i in range(3)]
         return self._accessor(packed, 34962, description)
 
-    def shape(self, positions, triangles, normals=None, uvs=None):
-        """Stores geometry; what it returns may serve several meshes. Without normals the faces are flat."""
+    def shape(self, positions, triangles, normals=None, uvs=None, targets=(), joints=None):
+        """Stores geometry; what it returns may serve several meshes. Without normals the faces are flat. `targets`:
+        displacements of all positions, one list for each morph target. `joints`: weights of up to four joints of a skin,
+        for each vertex."""
         assert len(positions) <= 65535
         attributes = {"POSITION": self._vectors(positions, bounds=True)}
         if normals:
             attributes["NORMAL"] = self._vectors([normalized(n) for n in normals])
         if uvs:
             attributes["TEXCOORD_0"] = self._vectors(uvs)
+        if joints:
+            numbers = bytes(i for weights in joints for i in (*range(len(weights)), 0, 0, 0, 0)[:4])
+            attributes["JOINTS_0"] = self._accessor(numbers, 34962, {"componentType": 5121, "count": len(joints),
+                                                                     "type": "VEC4"})
+            attributes["WEIGHTS_0"] = self._vectors([(*weights, 0, 0, 0, 0)[:4] for weights in joints])
         indices = b"".join(struct.pack("<3H", *t) for t in triangles)
-        return {"attributes": attributes,
+        morph = {"targets": [{"POSITION": self._vectors(target, bounds=True)} for target in targets]} if targets else {}
+        return {"attributes": attributes, **morph,
                 "indices": self._accessor(indices, 34963, {"componentType": 5123, "count": 3 * len(triangles),
                                                            "type": "SCALAR"})}
 
@@ -156,6 +164,32 @@ class Gltf:
         else:
             self.json["nodes"][parent].setdefault("children", []).append(index)
         return index
+
+    def skin(self, name, joints):
+        """Joints are nodes; they and the mesh are as at the start when the skin is at rest, so the mesh is in the space
+        of the joints, which have the identity as their transform then."""
+        return self._append("skins", {"name": name, "joints": list(joints)})
+
+    def animate(self, node, path, keys, interpolation="LINEAR"):
+        """Adds a channel to the only animation. `keys`: (second, value) pairs; with CUBICSPLINE (second, in-tangent,
+        value, out-tangent). `path`: translation, rotation, scale, or weights of one morph target."""
+        if not self.json["animations"]:
+            self.json["animations"].append({"name": "action", "channels": [], "samplers": []})
+        animation = self.json["animations"][0]
+        times = [key[0] for key in keys]
+        values = [value for key in keys for value in key[1:]]
+        width = len(values[0]) if path != "weights" else 1
+        floats = [number for value in values for number in (value if path != "weights" else (value,))]
+        packed = [b"".join(struct.pack("<f", number) for number in rounded(numbers)) for numbers in (times, floats)]
+        bounds = [struct.unpack("<f", struct.pack("<f", rounded(t)))[0] for t in (min(times), max(times))]
+        accessors = (self._append("accessors", {"bufferView": self._view(packed[0]), "componentType": 5126,
+                                                "count": len(times), "type": "SCALAR", "min": bounds[:1],
+                                                "max": bounds[1:]}),
+                     self._append("accessors", {"bufferView": self._view(packed[1]), "componentType": 5126,
+                                                "count": len(values), "type": "SCALAR" if width == 1 else f"VEC{width}"}))
+        animation["samplers"].append({"input": accessors[0], "output": accessors[1], "interpolation": interpolation})
+        animation["channels"].append({"sampler": len(animation["samplers"]) - 1,
+                                      "target": {"node": node, "path": path}})
 
     def camera(self, position, direction, vertical_fov, aspect_ratio, name="camera", lens=None):
         """`vertical_fov` in radians. `lens`: (radius, distance in focus) of a thin lens [m], else a pinhole."""

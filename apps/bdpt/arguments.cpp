@@ -95,6 +95,12 @@ std::optional<Vec3> parse_vec3(std::string_view text)
     return result;
 }
 
+std::optional<double> parse_double(std::string_view text)
+{
+    const auto value = parse_number<double>(text);
+    return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
 std::optional<float> parse_float(std::string_view text)
 {
     const auto value = parse_number<float>(text);

@@ -28,6 +28,9 @@ struct Size {
 /// A finite number.
 [[nodiscard]] std::optional<float> parse_float(std::string_view text);
 
+/// The same with more digits.
+[[nodiscard]] std::optional<double> parse_double(std::string_view text);
+
 /// Only digits: an index.
 [[nodiscard]] std::optional<std::size_t> parse_index(std::string_view text);
 

@@ -85,6 +85,9 @@ ordered_json settings_of(const RenderArguments& arguments, const Stage& stage)
     if (arguments.scene.time) {
         settings["frame_time"] = *arguments.scene.time;
     }
+    if (arguments.scene.shutter) {
+        settings["shutter"] = {arguments.scene.shutter->open, arguments.scene.shutter->close};
+    }
     if (arguments.goal.samples) {
         settings["spp"] = *arguments.goal.samples;
     }

@@ -4,10 +4,26 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <string_view>
 
 #include "arguments.h"
 
 namespace bdpt::app {
+namespace {
+
+std::optional<io::Shutter> parse_shutter(std::string_view text)
+{
+    const std::size_t comma = text.find(',');
+    const bool pair = comma != std::string_view::npos;
+    const std::optional<double> open = pair ? parse_double(text.substr(0, comma)) : 0.0;
+    const std::optional<double> close = parse_double(pair ? text.substr(comma + 1) : text);
+    if (!open || !close || *close < *open) {
+        return std::nullopt;
+    }
+    return io::Shutter{*open, *close};
+}
+
+}  // namespace
 
 void add_scene_options(CLI::App& command, SceneWords& words, const std::string& group)
 {
@@ -30,6 +46,13 @@ void add_scene_options(CLI::App& command, SceneWords& words, const std::string& 
                     "Animation that --frame-time is about, or all. The first one if not given")
         ->type_name("NAME|INDEX|all")
         ->group(group);
+    command
+        .add_option("--shutter", words.shutter,
+                    "How long the shutter is open from the --frame-time on, in seconds, for motion "
+                    "blur; or from when to when, counted from that time. A pixel is the mean over "
+                    "it")
+        ->type_name("SECONDS|OPEN,CLOSE")
+        ->group(group);
 }
 
 io::GltfOptions to_gltf_options(const SceneWords& words)
@@ -42,6 +65,13 @@ io::GltfOptions to_gltf_options(const SceneWords& words)
     options.variant = words.variant;
     options.animation = words.animation;
     options.time = words.frame_time;
+    if (words.shutter) {
+        options.shutter = parse_shutter(*words.shutter);
+        if (!options.shutter) {
+            reject("--shutter", *words.shutter,
+                   "seconds that are not negative, or OPEN,CLOSE with OPEN not after CLOSE");
+        }
+    }
     return options;
 }
 

@@ -17,10 +17,11 @@ struct SceneWords {
     std::optional<std::string> variant;    // name or index
     std::optional<std::string> animation;  // name, index or "all"
     std::optional<double> frame_time;      // [s]
+    std::optional<std::string> shutter;    // "CLOSE" or "OPEN,CLOSE" [s]
 };
 
-/// Describes --scene, --variant, --animation and --frame-time to the parser, in the group `group`
-/// of the help text.
+/// Describes --scene, --variant, --animation, --frame-time and --shutter to the parser, in the
+/// group `group` of the help text.
 void add_scene_options(CLI::App& command, SceneWords& words, const std::string& group);
 
 /// Throws `Error` (usage) that names the option and the value.

@@ -69,6 +69,7 @@ CameraDesc apply(const ViewOverrides& overrides, const CameraDesc& camera,
     if (!overrides.from && !overrides.look_at) {
         return result;
     }
+    result.motion.clear();  // The user says where it is.
     const Vec3 eye = overrides.from.value_or(Vec3(camera.world_from_camera[3]));
     const std::optional<Vec3> goal = overrides.look_at ? overrides.look_at : target;
     if (!goal) {

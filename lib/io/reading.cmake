@@ -54,6 +54,8 @@ target_sources(bdpt_io PRIVATE
   src/gltf/mesh.cpp
   src/gltf/mesh_table.cpp
   src/gltf/morph.cpp
+  src/gltf/motion.cpp
+  src/gltf/node_motion.cpp
   src/gltf/node_transforms.cpp
   src/gltf/placement.cpp
   src/gltf/primitive_reader.cpp

@@ -174,6 +174,17 @@ TEST_CASE("all integrators agree: light profiles", "[equality][profiles]")
     check_cases(profile_cases(), 430000);
 }
 
+TEST_CASE("several light paths have the time of their sample", "[equality][motion]")
+{
+    const EqualityCase test = motion_cases().front();
+    const Scene scene(test.scene);
+    TileMeans mis(scene, test.camera, options(test, IntegratorKind::mis, 410001));
+    RenderOptions three_light_paths = options(test, IntegratorKind::bdpt, 410002);
+    three_light_paths.light_paths = 3;
+    TileMeans bdpt(scene, test.camera, three_light_paths);
+    check_equal(test, "mis = bdpt, three light paths", mis, bdpt);
+}
+
 /// A room with a rough ball of glass, under a lamp of one colour.
 Scene glass_under(Rgb light, float ior, float dispersion)
 {

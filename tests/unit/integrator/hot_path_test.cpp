@@ -5,6 +5,7 @@
 #include "integrator/sample_timer.h"
 #include "render/aov_pass.h"
 #include "scene/world.h"
+#include "moving_scenes.h"
 #include "scene_builder.h"
 
 #include <array>
@@ -82,6 +83,8 @@ SceneDesc everything()
     layers.diffuse_transmission.texture = colors;
     layers.glossiness_texture = colors;
     builder.sphere({0.5f, 0.0f, 0.0f}, 0.3f, layers, 12);
+    test::deform(builder.desc.meshes.back(), 3,
+                 [](Vec3 p, float t) { return p * (1.0f + 0.2f * t); });
 
     MaterialDesc absorbing = test::glass(0.0f);
     absorbing.dispersion = 1.0f;
@@ -96,13 +99,18 @@ SceneDesc everything()
                       glm::scale(glm::translate(Mat4(1.0f), Vec3(x, -0.8f, 0.4f)), Vec3(0.14f)));
         x += 0.3f;
     }
+    test::move_last(builder, 2, [](float t) {
+        return glm::scale(test::translation({0.75f, 0.3f * t - 0.8f, 0.4f}), Vec3(0.14f));
+    });
 
     builder.light(PointLightDesc{.position = {0.5f, 0.5f, 0.5f}, .intensity = Rgb(0.5f)});
     builder.light(
         PointLightDesc{.position = {0.6f, 0.3f, 0.2f}, .intensity = Rgb(0.4f), .radius = 0.1f});
     builder.light(SpotLightDesc{.position = {-0.5f, 0.8f, 0.6f},
                                 .direction = {0.3f, -1.0f, -0.4f},
-                                .intensity = Rgb(2.0f)});
+                                .intensity = Rgb(2.0f),
+                                .motion = {{-0.3f, 0.8f, 0.6f}},
+                                .turn = {{0.0f, -1.0f, 0.0f}}});
     builder.light(
         DirectionalLightDesc{.direction = {0.2f, -0.3f, -1.0f}, .illuminance = Rgb(1.0f)});
     Image sky{.width = 4, .height = 2, .pixels = std::vector<Rgb>(8, Rgb(0.3f))};
@@ -116,6 +124,7 @@ std::array<CameraDesc, 3> cameras()
     std::array<CameraDesc, 3> result{test::room_camera(), test::room_camera(), test::room_camera()};
     result[1].lens_radius = 0.3f;
     result[1].focus_distance = 3.0f;
+    result[1] = test::moving(result[1]);
     result[2].projection = Projection::orthographic;
     return result;
 }

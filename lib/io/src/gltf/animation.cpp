@@ -118,8 +118,10 @@ KeyFrames read_key_frames(const tinygltf::Model& model, const JsonPlace& sampler
     return frames;
 }
 
-void apply_channel(GltfModel& model, const JsonPlace& animation, const JsonPlace& channel,
-                   double time, DataBudget& budget, Warnings& warnings)
+/// None where nothing is to be moved.
+std::optional<AnimatedProperty> read_channel(const GltfModel& model, const JsonPlace& animation,
+                                             const JsonPlace& channel, DataBudget& budget,
+                                             Warnings& warnings)
 {
     const JsonPlace target = require(channel, "target");
     const JsonPlace path_place = require(target, "path");
@@ -129,13 +131,13 @@ void apply_channel(GltfModel& model, const JsonPlace& animation, const JsonPlace
     if (path == std::end(paths)) {
         warnings.add("only translation, rotation, scale and weights of nodes are animated",
                      fmt::format("{}: {}", path_place.pointer(), brief(path_place.value())));
-        return;
+        return std::nullopt;
     }
     if (!target.has("node")) {
-        return;  // Some extension's business [glTF 2.0, sec. 5.6.1].
+        return std::nullopt;  // Some extension's business [glTF 2.0, sec. 5.6.1].
     }
-    tinygltf::Node& node =
-        model.structs.nodes[static_cast<std::size_t>(target.member("node").as_unsigned())];
+    const auto number = static_cast<std::size_t>(target.member("node").as_unsigned());
+    const tinygltf::Node& node = model.structs.nodes[number];
     const bool weights = path->name == "weights";
     if (weights && node.mesh >= 0) {
         // Each channel looks at all of them.
@@ -145,11 +147,11 @@ void apply_channel(GltfModel& model, const JsonPlace& animation, const JsonPlace
     const std::size_t width = weights ? count_targets(model.structs, node) : path->width;
     if (weights && width == 0) {
         warnings.add("weights of a node without morph targets are not animated", target.pointer());
-        return;
+        return std::nullopt;
     }
     if (!weights && !node.matrix.empty()) {
         warnings.add("a node that has a matrix is not animated", target.pointer());
-        return;
+        return std::nullopt;
     }
     const JsonPlace samplers = require(animation, "samplers");
     const JsonPlace index = require(channel, "sampler");
@@ -158,8 +160,18 @@ void apply_channel(GltfModel& model, const JsonPlace& animation, const JsonPlace
                                samplers.size()));
     }
     const JsonPlace sampler = samplers.element(static_cast<std::size_t>(index.as_unsigned()));
-    const KeyFrames frames = read_key_frames(model.structs, sampler, *path, width, budget);
-    node.*(path->member) = value_at(frames, path->quantity, time);
+    return AnimatedProperty{number, path->member, path->quantity,
+                            read_key_frames(model.structs, sampler, *path, width, budget)};
+}
+
+void check_shutter(const Shutter& shutter)
+{
+    if (!std::isfinite(shutter.open) || !std::isfinite(shutter.close) ||
+        shutter.close < shutter.open) {
+        throw Error(ErrorCode::usage,
+                    fmt::format("no times of a shutter: opens at {} s, closes at {} s",
+                                shutter.open, shutter.close));
+    }
 }
 
 }  // namespace
@@ -170,6 +182,9 @@ std::vector<std::size_t> select_animations(const std::vector<std::string>& names
     if (options.time && !std::isfinite(*options.time)) {
         throw Error(ErrorCode::usage, fmt::format("no time of an animation: {}", *options.time));
     }
+    if (options.shutter) {
+        check_shutter(*options.shutter);
+    }
     if (options.animation == "all" && std::find(names.begin(), names.end(), "all") == names.end()) {
         std::vector<std::size_t> all(names.size());
         std::iota(all.begin(), all.end(), std::size_t{0});
@@ -178,7 +193,7 @@ std::vector<std::size_t> select_animations(const std::vector<std::string>& names
     if (options.animation) {
         return {select("animation", names, *options.animation)};
     }
-    if (!options.time) {
+    if (!options.time && !options.shutter) {
         return {};
     }
     if (names.empty()) {
@@ -192,15 +207,27 @@ std::vector<std::size_t> select_animations(const std::vector<std::string>& names
     return {0};
 }
 
-void apply_animation(GltfModel& model, std::size_t animation, double time, DataBudget& budget,
-                     Warnings& warnings)
+std::vector<AnimatedProperty> read_animation(const GltfModel& model, std::size_t animation,
+                                             DataBudget& budget, Warnings& warnings)
 {
     const JsonPlace root(model.motion);
     const JsonPlace animations = root.member("animations");
     const JsonPlace place = animations.element(animation);
     const JsonPlace channels = require(place, "channels");
+    std::vector<AnimatedProperty> properties;
     for (std::size_t i = 0; i < channels.size(); ++i) {
-        apply_channel(model, place, channels.element(i), time, budget, warnings);
+        if (auto property = read_channel(model, place, channels.element(i), budget, warnings)) {
+            properties.push_back(std::move(*property));
+        }
+    }
+    return properties;
+}
+
+void pose(tinygltf::Model& model, std::span<const AnimatedProperty> properties, double time)
+{
+    for (const AnimatedProperty& property : properties) {
+        model.nodes[property.node].*(property.member) =
+            value_at(property.frames, property.quantity, time);
     }
 }
 

@@ -2,11 +2,13 @@
 
 #include "file/warnings.h"
 #include "gltf/data_budget.h"
+#include "gltf/keyframes.h"
 #include "gltf/model.h"
 
 #include <bdpt/io/gltf.h>
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,10 +20,21 @@ namespace bdpt::io {
                                                          const GltfOptions& options,
                                                          Warnings& warnings);
 
-/// Puts the nodes of the model where an animation has them at a time [s]: translation, rotation,
-/// scale and weights of morph targets. Throws `Error` (invalid_input) for key frames that make no
-/// sense.
-void apply_animation(GltfModel& model, std::size_t animation, double time, DataBudget& budget,
-                     Warnings& warnings);
+/// A property of a node, its translation, rotation, scale or weights of morph targets, and what
+/// moves it.
+struct AnimatedProperty {
+    std::size_t node = 0;
+    std::vector<double> tinygltf::Node::*member = nullptr;
+    Quantity quantity = Quantity::numbers;
+    KeyFrames frames{};
+};
+
+/// All that an animation moves. Throws `Error` (invalid_input) for key frames that make no sense.
+[[nodiscard]] std::vector<AnimatedProperty> read_animation(const GltfModel& model,
+                                                           std::size_t animation,
+                                                           DataBudget& budget, Warnings& warnings);
+
+/// Puts the nodes where they are at a time [s]; where two properties are the same the last decides.
+void pose(tinygltf::Model& model, std::span<const AnimatedProperty> properties, double time);
 
 }  // namespace bdpt::io

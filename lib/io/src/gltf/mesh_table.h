@@ -4,6 +4,7 @@
 #include "gltf/data_budget.h"
 #include "gltf/mesh.h"
 #include "gltf/model.h"
+#include "gltf/node_motion.h"
 #include "gltf/node_transforms.h"
 
 #include <bdpt/io/read_limits.h>
@@ -15,6 +16,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <tuple>
 #include <vector>
 
@@ -31,39 +33,49 @@ class MeshTable {
 public:
     /// The arguments must outlive the table. Meshes are added to `meshes`.
     MeshTable(const GltfModel& model, const ReadLimits& limits, NodeTransforms& transforms,
-              DataBudget& budget, std::vector<MeshDesc>& meshes, Warnings& warnings)
+              const NodeMotion& motion, DataBudget& budget, std::vector<MeshDesc>& meshes,
+              Warnings& warnings)
         : model_(model),
           limits_(limits),
           transforms_(transforms),
+          motion_(motion),
           budget_(budget),
           meshes_(meshes),
           warnings_(warnings)
     {}
 
     /// Primitive `primitive` of the mesh that `node` has, with the node's skin and weights of morph
-    /// targets; none if it has no triangles. Throws `Error` (invalid_input).
+    /// targets; none if it has no triangles. If these move it has a motion of as many steps as the
+    /// nodes have. Throws `Error` (invalid_input).
     [[nodiscard]] std::optional<ShownMesh> get(std::size_t node, std::size_t primitive);
 
-    /// A mesh flattened by a transform that has no inverse, in world space; none if nothing is left
-    /// to see of it. Throws `Error` (invalid_input) over the limits.
+    /// A mesh in world space, for transforms that have no inverse; one for each time, or one for
+    /// all. None if nothing is left to see of it. Throws `Error` (invalid_input) over the limits.
     [[nodiscard]] std::optional<MeshId> flatten(MeshId mesh, PrimitiveId id,
-                                                const glm::dmat4& world_from_object);
+                                                std::span<const glm::dmat4> world_from_object);
 
 private:
-    /// Mesh, primitive, skin (-1: none), weights of morph targets.
-    using Key = std::tuple<std::size_t, std::size_t, int, std::vector<double>>;
+    using Weights = std::vector<double>;
+    /// Mesh, primitive, skin (-1: none), weights of morph targets at one time or at each.
+    using Key = std::tuple<std::size_t, std::size_t, int, std::vector<Weights>>;
+    /// The matrices of a skin at one time or at each.
+    using Joints = std::vector<std::vector<glm::dmat4>>;
 
     [[nodiscard]] MeshId add(MeshDesc mesh, PrimitiveId id);
-    [[nodiscard]] const std::vector<glm::dmat4>& joints(int skin);
+    [[nodiscard]] const Joints& joints(int skin);
+    /// `weights` and `joints` are for one time or for each; no joints: no skin.
+    [[nodiscard]] std::optional<MeshDesc> read(PrimitiveId id, const std::vector<Weights>& weights,
+                                               const Joints& joints);
 
     const GltfModel& model_;
     const ReadLimits& limits_;
     NodeTransforms& transforms_;
+    const NodeMotion& motion_;
     DataBudget& budget_;
     std::vector<MeshDesc>& meshes_;
     Warnings& warnings_;
     std::map<Key, std::optional<MeshId>> known_;
-    std::map<int, std::vector<glm::dmat4>> joints_;  // by skin
+    std::map<int, Joints> joints_;  // by skin
     std::uint64_t triangles_ = 0;
 };
 

@@ -11,18 +11,25 @@
 #include "gltf/material.h"
 #include "gltf/mesh_table.h"
 #include "gltf/model.h"
+#include "gltf/motion.h"
+#include "gltf/node_motion.h"
 #include "gltf/node_transforms.h"
+#include "gltf/steps.h"
 #include "gltf/texture.h"
 #include "gltf/transform.h"
 #include "gltf/variants.h"
 
 #include <bdpt/error.h>
+#include <bdpt/motion.h>
 
 #include <fmt/format.h>
 #include <glm/matrix.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -41,9 +48,11 @@ bool is_visible(const tinygltf::Node& node)
 /// Flattens the node hierarchy of one scene.
 class SceneBuilder {
 public:
-    SceneBuilder(const GltfModel& model, std::optional<std::size_t> variant,
-                 const ReadLimits& limits, DataBudget& budget, Warnings& warnings)
+    SceneBuilder(const GltfModel& model, const NodeMotion& motion,
+                 std::optional<std::size_t> variant, const ReadLimits& limits, DataBudget& budget,
+                 Warnings& warnings)
         : model_(model.structs),
+          motion_(motion),
           variant_(variant),
           limits_(limits),
           budget_(budget),
@@ -52,7 +61,7 @@ public:
           textures_(model.structs, images_, warnings),
           profiles_(model, limits, budget, result_.scene.profiles, warnings),
           transforms_(model.structs, warnings),
-          meshes_(model, limits, transforms_, budget, result_.scene.meshes, warnings),
+          meshes_(model, limits, transforms_, motion, budget, result_.scene.meshes, warnings),
           visited_(model.structs.nodes.size(), false)
     {}
 
@@ -95,6 +104,7 @@ private:
     {
         if (std::optional<CameraDesc> camera =
                 read_camera(model_, node, transforms_.world(node), warnings_)) {
+            camera->motion = camera_motion(motion_.world(node), node, warnings_);
             result_.cameras.push_back(std::move(*camera));
         }
     }
@@ -103,9 +113,11 @@ private:
     {
         const glm::dmat4& world = transforms_.world(node);
         if (std::optional<LightDesc> light = read_light(model_, node, world, warnings_)) {
+            move_light(*light, motion_.world(node), node, warnings_);
             result_.scene.lights.push_back(std::move(*light));
         }
         if (std::optional<LightDesc> light = profiles_.read(node, world)) {
+            move_light(*light, motion_.world(node), node, warnings_);
             result_.scene.lights.push_back(std::move(*light));
         }
         const tinygltf::Node& source = model_.nodes[node];
@@ -120,16 +132,36 @@ private:
                 continue;
             }
             if (shown->in_world) {
-                add_instance(node, {mesh, i}, shown->mesh, glm::dmat4(1.0));
+                add_instance(node, {mesh, i}, shown->mesh, {glm::dmat4(1.0)});
                 continue;
             }
             for (const glm::dmat4& place : places) {
-                add_instance(node, {mesh, i}, shown->mesh, world * place);
+                add_instance(node, {mesh, i}, shown->mesh, worlds_of(node, place, shown->mesh));
             }
         }
     }
 
-    void add_instance(std::size_t node, PrimitiveId id, MeshId mesh, const glm::dmat4& world)
+    /// Where the node puts something at each time, or at all times.
+    [[nodiscard]] std::vector<glm::dmat4> worlds_of(std::size_t node, const glm::dmat4& place,
+                                                    MeshId mesh)
+    {
+        const std::span<const glm::dmat4> moving = motion_.world(node);
+        if (moving.empty()) {
+            return {transforms_.world(node) * place};
+        }
+        std::vector<glm::dmat4> worlds;
+        worlds.reserve(moving.size());
+        for (const glm::dmat4& world : moving) {
+            worlds.push_back(world * place);
+        }
+        // A mesh that deforms has all steps, and so must its instances.
+        const bool deforms = !result_.scene.meshes[static_cast<std::size_t>(mesh)].motion.empty();
+        return deforms ? worlds : thinned(std::span<const glm::dmat4>(worlds));
+    }
+
+    /// `worlds`: one transform for each time, or one for all.
+    void add_instance(std::size_t node, PrimitiveId id, MeshId mesh,
+                      const std::vector<glm::dmat4>& worlds)
     {
         if (result_.scene.instances.size() >= limits_.instances) {
             throw Error(ErrorCode::invalid_input,
@@ -142,15 +174,19 @@ private:
         budget_.spend(fmt::format("/nodes/{}", node), 1, sizeof instance + instance.name.size());
         instance.mesh = mesh;
         instance.material = get_material(id);
-        instance.world_from_object = Mat4(world);
-        const float determinant = glm::determinant(Mat3(instance.world_from_object));
-        if (!is_finite(instance.world_from_object)) {
-            throw Error(ErrorCode::invalid_input,
-                        fmt::format("/nodes/{}: the transform of an instance is not finite", node));
+        for (const glm::dmat4& world : worlds) {
+            if (!is_finite(Mat4(world))) {
+                throw Error(
+                    ErrorCode::invalid_input,
+                    fmt::format("/nodes/{}: the transform of an instance is not finite", node));
+            }
         }
-        if (!std::isnormal(determinant)) {
+        instance.world_from_object = Mat4(worlds.front());
+        instance.motion.assign(worlds.begin() + 1, worlds.end());
+        const float determinant = glm::determinant(Mat3(instance.world_from_object));
+        if (!std::isnormal(determinant) || !can_move(instance.world_from_object, instance.motion)) {
             // A scale of zero flattens the mesh: its triangles may still be seen.
-            const std::optional<MeshId> flat = meshes_.flatten(mesh, id, world);
+            const std::optional<MeshId> flat = meshes_.flatten(mesh, id, worlds);
             if (!flat) {
                 warnings_.add("a mesh that is scaled to nothing is left out",
                               fmt::format("/nodes/{}", node));
@@ -160,6 +196,7 @@ private:
                           fmt::format("/nodes/{}", node));
             instance.mesh = *flat;
             instance.world_from_object = Mat4(1.0f);
+            instance.motion.clear();
         }
         result_.scene.instances.push_back(std::move(instance));
     }
@@ -181,6 +218,7 @@ private:
     }
 
     const tinygltf::Model& model_;
+    const NodeMotion& motion_;
     std::optional<std::size_t> variant_;
     const ReadLimits& limits_;
     DataBudget& budget_;
@@ -223,10 +261,19 @@ LoadedScene build_scene(CheckedGltf checked, const SceneChoice& choice, const Re
 {
     GltfModel model = build_model(std::move(checked));
     DataBudget budget(limits);
+    std::vector<AnimatedProperty> properties;
     for (const std::size_t animation : choice.animations) {
-        apply_animation(model, animation, choice.time, budget, warnings);
+        std::vector<AnimatedProperty> more = read_animation(model, animation, budget, warnings);
+        std::move(more.begin(), more.end(), std::back_inserter(properties));
     }
-    LoadedScene loaded = SceneBuilder(model, choice.variant, limits, budget, warnings)
+    const double open = choice.time + choice.shutter.open;
+    const double close = choice.time + choice.shutter.close;
+    const NodeMotion motion(model.structs, properties, open, close, budget);
+    if (open < close && motion.steps() == 0 && !choice.animations.empty()) {
+        warnings.add("nothing moves while the shutter is open",
+                     fmt::format("/animations: from {} s to {} s", open, close));
+    }
+    LoadedScene loaded = SceneBuilder(model, motion, choice.variant, limits, budget, warnings)
                              .build(find_roots(model.structs, choice.scene));
     if (choice.scene) {
         if (std::optional<EnvironmentLightDesc> environment =

@@ -23,6 +23,7 @@ struct SceneChoice {
     std::optional<std::size_t> variant;   ///< none: the materials of the primitives
     std::vector<std::size_t> animations;  ///< that play, one after the other; empty: nodes rest
     double time = 0.0;                    ///< of the animations [s]
+    Shutter shutter{};                    ///< counted from `time`
 };
 
 /// Turns one scene of a document into a description and cameras; meshes, materials and pictures

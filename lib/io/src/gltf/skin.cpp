@@ -8,6 +8,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -108,14 +109,17 @@ bool has_joints(const PrimitiveReader& primitive)
 }
 
 std::vector<glm::dmat4> joint_matrices(const tinygltf::Model& model, const JsonPlace& skin,
-                                       NodeTransforms& transforms, DataBudget& budget)
+                                       NodeTransforms& transforms, const NodeMotion& motion,
+                                       std::size_t step, DataBudget& budget)
 {
     const Json& joints = skin.member("joints").value();
     budget.spend(skin.pointer(), joints.size(), sizeof(glm::dmat4));
     std::vector<glm::dmat4> matrices;
     matrices.reserve(joints.size());
     for (const Json& joint : joints) {
-        matrices.push_back(transforms.world(joint.get<std::size_t>()));
+        const auto node = joint.get<std::size_t>();
+        const std::span<const glm::dmat4> moving = motion.world(node);
+        matrices.push_back(moving.empty() ? transforms.world(node) : moving[step]);
     }
     if (!skin.has("inverseBindMatrices")) {
         return matrices;
@@ -134,6 +138,14 @@ std::vector<glm::dmat4> joint_matrices(const tinygltf::Model& model, const JsonP
         matrices[i] *= glm::dmat4(glm::make_mat4(values.data() + i * size));
     }
     return matrices;
+}
+
+bool moves(const JsonPlace& skin, const NodeMotion& motion)
+{
+    const Json& joints = skin.member("joints").value();
+    return std::any_of(joints.begin(), joints.end(), [&motion](const Json& joint) {
+        return !motion.world(joint.get<std::size_t>()).empty();
+    });
 }
 
 void apply_skin(MeshDesc& mesh, const PrimitiveReader& primitive,

@@ -3,6 +3,7 @@
 #include "file/json.h"
 #include "file/warnings.h"
 #include "gltf/data_budget.h"
+#include "gltf/node_motion.h"
 #include "gltf/node_transforms.h"
 #include "gltf/primitive_reader.h"
 
@@ -16,13 +17,17 @@
 
 namespace bdpt::io {
 
-/// World from bind pose for each joint of a skin: the joint's world transform times its inverse
-/// bind matrix [glTF 2.0, sec. 3.7.3]. `skin` is the place of the skin in the checked document.
-/// Throws `Error` (invalid_input).
+/// World from bind pose for each joint of a skin, at a step of the motion: the joint's world
+/// transform times its inverse bind matrix [glTF 2.0, sec. 3.7.3]. `skin` is the place of the skin
+/// in the checked document. Throws `Error` (invalid_input).
 [[nodiscard]] std::vector<glm::dmat4> joint_matrices(const tinygltf::Model& model,
                                                      const JsonPlace& skin,
                                                      NodeTransforms& transforms,
+                                                     const NodeMotion& motion, std::size_t step,
                                                      DataBudget& budget);
+
+/// Does any joint of the skin move?
+[[nodiscard]] bool moves(const JsonPlace& skin, const NodeMotion& motion);
 
 /// Moves a mesh to where its joints take it, which is world space; all sets JOINTS_n and WEIGHTS_n
 /// count. Weights are made to add up to one. Parts that the joints mirror keep their front. Does

@@ -14,6 +14,13 @@
 
 namespace bdpt::io {
 
+/// When the shutter is open [s], counted from `GltfOptions::time`. Not before it opens does it
+/// close.
+struct Shutter {
+    double open = 0.0;
+    double close = 0.0;
+};
+
 /// What to load of a file, and how much at most.
 struct GltfOptions {
     /// Name or index of the scene; none: the file's default scene, else its first.
@@ -24,6 +31,9 @@ struct GltfOptions {
     std::optional<std::string> animation{};
     /// Moment of the animation to show [s]; none: its start, or with no animation the nodes rest.
     std::optional<double> time{};
+    /// What the animation moves in this time gets a motion (bdpt/motion.h); none, or of no length:
+    /// the picture is of one moment.
+    std::optional<Shutter> shutter{};
     ReadLimits limits{};
 };
 
@@ -83,6 +93,7 @@ struct LoadedScene {
 ///
 /// Throws `Error`, whose message starts with the file's path and names the place as a JSON pointer:
 /// not_found (a file that is missing or unreadable; no such scene, variant or animation),
+/// usage (times that are not finite, or a shutter that closes before it opens),
 /// invalid_input (broken, unsafe or ambiguous, or over a limit), unsupported (a required extension,
 /// or a glTF version, that we do not have). What is merely not conforming becomes a warning.
 [[nodiscard]] BDPT_EXPORT LoadedScene load_gltf(const std::filesystem::path& file,

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <cstdint>
 
 #include "arguments.h"
 
@@ -30,6 +31,12 @@ void add_scene_options(CLI::App& command, SceneWords& words, const std::string& 
                     "Animation that --frame-time is about, or all. The first one if not given")
         ->type_name("NAME|INDEX|all")
         ->group(group);
+    command
+        .add_option("--max-memory", words.max_memory,
+                    "Refuse scenes that need more memory, like 500M or 2G, before they take it; "
+                    "bdpt info --limits tells the limits if not given")
+        ->type_name("SIZE")
+        ->group(group);
 }
 
 io::GltfOptions to_gltf_options(const SceneWords& words)
@@ -42,6 +49,13 @@ io::GltfOptions to_gltf_options(const SceneWords& words)
     options.variant = words.variant;
     options.animation = words.animation;
     options.time = words.frame_time;
+    if (words.max_memory) {
+        const std::optional<std::uint64_t> bytes = parse_bytes(*words.max_memory);
+        if (!bytes) {
+            reject("--max-memory", *words.max_memory, "a size like 500M or 2G");
+        }
+        options.limits = io::limits_within(*bytes);
+    }
     return options;
 }
 

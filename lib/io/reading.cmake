@@ -15,6 +15,7 @@ target_sources(bdpt_io PRIVATE
   src/image/oiio_library.cpp
   src/image/read_image.cpp
   src/image/texels.cpp
+  src/image/webp_header.cpp
   # glTF: checks before tinygltf
   src/gltf/decoded_size.cpp
   src/gltf/draco_primitives.cpp
@@ -43,6 +44,7 @@ target_sources(bdpt_io PRIVATE
   src/gltf/light.cpp
   src/gltf/material.cpp
   src/gltf/material_layers.cpp
+  src/gltf/material_table.cpp
   src/gltf/material_values.cpp
   src/gltf/mesh.cpp
   src/gltf/mesh_table.cpp
@@ -74,7 +76,7 @@ else()
 endif()
 target_include_directories(bdpt_io SYSTEM PRIVATE ${BDPT_TINYGLTF_INCLUDE_DIR})
 target_link_libraries(bdpt_io PRIVATE
-  OpenEXR::OpenEXR Imath::Imath $<BUILD_INTERFACE:nlohmann_json::nlohmann_json> fmt::fmt
+  OpenEXR::OpenEXR Imath::Imath TBB::tbb $<BUILD_INTERFACE:nlohmann_json::nlohmann_json> fmt::fmt
   ${CMAKE_DL_LIBS})
 
 # tinygltf gets checked JSON and buffers from memory; it opens no files and decodes no pictures.

@@ -28,6 +28,9 @@ struct EqualityCase {
 /// Those of them with surfaces that are not opaque or not lit.
 [[nodiscard]] std::vector<EqualityCase> alpha_cases();
 
+/// Textures that are looked up in smaller copies. Not among `equality_cases`.
+[[nodiscard]] std::vector<EqualityCase> mip_map_cases();
+
 /// Materials with layers and other extensions of glTF, one each. Not among `equality_cases`.
 [[nodiscard]] std::vector<EqualityCase> layer_cases();
 

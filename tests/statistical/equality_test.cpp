@@ -132,6 +132,18 @@ TEST_CASE("all integrators agree: layered materials", "[equality][layers]")
     }
 }
 
+TEST_CASE("all integrators agree: mip-mapped textures", "[equality][textures]")
+{
+    std::uint64_t seed = 400000;
+    for (const EqualityCase& test : mip_map_cases()) {
+        seed += 100;
+        DYNAMIC_SECTION(test.name)
+        {
+            check_case(test, seed);
+        }
+    }
+}
+
 /// A room with a rough ball of glass, under a lamp of one colour.
 Scene glass_under(Rgb light, float ior, float dispersion)
 {

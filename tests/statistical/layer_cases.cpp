@@ -20,9 +20,10 @@ EqualityCase ball(std::string name, const MaterialDesc& material)
 /// Slopes to four sides.
 TexelImage bumps()
 {
-    return {.width = 2,
-            .height = 2,
-            .rgba = {160, 128, 245, 255, 128, 160, 245, 255, 96, 128, 245, 255, 128, 96, 245, 255}};
+    return {
+        .width = 2,
+        .height = 2,
+        .bytes = {160, 128, 245, 255, 128, 160, 245, 255, 96, 128, 245, 255, 128, 96, 245, 255}};
 }
 
 /// An even coat over a bumpy base: two shading normals at each point.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "geometry/ray.h"
+#include "math/footprint.h"
 
 #include <bdpt/scene_desc.h>
 
@@ -43,6 +44,9 @@ public:
     [[nodiscard]] Vec3 area_normal(std::uint32_t triangle) const;
 
     [[nodiscard]] std::array<Vec2, 2> uv(std::uint32_t triangle, Vec2 barycentrics) const;
+    /// What a pixel that is `width` wide [m] on the triangle covers of its texture coordinates;
+    /// zero where the triangle has no area.
+    [[nodiscard]] UvFootprint uv_footprint(std::uint32_t triangle, float width) const;
     /// Interpolated and unit; zero when the mesh has no normals.
     [[nodiscard]] Vec3 shading_normal(std::uint32_t triangle, Vec2 barycentrics) const;
     /// Tangent and handedness for normal maps: the mesh's own, else along texture coordinate u of

@@ -2,6 +2,7 @@
 
 #include "geometry/reach.h"
 #include "math/elementary.h"
+#include "scene/check_texels.h"
 
 #include <bdpt/error.h>
 
@@ -312,15 +313,6 @@ struct LightCheck {
     }
 };
 
-void check(const TexelImage& image, const std::string& item)
-{
-    if (image.width < 1 || image.height < 1 ||
-        image.rgba.size() != 4 * area(image.width, image.height)) {
-        fail(item, ": ", image.width, " x ", image.height, " texels with ", image.rgba.size(),
-             " bytes");
-    }
-}
-
 bool is_degenerate(const MeshDesc& mesh, const UVec3& triangle)
 {
     const Vec3& a = mesh.positions[triangle.x];
@@ -333,7 +325,7 @@ bool is_degenerate(const MeshDesc& mesh, const UVec3& triangle)
 void validate(const SceneDesc& desc)
 {
     for (std::size_t i = 0; i < desc.images.size(); ++i) {
-        check(desc.images[i], label("image", i, ""));
+        check_texels(desc.images[i], label("image", i, ""));
     }
     for (std::size_t i = 0; i < desc.materials.size(); ++i) {
         const MaterialDesc& material = desc.materials[i];

@@ -5,6 +5,8 @@
 #include "geometry/sphere.h"
 #include "material/bsdf.h"
 #include "material/material.h"
+#include "material/mip_maps.h"
+#include "math/footprint.h"
 #include "math/probe.h"
 #include "scene/light_set.h"
 #include "scene/medium.h"
@@ -46,12 +48,13 @@ public:
                                                         SegmentKey segment) const noexcept
     {
         NoProbe probe;
-        return intersect(from, direction, segment, probe);
+        return intersect(from, direction, segment, PixelCone{}, probe);
     }
-    /// The same; `probe` is told when the ray has hit and the surface is at work.
+    /// The same, where mip-mapped textures have the detail that pixels show; `probe` is told when
+    /// the ray has hit and the surface is at work.
     template <typename Probe>
     [[nodiscard]] std::optional<SurfacePoint> intersect(const SegmentEnd& from, Vec3 direction,
-                                                        SegmentKey segment,
+                                                        SegmentKey segment, const PixelCone& pixel,
                                                         Probe& probe) const noexcept
     {
         const auto hit = first_hit(from, direction, segment);
@@ -59,7 +62,7 @@ public:
             return std::nullopt;
         }
         const PhaseScope scope(probe, Phase::shade);
-        return point_of(*hit, direction, segment.wavelength);
+        return point_of(*hit, direction, segment.wavelength, pixel);
     }
     /// What is left of light between two points: zero when it meets a surface in between, else what
     /// the medium lets through.
@@ -85,15 +88,17 @@ private:
     [[nodiscard]] PassRule pass_rule() const noexcept;
     [[nodiscard]] std::optional<RayHit> first_hit(const SegmentEnd& from, Vec3 direction,
                                                   SegmentKey segment) const noexcept;
-    [[nodiscard]] SurfacePoint point_of(const RayHit& hit, Vec3 direction,
-                                        Wavelength wavelength) const noexcept;
+    [[nodiscard]] SurfacePoint point_of(const RayHit& hit, Vec3 direction, Wavelength wavelength,
+                                        const PixelCone& pixel) const noexcept;
     [[nodiscard]] SurfacePoint surface_point(const RayHit& hit, Vec3 direction,
-                                             Wavelength wavelength) const noexcept;
+                                             Wavelength wavelength,
+                                             const PixelCone& pixel) const noexcept;
     [[nodiscard]] SurfacePoint sphere_point(const RayHit& hit, Vec3 direction) const noexcept;
 
     SceneDesc desc_;
     std::map<float, std::unique_ptr<const SpecularAlbedo>> albedos_;  // by index of refraction
     std::unique_ptr<const LayerTables> layer_tables_;                 // if any material needs them
+    MipMaps mip_maps_;                                                // if textures have any
     std::vector<Material> materials_;
     bool disperses_ = false;
     std::vector<PlacedMesh> placed_;

@@ -42,7 +42,7 @@ int picture(const LoadedScene& loaded, const std::optional<TextureRef>& ref)
     if (!ref) {
         return -1;
     }
-    return loaded.scene.images.at(static_cast<std::size_t>(ref->image)).rgba.at(0) / 10;
+    return loaded.scene.images.at(static_cast<std::size_t>(ref->image)).bytes.at(0) / 10;
 }
 
 }  // namespace

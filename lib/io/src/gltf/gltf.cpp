@@ -30,7 +30,8 @@ LoadedScene load(const std::filesystem::path& file, const GltfOptions& options)
     }
     choice.animations = select_animations(facts.animation_names, options, warnings);
     choice.time = options.time.value_or(0.0);
-    LoadedScene loaded = build_scene(std::move(checked), choice, options.limits, warnings);
+    LoadedScene loaded =
+        build_scene(std::move(checked), choice, options.limits, options.on_progress, warnings);
     loaded.facts = std::move(facts);
     loaded.warnings = warnings.lines();
     return loaded;

@@ -7,12 +7,19 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace bdpt::io {
+
+/// How far a scene is loaded.
+struct LoadProgress {
+    std::size_t pictures_done = 0;
+    std::size_t pictures_total = 0;
+};
 
 /// What to load of a file, and how much at most.
 struct GltfOptions {
@@ -25,6 +32,9 @@ struct GltfOptions {
     /// Moment of the animation to show [s]; none: its start, or with no animation the nodes rest.
     std::optional<double> time{};
     ReadLimits limits{};
+    /// Called while pictures are decoded, each time that one is done; on any thread, but never on
+    /// two at once. What it throws ends the loading and reaches the caller.
+    std::function<void(const LoadProgress&)> on_progress{};
 };
 
 /// What we make of a glTF extension.
@@ -65,8 +75,8 @@ struct GltfFacts {
     std::size_t skins = 0;
     std::size_t animations = 0;
     std::vector<ExtensionUse> extensions;
-    /// The packet of KHR_xmp_json_ld or KHR_xmp that the file has about itself, JSON-LD; empty: none
-    /// of up to 1 MiB.
+    /// The packet of KHR_xmp_json_ld or KHR_xmp that the file has about itself, JSON-LD; empty:
+    /// none of up to 1 MiB.
     std::string xmp;
 };
 

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Renders models and their twins, made by glTF Transform, and says whether the pictures agree.
 
-    twins.py COMMAND MODEL... [--converter PROGRAM] [--size WxH] [--spp N] [--kinds NAME,...] [--keep FOLDER]
+    twins.py COMMAND MODEL... [--converter PROGRAM] [--size WxH] [--spp N] [--noise FACTOR]
+             [--kinds NAME,...] [--keep FOLDER]
 
 COMMAND is bdpt. A twin holds the same model packed in another way: compressed meshes (draco, meshopt), integers for
 vertices (quantized), sparse accessors, WebP textures without loss (webp). The difference is the mean of FLIP. A converter
@@ -12,6 +13,7 @@ rounded. The exit code is 1 if a twin is not equal or is not rendered, 77 if the
 """
 
 import argparse
+import dataclasses
 import json
 import pathlib
 import shutil
@@ -22,7 +24,6 @@ import tempfile
 # How a twin is made, and the mean FLIP that it may differ by beside noise: rounding moves vertices by a 2^14th of the
 # model.
 EXACT, MOVED = 0.001, 0.005
-NOISE = 1.2  # times that of the model with another seed
 KINDS = {
     "draco": (["draco"], MOVED),
     "meshopt": (["meshopt"], MOVED),
@@ -39,6 +40,7 @@ def parse(words):
     parser.add_argument("--converter", default="gltf-transform")
     parser.add_argument("--size", default="96x72")
     parser.add_argument("--spp", default="32")
+    parser.add_argument("--noise", type=float, default=1.2, help="times that of the model with another seed")
     parser.add_argument("--kinds", default=",".join(KINDS))
     parser.add_argument("--keep", type=pathlib.Path, help="write twins and pictures here")
     return parser.parse_args(words)
@@ -68,37 +70,43 @@ def mean_flip(report):
     return report["metrics"]["flip"]["mean"]
 
 
-def check_twin(options, model, kind, folder, plain, noise):
-    """Whether the twin of one kind renders like the model, which is in the picture `plain`; says how."""
+@dataclasses.dataclass
+class Verdict:
+    equal: bool
+    text: str
+
+
+def compare(options, twin, model, rounding, folder):
+    """Whether two models are one picture, but for noise and what `rounding` allows. Pictures go to `folder`."""
+    plain, other = (folder / f"{model.stem}-{seed}.exr" for seed in range(2))
+    picture = folder / f"{twin.stem}.exr"
+    for what, where, seed in ((model, plain, 0), (model, other, 1), (twin, picture, 0)):
+        refusal = render(options, what, where, seed)
+        if refusal:
+            return Verdict(False, f"NOT RENDERED: {refusal}")
+    tolerance = rounding + options.noise * difference(options.command, other, plain)
+    found = difference(options.command, picture, plain)
+    equal = found <= tolerance
+    return Verdict(equal, f"mean FLIP {found:.5f}, at most {tolerance:.5f}: {'equal' if equal else 'NOT EQUAL'}")
+
+
+def check_kind(options, model, kind, folder):
+    """Whether the twin of one kind is equal to the model, or cannot be made."""
     words, rounding = KINDS[kind]
-    tolerance = rounding + NOISE * noise
     twin = folder / f"{model.stem}-{kind}.glb"
     made = run(options.converter, words[0], model, twin, *words[1:])
     if made.returncode != 0 or not twin.exists():
         print(f"  {kind}: the converter cannot: {(made.stderr or made.stdout).strip().splitlines()[-1:]}")
         return True
-    picture = folder / f"{model.stem}-{kind}.exr"
-    refusal = render(options, twin, picture)
-    if refusal:
-        print(f"  {kind}: NOT RENDERED: {refusal}")
-        return False
-    found = difference(options.command, picture, plain)
-    good = found <= tolerance
-    print(f"  {kind}: mean FLIP {found:.5f}, at most {tolerance:.5f}: {'equal' if good else 'NOT EQUAL'}", flush=True)
-    return good
+    verdict = compare(options, twin, model, rounding, folder)
+    print(f"  {kind}: {verdict.text}", flush=True)
+    return verdict.equal
 
 
 def check_model(options, model, folder):
     print(model)
-    plain, other = (folder / f"{model.stem}-{seed}.exr" for seed in range(2))
-    for seed, picture in enumerate((plain, other)):
-        refusal = render(options, model, picture, seed)
-        if refusal:
-            print(f"  left out: {refusal}")
-            return True
-    noise = difference(options.command, other, plain)
     # All kinds, whatever came of those before.
-    return all([check_twin(options, model, kind, folder, plain, noise) for kind in options.kinds.split(",")])
+    return all([check_kind(options, model, kind, folder) for kind in options.kinds.split(",")])
 
 
 def main():

@@ -106,6 +106,32 @@ TEST_CASE("the WebP picture of a texture comes before its fallback")
     CHECK(fixture.load().scene.images.at(0).width == 2);
 }
 
+TEST_CASE(
+    "of pictures that no library here decodes the other one is taken, or the texture is left out")
+{
+    for (const char* name : {"KHR_texture_basisu", "EXT_texture_avif", "MSFT_texture_dds"}) {
+        CAPTURE(name);
+        GltfFixture fixture = with_image(data_uri(png(1, 1, 8, 0, {raw({1})})));
+        fixture.json["images"].push_back(data_uri("\xabKTX 20\xbb"));
+        fixture.json["extensionsUsed"] = {name};
+        fixture.json["textures"][0]["extensions"][name]["source"] = 1;
+        const LoadedScene other = fixture.load();
+        CHECK(other.scene.images.size() == 1);
+        CHECK(warns(other.warnings, {"/extensionsUsed/0: ", name, "fallback"}));
+
+        fixture.json["textures"][0].erase("source");
+        const LoadedScene without = fixture.load();
+        CHECK(without.scene.images.empty());
+        CHECK_FALSE(without.scene.materials.at(0).base_color_texture);
+        CHECK(warns(without.warnings, {"/textures/0 (", name, "no PNG, JPEG or WebP picture"}));
+
+        fixture.json["extensionsRequired"] = {name};
+        const Error error = fixture.error();
+        CHECK(error.code() == ErrorCode::unsupported);
+        CHECK(contains(error.what(), name));
+    }
+}
+
 TEST_CASE("where the better picture of a texture is broken, the other one is taken")
 {
     GltfFixture fixture = with_image(data_uri(png(1, 1, 8, 0, {raw({1})})));

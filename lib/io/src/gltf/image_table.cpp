@@ -136,7 +136,7 @@ void ImageTable::add(Job& job)
     } catch (const Error& error) {
         throw Error(error.code(), place + ": " + error.what());
     } catch (const std::runtime_error& error) {
-        warnings_.add("the picture cannot be read; the material does without it",
+        warnings_.add("the picture cannot be read; the texture does without it",
                       place + ": " + error.what());
     }
 }

@@ -32,6 +32,18 @@ std::vector<std::size_t> sources(const tinygltf::Texture& texture)
     return result;
 }
 
+/// The extensions by which a texture has pictures that we cannot read, in parentheses.
+std::string unread_pictures(const tinygltf::Texture& texture)
+{
+    std::string names;
+    for (const char* name : {"KHR_texture_basisu", "EXT_texture_avif", "MSFT_texture_dds"}) {
+        if (texture.extensions.contains(name)) {
+            names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
+        }
+    }
+    return names.empty() ? names : fmt::format(" ({})", names);
+}
+
 }  // namespace
 
 TextureInfo texture_info(const tinygltf::Value& extension, const std::string& key)
@@ -97,8 +109,8 @@ std::optional<TextureRef> TextureResolver::resolve(const TextureInfo& info,
     const auto& texture = model_.textures[static_cast<std::size_t>(info.index)];
     const std::vector<std::size_t> pictures = sources(texture);
     if (pictures.empty()) {
-        warnings_.add("the texture has no picture that can be read; the material does without it",
-                      fmt::format("/textures/{}", info.index));
+        warnings_.add("the texture has no PNG, JPEG or WebP picture; the material does without it",
+                      fmt::format("/textures/{}{}", info.index, unread_pictures(texture)));
         return std::nullopt;
     }
     std::optional<ImageId> image;

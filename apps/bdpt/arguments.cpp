@@ -77,6 +77,25 @@ std::optional<double> parse_duration(std::string_view text)
     return *count * unit;
 }
 
+std::optional<std::uint64_t> parse_bytes(std::string_view text)
+{
+    constexpr std::string_view units = "KMGT";
+    double unit = 1.0;
+    if (!text.empty()) {
+        const std::size_t power = units.find(text.back());
+        if (power != std::string_view::npos) {
+            unit = std::ldexp(1.0, 10 * (static_cast<int>(power) + 1));
+            text.remove_suffix(1);
+        }
+    }
+    const auto count = parse_number<double>(text);
+    constexpr double too_many = 0x1p63;
+    if (!count || !(*count * unit >= 1.0 && *count * unit < too_many)) {
+        return std::nullopt;
+    }
+    return static_cast<std::uint64_t>(*count * unit);
+}
+
 std::optional<Vec3> parse_vec3(std::string_view text)
 {
     Vec3 result(0.0f);

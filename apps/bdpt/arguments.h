@@ -3,6 +3,7 @@
 #include <bdpt/types.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -21,6 +22,9 @@ struct Size {
 
 /// "90", "90s", "2m" or "1.5h", as seconds; more than 0.
 [[nodiscard]] std::optional<double> parse_duration(std::string_view text);
+
+/// "1500000", "800K", "500M" or "2.5G", as bytes, by powers of 1024; at least 1 and below 2^63.
+[[nodiscard]] std::optional<std::uint64_t> parse_bytes(std::string_view text);
 
 /// "x,y,z", all finite.
 [[nodiscard]] std::optional<Vec3> parse_vec3(std::string_view text);

@@ -178,6 +178,7 @@ void Console::end_progress()
 {
     const std::lock_guard lock(mutex_);
     erase_progress();
+    last_shown_ = -std::numeric_limits<double>::infinity();
 }
 
 void Console::print_line(std::string_view prefix, std::string_view message)

@@ -21,7 +21,7 @@ std::vector<Limit> list(const io::ReadLimits& limits)
 {
     const auto& [file_bytes, buffer_bytes, json_bytes, json_depth, json_values, nodes, node_depth,
                  instances, mesh_bytes, triangles, image_side, image_bytes, texture_bytes,
-                 compression_ratio] = limits;
+                 compression_ratio, memory_bytes] = limits;
     return {{"file_bytes", file_bytes, "bytes of one file"},
             {"buffer_bytes", buffer_bytes, "bytes of all buffers of a scene"},
             {"json_bytes", json_bytes, "bytes of the JSON text, data URIs included"},
@@ -35,7 +35,8 @@ std::vector<Limit> list(const io::ReadLimits& limits)
             {"image_side", static_cast<std::uint64_t>(image_side), "pixels a side of a picture"},
             {"image_bytes", image_bytes, "bytes of one picture, decoded"},
             {"texture_bytes", texture_bytes, "bytes of all pictures, decoded"},
-            {"compression_ratio", compression_ratio, "decoded over encoded size"}};
+            {"compression_ratio", compression_ratio, "decoded over encoded size"},
+            {"memory_bytes", memory_bytes, "bytes of all that a scene takes, as estimated"}};
 }
 
 }  // namespace

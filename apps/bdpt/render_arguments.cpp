@@ -214,6 +214,14 @@ void add_view_options(CLI::App& command, RenderWords& words)
                     "environment that a file brings")
         ->type_name("FILE|none|default")
         ->group(group);
+    command
+        .add_option("--texture-filter", words.texture_filter,
+                    "How textures that are finer than the picture are looked up: bilinear (the "
+                    "default), as they are; or mip, in smaller copies, which is faster where they "
+                    "are large and blurs what mirrors and lenses magnify")
+        ->check(CLI::IsMember({"bilinear", "mip"}))
+        ->type_name("bilinear|mip")
+        ->group(group);
     add_lens_options(command, words.lens);
 }
 
@@ -271,6 +279,8 @@ RenderArguments understand(const RenderWords& words)
     result.lens = words.lens;
     result.scene = to_gltf_options(words.scene);
     result.environment = words.environment;
+    result.texture_filter =
+        words.texture_filter == "mip" ? TextureFilter::mip_mapped : TextureFilter::bilinear;
     result.exposure = to_exposure(words.exposure);
     result.channel_type =
         words.half ? io::ExrChannelType::half_float : io::ExrChannelType::single_float;

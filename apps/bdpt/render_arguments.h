@@ -43,6 +43,7 @@ struct RenderWords {
     LensWords lens;
     SceneWords scene;
     std::optional<std::string> environment;
+    std::string texture_filter = "bilinear";
     std::optional<double> exposure;  // [EV]
     int threads = 0;
     std::string isa = "native";
@@ -71,7 +72,8 @@ struct RenderArguments {
     Isa isa = Isa::native;
     io::GltfOptions scene;                   ///< what of the file is rendered
     std::optional<std::string> environment;  ///< file, "none" or "default"
-    std::optional<float> exposure;           ///< [EV]
+    TextureFilter texture_filter = TextureFilter::bilinear;
+    std::optional<float> exposure;  ///< [EV]
     io::ExrChannelType channel_type = io::ExrChannelType::single_float;
     io::ExrStorage storage = io::ExrStorage::scanlines;
     std::optional<std::filesystem::path> stats;  ///< where numbers about the render go

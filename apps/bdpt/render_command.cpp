@@ -64,6 +64,9 @@ ordered_json settings_of(const RenderArguments& arguments, const Stage& stage)
     settings["isa"] = isa_name(stage.scene.isa());
     settings.update(view_json(stage.camera));
     settings["environment"] = stage.environment_name;
+    if (arguments.texture_filter == TextureFilter::mip_mapped) {
+        settings["texture_filter"] = "mip";
+    }
     const FilterOptions& filter = options.filter;
     settings["filter"] = filter_name(filter.kind);
     settings["filter_radius"] = filter.radius.value_or(default_radius(filter.kind));
@@ -145,6 +148,27 @@ RenderResult render_stage(const RenderArguments& arguments, const Stage& stage, 
     RenderResult result = render(stage.scene, stage.camera, options, control);
     console.end_progress();
     return result;
+}
+
+/// The same; the console shows how far loading is.
+RenderArguments with_progress(RenderArguments arguments, Console& console)
+{
+    const auto start = std::chrono::steady_clock::now();
+    arguments.scene.on_progress = [&console, start](const io::LoadProgress& progress) {
+        const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
+        constexpr double worth_telling = 1.0;  // [s]
+        if (passed.count() < worth_telling) {
+            return;
+        }
+        const double done = static_cast<double>(progress.pictures_done) /
+                            static_cast<double>(progress.pictures_total);
+        console.task({.fraction = done,
+                      .seconds = passed.count(),
+                      .seconds_left = passed.count() * (1.0 - done) / done,
+                      .activity = fmt::format("loading textures, {}/{}", progress.pictures_done,
+                                              progress.pictures_total)});
+    };
+    return arguments;
 }
 
 void warn_of_defects(Console& console, const FilmDefects& defects)
@@ -290,7 +314,8 @@ int run_render(const RenderArguments& arguments)
         console.note("stopping after the pass in flight; interrupt again to end at once");
     });
 
-    const Stage stage = prepare_stage(arguments);
+    const Stage stage = prepare_stage(with_progress(arguments, console));
+    console.end_progress();
     const ordered_json settings = settings_of(arguments, stage);
     interrupt.allow_stop();
     announce(console, arguments, stage, settings);

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <cstdint>
 #include <string_view>
 
 #include "arguments.h"
@@ -53,6 +54,12 @@ void add_scene_options(CLI::App& command, SceneWords& words, const std::string& 
                     "it")
         ->type_name("SECONDS|OPEN,CLOSE")
         ->group(group);
+    command
+        .add_option("--max-memory", words.max_memory,
+                    "Refuse scenes that need more memory, like 500M or 2G, before they take it; "
+                    "bdpt info --limits tells the limits if not given")
+        ->type_name("SIZE")
+        ->group(group);
 }
 
 io::GltfOptions to_gltf_options(const SceneWords& words)
@@ -71,6 +78,13 @@ io::GltfOptions to_gltf_options(const SceneWords& words)
             reject("--shutter", *words.shutter,
                    "seconds that are not negative, or OPEN,CLOSE with OPEN not after CLOSE");
         }
+    }
+    if (words.max_memory) {
+        const std::optional<std::uint64_t> bytes = parse_bytes(*words.max_memory);
+        if (!bytes) {
+            reject("--max-memory", *words.max_memory, "a size like 500M or 2G");
+        }
+        options.limits = io::limits_within(*bytes);
     }
     return options;
 }

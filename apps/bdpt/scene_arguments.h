@@ -13,14 +13,16 @@ namespace bdpt::app {
 
 /// Which part of a file is meant, as words.
 struct SceneWords {
-    std::optional<std::string> scene;      // name or index
-    std::optional<std::string> variant;    // name or index
-    std::optional<std::string> animation;  // name, index or "all"
-    std::optional<double> frame_time;      // [s]
-    std::optional<std::string> shutter;    // "CLOSE" or "OPEN,CLOSE" [s]
+    std::optional<std::string> scene;       // name or index
+    std::optional<std::string> variant;     // name or index
+    std::optional<std::string> animation;   // name, index or "all"
+    std::optional<double> frame_time;       // [s]
+    std::optional<std::string> shutter;     // "CLOSE" or "OPEN,CLOSE" [s]
+    std::optional<std::string> max_memory;  // like "2G"
 };
 
-/// Describes --scene, --variant, --animation, --frame-time and --shutter to the parser, in the
+/// Describes --scene, --variant, --animation, --frame-time, --shutter and --max-memory to the
+/// parser, in the
 /// group `group` of the help text.
 void add_scene_options(CLI::App& command, SceneWords& words, const std::string& group);
 

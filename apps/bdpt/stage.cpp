@@ -158,6 +158,7 @@ Stage prepare_stage(const RenderArguments& arguments,
         arguments.size.value_or(default_size(from_file ? from_file->aspect_ratio : std::nullopt));
     const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
 
+    loaded.scene.texture_filter = arguments.texture_filter;
     LitScene lit = add_environment(std::move(loaded.scene), arguments);
     const auto loading_end = std::chrono::steady_clock::now();
     BuiltScene built = build(lit, arguments, aspect, look);

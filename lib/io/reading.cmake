@@ -16,6 +16,7 @@ target_sources(bdpt_io PRIVATE
   src/image/oiio_library.cpp
   src/image/read_image.cpp
   src/image/texels.cpp
+  src/image/webp_header.cpp
   # light profiles
   src/ies/ies_file.cpp
   src/ies/ies_numbers.cpp
@@ -50,6 +51,7 @@ target_sources(bdpt_io PRIVATE
   src/gltf/light_profiles.cpp
   src/gltf/material.cpp
   src/gltf/material_layers.cpp
+  src/gltf/material_table.cpp
   src/gltf/material_values.cpp
   src/gltf/mesh.cpp
   src/gltf/mesh_table.cpp
@@ -83,7 +85,7 @@ else()
 endif()
 target_include_directories(bdpt_io SYSTEM PRIVATE ${BDPT_TINYGLTF_INCLUDE_DIR})
 target_link_libraries(bdpt_io PRIVATE
-  OpenEXR::OpenEXR Imath::Imath $<BUILD_INTERFACE:nlohmann_json::nlohmann_json> fmt::fmt
+  OpenEXR::OpenEXR Imath::Imath TBB::tbb $<BUILD_INTERFACE:nlohmann_json::nlohmann_json> fmt::fmt
   ${CMAKE_DL_LIBS})
 
 # tinygltf gets checked JSON and buffers from memory; it opens no files and decodes no pictures.

@@ -35,6 +35,21 @@ TEST_CASE("durations have a unit, seconds if none")
     }
 }
 
+TEST_CASE("sizes in memory have a unit, bytes if none")
+{
+    CHECK(parse_bytes("1") == 1u);
+    CHECK(parse_bytes("1500000") == 1500000u);
+    CHECK(parse_bytes("800K") == 819200u);
+    CHECK(parse_bytes("500M") == 524288000u);
+    CHECK(parse_bytes("2.5G") == 2684354560u);
+    CHECK(parse_bytes("1T") == 1099511627776u);
+    for (const char* wrong :
+         {"", "G", "0", "0.5", "-1G", "1 G", "2g", "2GB", "1e30", "inf", "nan"}) {
+        CAPTURE(wrong);
+        CHECK_FALSE(parse_bytes(wrong));
+    }
+}
+
 TEST_CASE("points are three finite numbers")
 {
     CHECK(parse_vec3("1,-2.5,3e2") == Vec3(1.0f, -2.5f, 300.0f));

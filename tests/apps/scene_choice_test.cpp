@@ -1,3 +1,6 @@
+#include <bdpt/io/png.h>
+
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -40,6 +43,60 @@ TEST_CASE("a variant, an animation or a time that there is not is refused")
     check({"--animation", "run"}, 3, "no animation \"run\"; there are none");
     check({"--frame-time", "nan"}, 2, "--frame-time");
     check({"--frame-time", "soon"}, 2, "--frame-time");
+    check({"--max-memory", "much"}, 2, "--max-memory");
+    check({"--max-memory", "1K"}, 4, "1.0 KiB");
+    check({"--texture-filter", "nearest"}, 2, "--texture-filter");
+}
+
+TEST_CASE("a limit of memory is one for render and info")
+{
+    const ScratchFolder folder;
+    const std::string scene = write_cube(folder, "cube", {.cameras = two_cameras}).string();
+    CHECK(run({"info", scene, "--max-memory", "1M"}).exit_code == 0);
+    const Outcome refused = run({"info", scene, "--max-memory", "2K"});
+    CHECK(refused.exit_code == 4);
+    CHECK(refused.err.find("cube.gltf: ") != std::string::npos);
+    const auto limits = nlohmann::json::parse(
+        run({"info", "--limits", "--max-memory", "2G", "--json"}).out)["limits"];
+    CHECK(limits["memory_bytes"] == 2147483648U);
+    CHECK(limits["texture_bytes"] == 2147483648U);
+    CHECK(limits["json_bytes"] == 1073741824U);
+}
+
+/// A PNG picture of 64 x 64 pixels, black and white in turn.
+void write_stripes(const std::filesystem::path& file)
+{
+    constexpr int side = 64;
+    io::DisplayImage image{.width = side, .height = side, .rgb = {}};
+    for (int i = 0; i < side * side; ++i) {
+        image.rgb.insert(image.rgb.end(), 3, i % 2 == 0 ? std::uint8_t{0} : std::uint8_t{255});
+    }
+    io::write_png(file, image, {});
+}
+
+TEST_CASE("option --texture-filter reaches the textures, and the files say which one it was")
+{
+    const ScratchFolder folder;
+    write_stripes(folder / "stripes.png");
+    const std::string scene =
+        write_cube(folder, "striped",
+                   {.material = R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}})",
+                    .cameras = two_cameras,
+                    .more = R"("images": [{"uri": "stripes.png"}], "textures": [{"source": 0}],)"})
+            .string();
+    const auto render = [&](const std::string& name, const std::vector<std::string>& words) {
+        const std::filesystem::path out = folder / name;
+        std::vector<std::string> all{"render", scene,    "-o",  out.string(), "--spp",
+                                     "1",      "--size", "8x4", "--json"};
+        all.insert(all.end(), words.begin(), words.end());
+        const Outcome outcome = run(all);
+        CAPTURE(outcome.err);
+        REQUIRE(outcome.exit_code == 0);
+        return outcome.out.find(R"("texture_filter":"mip")") != std::string::npos;
+    };
+    CHECK_FALSE(render("plain.exr", {}));
+    CHECK_FALSE(render("bilinear.exr", {"--texture-filter", "bilinear"}));
+    CHECK(render("mip.exr", {"--texture-filter", "mip"}));
 }
 
 TEST_CASE("pictures say which part of a file they show, and what the file says about itself")

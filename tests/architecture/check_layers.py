@@ -27,14 +27,14 @@ ALLOWED = {
     "lib/src/render": [r"glm/", r"(oneapi/)?tbb/", INTRINSICS],
     "lib/io/include": [r"glm/"],
     "lib/io/src": [r"glm/", FILE_LIBRARIES, POSIX],
-    "lib/io/src/gltf": [r"glm/", FILE_LIBRARIES, r"draco/", r"meshoptimizer\.h"],
+    "lib/io/src/gltf": [r"glm/", FILE_LIBRARIES, r"draco/", r"meshoptimizer\.h", r"(oneapi/)?tbb/"],
     "lib/io/src/oiio_module": [r"OpenImageIO/"],
     "apps": [r"glm/", r"CLI/", r"nlohmann/", r"fmt/", POSIX],
     "tests": [r"glm/", r"catch2/", r"embree[34]/", r"(oneapi/)?tbb/", FILE_LIBRARIES, POSIX, r"pthread\.h",
               INTRINSICS],
     "benchmarks/harness/include": [],
     "benchmarks/harness/src": [r"glm/", r"nlohmann/", r"(oneapi/)?tbb/", r"zlib\.h"],
-    "benchmarks": [r"glm/", r"CLI/", r"benchmark/", r"embree[34]/", r"(oneapi/)?tbb/", POSIX, INTRINSICS],
+    "benchmarks": [r"glm/", r"CLI/", r"OpenImageIO/", r"benchmark/", r"embree[34]/", r"(oneapi/)?tbb/", POSIX, INTRINSICS],
 }
 # Area -> what it may include of our own by <bdpt/...>.
 OWN = {

@@ -27,11 +27,11 @@ MaterialDesc textured(MaterialDesc material, AlphaMode mode)
 SceneBuilder room()
 {
     SceneBuilder builder;
-    TexelImage leaves{.width = 4, .height = 4, .rgba = {}};
+    TexelImage leaves{.width = 4, .height = 4, .bytes = {}};
     for (int i = 0; i < 16; ++i) {
         const auto alpha = static_cast<std::uint8_t>(i % 3 == 0 ? 0 : i % 3 == 1 ? 255 : 130 + i);
         const auto green = static_cast<std::uint8_t>(255 - 8 * i);
-        leaves.rgba.insert(leaves.rgba.end(), {200, green, 120, alpha});
+        leaves.bytes.insert(leaves.bytes.end(), {200, green, 120, alpha});
     }
     builder.desc.images.push_back(leaves);
     builder.walls(lambertian(Rgb(0.7f)), lambertian({0.7f, 0.5f, 0.3f}));

@@ -61,8 +61,8 @@ TEST_CASE("white panes in a white furnace are invisible, whatever their alpha",
     SceneBuilder builder;
     builder.desc.images.push_back({.width = 2,
                                    .height = 2,
-                                   .rgba = {255, 255, 255, 0, 255, 255, 255, 255,  //
-                                            255, 255, 255, 130, 255, 255, 255, 80}});
+                                   .bytes = {255, 255, 255, 0, 255, 255, 255, 255,  //
+                                             255, 255, 255, 130, 255, 255, 255, 80}});
     MaterialDesc blended = lambertian(Rgb(1.0f));
     blended.alpha_mode = AlphaMode::blend;
     blended.base_color_texture = TextureRef{.image = ImageId{0}};

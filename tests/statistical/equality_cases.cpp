@@ -85,17 +85,17 @@ EqualityCase mirrored_instances()
 EqualityCase textures()
 {
     SceneBuilder builder = lit_room();
-    TexelImage pattern{.width = 4, .height = 4, .rgba = {}};
+    TexelImage pattern{.width = 4, .height = 4, .bytes = {}};
     for (int i = 0; i < 16; ++i) {
         const auto value = static_cast<std::uint8_t>(i % 3 == 0 ? 230 : 90 + 8 * i);
         const auto inverse = static_cast<std::uint8_t>(255 - value);
-        pattern.rgba.insert(pattern.rgba.end(), {value, inverse, 128, 255});
+        pattern.bytes.insert(pattern.bytes.end(), {value, inverse, 128, 255});
     }
     builder.desc.images.push_back(pattern);
     TexelImage bumps{
         .width = 2,
         .height = 2,
-        .rgba = {150, 128, 250, 255, 128, 150, 250, 255, 106, 128, 250, 255, 128, 106, 250, 255}};
+        .bytes = {150, 128, 250, 255, 128, 150, 250, 255, 106, 128, 250, 255, 128, 106, 250, 255}};
     builder.desc.images.push_back(bumps);
     MaterialDesc material = plastic(white, 0.8f);
     material.base_color_texture =
@@ -242,12 +242,12 @@ void add_sphere_lights(std::vector<EqualityCase>& cases)
 EqualityCase textured_emitter()
 {
     SceneBuilder builder = room();
-    TexelImage spots{.width = 4, .height = 4, .rgba = std::vector<std::uint8_t>(64, 255)};
+    TexelImage spots{.width = 4, .height = 4, .bytes = std::vector<std::uint8_t>(64, 255)};
     for (std::size_t i = 0; i < 16; ++i) {
         const std::uint8_t value = i == 5 ? 255 : i == 10 ? 160 : i % 3 == 0 ? 90 : 0;
-        spots.rgba[4 * i] = value;
-        spots.rgba[4 * i + 1] = value / 2;
-        spots.rgba[4 * i + 2] = i == 10 ? 200 : value;
+        spots.bytes[4 * i] = value;
+        spots.bytes[4 * i + 1] = value / 2;
+        spots.bytes[4 * i + 2] = i == 10 ? 200 : value;
     }
     builder.desc.images.push_back(spots);
     MaterialDesc screen = emitter(Rgb(12.0f));

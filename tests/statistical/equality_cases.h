@@ -32,6 +32,8 @@ struct EqualityCase {
 [[nodiscard]] std::vector<EqualityCase> many_light_cases();
 /// A luminaire with a measured profile, alone and among other lights. Not among `equality_cases`.
 [[nodiscard]] std::vector<EqualityCase> profile_cases();
+/// Textures that are looked up in smaller copies. Not among `equality_cases`.
+[[nodiscard]] std::vector<EqualityCase> mip_map_cases();
 
 /// Materials with layers and other extensions of glTF, one each. Not among `equality_cases`.
 [[nodiscard]] std::vector<EqualityCase> layer_cases();

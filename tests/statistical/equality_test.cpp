@@ -174,6 +174,11 @@ TEST_CASE("all integrators agree: light profiles", "[equality][profiles]")
     check_cases(profile_cases(), 430000);
 }
 
+TEST_CASE("all integrators agree: mip-mapped textures", "[equality][textures]")
+{
+    check_cases(mip_map_cases(), 440000);
+}
+
 TEST_CASE("several light paths have the time of their sample", "[equality][motion]")
 {
     const EqualityCase test = motion_cases().front();

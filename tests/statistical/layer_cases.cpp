@@ -20,9 +20,10 @@ EqualityCase ball(std::string name, const MaterialDesc& material)
 /// Slopes to four sides.
 TexelImage bumps()
 {
-    return {.width = 2,
-            .height = 2,
-            .rgba = {160, 128, 245, 255, 128, 160, 245, 255, 96, 128, 245, 255, 128, 96, 245, 255}};
+    return {
+        .width = 2,
+        .height = 2,
+        .bytes = {160, 128, 245, 255, 128, 160, 245, 255, 96, 128, 245, 255, 128, 96, 245, 255}};
 }
 
 /// An even coat over a bumpy base: two shading normals at each point.
@@ -88,9 +89,10 @@ EqualityCase dispersion()
 /// Leans by 70 degrees to four sides, and by 30 in between.
 TexelImage steep_bumps()
 {
-    return {.width = 4, .height = 2, .rgba = {247, 128, 171, 255, 192, 128, 238, 255, 8,   128, 171,
-                                              255, 64,  128, 238, 255, 128, 247, 171, 255, 128, 64,
-                                              238, 255, 128, 8,   171, 255, 128, 192, 238, 255}};
+    return {
+        .width = 4, .height = 2, .bytes = {247, 128, 171, 255, 192, 128, 238, 255, 8,   128, 171,
+                                           255, 64,  128, 238, 255, 128, 247, 171, 255, 128, 64,
+                                           238, 255, 128, 8,   171, 255, 128, 192, 238, 255}};
 }
 
 EqualityCase steep_map(std::string name, MaterialDesc material)

@@ -22,12 +22,31 @@ struct Image {
     }
 };
 
-/// Row-major 8-bit RGBA texels as they are stored in a picture file; row 0 is the top row. Which
-/// channels are sRGB-encoded is decided by the material slot that refers to the picture.
+/// How the values of a picture are stored.
+enum class TexelType : std::uint8_t {
+    unorm8,   ///< 255 is 1
+    unorm16,  ///< 65535 is 1
+    half,     ///< IEEE 754 binary16
+    float32,
+};
+
+/// Bytes of one value.
+[[nodiscard]] constexpr std::size_t size_of(TexelType type) noexcept
+{
+    return type == TexelType::unorm8 ? 1 : type == TexelType::float32 ? 4 : 2;
+}
+
+/// Row-major texels as they are stored in a picture file; row 0 is the top row. Whether integers
+/// are sRGB-encoded is decided by the material slot that refers to the picture; alpha, halves and
+/// floats are linear. Halves and floats must be finite and not negative; what is above 1 counts in
+/// emission only.
 struct TexelImage {
     int width = 0;
     int height = 0;
-    std::vector<std::uint8_t> rgba;  ///< 4 * width * height
+    /// width * height * channels values of `type`, in the byte order of the machine.
+    std::vector<std::uint8_t> bytes;
+    int channels = 4;  ///< 1: grey, 2: grey and alpha, 3: RGB, 4: RGBA
+    TexelType type = TexelType::unorm8;
 };
 
 }  // namespace bdpt

@@ -45,6 +45,16 @@ struct MeshDesc {
 /// What a texture shows outside of [0, 1]; names as in glTF 2.0.
 enum class Wrap : std::uint8_t { repeat, mirrored_repeat, clamp_to_edge };
 
+/// How textures are looked up where they have more detail than the picture shows.
+enum class TextureFilter : std::uint8_t {
+    /// Between the texels of the picture as it is: many samples a pixel find the average.
+    bilinear,
+    /// Between those of a smaller copy, where texels are narrower than half a pixel seen directly
+    /// from the camera: the same for all paths that meet the point. Emission, alpha, normals and
+    /// directions are looked up as they are.
+    mip_mapped,
+};
+
 /// A picture used by a material slot, with the transform of KHR_texture_transform.
 struct TextureRef {
     ImageId image{};
@@ -256,6 +266,7 @@ struct SceneDesc {
     std::vector<InstanceDesc> instances;
     std::vector<LightProfile> profiles;
     std::vector<LightDesc> lights;  ///< at most one environment
+    TextureFilter texture_filter = TextureFilter::bilinear;
 };
 
 enum class Projection : std::uint8_t { perspective, orthographic };

@@ -29,6 +29,10 @@ Camera::Camera(const CameraDesc& desc, int width, int height, const RasterBounds
     if (has_finite_lens()) {
         pdf_lens_ = {1.0f / (pi * lens_radius_ * lens_radius_)};
     }
+    const float pixel = 2.0f * half_extent_.y / film_size_.y;
+    pixel_cone_ = {.eye = position_,
+                   .width = perspective_ ? 0.0f : pixel,
+                   .spread = perspective_ ? pixel : 0.0f};
 }
 
 void Camera::look_from(const Mat4& world_from_camera)

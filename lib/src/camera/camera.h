@@ -1,6 +1,7 @@
 #pragma once
 
 #include "geometry/segment_end.h"
+#include "math/footprint.h"
 #include "math/pdf.h"
 
 #include <bdpt/scene_desc.h>
@@ -68,6 +69,8 @@ public:
     /// The ray through `raster` [pixels, origin at the top left], which may lie beside the film.
     /// `u_lens` chooses the point of a finite lens.
     [[nodiscard]] CameraRay generate_ray(Vec2 raster, Vec2 u_lens) const;
+    /// How wide a pixel of the film is in the scene.
+    [[nodiscard]] const PixelCone& pixel_cone() const { return pixel_cone_; }
     /// Distance of a point along the camera's axis [m]; positive in front.
     [[nodiscard]] float depth(Vec3 scene_point) const;
     /// Nothing when the point is behind the lens or appears outside of the visible bounds.
@@ -97,6 +100,7 @@ private:
     float lens_radius_;
     float focus_distance_;
     AreaPdf pdf_lens_{1.0f};
+    PixelCone pixel_cone_;
 };
 
 }  // namespace bdpt

@@ -225,6 +225,32 @@ std::array<Vec2, 2> PlacedMesh::uv(std::uint32_t triangle, Vec2 barycentrics) co
     return result;
 }
 
+UvFootprint PlacedMesh::uv_footprint(std::uint32_t triangle, float width, float time) const
+{
+    UvFootprint result;
+    const auto [a, b, c] = corners(triangle, time);
+    const Vec3 first = b - a;
+    const Vec3 second = c - a;
+    const float length_squared = dot(first, first);
+    const float shift = dot(first, second) / length_squared;
+    const Vec3 level = second - shift * first;
+    const float height_squared = dot(level, level);
+    if (!(length_squared > 0.0f && height_squared > 0.0f)) {
+        return result;
+    }
+    const UVec3& i = mesh_->triangles[triangle];
+    for (std::size_t set = 0; set < 2; ++set) {
+        const std::vector<Vec2>& uvs = mesh_->uvs[set];
+        if (!uvs.empty()) {
+            const Vec2 along = uvs[i.y] - uvs[i.x];
+            const Vec2 across = uvs[i.z] - uvs[i.x] - shift * along;
+            result[set] = {.along = width / std::sqrt(length_squared) * along,
+                           .across = width / std::sqrt(height_squared) * across};
+        }
+    }
+    return result;
+}
+
 Vec3 PlacedMesh::shading_normal(std::uint32_t triangle, Vec2 barycentrics, float time) const
 {
     if (mesh_->normals.empty()) {

@@ -2,6 +2,7 @@
 
 #include "geometry/motion.h"
 #include "geometry/ray.h"
+#include "math/footprint.h"
 
 #include <bdpt/scene_desc.h>
 
@@ -81,6 +82,10 @@ public:
     [[nodiscard]] Vec3 area_normal(std::uint32_t triangle, float time = 0.0f) const;
 
     [[nodiscard]] std::array<Vec2, 2> uv(std::uint32_t triangle, Vec2 barycentrics) const;
+    /// What a pixel that is `width` wide [m] on the triangle covers of its texture coordinates;
+    /// zero where the triangle has no area.
+    [[nodiscard]] UvFootprint uv_footprint(std::uint32_t triangle, float width,
+                                           float time = 0.0f) const;
     /// Interpolated and unit; zero when the mesh has no normals.
     [[nodiscard]] Vec3 shading_normal(std::uint32_t triangle, Vec2 barycentrics,
                                       float time = 0.0f) const;

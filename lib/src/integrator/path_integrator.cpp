@@ -97,8 +97,8 @@ Rgb PathIntegrator::estimate(Sample& sample, Probe& probe) const
     };
     for (int depth = 1; depth <= options_.max_depth; ++depth) {
         ++rays.camera;
-        const auto point =
-            world_.intersect(ray.origin, ray.direction, sampler.segment_key(0, depth), probe);
+        const auto point = world_.intersect(
+            ray.origin, ray.direction, sampler.segment_key(0, depth), sample.camera.pixel_cone(), probe);
         if (!point) {
             if (const auto id = world_.lights().environment()) {
                 const PhaseScope scope(probe, Phase::weigh);

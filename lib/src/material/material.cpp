@@ -43,6 +43,14 @@ namespace {
     return absorption;
 }
 
+/// Those that the base colour is looked up in. What emits or lets light pass is sampled as it is,
+/// and the colours of texels that are not there must not get into those that are.
+[[nodiscard]] Pictures color_pictures(const MaterialDesc& desc, const Pictures& pictures)
+{
+    const bool as_it_is = desc.unlit || desc.alpha_mode != AlphaMode::opaque;
+    return as_it_is ? pictures.at_full_size() : pictures;
+}
+
 }  // namespace
 
 std::array<float, wavelengths> channel_indices(const MaterialDesc& desc)
@@ -55,7 +63,7 @@ std::array<float, wavelengths> channel_indices(const MaterialDesc& desc)
     return {std::max(1.0f, desc.ior - spread), desc.ior, desc.ior + spread};
 }
 
-Material::Material(const MaterialDesc& desc, std::span<const TexelImage> images,
+Material::Material(const MaterialDesc& desc, const Pictures& pictures,
                    const ChannelAlbedos& albedos, const LayerTables* tables)
     : surface_{Rgb{desc.base_color.x, desc.base_color.y, desc.base_color.z},
                desc.metallic,
@@ -72,23 +80,26 @@ Material::Material(const MaterialDesc& desc, std::span<const TexelImage> images,
       alpha_(desc.base_color.w),
       alpha_cutoff_(desc.alpha_cutoff),
       albedos_(albedos),
-      base_color_map_(make_texture(desc.base_color_texture, images, Encoding::srgb)),
+      base_color_map_(
+          make_texture(desc.base_color_texture, color_pictures(desc, pictures), Encoding::srgb)),
       metallic_roughness_map_(
-          make_texture(desc.metallic_roughness_texture, images, Encoding::linear)),
-      normal_map_(make_normal_map(desc.normal_texture, desc.normal_scale, images)),
-      emission_map_(make_texture(desc.emission_texture, images, Encoding::srgb)),
-      specular_map_(make_texture(desc.specular_texture, images, Encoding::linear)),
-      specular_color_map_(make_texture(desc.specular_color_texture, images, Encoding::srgb)),
-      transmission_map_(make_texture(desc.transmission_texture, images, Encoding::linear)),
-      glossiness_map_(make_texture(desc.glossiness_texture, images, Encoding::linear))
+          make_texture(desc.metallic_roughness_texture, pictures, Encoding::linear)),
+      normal_map_(make_normal_map(desc.normal_texture, desc.normal_scale, pictures)),
+      emission_map_(
+          make_texture(desc.emission_texture, pictures.at_full_size(), Encoding::radiance)),
+      specular_map_(make_texture(desc.specular_texture, pictures, Encoding::linear)),
+      specular_color_map_(make_texture(desc.specular_color_texture, pictures, Encoding::srgb)),
+      transmission_map_(make_texture(desc.transmission_texture, pictures, Encoding::linear)),
+      glossiness_map_(make_texture(desc.glossiness_texture, pictures, Encoding::linear))
 {
     const bool varies = base_color_map_ || metallic_roughness_map_ || specular_map_ ||
                         specular_color_map_ || transmission_map_ || glossiness_map_;
     if (has_layers(desc)) {
-        layers_ = std::make_unique<const MaterialLayers>(desc, images, albedos, *tables);
+        layers_ = std::make_unique<const MaterialLayers>(desc, pictures, albedos, *tables);
     } else if (!varies && !unlit_ && !disperses()) {
         plain_.emplace(surface_, albedos_.at(Wavelength::green));
     }
+    needs_footprint_ = pictures.mip_maps != nullptr && !unlit_ && (varies || layers_ != nullptr);
     tangent_uv_set_ = normal_map_ ? std::optional(normal_map_->uv_set())
                       : layers_   ? layers_->tangent_uv_set()
                                   : std::nullopt;
@@ -136,10 +147,10 @@ float Material::opacity(const TexturePoint& point) const noexcept
     return opacity_of(alpha_ * texture * std::clamp(point.color.w, 0.0f, 1.0f));
 }
 
-Rgb Material::base_color(const TexturePoint& point) const noexcept
+Rgb Material::base_color(const TexturePoint& point, const UvFootprint* footprint) const noexcept
 {
     const Rgb color = surface_.base_color * Rgb(point.color);
-    return base_color_map_ ? color * Rgb(base_color_map_->lookup(point.uv)) : color;
+    return base_color_map_ ? color * Rgb(base_color_map_->lookup(point.uv, footprint)) : color;
 }
 
 Bsdf Material::placed(const ShadingPoint& point, const GltfBsdf& model) const noexcept
@@ -155,7 +166,7 @@ Bsdf Material::bsdf(const ShadingPoint& point) const noexcept
     if (plain_ && point.color == Vec4(1.0f)) {
         return placed(point, *plain_);
     }
-    const Rgb base = base_color({.uv = point.uv, .color = point.color});
+    const Rgb base = base_color({.uv = point.uv, .color = point.color}, point.footprint);
     if (unlit_) {
         return {point.ng, Frame::from_normal(shading_normal(point)), point.wo,
                 GltfBsdf(glm::clamp(base, 0.0f, 1.0f))};
@@ -163,21 +174,22 @@ Bsdf Material::bsdf(const ShadingPoint& point) const noexcept
     GltfParameters surface = surface_;
     surface.base_color = base;
     if (metallic_roughness_map_) {
-        const Vec4 texel = metallic_roughness_map_->lookup(point.uv);
+        const Vec4 texel = metallic_roughness_map_->lookup(point.uv, point.footprint);
         surface.roughness *= texel.y;
         surface.metallic *= texel.z;
     }
     if (glossiness_map_) {
-        surface.roughness = 1.0f - (1.0f - surface.roughness) * glossiness_map_->lookup(point.uv).w;
+        surface.roughness = 1.0f - (1.0f - surface.roughness) *
+                                       glossiness_map_->lookup(point.uv, point.footprint).w;
     }
     if (specular_map_) {
-        surface.specular *= specular_map_->lookup(point.uv).w;
+        surface.specular *= specular_map_->lookup(point.uv, point.footprint).w;
     }
     if (specular_color_map_) {
-        surface.specular_color *= Rgb(specular_color_map_->lookup(point.uv));
+        surface.specular_color *= Rgb(specular_color_map_->lookup(point.uv, point.footprint));
     }
     if (transmission_map_) {
-        surface.transmission *= transmission_map_->lookup(point.uv).x;
+        surface.transmission *= transmission_map_->lookup(point.uv, point.footprint).x;
     }
     if (layers_) {
         return layers_->bsdf(point, Frame::from_normal(shading_normal(point)), surface);
@@ -188,7 +200,7 @@ Bsdf Material::bsdf(const ShadingPoint& point) const noexcept
 Rgb Material::emission(const TexturePoint& point) const noexcept
 {
     if (unlit_) {
-        return glm::clamp(base_color(point), 0.0f, 1.0f);
+        return glm::clamp(base_color(point, nullptr), 0.0f, 1.0f);
     }
     return emission_map_ ? emission_ * Rgb(emission_map_->lookup(point.uv)) : emission_;
 }

@@ -12,19 +12,20 @@
 #include <array>
 #include <memory>
 #include <optional>
-#include <span>
 
 namespace bdpt {
 
-/// A `MaterialDesc` made ready for lookups. Refers to the images, which must outlive it.
+/// A `MaterialDesc` made ready for lookups. Refers to the pictures, which must outlive it.
 class Material {
 public:
     /// `albedos` belong to `channel_indices(desc)`; `tables` are needed where `has_layers(desc)`.
     /// Throws nothing: `desc` has been validated.
-    Material(const MaterialDesc& desc, std::span<const TexelImage> images,
-             const ChannelAlbedos& albedos, const LayerTables* tables = nullptr);
+    Material(const MaterialDesc& desc, const Pictures& pictures, const ChannelAlbedos& albedos,
+             const LayerTables* tables = nullptr);
 
     [[nodiscard]] Bsdf bsdf(const ShadingPoint& point) const noexcept;
+    /// Does that depend on `ShadingPoint::footprint`?
+    [[nodiscard]] bool needs_footprint() const noexcept { return needs_footprint_; }
 
     /// The share of rays that meet the surface, in [0, 1]; the others pass as if it were not there.
     [[nodiscard]] float opacity(const TexturePoint& point) const noexcept;
@@ -78,7 +79,8 @@ private:
         return normal_map_ ? normal_map_->normal(point) : point.ns;
     }
     [[nodiscard]] Bsdf placed(const ShadingPoint& point, const GltfBsdf& model) const noexcept;
-    [[nodiscard]] Rgb base_color(const TexturePoint& point) const noexcept;
+    [[nodiscard]] Rgb base_color(const TexturePoint& point,
+                                 const UvFootprint* footprint) const noexcept;
     [[nodiscard]] float opacity_of(float alpha) const noexcept;
     void measure_alpha();
     void measure_emission();
@@ -90,6 +92,7 @@ private:
     Rgb absorption_{0.0f};
     bool double_sided_;
     bool unlit_;
+    bool needs_footprint_ = false;
     AlphaMode alpha_mode_;
     float alpha_;  ///< the factor
     float alpha_cutoff_;

@@ -11,7 +11,6 @@
 
 #include <array>
 #include <optional>
-#include <span>
 
 namespace bdpt {
 
@@ -22,7 +21,7 @@ namespace bdpt {
 /// it; must not move while its BSDFs are in use.
 class MaterialLayers {
 public:
-    MaterialLayers(const MaterialDesc& desc, std::span<const TexelImage> images,
+    MaterialLayers(const MaterialDesc& desc, const Pictures& pictures,
                    const ChannelAlbedos& albedos, const LayerTables& tables);
 
     /// With `base` below the layers. The normal of `shading` is that of a normal map, or that of

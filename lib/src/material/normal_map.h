@@ -4,7 +4,6 @@
 #include "material/texture.h"
 
 #include <optional>
-#include <span>
 
 namespace bdpt {
 
@@ -32,9 +31,9 @@ private:
     float scale_;
 };
 
-/// The map of a slot, if it has one.
+/// The map of a slot, if it has one; at full size, as the means of normals are those of a smoother
+/// surface.
 [[nodiscard]] std::optional<NormalMap> make_normal_map(const std::optional<TextureRef>& ref,
-                                                       float scale,
-                                                       std::span<const TexelImage> images);
+                                                       float scale, const Pictures& pictures);
 
 }  // namespace bdpt

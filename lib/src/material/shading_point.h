@@ -1,5 +1,6 @@
 #pragma once
 
+#include "math/footprint.h"
 #include "math/wavelength.h"
 
 #include <bdpt/types.h>
@@ -17,6 +18,8 @@ struct ShadingPoint {
     Vec4 color{1.0f};  ///< vertex colour, linear
     Wavelength wavelength = Wavelength::green;
     Vec3 wo{0.0f, 0.0f, 1.0f};  ///< unit, towards where the walk came from
+    /// What a pixel covers of the textures, where they are mip-mapped.
+    const UvFootprint* footprint = nullptr;
 };
 
 /// What textures and vertex colours are looked up by.

@@ -1,51 +1,16 @@
 #include "material/texture.h"
 
+#include "material/texel_access.h"
 #include "math/elementary.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 namespace bdpt {
 namespace {
-
-using DecodeTable = std::array<float, 256>;
-
-/// x^2.4 for x in (0, 1], by Newton's method for the fifth root of x^2; needs no C library.
-[[nodiscard]] constexpr double power_2_4(double x)
-{
-    const double square = x * x;
-    double root = 1.0;
-    for (int i = 0; i < 40; ++i) {
-        const double fourth = root * root * root * root;
-        root -= (root * fourth - square) / (5.0 * fourth);
-    }
-    return square * root;
-}
-
-[[nodiscard]] constexpr DecodeTable make_linear()
-{
-    DecodeTable table{};
-    for (std::size_t i = 0; i < table.size(); ++i) {
-        table[i] = static_cast<float>(static_cast<double>(i) / 255.0);
-    }
-    return table;
-}
-
-/// The electro-optical function of IEC 61966-2-1.
-[[nodiscard]] constexpr DecodeTable make_srgb()
-{
-    DecodeTable table{};
-    for (std::size_t i = 0; i < table.size(); ++i) {
-        const double c = static_cast<double>(i) / 255.0;
-        const double linear = c <= 0.04045 ? c / 12.92 : power_2_4((c + 0.055) / 1.055);
-        table[i] = static_cast<float>(linear);
-    }
-    return table;
-}
-
-constexpr DecodeTable linear_table = make_linear();
-constexpr DecodeTable srgb_table = make_srgb();
 
 /// The two texels that a coordinate lies between, and how far it is from the first.
 struct Span {
@@ -87,9 +52,11 @@ struct Span {
 // KHR_texture_transform scales first, then rotates, then offsets. It turns the coordinates counter-
 // clockwise as seen on the picture, whose v points down: its example of the lower left quadrant and
 // Khronos's TextureTransformTest agree on that, while the signs in its GLSL listing do not.
-Texture::Texture(const TextureRef& ref, const TexelImage& image, Encoding encoding)
+Texture::Texture(const TextureRef& ref, const TexelImage& image, Encoding encoding,
+                 std::span<const TexelImage> coarser)
     : image_(&image),
-      decode_(encoding == Encoding::srgb ? srgb_table.data() : linear_table.data()),
+      coarser_(coarser),
+      coding_(coding_of(image.type, encoding)),
       uv_set_(ref.uv_set),
       wrap_u_(ref.wrap_u),
       wrap_v_(ref.wrap_v),
@@ -98,15 +65,6 @@ Texture::Texture(const TextureRef& ref, const TexelImage& image, Encoding encodi
     const SinCos turn = sin_cos(ref.rotation);
     u_axis_ = Vec2{turn.cos, -turn.sin} * ref.scale.x;
     v_axis_ = Vec2{turn.sin, turn.cos} * ref.scale.y;
-}
-
-Vec4 Texture::texel(int x, int y) const noexcept
-{
-    const std::size_t index =
-        4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image_->width) +
-             static_cast<std::size_t>(x));
-    const std::uint8_t* rgba = image_->rgba.data() + index;
-    return {decode_[rgba[0]], decode_[rgba[1]], decode_[rgba[2]], linear_table[rgba[3]]};
 }
 
 Vec2 Texture::transformed(const std::array<Vec2, 2>& uv) const noexcept
@@ -120,29 +78,68 @@ Vec2 Texture::texel_position(const std::array<Vec2, 2>& uv) const noexcept
     return transformed(uv) * Vec2(image_->width, image_->height);
 }
 
-Vec4 Texture::lookup(const std::array<Vec2, 2>& uv) const noexcept
+const TexelImage& Texture::level(const UvFootprint& footprint) const noexcept
+{
+    const UvSteps& pixel = footprint[static_cast<std::size_t>(uv_set_)];
+    const Vec2 size(image_->width, image_->height);
+    const Vec2 along = (pixel.along.x * u_axis_ + pixel.along.y * v_axis_) * size;
+    const Vec2 across = (pixel.across.x * u_axis_ + pixel.across.y * v_axis_) * size;
+    // The smaller singular value, squared, of the matrix with these columns: the footprint's
+    // narrowest width in texels.
+    const float sum = dot(along, along) + dot(across, across);
+    const float area = along.x * across.y - along.y * across.x;
+    const float root = std::sqrt(std::max(0.0f, sum * sum - 4.0f * area * area));
+    const float width_squared = 2.0f * area * area / (sum + root);
+    constexpr float two_levels = 16.0f;  // four texels: two of the next level, half of the width
+    if (!(width_squared >= two_levels)) {
+        return *image_;  // also where coordinates do not change, or not finitely
+    }
+    const int exponent = static_cast<int>(std::bit_cast<std::uint32_t>(width_squared) >> 23U) - 127;
+    const auto halvings = static_cast<std::size_t>(exponent / 2 - 1);
+    return coarser_[std::min(halvings, coarser_.size()) - 1];
+}
+
+Vec4 Texture::bilinear(const TexelImage& image, const std::array<Vec2, 2>& uv) const noexcept
 {
     const Vec2 p = transformed(uv);
-    const Span x = span_of(p.x, image_->width, wrap_u_);
-    const Span y = span_of(p.y, image_->height, wrap_v_);
-    const Vec4 upper =
-        (1.0f - x.fraction) * texel(x.first, y.first) + x.fraction * texel(x.second, y.first);
-    const Vec4 lower =
-        (1.0f - x.fraction) * texel(x.first, y.second) + x.fraction * texel(x.second, y.second);
-    return (1.0f - y.fraction) * upper + y.fraction * lower;
+    const Span x = span_of(p.x, image.width, wrap_u_);
+    const Span y = span_of(p.y, image.height, wrap_v_);
+    const auto width = static_cast<std::size_t>(image.width);
+    const std::size_t first_row = static_cast<std::size_t>(y.first) * width;
+    const std::size_t second_row = static_cast<std::size_t>(y.second) * width;
+    const auto first = static_cast<std::size_t>(x.first);
+    const auto second = static_cast<std::size_t>(x.second);
+    return with_layout(image.type, image.channels, [&]<TexelType type, int channels>() {
+        const TexelReader<type, channels> texel(image.bytes.data(), coding_);
+        const Vec4 upper =
+            (1.0f - x.fraction) * texel(first_row + first) + x.fraction * texel(first_row + second);
+        const Vec4 lower = (1.0f - x.fraction) * texel(second_row + first) +
+                           x.fraction * texel(second_row + second);
+        return (1.0f - y.fraction) * upper + y.fraction * lower;
+    });
+}
+
+template <typename Visit>
+void Texture::for_each_texel(const Visit& visit) const
+{
+    const std::size_t count =
+        static_cast<std::size_t>(image_->width) * static_cast<std::size_t>(image_->height);
+    with_layout(image_->type, image_->channels, [&]<TexelType type, int channels>() {
+        const TexelReader<type, channels> texel(image_->bytes.data(), coding_);
+        for (std::size_t i = 0; i < count; ++i) {
+            visit(texel(i));
+        }
+    });
 }
 
 Vec4 Texture::mean() const
 {
     std::array<double, 4> sum{};
-    for (int y = 0; y < image_->height; ++y) {
-        for (int x = 0; x < image_->width; ++x) {
-            const Vec4 value = texel(x, y);
-            for (int channel = 0; channel < 4; ++channel) {
-                sum[static_cast<std::size_t>(channel)] += static_cast<double>(value[channel]);
-            }
+    for_each_texel([&sum](Vec4 value) {
+        for (int channel = 0; channel < 4; ++channel) {
+            sum[static_cast<std::size_t>(channel)] += static_cast<double>(value[channel]);
         }
-    }
+    });
     const double count = static_cast<double>(image_->width) * static_cast<double>(image_->height);
     return {static_cast<float>(sum[0] / count), static_cast<float>(sum[1] / count),
             static_cast<float>(sum[2] / count), static_cast<float>(sum[3] / count)};
@@ -150,13 +147,13 @@ Vec4 Texture::mean() const
 
 std::pair<float, float> Texture::alpha_range() const
 {
-    std::uint8_t least = 255;
-    std::uint8_t greatest = 0;
-    for (std::size_t i = 3; i < image_->rgba.size(); i += 4) {
-        least = std::min(least, image_->rgba[i]);
-        greatest = std::max(greatest, image_->rgba[i]);
-    }
-    return {linear_table[least], linear_table[greatest]};
+    float least = 1.0f;
+    float greatest = 0.0f;
+    for_each_texel([&](Vec4 value) {
+        least = std::min(least, value.w);
+        greatest = std::max(greatest, value.w);
+    });
+    return {least, greatest};
 }
 
 }  // namespace bdpt

@@ -75,6 +75,7 @@ void append_surface(const SurfacePoint& point, float distance_squared, const Ste
 struct Walk {
     const World& world;
     const Camera* lens;  ///< of light walks: where they may cross it
+    const PixelCone& pixel;
     TransportMode mode;
     SampleUse use;
     WalkLimits limits;
@@ -138,7 +139,7 @@ void walk(const Walk& rules, Step step, Sampler& sampler, Subpath& path, Probe& 
         const bool from_camera = mode == TransportMode::radiance;
         const SegmentKey segment =
             sampler.segment_key(from_camera ? 0 : path.size(), from_camera ? path.size() : 0);
-        const auto hit = world.intersect(step.origin, step.direction, segment, probe);
+        const auto hit = world.intersect(step.origin, step.direction, segment, rules.pixel, probe);
         if (watches_lens) {
             look_for_lens(*rules.lens, step,
                           hit ? glm::distance(hit->end.p, step.origin.p)
@@ -200,6 +201,7 @@ void trace_camera_subpath(const World& world, const Camera& camera, Vec2 raster,
     lens.pdf_fwd = ray.pdf_lens;
     walk({.world = world,
           .lens = nullptr,
+          .pixel = camera.pixel_cone(),
           .mode = TransportMode::radiance,
           .use = SampleUse::camera_walk,
           .limits = limits},
@@ -248,6 +250,7 @@ void trace_light_subpath(const World& world, const Camera& camera, const WalkLim
     }
     walk({.world = world,
           .lens = &camera,
+          .pixel = camera.pixel_cone(),
           .mode = TransportMode::importance,
           .use = SampleUse::light_walk,
           .limits = limits},

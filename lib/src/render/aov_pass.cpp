@@ -41,7 +41,9 @@ std::optional<PrimaryHit> AovPass::first_hit(int x, int y, std::int64_t sample_i
     sampler.start(SampleUse::lens);
     const Vec2 u_lens = camera.has_finite_lens() ? sampler.next_2d() : Vec2(0.0f);
     const CameraRay ray = camera.generate_ray(raster, u_lens);
-    const auto point = world_.intersect(ray.lens, ray.direction, sampler.segment_key(0, 1));
+    NoProbe probe;
+    const auto point = world_.intersect(ray.lens, ray.direction, sampler.segment_key(0, 1),
+                                        camera.pixel_cone(), probe);
     if (!point) {
         return std::nullopt;
     }

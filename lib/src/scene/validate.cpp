@@ -2,6 +2,7 @@
 
 #include "geometry/reach.h"
 #include "scene/check_motion.h"
+#include "scene/check_texels.h"
 #include "scene/validate_lights.h"
 #include "scene/value_checks.h"
 
@@ -150,15 +151,6 @@ void check_reach(const SceneDesc& desc, float reach)
     }
 }
 
-void check(const TexelImage& image, const std::string& item)
-{
-    if (image.width < 1 || image.height < 1 ||
-        image.rgba.size() != 4 * area(image.width, image.height)) {
-        fail(item, ": ", image.width, " x ", image.height, " texels with ", image.rgba.size(),
-             " bytes");
-    }
-}
-
 bool is_degenerate(const MeshDesc& mesh, const UVec3& triangle)
 {
     const Vec3& a = mesh.positions[triangle.x];
@@ -171,7 +163,7 @@ bool is_degenerate(const MeshDesc& mesh, const UVec3& triangle)
 void validate(const SceneDesc& desc)
 {
     for (std::size_t i = 0; i < desc.images.size(); ++i) {
-        check(desc.images[i], label("image", i, ""));
+        check_texels(desc.images[i], label("image", i, ""));
     }
     for (std::size_t i = 0; i < desc.materials.size(); ++i) {
         const MaterialDesc& material = desc.materials[i];

@@ -7,8 +7,12 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 namespace bdpt {
@@ -66,18 +70,26 @@ BoundingSphere sphere_around(const Bounds& bounds)
             .radius = radius > 0.0f ? 1.0001f * radius : 1.0f};
 }
 
+void for_rows(int count, const std::function<void(int, int)>& work)
+{
+    tbb::parallel_for(tbb::blocked_range<int>(0, count, 16),
+                      [&work](const auto& rows) { work(rows.begin(), rows.end()); });
+}
+
 }  // namespace
 
-World::World(SceneDesc desc, Isa isa) : desc_(std::move(desc))
+World::World(SceneDesc desc, Isa isa) : desc_(std::move(desc)), mip_maps_(for_rows)
 {
     validate(desc_);
+    const bool mip_mapped = desc_.texture_filter == TextureFilter::mip_mapped;
+    const Pictures pictures(desc_.images, mip_mapped ? &mip_maps_ : nullptr);
     if (std::any_of(desc_.materials.begin(), desc_.materials.end(), has_layers)) {
         layer_tables_ = std::make_unique<const LayerTables>(desc_.materials);
     }
     for (const MaterialDesc& material : desc_.materials) {
         const auto [red, green, blue] = channel_indices(material);
         const ChannelAlbedos albedos(albedo_of(red), albedo_of(green), albedo_of(blue));
-        materials_.emplace_back(material, desc_.images, albedos, layer_tables_.get());
+        materials_.emplace_back(material, pictures, albedos, layer_tables_.get());
         disperses_ = disperses_ || albedos.disperse();
     }
     placed_.reserve(desc_.instances.size());
@@ -157,12 +169,13 @@ std::optional<RayHit> World::first_hit(const SegmentEnd& from, Vec3 direction,
                                .segment = segment});
 }
 
-SurfacePoint World::point_of(const RayHit& hit, Vec3 direction, SegmentKey segment) const noexcept
+SurfacePoint World::point_of(const RayHit& hit, Vec3 direction, SegmentKey segment,
+                             const PixelCone& pixel) const noexcept
 {
     if (hit.sphere != no_sphere) [[unlikely]] {
         return sphere_point(hit, direction, segment.time);
     }
-    return surface_point(hit, direction, segment);
+    return surface_point(hit, direction, segment, pixel);
 }
 
 /// Spheres are lights: they emit from their outside and reflect nothing.
@@ -177,8 +190,8 @@ SurfacePoint World::sphere_point(const RayHit& hit, Vec3 direction, float time) 
             .light = id};
 }
 
-SurfacePoint World::surface_point(const RayHit& hit, Vec3 direction,
-                                  SegmentKey segment) const noexcept
+SurfacePoint World::surface_point(const RayHit& hit, Vec3 direction, SegmentKey segment,
+                                  const PixelCone& pixel) const noexcept
 {
     const PlacedMesh& mesh = placed_[hit.instance];
     const Material& material = material_of(hit.instance);
@@ -191,6 +204,10 @@ SurfacePoint World::surface_point(const RayHit& hit, Vec3 direction,
 
     const TexturePoint at = texture_point(mesh, hit.triangle, hit.at.barycentrics);
     const auto tangent_uv_set = material.tangent_uv_set();
+    std::optional<UvFootprint> footprint;
+    if (material.needs_footprint()) [[unlikely]] {
+        footprint = mesh.uv_footprint(hit.triangle, pixel.width_at(hit.at.point.p), segment.time);
+    }
     const ShadingPoint shading{.ng = ng,
                                .ns = ns,
                                .tangent = tangent_uv_set
@@ -200,7 +217,8 @@ SurfacePoint World::surface_point(const RayHit& hit, Vec3 direction,
                                .uv = at.uv,
                                .color = at.color,
                                .wavelength = segment.wavelength,
-                               .wo = -direction};
+                               .wo = -direction,
+                               .footprint = footprint ? &*footprint : nullptr};
 
     SurfacePoint result{.end = {.p = hit.at.point.p,
                                 .error = hit.at.point.error,

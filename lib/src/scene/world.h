@@ -6,6 +6,8 @@
 #include "light/intensity_profile.h"
 #include "material/bsdf.h"
 #include "material/material.h"
+#include "material/mip_maps.h"
+#include "math/footprint.h"
 #include "math/probe.h"
 #include "scene/light_set.h"
 #include "scene/medium.h"
@@ -47,12 +49,13 @@ public:
                                                         SegmentKey segment) const noexcept
     {
         NoProbe probe;
-        return intersect(from, direction, segment, probe);
+        return intersect(from, direction, segment, PixelCone{}, probe);
     }
-    /// The same; `probe` is told when the ray has hit and the surface is at work.
+    /// The same, where mip-mapped textures have the detail that pixels show; `probe` is told when
+    /// the ray has hit and the surface is at work.
     template <typename Probe>
     [[nodiscard]] std::optional<SurfacePoint> intersect(const SegmentEnd& from, Vec3 direction,
-                                                        SegmentKey segment,
+                                                        SegmentKey segment, const PixelCone& pixel,
                                                         Probe& probe) const noexcept
     {
         const auto hit = first_hit(from, direction, segment);
@@ -60,7 +63,7 @@ public:
             return std::nullopt;
         }
         const PhaseScope scope(probe, Phase::shade);
-        return point_of(*hit, direction, segment);
+        return point_of(*hit, direction, segment, pixel);
     }
     /// What is left of light between two points: zero when it meets a surface in between, else what
     /// the medium lets through.
@@ -88,16 +91,17 @@ private:
     [[nodiscard]] PassRule pass_rule() const noexcept;
     [[nodiscard]] std::optional<RayHit> first_hit(const SegmentEnd& from, Vec3 direction,
                                                   SegmentKey segment) const noexcept;
-    [[nodiscard]] SurfacePoint point_of(const RayHit& hit, Vec3 direction,
-                                        SegmentKey segment) const noexcept;
-    [[nodiscard]] SurfacePoint surface_point(const RayHit& hit, Vec3 direction,
-                                             SegmentKey segment) const noexcept;
+    [[nodiscard]] SurfacePoint point_of(const RayHit& hit, Vec3 direction, SegmentKey segment,
+                                        const PixelCone& pixel) const noexcept;
+    [[nodiscard]] SurfacePoint surface_point(const RayHit& hit, Vec3 direction, SegmentKey segment,
+                                             const PixelCone& pixel) const noexcept;
     [[nodiscard]] SurfacePoint sphere_point(const RayHit& hit, Vec3 direction,
                                             float time) const noexcept;
 
     SceneDesc desc_;
     std::map<float, std::unique_ptr<const SpecularAlbedo>> albedos_;  // by index of refraction
     std::unique_ptr<const LayerTables> layer_tables_;                 // if any material needs them
+    MipMaps mip_maps_;                                                // if textures have any
     std::vector<Material> materials_;
     bool disperses_ = false;
     bool moves_ = false;

@@ -78,4 +78,25 @@ TEST_CASE("the top row of the film looks up, and the node's scale does not matte
     CHECK(dot(scaled, plain.generate_ray({1.0f, 2.0f}, Vec2(0.5f)).direction) == Approx(1.0));
 }
 
+TEST_CASE("pixels are as wide as the rays through them are apart", "[camera]")
+{
+    CameraDesc desc = test::camera_at({1, 2, 3}, {1, 2, -7}, 0.8f);
+    const auto apart = [](const Camera& camera) {
+        const CameraRay a = camera.generate_ray({16.0f, 9.0f}, Vec2(0.5f));
+        const CameraRay b = camera.generate_ray({16.0f, 10.0f}, Vec2(0.5f));
+        return glm::distance(a.lens.p + 10.0f * a.direction, b.lens.p + 10.0f * b.direction);
+    };
+    const Camera perspective(desc, 32, 18);
+    CHECK(perspective.pixel_cone().width_at({1, 2, -7}) ==
+          Approx(apart(perspective)).epsilon(2e-3));
+    CHECK(perspective.pixel_cone().width_at({1, 2, 13}) ==
+          Approx(apart(perspective)).epsilon(2e-3));  // behind the camera, too
+    CHECK(perspective.pixel_cone().width_at({1, 2, 3}) == 0.0f);
+    desc.projection = Projection::orthographic;
+    desc.vertical_extent = 6.0f;
+    const Camera orthographic(desc, 32, 18);
+    CHECK(orthographic.pixel_cone().width_at({1, 2, -7}) == Approx(6.0 / 18.0));
+    CHECK(orthographic.pixel_cone().width_at({50, 2, -700}) == Approx(apart(orthographic)));
+}
+
 }  // namespace bdpt

@@ -89,4 +89,25 @@ TEST_CASE("attributes are interpolated, and absent ones have their defaults", "[
     CHECK(placed.color(0, {0.5f, 0.25f}).g == Approx(0.5f));
 }
 
+TEST_CASE("a pixel covers texture coordinates as the triangle is placed", "[geometry]")
+{
+    // Skewed in the plane and in the picture: 4 m of x are 1 of u, 1 m of y is 2 of v.
+    MeshDesc mesh;
+    mesh.positions = {{0, 0, 0}, {4, 0, 0}, {1, 1, 0}};
+    mesh.uvs[0] = {{0, 0}, {1, 0}, {0.25f, 2}};
+    mesh.triangles = {{0, 1, 2}, {1, 2, 0}, {0, 0, 1}};
+    const PlacedMesh doubled(mesh, glm::scale(Mat4(1.0f), Vec3(2.0f)));
+    for (const std::uint32_t triangle : {0U, 1U}) {
+        const UvSteps steps = doubled.uv_footprint(triangle, 0.1f)[0];
+        // The metric of the footprint does not depend on the corner that it is worked out from.
+        const Vec2 u(steps.along.x, steps.across.x);
+        const Vec2 v(steps.along.y, steps.across.y);
+        CHECK(dot(u, u) == Approx(0.1 * 0.1 / 64.0));
+        CHECK(dot(v, v) == Approx(0.1 * 0.1));
+        CHECK(dot(u, v) == Approx(0.0).margin(1e-7));
+    }
+    CHECK(doubled.uv_footprint(0, 0.1f)[1].along == Vec2(0.0f));   // no coordinates in set 1
+    CHECK(doubled.uv_footprint(2, 0.1f)[0].across == Vec2(0.0f));  // no area
+}
+
 }  // namespace bdpt

@@ -86,7 +86,14 @@ TEST_CASE("all that a picture depends on is in the hash of a scene, names are no
         },
         [](SceneDesc& s) {
             s.images.push_back({1, 1, {1, 2, 3, 5}});
-        }};
+        },
+        [](SceneDesc& s) {
+            s.images.push_back({1, 1, {1, 2, 3, 4}, 2, TexelType::unorm16});
+        },
+        [](SceneDesc& s) {
+            s.images.push_back({1, 1, {1, 2, 3, 4}, 2, TexelType::half});
+        },
+        [](SceneDesc& s) { s.texture_filter = TextureFilter::mip_mapped; }};
     std::set<std::uint64_t> hashes{content_hash(base)};
     for (const auto& change : changes) {
         SceneDesc changed = base;

@@ -27,13 +27,13 @@ constexpr int size = 16;  // of the image [pixels]
 /// Picture 0: colours, half of them see-through; 1: slopes, for a normal map.
 void add_pictures(SceneDesc& desc)
 {
-    TexelImage colors{.width = 4, .height = 4, .rgba = {}};
-    TexelImage slopes{.width = 4, .height = 4, .rgba = {}};
+    TexelImage colors{.width = 4, .height = 4, .bytes = {}};
+    TexelImage slopes{.width = 4, .height = 4, .bytes = {}};
     for (int i = 0; i < 16; ++i) {
         const auto level = static_cast<std::uint8_t>(16 * i);
-        colors.rgba.insert(colors.rgba.end(),
-                           {level, 200, 90, i % 2 == 0 ? level : std::uint8_t{255}});
-        slopes.rgba.insert(slopes.rgba.end(), {level, 128, 220, 255});
+        colors.bytes.insert(colors.bytes.end(),
+                            {level, 200, 90, i % 2 == 0 ? level : std::uint8_t{255}});
+        slopes.bytes.insert(slopes.bytes.end(), {level, 128, 220, 255});
     }
     desc.images = {std::move(colors), std::move(slopes)};
 }

@@ -130,7 +130,7 @@ void add_grey_textures(GltfFixture& fixture)
 
 int grey_picture(const LoadedScene& loaded, const std::optional<TextureRef>& ref)
 {
-    return ref ? loaded.scene.images.at(static_cast<std::size_t>(ref->image)).rgba.at(0) / 10 : -1;
+    return ref ? loaded.scene.images.at(static_cast<std::size_t>(ref->image)).bytes.at(0) / 10 : -1;
 }
 
 }  // namespace bdpt::io

@@ -4,7 +4,9 @@
 
 #include <bdpt/scene_desc.h>
 
+#include <array>
 #include <cstdlib>
+#include <cstring>
 
 using namespace bdpt;
 using namespace bdpt::io;
@@ -40,30 +42,41 @@ using Texels = std::vector<std::uint8_t>;
 
 }  // namespace
 
-TEST_CASE("PNG pictures of all kinds become 8-bit RGBA as they are stored")
+TEST_CASE("PNG pictures of all kinds keep their channels and bits, as they are stored")
 {
     const TexelImage rgb =
         load_picture(png(2, 2, 8, 2, {raw({255, 0, 0, 0, 255, 0}), raw({0, 0, 255, 10, 20, 30})}));
     CHECK(rgb.width == 2);
     CHECK(rgb.height == 2);
-    CHECK(rgb.rgba == Texels{255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 10, 20, 30, 255});
+    CHECK(rgb.channels == 3);
+    CHECK(rgb.type == TexelType::unorm8);
+    CHECK(rgb.bytes == Texels{255, 0, 0, 0, 255, 0, 0, 0, 255, 10, 20, 30});
     // Alpha is not multiplied in, not even zero.
-    CHECK(load_picture(png(2, 1, 8, 6, {raw({200, 100, 50, 128, 1, 2, 3, 0})})).rgba ==
-          Texels{200, 100, 50, 128, 1, 2, 3, 0});
-    CHECK(load_picture(png(2, 1, 8, 0, {raw({7, 250})})).rgba ==
-          Texels{7, 7, 7, 255, 250, 250, 250, 255});
-    CHECK(load_picture(png(2, 1, 8, 4, {raw({7, 99, 250, 3})})).rgba ==
-          Texels{7, 7, 7, 99, 250, 250, 250, 3});
-    // 16 bits are rounded: 0x64C0 / 65535 * 255 = 100.3, 0x6480 / 65535 * 255 = 100.1.
-    CHECK(load_picture(png(1, 1, 16, 2, {raw({255, 255, 0x64, 0xC0, 7, 7})})).rgba ==
-          Texels{255, 100, 7, 255});
+    const TexelImage rgba = load_picture(png(2, 1, 8, 6, {raw({200, 100, 50, 128, 1, 2, 3, 0})}));
+    CHECK(rgba.channels == 4);
+    CHECK(rgba.bytes == Texels{200, 100, 50, 128, 1, 2, 3, 0});
+    const TexelImage grey = load_picture(png(2, 1, 8, 0, {raw({7, 250})}));
+    CHECK(grey.channels == 1);
+    CHECK(grey.bytes == Texels{7, 250});
+    const TexelImage grey_alpha = load_picture(png(2, 1, 8, 4, {raw({7, 99, 250, 3})}));
+    CHECK(grey_alpha.channels == 2);
+    CHECK(grey_alpha.bytes == Texels{7, 99, 250, 3});
+    const TexelImage bits = load_picture(png(8, 1, 1, 0, {raw({0x53})}));
+    CHECK(bits.bytes == Texels{0, 255, 0, 255, 0, 0, 255, 255});
+    const TexelImage wide = load_picture(png(1, 1, 16, 2, {raw({255, 255, 0x64, 0xC0, 7, 7})}));
+    CHECK(wide.channels == 3);
+    REQUIRE(wide.type == TexelType::unorm16);
+    std::array<std::uint16_t, 3> words{};
+    REQUIRE(wide.bytes.size() == sizeof words);
+    std::memcpy(words.data(), wide.bytes.data(), sizeof words);
+    CHECK(words == std::array<std::uint16_t, 3>{0xffff, 0x64c0, 0x0707});
     const std::string palette =
         png_chunk("PLTE", raw({10, 20, 30, 40, 50, 60})) + png_chunk("tRNS", raw({255, 77}));
-    CHECK(load_picture(png(2, 1, 8, 3, {raw({1, 0})}, palette)).rgba ==
+    CHECK(load_picture(png(2, 1, 8, 3, {raw({1, 0})}, palette)).bytes ==
           Texels{40, 50, 60, 77, 10, 20, 30, 255});
     // A gamma of 1 says how to show the picture, not what its values are.
     CHECK(load_picture(png(1, 1, 8, 0, {raw({100})}, png_chunk("gAMA", raw({0, 1, 0x86, 0xA0}))))
-              .rgba == Texels{100, 100, 100, 255});
+              .bytes == Texels{100});
 }
 
 TEST_CASE("JPEG and WebP pictures are read")
@@ -71,16 +84,16 @@ TEST_CASE("JPEG and WebP pictures are read")
     const TexelImage jpeg = load_picture(orange_jpeg());
     REQUIRE(jpeg.width == 8);
     REQUIRE(jpeg.height == 8);
-    CHECK(jpeg.rgba[0] > 250);
-    CHECK(std::abs(jpeg.rgba[1] - 128) < 4);
-    CHECK(jpeg.rgba[2] < 5);
-    CHECK(jpeg.rgba[3] == 255);
+    CHECK(jpeg.bytes[0] > 250);
+    CHECK(std::abs(jpeg.bytes[1] - 128) < 4);
+    CHECK(jpeg.bytes[2] < 5);
+    CHECK(jpeg.channels == 3);
     const TexelImage webp = load_picture(red_webp());
     REQUIRE(webp.width == 2);
     REQUIRE(webp.height == 2);
-    CHECK(webp.rgba[0] > 240);
-    CHECK(webp.rgba[1] < 15);
-    CHECK(webp.rgba[3] == 255);
+    CHECK(webp.bytes[0] > 240);
+    CHECK(webp.bytes[1] < 15);
+    CHECK((webp.channels == 3 || webp.bytes[3] == 255));
 }
 
 TEST_CASE("the WebP picture of a texture comes before its fallback")
@@ -93,6 +106,44 @@ TEST_CASE("the WebP picture of a texture comes before its fallback")
     CHECK(fixture.load().scene.images.at(0).width == 2);
 }
 
+TEST_CASE(
+    "of pictures that no library here decodes the other one is taken, or the texture is left out")
+{
+    for (const char* name : {"KHR_texture_basisu", "EXT_texture_avif", "MSFT_texture_dds"}) {
+        CAPTURE(name);
+        GltfFixture fixture = with_image(data_uri(png(1, 1, 8, 0, {raw({1})})));
+        fixture.json["images"].push_back(data_uri("\xabKTX 20\xbb"));
+        fixture.json["extensionsUsed"] = {name};
+        fixture.json["textures"][0]["extensions"][name]["source"] = 1;
+        const LoadedScene other = fixture.load();
+        CHECK(other.scene.images.size() == 1);
+        CHECK(warns(other.warnings, {"/extensionsUsed/0: ", name, "fallback"}));
+
+        fixture.json["textures"][0].erase("source");
+        const LoadedScene without = fixture.load();
+        CHECK(without.scene.images.empty());
+        CHECK_FALSE(without.scene.materials.at(0).base_color_texture);
+        CHECK(warns(without.warnings, {"/textures/0 (", name, "no PNG, JPEG or WebP picture"}));
+
+        fixture.json["extensionsRequired"] = {name};
+        const Error error = fixture.error();
+        CHECK(error.code() == ErrorCode::unsupported);
+        CHECK(contains(error.what(), name));
+    }
+}
+
+TEST_CASE("where the better picture of a texture is broken, the other one is taken")
+{
+    GltfFixture fixture = with_image(data_uri(png(1, 1, 8, 0, {raw({1})})));
+    fixture.json["images"].push_back(data_uri(red_webp().substr(0, 35)));
+    fixture.json["textures"][0]["extensions"]["EXT_texture_webp"]["source"] = 1;
+    const LoadedScene loaded = fixture.load();
+    REQUIRE(loaded.scene.images.size() == 1);
+    CHECK(loaded.scene.images[0].width == 1);
+    CHECK(loaded.scene.materials.at(0).base_color_texture->image == ImageId{0});
+    CHECK(warns(loaded.warnings, {"/images/1: "}));
+}
+
 TEST_CASE("pictures come from files and from buffer views too")
 {
     const std::string picture = png(1, 1, 8, 2, {raw({1, 2, 3})});
@@ -100,13 +151,13 @@ TEST_CASE("pictures come from files and from buffer views too")
     folder.write("maps/a picture.png", picture);
     const auto file =
         folder.write("scene.gltf", with_image({{"uri", "maps/a%20picture.png"}}).text());
-    CHECK(load_gltf(file).scene.images.at(0).rgba == Texels{1, 2, 3, 255});
+    CHECK(load_gltf(file).scene.images.at(0).bytes == Texels{1, 2, 3});
 
     GltfFixture fixture = with_image({{"mimeType", "image/png"}});
     fixture.json["images"][0]["bufferView"] = fixture.add_view(picture);
-    CHECK(fixture.load().scene.images.at(0).rgba == Texels{1, 2, 3, 255});
+    CHECK(fixture.load().scene.images.at(0).bytes == Texels{1, 2, 3});
     const auto binary = folder.write("scene.glb", fixture.glb());
-    CHECK(load_gltf(binary).scene.images.at(0).rgba == Texels{1, 2, 3, 255});
+    CHECK(load_gltf(binary).scene.images.at(0).bytes == Texels{1, 2, 3});
 }
 
 TEST_CASE("a picture that cannot be read costs a warning, not the scene")
@@ -148,6 +199,6 @@ TEST_CASE("pictures beyond the limits are refused before they are decoded")
     options.limits.image_bytes = 1;
     CHECK(contains(fixture.error(options).what(), "needs 2 B, but the limit is 1 B"));
     options = {};
-    options.limits.texture_bytes = 7;
-    CHECK(contains(fixture.error(options).what(), "all pictures together need more than 7 B"));
+    options.limits.texture_bytes = 1;
+    CHECK(contains(fixture.error(options).what(), "all pictures together need more than 1 B"));
 }

@@ -17,13 +17,13 @@ namespace {
 /// Dark but for one bright texel and a dim one.
 TexelImage spotted(int size)
 {
-    TexelImage image{.width = size, .height = size, .rgba = {}};
+    TexelImage image{.width = size, .height = size, .bytes = {}};
     for (int y = 0; y < size; ++y) {
         for (int x = 0; x < size; ++x) {
             const bool bright = x == size / 4 && y == size / 2;
             const bool dim = x == 3 * size / 4 && y == 3 * size / 4;
             const std::uint8_t v = bright ? 255 : dim ? 60 : 0;
-            image.rgba.insert(image.rgba.end(), {v, v, v, 255});
+            image.bytes.insert(image.bytes.end(), {v, v, v, 255});
         }
     }
     return image;
@@ -138,7 +138,7 @@ TEST_CASE("textured emitter: the flux of light paths is the power, with little v
 TEST_CASE("textured emitter: triangles are chosen by what they really emit", "[light]")
 {
     // The picture's left half is bright. Four squares show parts of it.
-    TexelImage halves{.width = 2, .height = 1, .rgba = {255, 255, 255, 255, 0, 0, 0, 255}};
+    TexelImage halves{.width = 2, .height = 1, .bytes = {255, 255, 255, 255, 0, 0, 0, 255}};
     test::SceneBuilder builder;
     builder.desc.images.push_back(halves);
     MaterialDesc material = test::emitter(Rgb(1.0f));
@@ -172,7 +172,7 @@ TEST_CASE("textured emitter: no point has a density of zero", "[light]")
 
 TEST_CASE("an even texture costs no table", "[light]")
 {
-    const TexelImage even{.width = 2, .height = 2, .rgba = std::vector<std::uint8_t>(16, 200)};
+    const TexelImage even{.width = 2, .height = 2, .bytes = std::vector<std::uint8_t>(16, 200)};
     const World world(screen(even));
     CHECK(triangle(world, 0).pdf_position({0.1f, 0.7f}).value == 1.0f / area);
 }

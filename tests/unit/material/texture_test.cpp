@@ -15,9 +15,9 @@ TexelImage counting_image()
     TexelImage image{4, 2, {}};
     for (int y = 0; y < 2; ++y) {
         for (int x = 0; x < 4; ++x) {
-            image.rgba.insert(image.rgba.end(), {static_cast<std::uint8_t>(51 * x),
-                                                 static_cast<std::uint8_t>(255 * y), 100,
-                                                 static_cast<std::uint8_t>(10 * (x + 1))});
+            image.bytes.insert(image.bytes.end(), {static_cast<std::uint8_t>(51 * x),
+                                                   static_cast<std::uint8_t>(255 * y), 100,
+                                                   static_cast<std::uint8_t>(10 * (x + 1))});
         }
     }
     return image;
@@ -137,8 +137,8 @@ TEST_CASE("KHR_texture_transform scales, turns and shifts, in that order")
     TexelImage image{size, size, {}};
     for (int y = 0; y < size; ++y) {
         for (int x = 0; x < size; ++x) {
-            image.rgba.insert(image.rgba.end(),
-                              {static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(y), 0, 255});
+            image.bytes.insert(image.bytes.end(), {static_cast<std::uint8_t>(x),
+                                                   static_cast<std::uint8_t>(y), 0, 255});
         }
     }
     const auto where = [&](const TextureRef& ref, float u, float v) {

@@ -155,7 +155,7 @@ TEST_CASE("the normal AOV is the shading normal, the albedo AOV the textured col
 {
     test::SceneBuilder builder;
     builder.sphere({5.0f, 2.0f, 3.0f}, 1.0f, test::lambertian(Rgb(1.0f)), 8);
-    builder.desc.images.push_back({.width = 1, .height = 1, .rgba = {188, 0, 255, 255}});
+    builder.desc.images.push_back({.width = 1, .height = 1, .bytes = {188, 0, 255, 255}});
     builder.desc.materials[0].base_color_texture = TextureRef{.image = ImageId{0}};
     const Scene scene(builder.desc);
     const RenderResult result =

@@ -69,9 +69,9 @@ void check_share(int count, int samples, double expected)
 /// A picture of 4 x 4 texels with the same colour and the given alphas.
 TexelImage alpha_picture(const std::array<std::uint8_t, 16>& alphas)
 {
-    TexelImage image{.width = 4, .height = 4, .rgba = {}};
+    TexelImage image{.width = 4, .height = 4, .bytes = {}};
     for (const std::uint8_t alpha : alphas) {
-        image.rgba.insert(image.rgba.end(), {200, 200, 200, alpha});
+        image.bytes.insert(image.bytes.end(), {200, 200, 200, alpha});
     }
     return image;
 }

@@ -19,7 +19,7 @@ SceneDesc good()
     test::SceneBuilder builder;
     builder.quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, test::lambertian(Rgb(0.5f)));
     builder.desc.meshes[0].name = "chair";
-    builder.desc.images.push_back({.width = 1, .height = 1, .rgba = {1, 2, 3, 4}});
+    builder.desc.images.push_back({.width = 1, .height = 1, .bytes = {1, 2, 3, 4}});
     builder.light(PointLightDesc{});
     builder.light(EnvironmentLightDesc{.radiance = {.width = 1, .height = 1, .pixels = {Rgb(1)}}});
     return std::move(builder.desc);
@@ -177,6 +177,22 @@ TEST_CASE("lights and images", "[validate]")
                   [](SceneDesc& d) { d.lights.push_back(d.lights[1]); });
     check_refused("image 0: 2 x 1 texels with 4 bytes",
                   [](SceneDesc& d) { d.images[0].width = 2; });
+    check_refused("image 0: 1 x 1 texels with 4 bytes",
+                  [](SceneDesc& d) { d.images[0].type = TexelType::unorm16; });
+    check_refused("image 0: 5 channels, but there must be 1 to 4",
+                  [](SceneDesc& d) { d.images[0].channels = 5; });
+    const auto halves = [](std::vector<std::uint8_t> bytes) {
+        return [bytes](SceneDesc& d) { d.images[0] = {2, 1, bytes, 1, TexelType::half}; };
+    };
+    check_refused("image 0: texel (1, 0) has a value that is negative or not finite",
+                  halves({0x00, 0x3c, 0x01, 0x80}));  // 1 and -6e-8
+    check_refused("image 0: texel (0, 0) has a value that is negative or not finite",
+                  halves({0x00, 0x7c, 0x00, 0x3c}));  // infinite
+    check_refused("image 0: texel (0, 0) has a value that is negative or not finite",
+                  [](SceneDesc& d) {  // a NaN
+                      d.images[0] = {1, 1, {0x01, 0x00, 0x80, 0x7f}, 1, TexelType::float32};
+                  });
+    CHECK(refusal(halves({0x00, 0x80, 0xff, 0x7b})).empty());  // -0 and 65504
 }
 
 TEST_CASE("light profiles", "[validate]")

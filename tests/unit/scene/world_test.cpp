@@ -104,4 +104,41 @@ TEST_CASE("a scene without light or surfaces has none, and bounds of zero", "[wo
     CHECK(world.bounds().max == Vec3(0.0f));
 }
 
+TEST_CASE("the detail of a mip-mapped texture depends on point and camera, not on the ray",
+          "[world]")
+{
+    // Columns of 0 and 255 in turn, on a wall of 2 x 2 m.
+    constexpr int size = 64;
+    TexelImage stripes{.width = size, .height = size, .bytes = {}, .channels = 1};
+    for (int i = 0; i < size * size; ++i) {
+        stripes.bytes.push_back(i % 2 == 0 ? 0 : 255);
+    }
+    MaterialDesc material = test::lambertian(Rgb(1.0f));
+    material.base_color_texture = TextureRef{};
+    SceneBuilder builder;
+    builder.quad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, material);
+    builder.desc.images.push_back(stripes);
+    const World plain(builder.desc);
+    builder.desc.texture_filter = TextureFilter::mip_mapped;
+    const World mipped(std::move(builder.desc));
+
+    NoProbe probe;
+    const float x = 0.5f * 2.0f / size;  // the middle of a black column
+    const auto seen = [&](const World& world, Vec3 from, float pixel) {
+        const PixelCone cone{.eye = {0, 0, 5}, .spread = pixel / 5.0f};
+        const auto hit =
+            world.intersect({.p = from}, normalize(Vec3(x, 0.01f, 0) - from), {}, cone, probe);
+        REQUIRE(hit.has_value());
+        return hit->bsdf.base_color().r;
+    };
+    for (const Vec3 from : {Vec3(0, 0, 5), Vec3(0.4f, 0.3f, -1), Vec3(2, 0, 0.3f)}) {
+        CHECK(seen(plain, from, 1.0f) == Approx(0.0f).margin(0.01));
+        CHECK(seen(mipped, from, 0.0f) == Approx(0.0f).margin(0.01));
+        CHECK(seen(mipped, from, 0.1f) == Approx(0.0f).margin(0.01));  // 3.2 texels wide
+        CHECK(seen(mipped, from, 0.15f) == Approx(0.5f).margin(0.01));
+    }
+    const auto far = mipped.intersect({.p = {x, 0.01f, 5}}, {0, 0, -1}, {});
+    CHECK(far->bsdf.base_color().r == Approx(0.0f).margin(0.01));  // without a camera, all detail
+}
+
 }  // namespace bdpt

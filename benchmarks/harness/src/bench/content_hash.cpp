@@ -155,7 +155,9 @@ std::uint64_t content_hash(const SceneDesc& scene)
     for (const TexelImage& image : scene.images) {
         hasher.add(image.width);
         hasher.add(image.height);
-        hasher.add_array(image.rgba);
+        hasher.add(image.channels);
+        hasher.add(image.type);
+        hasher.add_array(image.bytes);
     }
     hasher.add(scene.materials.size());
     for (const MaterialDesc& material : scene.materials) {
@@ -181,6 +183,7 @@ std::uint64_t content_hash(const SceneDesc& scene)
         hasher.add(light.index());
         std::visit([&](const auto& kind) { add(hasher, kind); }, light);
     }
+    hasher.add(scene.texture_filter);
     return hasher.hash();
 }
 

@@ -31,7 +31,8 @@ LoadedScene load(const std::filesystem::path& file, const GltfOptions& options)
     choice.animations = select_animations(facts.animation_names, options, warnings);
     choice.time = options.time.value_or(0.0);
     choice.shutter = options.shutter.value_or(Shutter{});
-    LoadedScene loaded = build_scene(std::move(checked), choice, options.limits, warnings);
+    LoadedScene loaded =
+        build_scene(std::move(checked), choice, options.limits, options.on_progress, warnings);
     loaded.facts = std::move(facts);
     loaded.warnings = warnings.lines();
     return loaded;

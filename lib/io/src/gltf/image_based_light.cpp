@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -43,17 +44,43 @@ constexpr std::array<float, 256> srgb_table = [] {
     return table;
 }();
 
+std::size_t texel_count(const TexelImage& texels)
+{
+    return static_cast<std::size_t>(texels.width) * static_cast<std::size_t>(texels.height);
+}
+
+/// The upper eight bits of an integer, which is all that RGBD has.
+std::uint8_t code_of(const TexelImage& texels, std::size_t texel, int channel)
+{
+    const auto value =
+        texel * static_cast<std::size_t>(texels.channels) + static_cast<std::size_t>(channel);
+    if (texels.type == TexelType::unorm8) {
+        return texels.bytes[value];
+    }
+    std::uint16_t wide = 0;
+    std::memcpy(&wide, texels.bytes.data() + 2 * value, sizeof wide);
+    return static_cast<std::uint8_t>(wide >> 8U);
+}
+
 /// Radiance from RGBD: colours are sRGB, and alpha divides them. A picture without alpha has 255.
 Image decode_rgbd(const TexelImage& texels, const std::string& place, Warnings& warnings)
 {
     Image image{texels.width, texels.height, {}};
-    image.pixels.reserve(texels.rgba.size() / 4);
+    if (texels.type != TexelType::unorm8 && texels.type != TexelType::unorm16) {
+        throw UnreadableCube(place + ": its pixels are no integers, as those of RGBD are");
+    }
+    image.pixels.reserve(texel_count(texels));
+    const bool is_grey = texels.channels < 3;
+    const bool has_alpha = texels.channels % 2 == 0;
     bool is_divided_by_zero = false;
-    for (std::size_t i = 0; i < texels.rgba.size(); i += 4) {
-        const auto divisor = static_cast<float>(texels.rgba[i + 3]) / 255.0f;
+    for (std::size_t i = 0; i < texel_count(texels); ++i) {
+        const auto color_of = [&](int channel) {
+            return srgb_table[code_of(texels, i, is_grey ? 0 : channel)];
+        };
+        const float divisor =
+            has_alpha ? static_cast<float>(code_of(texels, i, texels.channels - 1)) / 255.0f : 1.0f;
         is_divided_by_zero = is_divided_by_zero || divisor == 0.0f;
-        const Rgb color(srgb_table[texels.rgba[i]], srgb_table[texels.rgba[i + 1]],
-                        srgb_table[texels.rgba[i + 2]]);
+        const Rgb color(color_of(0), color_of(1), color_of(2));
         image.pixels.push_back(divisor > 0.0f ? color / divisor : Rgb(0.0f));
     }
     if (is_divided_by_zero) {
@@ -84,7 +111,7 @@ CubeMap read_cube(const GltfModel& model, const Json& images, const std::string&
         try {
             const TexelImage texels = read_face(model, images[side].get<std::size_t>(), limits);
             Image& face = cube.faces[side];
-            bytes += texels.rgba.size() / 4 * sizeof(Rgb);
+            bytes += texel_count(texels) * sizeof(Rgb);
             if (bytes > limits.texture_bytes) {
                 throw Error(
                     ErrorCode::invalid_input,

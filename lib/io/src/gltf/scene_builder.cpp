@@ -8,14 +8,13 @@
 #include "gltf/instancing.h"
 #include "gltf/light.h"
 #include "gltf/light_profiles.h"
-#include "gltf/material.h"
+#include "gltf/material_table.h"
 #include "gltf/mesh_table.h"
 #include "gltf/model.h"
 #include "gltf/motion.h"
 #include "gltf/node_motion.h"
 #include "gltf/node_transforms.h"
 #include "gltf/steps.h"
-#include "gltf/texture.h"
 #include "gltf/transform.h"
 #include "gltf/variants.h"
 
@@ -27,6 +26,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <span>
@@ -57,15 +58,15 @@ public:
           limits_(limits),
           budget_(budget),
           warnings_(warnings),
-          images_(model, limits, result_.scene.images, warnings),
-          textures_(model.structs, images_, warnings),
+          images_(model, limits, budget, result_.scene.images, warnings),
           profiles_(model, limits, budget, result_.scene.profiles, warnings),
           transforms_(model.structs, warnings),
           meshes_(model, limits, transforms_, motion, budget, result_.scene.meshes, warnings),
           visited_(model.structs.nodes.size(), false)
     {}
 
-    [[nodiscard]] LoadedScene build(const std::vector<std::size_t>& roots)
+    [[nodiscard]] LoadedScene build(const std::vector<std::size_t>& roots,
+                                    const std::function<void(const LoadProgress&)>& on_progress)
     {
         struct Pending {
             std::size_t node;
@@ -95,6 +96,8 @@ public:
                 stack.push_back({static_cast<std::size_t>(children[i]), visible});
             }
         }
+        result_.scene.materials =
+            read_materials(model_, wanted_materials_, images_, on_progress, warnings_);
         return std::move(result_);
     }
 
@@ -205,14 +208,10 @@ private:
     {
         const tinygltf::Primitive& primitive = model_.meshes[id.mesh].primitives[id.primitive];
         const int index = variant_ ? variant_material(primitive, *variant_) : primitive.material;
-        const auto next = static_cast<MaterialId>(result_.scene.materials.size());
+        const auto next = static_cast<MaterialId>(wanted_materials_.size());
         const auto [found, is_new] = materials_.try_emplace(index, next);
         if (is_new) {
-            // Without a material, that of the specification's defaults [glTF 2.0, sec. 3.7.2.1].
-            result_.scene.materials.push_back(
-                index < 0
-                    ? MaterialDesc{}
-                    : read_material(model_, static_cast<std::size_t>(index), textures_, warnings_));
+            wanted_materials_.push_back(index);
         }
         return found->second;
     }
@@ -225,12 +224,12 @@ private:
     Warnings& warnings_;
     LoadedScene result_;
     ImageTable images_;
-    TextureResolver textures_;
     LightProfiles profiles_;
     NodeTransforms transforms_;
     MeshTable meshes_;
     std::vector<bool> visited_;
-    std::map<int, MaterialId> materials_;
+    std::map<int, MaterialId> materials_;  // by their index in the document
+    std::vector<int> wanted_materials_;    // these indices, in the order of the scene's materials
 };
 
 std::vector<std::size_t> find_roots(const tinygltf::Model& model, std::optional<std::size_t> scene)
@@ -257,10 +256,15 @@ std::vector<std::size_t> find_roots(const tinygltf::Model& model, std::optional<
 }  // namespace
 
 LoadedScene build_scene(CheckedGltf checked, const SceneChoice& choice, const ReadLimits& limits,
+                        const std::function<void(const LoadProgress&)>& on_progress,
                         Warnings& warnings)
 {
+    std::uint64_t buffers = 0;
+    for (const Bytes& buffer : checked.buffers) {
+        buffers += buffer.size();
+    }
+    DataBudget budget(limits, buffers);
     GltfModel model = build_model(std::move(checked));
-    DataBudget budget(limits);
     std::vector<AnimatedProperty> properties;
     for (const std::size_t animation : choice.animations) {
         std::vector<AnimatedProperty> more = read_animation(model, animation, budget, warnings);
@@ -274,7 +278,7 @@ LoadedScene build_scene(CheckedGltf checked, const SceneChoice& choice, const Re
                      fmt::format("/animations: from {} s to {} s", open, close));
     }
     LoadedScene loaded = SceneBuilder(model, motion, choice.variant, limits, budget, warnings)
-                             .build(find_roots(model.structs, choice.scene));
+                             .build(find_roots(model.structs, choice.scene), on_progress);
     if (choice.scene) {
         if (std::optional<EnvironmentLightDesc> environment =
                 read_image_based_light(model, *choice.scene, limits, warnings)) {

@@ -6,6 +6,7 @@
 #include <bdpt/io/gltf.h>
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,6 +30,8 @@ struct SceneChoice {
 /// Turns one scene of a document into a description and cameras; meshes, materials and pictures
 /// that it does not use are left out. Throws `Error`.
 [[nodiscard]] LoadedScene build_scene(CheckedGltf checked, const SceneChoice& choice,
-                                      const ReadLimits& limits, Warnings& warnings);
+                                      const ReadLimits& limits,
+                                      const std::function<void(const LoadProgress&)>& on_progress,
+                                      Warnings& warnings);
 
 }  // namespace bdpt::io

@@ -18,17 +18,30 @@ Vec2 pair_or(const tinygltf::Value& object, const std::string& key, Vec2 fallbac
             static_cast<float>(pair.Get(1).GetNumberAsDouble())};
 }
 
-/// The picture of a texture: WebP by its extension, else the one for everybody.
-std::optional<std::size_t> find_image(const tinygltf::Texture& texture)
+/// The pictures of a texture, the best first: WebP by its extension, then the one for everybody.
+std::vector<std::size_t> sources(const tinygltf::Texture& texture)
 {
+    std::vector<std::size_t> result;
     const auto webp = texture.extensions.find("EXT_texture_webp");
     if (webp != texture.extensions.end() && webp->second.Has("source")) {
-        return static_cast<std::size_t>(webp->second.Get("source").GetNumberAsInt());
+        result.push_back(static_cast<std::size_t>(webp->second.Get("source").GetNumberAsInt()));
     }
-    if (texture.source < 0) {
-        return std::nullopt;
+    if (texture.source >= 0) {
+        result.push_back(static_cast<std::size_t>(texture.source));
     }
-    return static_cast<std::size_t>(texture.source);
+    return result;
+}
+
+/// The extensions by which a texture has pictures that we cannot read, in parentheses.
+std::string unread_pictures(const tinygltf::Texture& texture)
+{
+    std::string names;
+    for (const char* name : {"KHR_texture_basisu", "EXT_texture_avif", "MSFT_texture_dds"}) {
+        if (texture.extensions.contains(name)) {
+            names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
+        }
+    }
+    return names.empty() ? names : fmt::format(" ({})", names);
 }
 
 }  // namespace
@@ -94,13 +107,16 @@ std::optional<TextureRef> TextureResolver::resolve(const TextureInfo& info,
         return std::nullopt;
     }
     const auto& texture = model_.textures[static_cast<std::size_t>(info.index)];
-    const std::optional<std::size_t> source = find_image(texture);
-    if (!source) {
-        warnings_.add("the texture has no picture that can be read; the material does without it",
-                      fmt::format("/textures/{}", info.index));
+    const std::vector<std::size_t> pictures = sources(texture);
+    if (pictures.empty()) {
+        warnings_.add("the texture has no PNG, JPEG or WebP picture; the material does without it",
+                      fmt::format("/textures/{}{}", info.index, unread_pictures(texture)));
         return std::nullopt;
     }
-    const std::optional<ImageId> image = images_.get(*source);
+    std::optional<ImageId> image;
+    for (std::size_t i = 0; i < pictures.size() && !image; ++i) {
+        image = find_image_(pictures[i]);
+    }
     if (!image) {
         return std::nullopt;
     }

@@ -1,13 +1,16 @@
 #pragma once
 
 #include "file/warnings.h"
-#include "gltf/image_table.h"
 #include "gltf/tinygltf.h"
 
 #include <bdpt/scene_desc.h>
 
+#include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace bdpt::io {
 
@@ -34,11 +37,14 @@ template <typename Info>
 [[nodiscard]] double number_or(const tinygltf::Value& object, const std::string& key,
                                double fallback);
 
-/// Resolves references to textures and has their pictures decoded.
+/// Resolves references to textures.
 class TextureResolver {
 public:
-    TextureResolver(const tinygltf::Model& model, ImageTable& images, Warnings& warnings)
-        : model_(model), images_(images), warnings_(warnings)
+    /// Gives the picture of an index; none if it cannot be read.
+    using FindImage = std::function<std::optional<ImageId>(std::size_t)>;
+
+    TextureResolver(const tinygltf::Model& model, FindImage find_image, Warnings& warnings)
+        : model_(model), find_image_(std::move(find_image)), warnings_(warnings)
     {}
 
     /// None where there is no texture, or, with a warning, none that can be used. `place` is the
@@ -50,7 +56,7 @@ private:
     [[nodiscard]] Wrap wrap(int value, int sampler, const char* name);
 
     const tinygltf::Model& model_;
-    ImageTable& images_;
+    FindImage find_image_;
     Warnings& warnings_;
 };
 

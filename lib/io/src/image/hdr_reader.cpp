@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace bdpt::io {
 
@@ -24,15 +25,20 @@ bool is_hdr(ByteView file)
 Image read_hdr(ByteView file, const ReadLimits& limits)
 {
     try {
-        const RawPicture<float> raw = OiioLibrary().decode<float>("hdr", file, limits);
-        if (raw.channels < 3) {
-            throw std::runtime_error(fmt::format("{} channels", raw.channels));
+        const OiioPicture picture = OiioLibrary().open("hdr", file);
+        const BdptPictureHeader& header = picture.header();
+        if (header.channels < 3) {
+            throw std::runtime_error(fmt::format("{} channels", header.channels));
         }
-        Image image{raw.width, raw.height, {}};
-        const auto channels = static_cast<std::size_t>(raw.channels);
-        image.pixels.reserve(raw.values.size() / channels);
-        for (std::size_t i = 0; i + 2 < raw.values.size(); i += channels) {
-            image.pixels.emplace_back(raw.values[i], raw.values[i + 1], raw.values[i + 2]);
+        const auto channels = static_cast<std::size_t>(header.channels);
+        check_picture_size(header.width, header.height, channels * sizeof(float), file.size(),
+                           limits);
+        std::vector<float> values(picture.value_count());
+        picture.read(values.data());
+        Image image{header.width, header.height, {}};
+        image.pixels.reserve(values.size() / channels);
+        for (std::size_t i = 0; i + 2 < values.size(); i += channels) {
+            image.pixels.emplace_back(values[i], values[i + 1], values[i + 2]);
         }
         return image;
     } catch (const Error&) {

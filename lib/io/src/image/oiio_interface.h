@@ -13,15 +13,16 @@ struct BdptPictureHeader {
     int width;
     int height;
     int channels;
-    int alpha_channel;  // -1: none
+    int value_bytes;  // of the integers that values are stored as; 0: they are not integers
 };
 
 /// Changes when anything in this file does.
-constexpr int bdpt_oiio_interface_version = 1;
+constexpr int bdpt_oiio_interface_version = 2;
 int bdpt_oiio_version();
 
 /// Opens a picture in memory, which must stay there until it is closed. `format` is a name of
-/// OpenImageIO's. Returns null on failure.
+/// OpenImageIO's. Returns null on failure. Pictures may be opened and read on several threads at
+/// once, each on one at a time.
 BdptPicture* bdpt_oiio_open(const char* format, const unsigned char* bytes, std::size_t size,
                             BdptPictureHeader* header, char* message, std::size_t message_size);
 
@@ -29,6 +30,8 @@ BdptPicture* bdpt_oiio_open(const char* format, const unsigned char* bytes, std:
 /// conversion, alpha not multiplied in. Integers are scaled to the full range of the target.
 /// Returns 0 on failure.
 int bdpt_oiio_read_bytes(BdptPicture* picture, unsigned char* pixels, char* message,
+                         std::size_t message_size);
+int bdpt_oiio_read_words(BdptPicture* picture, unsigned short* pixels, char* message,
                          std::size_t message_size);
 int bdpt_oiio_read_floats(BdptPicture* picture, float* pixels, char* message,
                           std::size_t message_size);

@@ -9,9 +9,9 @@
 
 #include <array>
 #include <filesystem>
-#include <memory>
 #include <stdexcept>
-#include <type_traits>
+#include <string>
+#include <vector>
 
 namespace bdpt::io {
 
@@ -78,6 +78,17 @@ Function find_function(void* module, const char* name)
     return reinterpret_cast<Function>(address);
 }
 
+using Message = std::array<char, 512>;
+
+template <typename Read, typename Value>
+void read_by(Read* read, BdptPicture* picture, Value* values)
+{
+    Message message{};
+    if (read(picture, values, message.data(), message.size()) == 0) {
+        throw std::runtime_error(message.data());
+    }
+}
+
 }  // namespace
 
 OiioLibrary::OiioLibrary()
@@ -89,49 +100,56 @@ OiioLibrary::OiioLibrary()
                     fmt::format("{} has interface version {}, but {} is needed", module_name,
                                 version(), bdpt_oiio_interface_version));
     }
-    open_ = find_function<decltype(open_)>(module, "bdpt_oiio_open");
-    read_bytes_ = find_function<decltype(read_bytes_)>(module, "bdpt_oiio_read_bytes");
-    read_floats_ = find_function<decltype(read_floats_)>(module, "bdpt_oiio_read_floats");
-    close_ = find_function<decltype(close_)>(module, "bdpt_oiio_close");
+    functions_.open = find_function<decltype(&bdpt_oiio_open)>(module, "bdpt_oiio_open");
+    functions_.read_bytes =
+        find_function<decltype(&bdpt_oiio_read_bytes)>(module, "bdpt_oiio_read_bytes");
+    functions_.read_words =
+        find_function<decltype(&bdpt_oiio_read_words)>(module, "bdpt_oiio_read_words");
+    functions_.read_floats =
+        find_function<decltype(&bdpt_oiio_read_floats)>(module, "bdpt_oiio_read_floats");
+    functions_.close = find_function<decltype(&bdpt_oiio_close)>(module, "bdpt_oiio_close");
 }
 
-template <typename T>
-RawPicture<T> OiioLibrary::decode(const char* format, ByteView bytes,
-                                  const ReadLimits& limits) const
+OiioPicture OiioLibrary::open(const char* format, ByteView bytes) const
 {
-    std::array<char, 512> message{};
-    BdptPictureHeader header{};
-    const std::unique_ptr<BdptPicture, decltype(close_)> picture(
-        open_(format, bytes.data(), bytes.size(), &header, message.data(), message.size()), close_);
-    if (!picture) {
-        throw std::runtime_error(message.data());
-    }
-    if (header.width < 1 || header.height < 1 || header.channels < 1 || header.channels > 64) {
-        throw std::runtime_error(fmt::format("{} x {} pixels with {} channels", header.width,
-                                             header.height, header.channels));
-    }
-    const auto channels = static_cast<std::uint64_t>(header.channels);
-    check_picture_size(header.width, header.height, channels * sizeof(T), bytes.size(), limits);
-    RawPicture<T> raw{header.width, header.height, header.channels, header.alpha_channel, {}};
-    raw.values.resize(static_cast<std::size_t>(header.width) *
-                      static_cast<std::size_t>(header.height) *
-                      static_cast<std::size_t>(header.channels));
-    int success = 0;
-    if constexpr (std::is_same_v<T, float>) {
-        success = read_floats_(picture.get(), raw.values.data(), message.data(), message.size());
-    } else {
-        success = read_bytes_(picture.get(), raw.values.data(), message.data(), message.size());
-    }
-    if (success == 0) {
-        throw std::runtime_error(message.data());
-    }
-    return raw;
+    return {functions_, format, bytes};
 }
 
-template RawPicture<std::uint8_t> OiioLibrary::decode<std::uint8_t>(const char*, ByteView,
-                                                                    const ReadLimits&) const;
-template RawPicture<float> OiioLibrary::decode<float>(const char*, ByteView,
-                                                      const ReadLimits&) const;
+OiioPicture::OiioPicture(const Functions& functions, const char* format, ByteView bytes)
+    : functions_(functions), picture_(nullptr, functions.close)
+{
+    Message message{};
+    picture_.reset(functions_.open(format, bytes.data(), bytes.size(), &header_, message.data(),
+                                   message.size()));
+    if (!picture_) {
+        throw std::runtime_error(message.data());
+    }
+    if (header_.width < 1 || header_.height < 1 || header_.channels < 1 || header_.channels > 64) {
+        throw std::runtime_error(fmt::format("{} x {} pixels with {} channels", header_.width,
+                                             header_.height, header_.channels));
+    }
+}
+
+std::size_t OiioPicture::value_count() const
+{
+    return static_cast<std::size_t>(header_.width) * static_cast<std::size_t>(header_.height) *
+           static_cast<std::size_t>(header_.channels);
+}
+
+void OiioPicture::read(std::uint8_t* values) const
+{
+    read_by(functions_.read_bytes, picture_.get(), values);
+}
+
+void OiioPicture::read(std::uint16_t* values) const
+{
+    read_by(functions_.read_words, picture_.get(), values);
+}
+
+void OiioPicture::read(float* values) const
+{
+    read_by(functions_.read_floats, picture_.get(), values);
+}
 
 void check_picture_size(int width, int height, std::uint64_t bytes_per_pixel, std::uint64_t encoded,
                         const ReadLimits& limits)

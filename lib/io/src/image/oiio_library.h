@@ -5,19 +5,41 @@
 
 #include <bdpt/io/read_limits.h>
 
-#include <string>
-#include <vector>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
 
 namespace bdpt::io {
 
-/// A decoded picture as it is stored, top row first.
-template <typename T>
-struct RawPicture {
-    int width = 0;
-    int height = 0;
-    int channels = 0;
-    int alpha_channel = -1;
-    std::vector<T> values;
+/// A picture that OpenImageIO has opened in memory, which must stay there. It may be read on
+/// another thread.
+class OiioPicture {
+public:
+    [[nodiscard]] const BdptPictureHeader& header() const { return header_; }
+    /// Values of all pixels.
+    [[nodiscard]] std::size_t value_count() const;
+
+    /// Reads all pixels as they are stored, top row first, into room for `value_count()` values.
+    /// Throws std::runtime_error when they cannot be decoded.
+    void read(std::uint8_t* values) const;
+    void read(std::uint16_t* values) const;
+    void read(float* values) const;
+
+private:
+    friend class OiioLibrary;
+    struct Functions {
+        decltype(&bdpt_oiio_open) open = nullptr;
+        decltype(&bdpt_oiio_read_bytes) read_bytes = nullptr;
+        decltype(&bdpt_oiio_read_words) read_words = nullptr;
+        decltype(&bdpt_oiio_read_floats) read_floats = nullptr;
+        decltype(&bdpt_oiio_close) close = nullptr;
+    };
+
+    OiioPicture(const Functions& functions, const char* format, ByteView bytes);
+
+    Functions functions_;
+    BdptPictureHeader header_{};
+    std::unique_ptr<BdptPicture, decltype(&bdpt_oiio_close)> picture_;
 };
 
 /// OpenImageIO, loaded into the process with the first object of this class; it stays there. To
@@ -27,18 +49,12 @@ public:
     /// Throws `Error` (internal) when the module cannot be found or loaded.
     OiioLibrary();
 
-    /// Decodes a picture in memory; `format` is one of OpenImageIO's names. T is std::uint8_t or
-    /// float. Throws `Error` (invalid_input) when it is too large, std::runtime_error when it
-    /// cannot be decoded.
-    template <typename T>
-    [[nodiscard]] RawPicture<T> decode(const char* format, ByteView bytes,
-                                       const ReadLimits& limits) const;
+    /// Opens a picture in memory; `format` is one of OpenImageIO's names. Throws
+    /// std::runtime_error when it cannot be opened.
+    [[nodiscard]] OiioPicture open(const char* format, ByteView bytes) const;
 
 private:
-    decltype(&bdpt_oiio_open) open_ = nullptr;
-    decltype(&bdpt_oiio_read_bytes) read_bytes_ = nullptr;
-    decltype(&bdpt_oiio_read_floats) read_floats_ = nullptr;
-    decltype(&bdpt_oiio_close) close_ = nullptr;
+    OiioPicture::Functions functions_;
 };
 
 /// Refuses pictures beyond the limits. `encoded` is the size of the file, `decoded` that of the

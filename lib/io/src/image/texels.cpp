@@ -1,71 +1,107 @@
 #include "image/texels.h"
 
-#include "image/oiio_library.h"
+#include "image/webp_header.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdint>
+#include <cstring>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace bdpt::io {
 
 namespace {
 
-bool has(ByteView bytes, std::size_t offset, std::string_view text)
+bool starts_with(ByteView bytes, std::string_view magic)
 {
-    return bytes.size() >= offset + text.size() &&
-           std::equal(text.begin(), text.end(), bytes.begin() + static_cast<std::ptrdiff_t>(offset),
+    return bytes.size() >= magic.size() &&
+           std::equal(magic.begin(), magic.end(), bytes.begin(),
                       [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
 }
 
 const char* find_format(ByteView bytes)
 {
-    if (has(bytes, 0, "\x89PNG\r\n\x1a\n")) {
+    if (starts_with(bytes, "\x89PNG\r\n\x1a\n")) {
         return "png";
     }
-    if (has(bytes, 0, "\xff\xd8\xff")) {
+    if (starts_with(bytes, "\xff\xd8\xff")) {
         return "jpeg";
     }
-    if (has(bytes, 0, "RIFF") && has(bytes, 8, "WEBP")) {
+    if (is_webp(bytes)) {
         return "webp";
     }
-    if (has(bytes, 0, "\xabKTX")) {
+    if (starts_with(bytes, "\xabKTX")) {
         throw std::runtime_error("KTX pictures are not supported");
     }
     throw std::runtime_error("neither PNG, JPEG nor WebP");
 }
 
-/// The channel of `raw` that gives channel `c` (0 to 3) of the result; -1: none.
-int source_channel(const RawPicture<std::uint8_t>& raw, int c)
+/// Reads all values of type T into the bytes of `image`.
+template <typename T>
+void read_values(const OiioPicture& picture, TexelImage& image)
 {
-    if (c == 3) {
-        // Two and four channels have alpha last, whether the decoder says so or not.
-        return raw.channels == 2 || raw.channels >= 4 ? (raw.channels == 2 ? 1 : 3) : -1;
+    image.bytes.resize(picture.value_count() * sizeof(T));
+    if constexpr (sizeof(T) == 1) {
+        picture.read(image.bytes.data());
+    } else {
+        // A vector of bytes is allocated for any type, and nobody reads the words as such.
+        picture.read(reinterpret_cast<T*>(image.bytes.data()));
     }
-    return raw.channels < 3 ? 0 : c;
 }
 
 }  // namespace
 
-TexelImage decode_texels(ByteView bytes, const ReadLimits& limits)
+EncodedPicture::EncodedPicture(const OiioLibrary& library, ByteView bytes, const ReadLimits& limits)
+    : library_(&library), bytes_(bytes)
 {
-    const char* format = find_format(bytes);
-    const RawPicture<std::uint8_t> raw = OiioLibrary().decode<std::uint8_t>(format, bytes, limits);
-    TexelImage image{raw.width, raw.height, {}};
-    const std::size_t pixels =
-        static_cast<std::size_t>(raw.width) * static_cast<std::size_t>(raw.height);
-    const auto channels = static_cast<std::size_t>(raw.channels);
-    image.rgba.resize(4 * pixels);
-    for (int c = 0; c < 4; ++c) {
-        const int source = source_channel(raw, c);
-        for (std::size_t i = 0; i < pixels; ++i) {
-            image.rgba[4 * i + static_cast<std::size_t>(c)] =
-                source < 0 ? std::uint8_t{255}
-                           : raw.values[channels * i + static_cast<std::size_t>(source)];
-        }
+    std::uint64_t texel_bytes = 4;
+    if (is_webp(bytes)) {
+        const PictureSize size = webp_size(bytes);
+        width_ = size.width;
+        height_ = size.height;
+    } else {
+        opened_.emplace(library.open(find_format(bytes), bytes));
+        const BdptPictureHeader& header = opened_->header();
+        width_ = header.width;
+        height_ = header.height;
+        texel_bytes =
+            static_cast<std::uint64_t>(header.channels) * (header.value_bytes == 2 ? 2 : 1);
+    }
+    check_picture_size(width_, height_, texel_bytes, bytes.size(), limits);
+    decoded_bytes_ =
+        static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_) * texel_bytes;
+}
+
+TexelImage EncodedPicture::decode() &&
+{
+    const OiioPicture picture =
+        opened_ ? std::move(*opened_) : library_->open(find_format(bytes_), bytes_);
+    const BdptPictureHeader& header = picture.header();
+    if (header.width != width_ || header.height != height_) {
+        throw std::runtime_error(fmt::format("{} x {} pixels, but {} x {} by the header",
+                                             header.width, header.height, width_, height_));
+    }
+    if (header.channels > 4) {
+        throw std::runtime_error(fmt::format("{} channels", header.channels));
+    }
+    TexelImage image{
+        .width = header.width, .height = header.height, .bytes = {}, .channels = header.channels};
+    if (header.value_bytes == 2) {
+        image.type = TexelType::unorm16;
+        read_values<std::uint16_t>(picture, image);
+    } else {
+        read_values<std::uint8_t>(picture, image);
     }
     return image;
+}
+
+TexelImage decode_texels(ByteView bytes, const ReadLimits& limits)
+{
+    const OiioLibrary library;
+    return EncodedPicture(library, bytes, limits).decode();
 }
 
 }  // namespace bdpt::io

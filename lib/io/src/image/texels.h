@@ -1,18 +1,43 @@
 #pragma once
 
 #include "file/bytes.h"
+#include "image/oiio_library.h"
 
 #include <bdpt/image.h>
 #include <bdpt/io/read_limits.h>
 
+#include <cstdint>
+#include <optional>
+
 namespace bdpt::io {
 
-/// Decodes a PNG, JPEG or WebP picture, told apart by its first bytes. 16-bit values are rounded to
-/// 8 bits, grey becomes RGB, and without an alpha channel alpha is 255. Colours are not converted
-/// and alpha is not multiplied in.
-///
-/// Throws `Error` (invalid_input) when the picture is too large, std::runtime_error when it cannot
-/// be decoded, so that the caller may go on without it.
+/// A PNG, JPEG or WebP picture, told apart by its first bytes, whose size is known and within the
+/// limits, and which has not been decoded.
+class EncodedPicture {
+public:
+    /// `library` and `bytes` must stay as long as the picture. Throws `Error` (invalid_input) when
+    /// it is too large, std::runtime_error when it is no such picture or broken, so that the caller
+    /// may go on without it.
+    EncodedPicture(const OiioLibrary& library, ByteView bytes, const ReadLimits& limits);
+
+    /// Of the texels, or more. It takes up to twice that while it is decoded.
+    [[nodiscard]] std::uint64_t decoded_bytes() const { return decoded_bytes_; }
+
+    /// Texels as they are stored: 8 or 16 bits, one to four channels. Colours are not converted and
+    /// alpha is not multiplied in. Throws std::runtime_error when the picture is broken. May be
+    /// called on another thread, once.
+    [[nodiscard]] TexelImage decode() &&;
+
+private:
+    const OiioLibrary* library_;
+    ByteView bytes_;
+    std::optional<OiioPicture> opened_;  // none: opening it would decode it
+    int width_ = 0;
+    int height_ = 0;
+    std::uint64_t decoded_bytes_ = 0;
+};
+
+/// Decodes a picture; throws what `EncodedPicture` throws.
 [[nodiscard]] TexelImage decode_texels(ByteView bytes, const ReadLimits& limits);
 
 }  // namespace bdpt::io

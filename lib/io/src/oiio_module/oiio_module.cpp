@@ -66,7 +66,7 @@ __attribute__((visibility("default"))) BdptPicture* bdpt_oiio_open(
     char* message, std::size_t message_size)
 {
     try {
-        // Decoding is a small part of loading; a pool of threads would outlive it.
+        // Whoever calls decodes several pictures at once; a pool of threads would outlive that.
         OIIO::attribute("threads", 1);
         auto picture = std::make_unique<BdptPicture>(bytes, size);
         picture->input = OIIO::ImageInput::create(format);
@@ -87,7 +87,9 @@ __attribute__((visibility("default"))) BdptPicture* bdpt_oiio_open(
             report("neither volumes nor deep pictures are read", message, message_size);
             return nullptr;
         }
-        *header = {spec.width, spec.height, spec.nchannels, spec.alpha_channel};
+        const bool integers = !spec.format.is_floating_point();
+        *header = {spec.width, spec.height, spec.nchannels,
+                   integers ? static_cast<int>(spec.format.basesize()) : 0};
         return picture.release();
     } catch (const std::exception& error) {
         report(error.what(), message, message_size);
@@ -103,6 +105,14 @@ __attribute__((visibility("default"))) int bdpt_oiio_read_bytes(BdptPicture* pic
                                                                 std::size_t message_size)
 {
     return read_pixels(picture, OIIO::TypeDesc::UINT8, pixels, message, message_size);
+}
+
+__attribute__((visibility("default"))) int bdpt_oiio_read_words(BdptPicture* picture,
+                                                                unsigned short* pixels,
+                                                                char* message,
+                                                                std::size_t message_size)
+{
+    return read_pixels(picture, OIIO::TypeDesc::UINT16, pixels, message, message_size);
 }
 
 __attribute__((visibility("default"))) int bdpt_oiio_read_floats(BdptPicture* picture,

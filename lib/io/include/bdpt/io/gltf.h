@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,6 +20,12 @@ namespace bdpt::io {
 struct Shutter {
     double open = 0.0;
     double close = 0.0;
+};
+
+/// How far a scene is loaded.
+struct LoadProgress {
+    std::size_t pictures_done = 0;
+    std::size_t pictures_total = 0;
 };
 
 /// What to load of a file, and how much at most.
@@ -35,6 +42,9 @@ struct GltfOptions {
     /// the picture is of one moment.
     std::optional<Shutter> shutter{};
     ReadLimits limits{};
+    /// Called while pictures are decoded, each time that one is done; on any thread, but never on
+    /// two at once. What it throws ends the loading and reaches the caller.
+    std::function<void(const LoadProgress&)> on_progress{};
 };
 
 /// What we make of a glTF extension.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -25,6 +26,21 @@ struct ReadLimits {
     std::uint64_t texture_bytes = std::uint64_t{8} << 30;  ///< of all pictures together, decoded
     /// Decoded over encoded size of a picture. Pictures of less than 64 MiB are not asked.
     std::uint64_t compression_ratio = 1000;
+    /// Of buffers, vertices, pictures and what rays are traced with, together, as estimated while a
+    /// scene is loaded.
+    std::uint64_t memory_bytes = std::uint64_t{64} << 30;
 };
+
+/// The default limits, but for `bytes` of memory at most.
+[[nodiscard]] constexpr ReadLimits limits_within(std::uint64_t bytes)
+{
+    ReadLimits limits;
+    for (std::uint64_t* limit :
+         {&limits.file_bytes, &limits.buffer_bytes, &limits.json_bytes, &limits.mesh_bytes,
+          &limits.image_bytes, &limits.texture_bytes, &limits.memory_bytes}) {
+        *limit = std::min(*limit, bytes);
+    }
+    return limits;
+}
 
 }  // namespace bdpt::io

@@ -1,0 +1,126 @@
+#!/usr/bin/env python3
+"""Renders models and their twins, made by glTF Transform, and says whether the pictures agree.
+
+    twins.py COMMAND MODEL... [--converter PROGRAM] [--size WxH] [--spp N] [--noise FACTOR]
+             [--kinds NAME,...] [--keep FOLDER]
+
+COMMAND is bdpt. A twin holds the same model packed in another way: compressed meshes (draco, meshopt), integers for
+vertices (quantized), sparse accessors, WebP textures without loss (webp). The difference is the mean of FLIP. A converter
+may change the order of triangles and nodes, and with it which random number is used where: so two renders of the model
+itself with different seeds say what noise makes, and a twin may differ by that, and by a little where vertices are
+rounded. The exit code is 1 if a twin is not equal or is not rendered, 77 if the converter is not there (`npm install
+@gltf-transform/cli`).
+"""
+
+import argparse
+import dataclasses
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+# How a twin is made, and the mean FLIP that it may differ by beside noise: rounding moves vertices by a 2^14th of the
+# model.
+EXACT, MOVED = 0.001, 0.005
+KINDS = {
+    "draco": (["draco"], MOVED),
+    "meshopt": (["meshopt"], MOVED),
+    "quantized": (["quantize"], MOVED),
+    "sparse": (["sparse"], EXACT),
+    "webp": (["webp", "--lossless", "true"], EXACT),
+}
+
+
+def parse(words):
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("command")
+    parser.add_argument("models", nargs="+", type=pathlib.Path)
+    parser.add_argument("--converter", default="gltf-transform")
+    parser.add_argument("--size", default="96x72")
+    parser.add_argument("--spp", default="32")
+    parser.add_argument("--noise", type=float, default=1.2, help="times that of the model with another seed")
+    parser.add_argument("--kinds", default=",".join(KINDS))
+    parser.add_argument("--keep", type=pathlib.Path, help="write twins and pictures here")
+    return parser.parse_args(words)
+
+
+def run(*words):
+    return subprocess.run([str(word) for word in words], stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                          timeout=600, check=False)
+
+
+def render(options, model, picture, seed=0):
+    """None, or why there is no picture."""
+    done = run(options.command, "render", model, "-o", picture, "--size", options.size, "--spp", options.spp, "--seed",
+               seed, "--quiet")
+    return None if done.returncode == 0 else done.stderr.strip()
+
+
+def difference(command, picture, reference):
+    """The mean of FLIP."""
+    done = run(command, "compare", picture, reference, "--json")
+    if done.returncode != 0:
+        sys.exit(done.stderr)
+    return mean_flip(json.loads(done.stdout))
+
+
+def mean_flip(report):
+    return report["metrics"]["flip"]["mean"]
+
+
+@dataclasses.dataclass
+class Verdict:
+    equal: bool
+    text: str
+
+
+def compare(options, twin, model, rounding, folder):
+    """Whether two models are one picture, but for noise and what `rounding` allows. Pictures go to `folder`."""
+    plain, other = (folder / f"{model.stem}-{seed}.exr" for seed in range(2))
+    picture = folder / f"{twin.stem}.exr"
+    for what, where, seed in ((model, plain, 0), (model, other, 1), (twin, picture, 0)):
+        refusal = render(options, what, where, seed)
+        if refusal:
+            return Verdict(False, f"NOT RENDERED: {refusal}")
+    tolerance = rounding + options.noise * difference(options.command, other, plain)
+    found = difference(options.command, picture, plain)
+    equal = found <= tolerance
+    return Verdict(equal, f"mean FLIP {found:.5f}, at most {tolerance:.5f}: {'equal' if equal else 'NOT EQUAL'}")
+
+
+def check_kind(options, model, kind, folder):
+    """Whether the twin of one kind is equal to the model, or cannot be made."""
+    words, rounding = KINDS[kind]
+    twin = folder / f"{model.stem}-{kind}.glb"
+    made = run(options.converter, words[0], model, twin, *words[1:])
+    if made.returncode != 0 or not twin.exists():
+        print(f"  {kind}: the converter cannot: {(made.stderr or made.stdout).strip().splitlines()[-1:]}")
+        return True
+    verdict = compare(options, twin, model, rounding, folder)
+    print(f"  {kind}: {verdict.text}", flush=True)
+    return verdict.equal
+
+
+def check_model(options, model, folder):
+    print(model)
+    # All kinds, whatever came of those before.
+    return all([check_kind(options, model, kind, folder) for kind in options.kinds.split(",")])
+
+
+def main():
+    options = parse(sys.argv[1:])
+    if not shutil.which(options.converter):
+        print(f"{options.converter} is not there")
+        sys.exit(77)
+    with tempfile.TemporaryDirectory() as name:
+        folder = options.keep or pathlib.Path(name)
+        folder.mkdir(parents=True, exist_ok=True)
+        results = [check_model(options, model, folder) for model in options.models]
+    print(f"{sum(results)} of {len(results)} models are equal to all of their twins")
+    sys.exit(0 if all(results) else 1)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,206 @@
+#include "catch.hpp"
+#include "gltf_fixture.h"
+#include "image/webp_header.h"
+#include "picture_fixture.h"
+
+#include <bdpt/scene_desc.h>
+
+#include <stdexcept>
+
+using namespace bdpt;
+using namespace bdpt::io;
+
+namespace {
+
+/// One triangle for each picture, with a material whose base colour it is.
+GltfFixture with_images(const std::vector<std::string>& pictures)
+{
+    GltfFixture fixture = GltfFixture::triangle();
+    const nlohmann::json primitive = fixture.json["meshes"][0]["primitives"][0];
+    fixture.json["meshes"][0]["primitives"] = nlohmann::json::array();
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+        fixture.json["images"].push_back(
+            {{"uri", "data:application/octet-stream;base64," + base64(pictures[i])}});
+        fixture.json["textures"].push_back({{"source", i}});
+        fixture.json["materials"].push_back(
+            {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", i}}}}}});
+        nlohmann::json own = primitive;
+        own["material"] = i;
+        fixture.json["meshes"][0]["primitives"].push_back(own);
+    }
+    return fixture;
+}
+
+std::string grey(int value, int side = 1)
+{
+    return png(side, side, 8, 0,
+               std::vector<std::string>(
+                   static_cast<std::size_t>(side),
+                   std::string(static_cast<std::size_t>(side), static_cast<char>(value))));
+}
+
+std::vector<std::string> many()
+{
+    std::vector<std::string> pictures;
+    for (int i = 0; i < 100; ++i) {
+        pictures.push_back(grey(i, 1 + i % 7));
+    }
+    return pictures;
+}
+
+}  // namespace
+
+TEST_CASE("pictures that are decoded at once keep their order, and their materials")
+{
+    std::vector<std::string> pictures = many();
+    pictures[3] = "GIF89a";
+    pictures[40] = pictures[40].substr(0, 40);
+    GltfOptions options;
+    options.limits.image_bytes = 100;  // batches of a few pictures
+    const LoadedScene loaded = with_images(pictures).load(options);
+    REQUIRE(loaded.scene.images.size() == 98);
+    REQUIRE(loaded.scene.materials.size() == 100);
+    for (std::size_t i = 0; i < 100; ++i) {
+        const auto& texture = loaded.scene.materials[i].base_color_texture;
+        if (i == 3 || i == 40) {
+            CHECK_FALSE(texture);
+            continue;
+        }
+        REQUIRE(texture);
+        const TexelImage& image = loaded.scene.images[static_cast<std::size_t>(texture->image)];
+        CHECK(image.width == static_cast<int>(1 + i % 7));
+        CHECK(image.bytes.at(0) == i);
+    }
+    CHECK(static_cast<std::size_t>(loaded.scene.materials[99].base_color_texture->image) == 97);
+    // One line, with the first place, whichever was decoded first.
+    CHECK(warns(loaded.warnings, {"/images/3: ", "1 more"}));
+}
+
+TEST_CASE("the error about a picture is that of the first one, whichever thread is faster")
+{
+    std::vector<std::string> pictures = many();
+    pictures[20] = png(30000, 30000, 8, 0, {raw({0})});
+    pictures[21] = png(10000, 10000, 8, 2, {raw({0})});
+    pictures[10] = png(20000, 20000, 8, 0, {raw({0})});
+    const GltfFixture fixture = with_images(pictures);
+    for (int i = 0; i < 5; ++i) {
+        CHECK(contains(fixture.error().what(), "/images/10: picture of 20000 x 20000"));
+    }
+}
+
+TEST_CASE("pictures count against the limit for all before they are decoded")
+{
+    GltfOptions options;
+    options.limits.texture_bytes = 3 * 49 + 5;
+    const GltfFixture fits = with_images({grey(1, 7), grey(2, 7), grey(3, 7), grey(4, 2)});
+    CHECK(fits.load(options).scene.images.size() == 4);
+    const GltfFixture one_more =
+        with_images({grey(1, 7), grey(2, 7), grey(3, 7), grey(4, 2), grey(5, 2)});
+    CHECK(contains(one_more.error(options).what(),
+                   "/images/4: all pictures together need more than 152 B"));
+    // The header counts, also of what turns out to be broken.
+    const GltfFixture broken =
+        with_images({grey(1, 7), grey(2, 7), grey(3, 7).substr(0, 60), grey(4, 2), grey(5, 2)});
+    CHECK(contains(broken.error(options).what(), "/images/4: all pictures together"));
+}
+
+TEST_CASE("all that a scene takes counts against one limit")
+{
+    // 102 bytes of pictures; buffers and vertices of three triangles in all, with what traces them.
+    const GltfFixture fixture = with_images({grey(1, 7), grey(2, 7), grey(3, 2)});
+    GltfOptions options;
+    const auto fits = [&](std::uint64_t bytes) {
+        options.limits.memory_bytes = bytes;
+        const std::string refusal = fixture.error(options).what();
+        CHECK((refusal.empty() || contains(refusal, "the scene needs more than")));
+        return refusal;
+    };
+    std::uint64_t least = 1;
+    std::uint64_t most = 1U << 20U;
+    while (least < most) {
+        const std::uint64_t middle = (least + most) / 2;
+        (fits(middle).empty() ? most : least) = fits(middle).empty() ? middle : middle + 1;
+    }
+    // At least 100 bytes for each triangle, 12 for each corner and 1 for each texel.
+    CHECK(least > 3 * (100 + 3 * 12) + 102);
+    CHECK(least < 2000);
+    CHECK(contains(fits(least - 1), "/images/2: the scene needs more than"));
+    CHECK(contains(fits(least - 5), "/images/1: "));
+    CHECK(contains(fits(least - 102), "/images/0: "));
+    CHECK(contains(fits(least - 150), "/nodes/0: "));
+    CHECK(contains(fits(20), "/meshes/0/primitives/0: "));
+}
+
+TEST_CASE("limits within a memory are those of all, and of each part")
+{
+    const ReadLimits limits = limits_within(1000);
+    for (const std::uint64_t bytes :
+         {limits.file_bytes, limits.buffer_bytes, limits.json_bytes, limits.mesh_bytes,
+          limits.image_bytes, limits.texture_bytes, limits.memory_bytes}) {
+        CHECK(bytes == 1000);
+    }
+    const ReadLimits large = limits_within(std::uint64_t{1} << 60U);
+    CHECK(large.memory_bytes == ReadLimits{}.memory_bytes);
+    CHECK(large.json_bytes == ReadLimits{}.json_bytes);
+    CHECK(large.triangles == ReadLimits{}.triangles);
+}
+
+TEST_CASE("loading tells of each picture, one at a time, and what the callback throws is passed on")
+{
+    const GltfFixture fixture = with_images(many());
+    GltfOptions options;
+    std::size_t calls = 0;
+    options.on_progress = [&](const LoadProgress& progress) {
+        ++calls;
+        CHECK(progress.pictures_done == calls);
+        CHECK(progress.pictures_total == 100);
+    };
+    static_cast<void>(fixture.load(options));
+    CHECK(calls == 100);
+    options.on_progress = [](const LoadProgress& progress) {
+        if (progress.pictures_done == 50) {
+            throw Error(ErrorCode::usage, "enough");
+        }
+    };
+    CHECK(contains(fixture.error(options).what(), "enough"));
+    calls = 0;
+    options.on_progress = [&](const LoadProgress&) { ++calls; };
+    static_cast<void>(GltfFixture::triangle().load(options));
+    CHECK(calls == 0);
+}
+
+TEST_CASE("the size of a WebP picture is in its header")
+{
+    const auto size = [](const std::string& file) {
+        const Bytes bytes(file.begin(), file.end());
+        const PictureSize found = webp_size(bytes);
+        return std::pair(found.width, found.height);
+    };
+    CHECK(size(red_webp()) == std::pair(2, 2));
+    const std::string riff = "RIFF" + std::string(4, '\0') + "WEBP";
+    const std::string lossy = riff + "VP8 " + raw({0, 0, 0, 0, 0, 0, 0, 0x9d, 0x01, 0x2a}) +
+                              raw({0x34, 0x92, 0x21, 0x03, 0, 0, 0, 0});  // scaled by 2 bits
+    CHECK(size(lossy) == std::pair(0x1234, 0x321));
+    const std::string lossless =
+        riff + "VP8L" + raw({0, 0, 0, 0, 0x2f, 0xff, 0x3f, 0x01, 0x00, 0, 0, 0, 0, 0});
+    CHECK(size(lossless) == std::pair(16384, 5));
+    const std::string extended =
+        riff + "VP8X" + raw({10, 0, 0, 0, 0x10, 0, 0, 0, 0xff, 0x01, 0, 2, 0, 0});
+    CHECK(size(extended) == std::pair(512, 3));
+    CHECK_THROWS_AS(size(extended.substr(0, 29)), std::runtime_error);
+    CHECK_THROWS_AS(size(riff + "VP8L" + std::string(14, '\0')), std::runtime_error);
+    CHECK_THROWS_AS(size(riff + "ALPH" + std::string(14, '\0')), std::runtime_error);
+}
+
+TEST_CASE("a WebP picture is refused by its header, before it is decoded")
+{
+    std::string bomb = red_webp();
+    REQUIRE(bomb.substr(12, 4) == "VP8 ");
+    for (const std::size_t at : {26U, 28U}) {
+        bomb[at] = '\x00';
+        bomb[at + 1] = '\x30';  // 12288
+    }
+    const Error error = with_images({bomb}).error();
+    CHECK(error.code() == ErrorCode::invalid_input);
+    CHECK(contains(error.what(), "more than 1000 times packed"));
+}

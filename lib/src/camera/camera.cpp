@@ -14,8 +14,10 @@ Camera::Camera(const CameraDesc& desc, int width, int height)
     : Camera(desc, width, height, {.min = Vec2(0.0f), .max = Vec2(width, height)})
 {}
 
-Camera::Camera(const CameraDesc& desc, int width, int height, const RasterBounds& visible)
+Camera::Camera(const CameraDesc& desc, int width, int height, const RasterBounds& visible,
+               const SideMedia* medium)
     : position_(desc.world_from_camera[3]),
+      medium_(medium),
       film_size_(width, height),
       visible_(visible),
       perspective_(desc.projection == Projection::perspective),
@@ -55,7 +57,8 @@ Vec3 Camera::lens_point(Vec2 u_lens) const
 SegmentEnd Camera::lens_end(Vec3 local_point) const
 {
     return {.p = position_ + world_from_camera_ * local_point,
-            .ng = has_finite_lens() ? -world_from_camera_[2] : Vec3(0.0f)};
+            .ng = has_finite_lens() ? -world_from_camera_[2] : Vec3(0.0f),
+            .media = medium_};
 }
 
 SolidAnglePdf Camera::pdf_of(float inv_cos) const

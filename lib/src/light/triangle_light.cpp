@@ -28,7 +28,7 @@ TriangleLight::Point TriangleLight::point(Vec2 u) const
         square_to_triangle(emission_.spread ? emission_.spread->sample(u).point : u);
     const BoundedPoint at = mesh_->point(triangle_, barycentrics);
     return {
-        .end = {.p = at.p, .error = at.error, .ng = ng_, .absorption = material_->absorption()},
+        .end = {.p = at.p, .error = at.error, .ng = ng_, .media = material_->media()},
         .barycentrics = barycentrics,
         .pdf = pdf_position(barycentrics),
         .radiance = material_->expected_emission(texture_point(*mesh_, triangle_, barycentrics))};

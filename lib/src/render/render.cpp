@@ -140,7 +140,8 @@ RenderResult render(const Scene& scene, const CameraDesc& camera_desc, const Ren
     const float margin = PixelFilter(options.filter).radius() - 0.5f;
     const Camera camera(
         camera_desc, options.width, options.height,
-        {.min = Vec2(region.x0, region.y0) - margin, .max = Vec2(region.x1, region.y1) + margin});
+        {.min = Vec2(region.x0, region.y0) - margin, .max = Vec2(region.x1, region.y1) + margin},
+        scene.world().medium_at(Vec3(camera_desc.world_from_camera[3])));
     const auto integrator = make_integrator(scene.world(), camera, options);
     const AovPass aov_pass(scene.world(), camera, options);
 

@@ -51,10 +51,7 @@ World::World(SceneDesc desc, Isa isa) : desc_(std::move(desc))
         layer_tables_ = std::make_unique<const LayerTables>(desc_.materials);
     }
     for (const MaterialDesc& material : desc_.materials) {
-        const auto [red, green, blue] = channel_indices(material);
-        const ChannelAlbedos albedos(albedo_of(red), albedo_of(green), albedo_of(blue));
-        materials_.emplace_back(material, desc_.images, albedos, layer_tables_.get());
-        disperses_ = disperses_ || albedos.disperse();
+        materials_.push_back(make_material(material, {}));
     }
     placed_.reserve(desc_.instances.size());
     for (const InstanceDesc& instance : desc_.instances) {
@@ -66,11 +63,27 @@ World::World(SceneDesc desc, Isa isa) : desc_(std::move(desc))
     sphere_ = sphere_around(bounds_);
     embree_ = std::make_unique<const EmbreeScene>(desc_.instances, placed_, desc_.meshes.size(),
                                                   spheres_, pass_rule(), isa);
+    find_bodies();
     lights_ = std::make_unique<const LightSet>(desc_.instances, placed_, materials_, desc_.lights,
                                                sphere_);
     counts_ = count(desc_);
     counts_.lights = lights_->size();
     counts_.emissive_triangles = lights_->size() - desc_.lights.size();
+}
+
+Material World::make_material(const MaterialDesc& desc, const Exterior& exterior)
+{
+    const auto [red, green, blue] = boundary_indices(desc, exterior).greater_by_less;
+    Material material(desc, desc_.images, {albedo_of(red), albedo_of(green), albedo_of(blue)},
+                      layer_tables_.get(), exterior);
+    disperses_ = disperses_ || material.disperses();
+    return material;
+}
+
+const SideMedia* World::medium_at(Vec3 p) const
+{
+    const auto body = bodies_ ? bodies_->at(p) : std::nullopt;
+    return body ? material_of(*body).media_within() : nullptr;
 }
 
 const SpecularAlbedo& World::albedo_of(float ior)
@@ -175,7 +188,7 @@ SurfacePoint World::surface_point(const RayHit& hit, Vec3 direction,
     SurfacePoint result{.end = {.p = hit.at.point.p,
                                 .error = hit.at.point.error,
                                 .ng = ng,
-                                .absorption = material.absorption()},
+                                .media = material.media()},
                         .bsdf = material.bsdf(shading),
                         .emission = Rgb(0.0f),
                         .light = lights_->of_triangle(hit.instance, hit.triangle),

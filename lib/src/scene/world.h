@@ -6,6 +6,7 @@
 #include "material/bsdf.h"
 #include "material/material.h"
 #include "math/probe.h"
+#include "scene/bodies.h"
 #include "scene/light_set.h"
 #include "scene/medium.h"
 
@@ -15,6 +16,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace bdpt {
@@ -76,9 +78,16 @@ public:
     [[nodiscard]] const Bounds& bounds() const { return bounds_; }
     [[nodiscard]] const SceneCounts& counts() const { return counts_; }
     [[nodiscard]] Isa isa() const noexcept { return embree_->isa(); }
+    /// What absorbs around a point that lies on no surface; null if nothing does.
+    [[nodiscard]] const SideMedia* medium_at(Vec3 p) const;
+    /// What is likely not meant, one line each.
+    [[nodiscard]] const std::vector<std::string>& warnings() const noexcept { return warnings_; }
 
 private:
     [[nodiscard]] const SpecularAlbedo& albedo_of(float ior);
+    [[nodiscard]] Material make_material(const MaterialDesc& desc, const Exterior& exterior);
+    void find_bodies();
+    void warn_of_open_bodies();
     [[nodiscard]] const Material& material_of(std::uint32_t instance) const noexcept;
     [[nodiscard]] bool may_be_passed(std::uint32_t instance) const noexcept;
     [[nodiscard]] bool is_passed(const Crossing& crossing) const noexcept;
@@ -102,6 +111,8 @@ private:
     BoundingSphere sphere_;
     SceneCounts counts_;
     std::unique_ptr<const EmbreeScene> embree_;
+    std::unique_ptr<const Bodies> bodies_;  // if there are any
+    std::vector<std::string> warnings_;
     std::unique_ptr<const LightSet> lights_;
 };
 

@@ -163,6 +163,9 @@ Stage prepare_stage(const RenderArguments& arguments,
     const auto loading_end = std::chrono::steady_clock::now();
     BuiltScene built = build(lit, arguments, aspect, look);
     const auto building_end = std::chrono::steady_clock::now();
+    for (const std::string& warning : built.scene.warnings()) {
+        warnings.push_back(fmt::format("{}: {}", file, warning));
+    }
     warnings.insert(warnings.end(), lit.warnings.begin(), lit.warnings.end());
     if (!from_file && !arguments.camera && !arguments.view.from) {
         warnings.push_back(

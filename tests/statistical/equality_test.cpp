@@ -137,6 +137,18 @@ TEST_CASE("all integrators agree: layered materials", "[equality][layers]")
     check_cases(layer_cases(), 300000);
 }
 
+TEST_CASE("all integrators agree: bodies in bodies", "[equality][bodies]")
+{
+    std::uint64_t seed = 320000;
+    for (const EqualityCase& test : body_cases()) {
+        seed += 100;
+        DYNAMIC_SECTION(test.name)
+        {
+            check_case(test, seed);
+        }
+    }
+}
+
 TEST_CASE("all integrators agree: steep normal maps", "[equality][layers]")
 {
     check_cases(normal_map_cases(), 310000);

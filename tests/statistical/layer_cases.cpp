@@ -115,7 +115,53 @@ EqualityCase steep_coat()
     return steep_map("coat with a steep normal map", material);
 }
 
+MaterialDesc tinted_glass(float roughness, float ior, Rgb color)
+{
+    MaterialDesc material = glass(roughness);
+    material.ior = ior;
+    material.attenuation_color = color;
+    material.attenuation_distance = 0.4f;
+    return material;
+}
+
+/// A dense ball and one of little but air in a ball of water, with a stone that is not round.
+EqualityCase balls_in_a_ball()
+{
+    EqualityCase result = ball("bodies in a body", tinted_glass(0.35f, 1.33f, {0.5f, 0.8f, 0.9f}));
+    SceneBuilder builder{.desc = std::move(result.scene)};
+    builder.sphere({-0.2f, -0.3f, 0.0f}, 0.22f, tinted_glass(0.35f, 1.8f, {0.9f, 0.5f, 0.4f}), 24);
+    builder.sphere({0.2f, -0.25f, 0.1f}, 0.18f, tinted_glass(0.4f, 1.05f, {0.9f, 0.9f, 0.5f}), 24);
+    builder.sphere({0.0f, -0.7f, 0.1f}, 0.15f, lambertian({0.8f, 0.3f, 0.2f}), 8);
+    result.scene = std::move(builder.desc);
+    result.max_depth = 5;
+    result.detectable_bias = 0.05;
+    result.detectable_bias_of_light_sampling = 0.1;
+    return result;
+}
+
+/// The camera is in a block of dark glass, with a stone that the block does not wholly hold.
+EqualityCase camera_in_a_block()
+{
+    const Rgb white(0.7f);
+    SceneBuilder builder;
+    builder.walls(lambertian(white), lambertian({0.7f, 0.5f, 0.3f})).ceiling(lambertian(white));
+    builder.lamp(0.98f, 0.85f, Rgb(4.0f, 3.5f, 3.0f));
+    builder.cube({0.0f, 0.0f, 0.2f}, 0.75f, tinted_glass(0.5f, 1.2f, {0.4f, 0.7f, 0.8f}));
+    builder.sphere({0.1f, -0.7f, -0.1f}, 0.3f, lambertian({0.8f, 0.3f, 0.2f}), 16);
+    return {.name = "camera in a body",
+            .scene = std::move(builder.desc),
+            .camera = camera_at({0.0f, 0.1f, 0.8f}, {0.0f, -0.2f, 0.0f}, 1.2f),
+            .max_depth = 4,
+            .detectable_bias = 0.05,
+            .detectable_bias_of_light_sampling = 0.1};
+}
+
 }  // namespace
+
+std::vector<EqualityCase> body_cases()
+{
+    return {balls_in_a_ball(), camera_in_a_block()};
+}
 
 std::vector<EqualityCase> layer_cases()
 {

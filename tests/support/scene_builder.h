@@ -128,6 +128,20 @@ public:
                      glm::scale(glm::translate(Mat4(1.0f), center), Vec3(radius)));
     }
 
+    /// The closed surface of a cube, seen from outside, with flat faces.
+    SceneBuilder& cube(Vec3 center, float half_width, const MaterialDesc& material)
+    {
+        MeshDesc mesh;
+        for (unsigned i = 0; i < 8; ++i) {
+            const Vec3 corner((i & 1U) != 0 ? 1 : -1, (i & 2U) != 0 ? 1 : -1,
+                              (i & 4U) != 0 ? 1 : -1);
+            mesh.positions.push_back(center + half_width * corner);
+        }
+        mesh.triangles = {{4, 5, 7}, {4, 7, 6}, {1, 0, 2}, {1, 2, 3}, {5, 1, 3}, {5, 3, 7},
+                          {0, 4, 6}, {0, 6, 2}, {6, 7, 3}, {6, 3, 2}, {0, 1, 5}, {0, 5, 4}};
+        return place(add_mesh(std::move(mesh)), material, Mat4(1.0f));
+    }
+
     /// The inside of the cube [-1, 1]^3 without its front (+z) and its ceiling.
     SceneBuilder& walls(const MaterialDesc& floor, const MaterialDesc& others)
     {

@@ -6,6 +6,8 @@
 
 #include <cstddef>
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace bdpt {
 
@@ -43,6 +45,8 @@ public:
     [[nodiscard]] SceneCounts counts() const;
     /// What rays are traced with; never `native` on x86.
     [[nodiscard]] Isa isa() const;
+    /// What is likely not meant, such as bodies that are not closed; one line each.
+    [[nodiscard]] const std::vector<std::string>& warnings() const;
 
     /// For the library itself.
     [[nodiscard]] const World& world() const { return *world_; }

@@ -14,8 +14,10 @@ Camera::Camera(const CameraDesc& desc, int width, int height)
     : Camera(desc, width, height, {.min = Vec2(0.0f), .max = Vec2(width, height)})
 {}
 
-Camera::Camera(const CameraDesc& desc, int width, int height, const RasterBounds& visible)
-    : film_size_(width, height),
+Camera::Camera(const CameraDesc& desc, int width, int height, const RasterBounds& visible,
+               const SideMedia* medium)
+    : medium_(medium),
+      film_size_(width, height),
       visible_(visible),
       perspective_(desc.projection == Projection::perspective),
       lens_radius_(perspective_ ? desc.lens_radius : 0.0f),
@@ -30,9 +32,8 @@ Camera::Camera(const CameraDesc& desc, int width, int height, const RasterBounds
         pdf_lens_ = {1.0f / (pi * lens_radius_ * lens_radius_)};
     }
     const float pixel = 2.0f * half_extent_.y / film_size_.y;
-    pixel_cone_ = {.eye = position_,
-                   .width = perspective_ ? 0.0f : pixel,
-                   .spread = perspective_ ? pixel : 0.0f};
+    pixel_cone_.width = perspective_ ? 0.0f : pixel;
+    pixel_cone_.spread = perspective_ ? pixel : 0.0f;
 }
 
 void Camera::look_from(const Mat4& world_from_camera)
@@ -42,6 +43,7 @@ void Camera::look_from(const Mat4& world_from_camera)
     const Vec3 right = normalize(cross(Vec3(world_from_camera[1]), back));
     world_from_camera_ = Mat3(right, cross(back, right), back);
     position_ = Vec3(world_from_camera[3]);
+    pixel_cone_.eye = position_;
 }
 
 Camera Camera::moved_to(const Mat4& world_from_camera) const
@@ -70,7 +72,8 @@ Vec3 Camera::lens_point(Vec2 u_lens) const
 SegmentEnd Camera::lens_end(Vec3 local_point) const
 {
     return {.p = position_ + world_from_camera_ * local_point,
-            .ng = has_finite_lens() ? -world_from_camera_[2] : Vec3(0.0f)};
+            .ng = has_finite_lens() ? -world_from_camera_[2] : Vec3(0.0f),
+            .media = medium_};
 }
 
 SolidAnglePdf Camera::pdf_of(float inv_cos) const

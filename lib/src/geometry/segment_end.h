@@ -1,6 +1,7 @@
 #pragma once
 
 #include "geometry/ray.h"
+#include "math/side_media.h"
 
 #include <bdpt/types.h>
 
@@ -11,10 +12,10 @@ namespace bdpt {
 /// One end of a segment of a path: what a ray that starts or ends there needs to know.
 struct SegmentEnd {
     Vec3 p{0.0f};
-    float error = 0.0f;    ///< how far off p can be, and the surface that a ray meets there [m]
-    Vec3 ng{0.0f};         ///< unit geometric normal on the front; zero when on no surface
-    Rgb absorption{0.0f};  ///< of the medium behind the surface [1/m]
+    float error = 0.0f;  ///< how far off p can be, and the surface that a ray meets there [m]
+    Vec3 ng{0.0f};       ///< unit geometric normal on the front; zero when on no surface
     std::uint32_t sphere = no_sphere;  ///< that p lies on; segments touch spheres from outside only
+    const SideMedia* media = nullptr;  ///< null where nothing absorbs
 };
 
 }  // namespace bdpt

@@ -54,10 +54,7 @@ std::optional<TriangleLight::Point> TriangleLight::point(Vec2 u, float time) con
         square_to_triangle(emission_.spread ? emission_.spread->sample(u).point : u);
     const BoundedPoint at = mesh_->point(triangle_, barycentrics, time);
     return Point{
-        .end = {.p = at.p,
-                .error = at.error,
-                .ng = facing.ng,
-                .absorption = material_->absorption()},
+        .end = {.p = at.p, .error = at.error, .ng = facing.ng, .media = material_->media()},
         .barycentrics = barycentrics,
         .pdf = pdf_position(barycentrics, facing),
         .radiance = material_->expected_emission(texture_point(*mesh_, triangle_, barycentrics))};

@@ -35,4 +35,23 @@ private:
 /// a solid transmitter.
 [[nodiscard]] std::array<float, wavelengths> channel_indices(const MaterialDesc& desc);
 
+/// What is around a body: another one, or nothing.
+struct Exterior {
+    std::array<float, wavelengths> indices{1.0f, 1.0f, 1.0f};
+    Rgb absorption{0.0f};  ///< [1/m]
+
+    friend bool operator==(const Exterior&, const Exterior&) = default;
+};
+
+/// What `desc` is for the bodies within it.
+[[nodiscard]] Exterior exterior_within(const MaterialDesc& desc);
+
+/// Where a solid transmitter lies in something denser it is seen from the other side: as if its
+/// inside were around it.
+struct BoundaryIndices {
+    std::array<float, wavelengths> greater_by_less{1.0f, 1.0f, 1.0f};  ///< >= 1
+    std::array<bool, wavelengths> turned{};  ///< is the outside the denser one?
+};
+[[nodiscard]] BoundaryIndices boundary_indices(const MaterialDesc& desc, const Exterior& exterior);
+
 }  // namespace bdpt

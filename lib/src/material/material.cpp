@@ -63,8 +63,33 @@ std::array<float, wavelengths> channel_indices(const MaterialDesc& desc)
     return {std::max(1.0f, desc.ior - spread), desc.ior, desc.ior + spread};
 }
 
+Exterior exterior_within(const MaterialDesc& desc)
+{
+    Exterior exterior{.absorption = absorption_of(desc)};
+    if (body_of(desc) == Body::solid) {
+        exterior.indices = channel_indices(desc);
+    }
+    return exterior;
+}
+
+BoundaryIndices boundary_indices(const MaterialDesc& desc, const Exterior& exterior)
+{
+    BoundaryIndices result{.greater_by_less = channel_indices(desc)};
+    if (body_of(desc) != Body::solid) {
+        return result;
+    }
+    for (std::size_t i = 0; i < wavelengths; ++i) {
+        const float inside = result.greater_by_less[i];
+        const float outside = exterior.indices[i];
+        result.turned[i] = inside < outside;
+        result.greater_by_less[i] = inside < outside ? outside / inside : inside / outside;
+    }
+    return result;
+}
+
 Material::Material(const MaterialDesc& desc, const Pictures& pictures,
-                   const ChannelAlbedos& albedos, const LayerTables* tables)
+                   const ChannelAlbedos& albedos, const LayerTables* tables,
+                   const Exterior& exterior)
     : surface_{Rgb{desc.base_color.x, desc.base_color.y, desc.base_color.z},
                desc.metallic,
                desc.roughness,
@@ -73,13 +98,17 @@ Material::Material(const MaterialDesc& desc, const Pictures& pictures,
                desc.transmission,
                body_of(desc)},
       emission_(desc.emission),
-      absorption_(absorption_of(desc)),
+      within_{absorption_of(desc), absorption_of(desc)},
+      // What has no inside has the same medium on both sides.
+      media_{has_medium(desc) ? within_.behind : exterior.absorption, exterior.absorption},
+      absorbs_(media_.behind != Rgb(0.0f) || media_.ahead != Rgb(0.0f)),
       double_sided_(desc.double_sided),
       unlit_(desc.unlit),
       alpha_mode_(desc.alpha_mode),
       alpha_(desc.base_color.w),
       alpha_cutoff_(desc.alpha_cutoff),
       albedos_(albedos),
+      turned_(boundary_indices(desc, exterior).turned),
       base_color_map_(
           make_texture(desc.base_color_texture, color_pictures(desc, pictures), Encoding::srgb)),
       metallic_roughness_map_(
@@ -92,9 +121,11 @@ Material::Material(const MaterialDesc& desc, const Pictures& pictures,
       transmission_map_(make_texture(desc.transmission_texture, pictures, Encoding::linear)),
       glossiness_map_(make_texture(desc.glossiness_texture, pictures, Encoding::linear))
 {
-    const bool varies = base_color_map_ || metallic_roughness_map_ || specular_map_ ||
+    const bool any_turned = turned_ != std::array<bool, wavelengths>{};
+    disperses_ = albedos.disperse() || turned_[0] != turned_[1] || turned_[1] != turned_[2];
+    const bool varies = any_turned || base_color_map_ || metallic_roughness_map_ || specular_map_ ||
                         specular_color_map_ || transmission_map_ || glossiness_map_;
-    if (has_layers(desc)) {
+    if (has_layers(desc) && !any_turned) {
         layers_ = std::make_unique<const MaterialLayers>(desc, pictures, albedos, *tables);
     } else if (!varies && !unlit_ && !disperses()) {
         plain_.emplace(surface_, albedos_.at(Wavelength::green));
@@ -161,6 +192,14 @@ Bsdf Material::placed(const ShadingPoint& point, const GltfBsdf& model) const no
     return {point.ng, point.ns, Frame::from_normal(normal_map_->normal(point)), point.wo, model};
 }
 
+Bsdf Material::turned(const ShadingPoint& point, const GltfBsdf& model) const noexcept
+{
+    if (!normal_map_) {
+        return {-point.ng, Frame::from_normal(-point.ns), point.wo, model};
+    }
+    return {-point.ng, -point.ns, Frame::from_normal(-normal_map_->normal(point)), point.wo, model};
+}
+
 Bsdf Material::bsdf(const ShadingPoint& point) const noexcept
 {
     if (plain_ && point.color == Vec4(1.0f)) {
@@ -194,7 +233,9 @@ Bsdf Material::bsdf(const ShadingPoint& point) const noexcept
     if (layers_) {
         return layers_->bsdf(point, Frame::from_normal(shading_normal(point)), surface);
     }
-    return placed(point, GltfBsdf(surface, albedos_.at(point.wavelength)));
+    const GltfBsdf model(surface, albedos_.at(point.wavelength));
+    return turned_[static_cast<std::size_t>(point.wavelength)] ? turned(point, model)
+                                                               : placed(point, model);
 }
 
 Rgb Material::emission(const TexturePoint& point) const noexcept

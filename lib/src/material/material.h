@@ -6,6 +6,7 @@
 #include "material/normal_map.h"
 #include "material/shading_point.h"
 #include "material/texture.h"
+#include "math/side_media.h"
 
 #include <bdpt/scene_desc.h>
 
@@ -18,10 +19,10 @@ namespace bdpt {
 /// A `MaterialDesc` made ready for lookups. Refers to the pictures, which must outlive it.
 class Material {
 public:
-    /// `albedos` belong to `channel_indices(desc)`; `tables` are needed where `has_layers(desc)`.
-    /// Throws nothing: `desc` has been validated.
+    /// `albedos` belong to `boundary_indices(desc, exterior)`; `tables` are needed where
+    /// `has_layers(desc)`. Throws nothing: `desc` has been validated.
     Material(const MaterialDesc& desc, const Pictures& pictures, const ChannelAlbedos& albedos,
-             const LayerTables* tables = nullptr);
+             const LayerTables* tables = nullptr, const Exterior& exterior = {});
 
     [[nodiscard]] Bsdf bsdf(const ShadingPoint& point) const noexcept;
     /// Does that depend on `ShadingPoint::footprint`?
@@ -61,15 +62,27 @@ public:
     [[nodiscard]] bool emits_from_both_sides() const noexcept { return double_sided_; }
 
     /// Does light of different colours take different ways?
-    [[nodiscard]] bool disperses() const noexcept { return albedos_.disperse(); }
+    [[nodiscard]] bool disperses() const noexcept { return disperses_; }
     /// Bounds a solid body that light passes through; its inside is on the back of ng.
     [[nodiscard]] bool is_solid_transmitter() const noexcept
     {
         return surface_.body == Body::solid;
     }
+    /// Has an inside that light goes through, refracted or not.
+    [[nodiscard]] bool has_inside() const noexcept
+    {
+        return is_solid_transmitter() || within_.ahead != Rgb(0.0f);
+    }
     /// Of the inside of a solid transmitter, diffuse or not [1/m] (Beer-Lambert;
     /// KHR_materials_volume); zero for all others. A colour of zero absorbs like 1e-20.
-    [[nodiscard]] Rgb absorption() const noexcept { return absorption_; }
+    [[nodiscard]] Rgb absorption() const noexcept { return within_.ahead; }
+    /// What absorbs on both sides of its surfaces; null if nothing does.
+    [[nodiscard]] const SideMedia* media() const noexcept { return absorbs_ ? &media_ : nullptr; }
+    /// What absorbs around a point within it; null if nothing does.
+    [[nodiscard]] const SideMedia* media_within() const noexcept
+    {
+        return within_.ahead != Rgb(0.0f) ? &within_ : nullptr;
+    }
     /// Set of texture coordinates that the tangent follows, if the material needs one.
     [[nodiscard]] std::optional<int> tangent_uv_set() const noexcept { return tangent_uv_set_; }
 
@@ -79,6 +92,7 @@ private:
         return normal_map_ ? normal_map_->normal(point) : point.ns;
     }
     [[nodiscard]] Bsdf placed(const ShadingPoint& point, const GltfBsdf& model) const noexcept;
+    [[nodiscard]] Bsdf turned(const ShadingPoint& point, const GltfBsdf& model) const noexcept;
     [[nodiscard]] Rgb base_color(const TexturePoint& point,
                                  const UvFootprint* footprint) const noexcept;
     [[nodiscard]] float opacity_of(float alpha) const noexcept;
@@ -89,7 +103,10 @@ private:
     std::optional<GltfBsdf> plain_;  ///< of a surface on which nothing varies
     Rgb emission_{0.0f};
     Rgb mean_emission_{0.0f};
-    Rgb absorption_{0.0f};
+    SideMedia within_;
+    SideMedia media_;
+    bool absorbs_;
+    bool disperses_ = false;
     bool double_sided_;
     bool unlit_;
     bool needs_footprint_ = false;
@@ -99,6 +116,7 @@ private:
     float least_opacity_ = 1.0f;
     float mean_opacity_ = 1.0f;  ///< roughly
     ChannelAlbedos albedos_;
+    std::array<bool, wavelengths> turned_;
 
     std::optional<Texture> base_color_map_;
     std::optional<Texture> metallic_roughness_map_;

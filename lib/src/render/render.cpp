@@ -138,9 +138,11 @@ RenderResult render(const Scene& scene, const CameraDesc& camera_desc, const Ren
     const PixelRect region = options.crop.value_or(whole_image(options));
     // What counts for a pixel of the region can lie beside it, even beside the image.
     const float margin = PixelFilter(options.filter).radius() - 0.5f;
-    const MovingCamera camera(camera_desc, Camera(camera_desc, options.width, options.height,
-                                                  {.min = Vec2(region.x0, region.y0) - margin,
-                                                   .max = Vec2(region.x1, region.y1) + margin}));
+    const Camera opened(
+        camera_desc, options.width, options.height,
+        {.min = Vec2(region.x0, region.y0) - margin, .max = Vec2(region.x1, region.y1) + margin},
+        scene.world().medium_at(Vec3(camera_desc.world_from_camera[3])));
+    const MovingCamera camera(camera_desc, opened);
     const auto integrator = make_integrator(scene.world(), camera, options);
     const AovPass aov_pass(scene.world(), camera, options);
 

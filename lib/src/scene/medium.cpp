@@ -17,7 +17,10 @@ Rgb attenuate(Rgb absorption, float distance)
 
 Rgb absorption_towards(const SegmentEnd& end, Vec3 w)
 {
-    return dot(end.ng, w) < 0.0f ? end.absorption : Rgb(0.0f);
+    if (end.media == nullptr) {
+        return Rgb(0.0f);
+    }
+    return dot(end.ng, w) < 0.0f ? end.media->behind : end.media->ahead;
 }
 
 }  // namespace

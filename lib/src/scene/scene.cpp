@@ -22,6 +22,11 @@ SceneCounts Scene::counts() const
     return world_->counts();
 }
 
+const std::vector<std::string>& Scene::warnings() const
+{
+    return world_->warnings();
+}
+
 Isa Scene::isa() const
 {
     return world_->isa();

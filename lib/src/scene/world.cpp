@@ -81,16 +81,11 @@ void for_rows(int count, const std::function<void(int, int)>& work)
 World::World(SceneDesc desc, Isa isa) : desc_(std::move(desc)), mip_maps_(for_rows)
 {
     validate(desc_);
-    const bool mip_mapped = desc_.texture_filter == TextureFilter::mip_mapped;
-    const Pictures pictures(desc_.images, mip_mapped ? &mip_maps_ : nullptr);
     if (std::any_of(desc_.materials.begin(), desc_.materials.end(), has_layers)) {
         layer_tables_ = std::make_unique<const LayerTables>(desc_.materials);
     }
     for (const MaterialDesc& material : desc_.materials) {
-        const auto [red, green, blue] = channel_indices(material);
-        const ChannelAlbedos albedos(albedo_of(red), albedo_of(green), albedo_of(blue));
-        materials_.emplace_back(material, pictures, albedos, layer_tables_.get());
-        disperses_ = disperses_ || albedos.disperse();
+        materials_.push_back(make_material(material, {}));
     }
     placed_.reserve(desc_.instances.size());
     for (const InstanceDesc& instance : desc_.instances) {
@@ -108,11 +103,29 @@ World::World(SceneDesc desc, Isa isa) : desc_(std::move(desc)), mip_maps_(for_ro
     for (const LightProfile& profile : desc_.profiles) {
         profiles_.emplace_back(profile);
     }
+    find_bodies();
     lights_ = std::make_unique<const LightSet>(desc_.instances, placed_, materials_, desc_.lights,
                                                profiles_, sphere_);
     counts_ = count(desc_);
     counts_.lights = lights_->size();
     counts_.emissive_triangles = lights_->size() - desc_.lights.size();
+}
+
+Material World::make_material(const MaterialDesc& desc, const Exterior& exterior)
+{
+    const auto [red, green, blue] = boundary_indices(desc, exterior).greater_by_less;
+    const bool mip_mapped = desc_.texture_filter == TextureFilter::mip_mapped;
+    const Pictures pictures(desc_.images, mip_mapped ? &mip_maps_ : nullptr);
+    Material material(desc, pictures, {albedo_of(red), albedo_of(green), albedo_of(blue)},
+                      layer_tables_.get(), exterior);
+    disperses_ = disperses_ || material.disperses();
+    return material;
+}
+
+const SideMedia* World::medium_at(Vec3 p) const
+{
+    const auto body = bodies_ ? bodies_->at(p) : std::nullopt;
+    return body ? material_of(*body).media_within() : nullptr;
 }
 
 const SpecularAlbedo& World::albedo_of(float ior)
@@ -223,7 +236,7 @@ SurfacePoint World::surface_point(const RayHit& hit, Vec3 direction, SegmentKey 
     SurfacePoint result{.end = {.p = hit.at.point.p,
                                 .error = hit.at.point.error,
                                 .ng = ng,
-                                .absorption = material.absorption()},
+                                .media = material.media()},
                         .bsdf = material.bsdf(shading),
                         .emission = Rgb(0.0f),
                         .light = lights_->of_triangle(hit.instance, hit.triangle),

@@ -9,6 +9,7 @@
 #include "material/mip_maps.h"
 #include "math/footprint.h"
 #include "math/probe.h"
+#include "scene/bodies.h"
 #include "scene/light_set.h"
 #include "scene/medium.h"
 
@@ -18,6 +19,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace bdpt {
@@ -82,9 +84,16 @@ public:
     [[nodiscard]] const Bounds& bounds() const { return bounds_; }
     [[nodiscard]] const SceneCounts& counts() const { return counts_; }
     [[nodiscard]] Isa isa() const noexcept { return embree_->isa(); }
+    /// What absorbs around a point that lies on no surface; null if nothing does.
+    [[nodiscard]] const SideMedia* medium_at(Vec3 p) const;
+    /// What is likely not meant, one line each.
+    [[nodiscard]] const std::vector<std::string>& warnings() const noexcept { return warnings_; }
 
 private:
     [[nodiscard]] const SpecularAlbedo& albedo_of(float ior);
+    [[nodiscard]] Material make_material(const MaterialDesc& desc, const Exterior& exterior);
+    void find_bodies();
+    void warn_of_open_bodies();
     [[nodiscard]] const Material& material_of(std::uint32_t instance) const noexcept;
     [[nodiscard]] bool may_be_passed(std::uint32_t instance) const noexcept;
     [[nodiscard]] bool is_passed(const Crossing& crossing) const noexcept;
@@ -112,6 +121,8 @@ private:
     SceneCounts counts_;
     std::unique_ptr<const EmbreeScene> embree_;
     std::vector<IntensityProfile> profiles_;
+    std::unique_ptr<const Bodies> bodies_;  // if there are any
+    std::vector<std::string> warnings_;
     std::unique_ptr<const LightSet> lights_;
 };
 

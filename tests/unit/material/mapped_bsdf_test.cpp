@@ -45,7 +45,8 @@ std::vector<test::BsdfCase> lossless_cases()
 }
 
 /// What the eye sees in a furnace of radiance n^2.
-test::Moments furnace(const test::MappedSurface& surface, const test::BsdfCase& what, Vec3 eye)
+test::Moments furnace(const test::MappedSurface& surface, const test::BsdfCase& what, Vec3 eye,
+                      int samples)
 {
     const Bsdf bsdf = surface.seen_from(eye);
     const auto index = [&](Vec3 w) {
@@ -53,7 +54,7 @@ test::Moments furnace(const test::MappedSurface& surface, const test::BsdfCase& 
     };
     test::Random random(83);
     test::Moments sum;
-    for (int i = 0; i < 60000; ++i) {
+    for (int i = 0; i < samples; ++i) {
         const float u_lobe = random.next();
         const auto sampled = bsdf.sample(u_lobe, random.next_2d(), radiance);
         const double ratio = sampled ? index(sampled->wi) / index(eye) : 0.0;
@@ -70,7 +71,7 @@ TEST_CASE("a white surface with any normal map is invisible in a white furnace")
         for (const float lean : test::leans()) {
             const test::MappedSurface surface(what, lean);
             for (const Vec3 eye : test::bsdf_directions()) {
-                const test::Moments sum = furnace(surface, what, eye);
+                const test::Moments sum = furnace(surface, what, eye, 60000);
                 CAPTURE(what.name, lean, eye.x, eye.y, eye.z);
                 CHECK(sum.standard_error() < 0.002);
                 const double lost = what.layers ? 0.06 : 0.001;
@@ -91,8 +92,8 @@ TEST_CASE("no surface with a normal map makes light")
         const test::MappedSurface surface(what, 70.0f * test::degrees);
         for (const Vec3 eye : test::bsdf_directions()) {
             CAPTURE(what.name, eye.z);
-            const test::Moments sum = furnace(surface, what, eye);
-            CHECK(sum.standard_error() < 0.01);
+            const test::Moments sum = furnace(surface, what, eye, 20000);
+            CHECK(sum.standard_error() < 0.02);
             CHECK(sum.mean() < 1.001 + 4.0 * sum.standard_error());
         }
     }
@@ -164,7 +165,7 @@ TEST_CASE("samples from both ends of a normal-mapped surface carry the same ligh
     const auto integral = [&](const test::MappedSurface& surface, TransportMode mode) {
         test::Random random(mode == radiance ? 97 : 101);
         test::Moments sum;
-        for (int i = 0; i < 200000; ++i) {
+        for (int i = 0; i < 50000; ++i) {
             const Vec3 wo = random.direction();
             const float u_lobe = random.next();
             const auto sampled = surface.seen_from(wo).sample(u_lobe, random.next_2d(), mode);
@@ -183,7 +184,7 @@ TEST_CASE("samples from both ends of a normal-mapped surface carry the same ligh
             const test::Moments from_light = integral(surface, importance);
             const double error = std::hypot(from_eye.standard_error(), from_light.standard_error());
             CAPTURE(what.name, lean, from_eye.mean(), from_light.mean(), error);
-            CHECK(error < 0.01);
+            CHECK(error < 0.02);
             CHECK(std::abs(from_eye.mean() - from_light.mean()) < 5.0 * error);
         }
     }

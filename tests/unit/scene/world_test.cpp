@@ -45,7 +45,8 @@ TEST_CASE("Beer-Lambert: the attenuation colour is left after the attenuation di
 
 TEST_CASE("a medium is known from either end, and the rule is symmetric", "[world]")
 {
-    const SegmentEnd glass{.p = {0, 0, 0}, .ng = {0, 0, 1}, .absorption = {1, 2, 0}};
+    const SideMedia media{.behind = {1, 2, 0}};
+    const SegmentEnd glass{.p = {0, 0, 0}, .ng = {0, 0, 1}, .media = &media};
     const SegmentEnd opaque{.p = {0, 0, -1}, .ng = {0, 0, 1}};
     const Vec3 down(0, 0, -1);
     const Rgb expected(std::exp(-1.0f), std::exp(-2.0f), 1.0f);

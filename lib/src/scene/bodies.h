@@ -1,0 +1,49 @@
+#pragma once
+
+#include "geometry/embree_scene.h"
+#include "geometry/placed_mesh.h"
+#include "geometry/sphere.h"
+
+#include <bdpt/scene.h>
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace bdpt {
+
+/// The bodies of a scene that light passes through, and what lies within them. Found by rays when
+/// the scene is built: a point is in a body when a ray from it leaves the body once more often than
+/// it enters. Of three rays two decide.
+class Bodies {
+public:
+    /// `instances` are those whose meshes bound bodies. All else must outlive this.
+    Bodies(std::span<const PlacedMesh> placed, std::vector<std::uint32_t> instances,
+           std::span<const Sphere> spheres, const EmbreeScene& embree);
+
+    /// For each instance the innermost body that all of it lies within, itself excepted. It is
+    /// judged by points on its front all over the mesh.
+    [[nodiscard]] std::vector<std::optional<std::uint32_t>> around_all() const;
+    /// The innermost body at a point that lies on no surface.
+    [[nodiscard]] std::optional<std::uint32_t> at(Vec3 p) const;
+
+private:
+    /// Numbers of bodies in ascending order.
+    using Set = std::vector<std::size_t>;
+
+    [[nodiscard]] Set left_by(Vec3 origin, Vec3 direction) const;
+    [[nodiscard]] Set containing(Vec3 p) const;
+    [[nodiscard]] Set containing(std::uint32_t instance) const;
+    [[nodiscard]] std::optional<std::uint32_t> innermost(const Set& bodies) const;
+
+    std::span<const PlacedMesh> placed_;
+    std::span<const Sphere> spheres_;
+    const EmbreeScene& embree_;
+    std::vector<std::uint32_t> instances_;
+    std::vector<std::optional<std::size_t>> body_of_instance_;
+    std::vector<Bounds> bounds_;      // by body
+    std::vector<std::size_t> depth_;  // by body: in how many others it lies
+};
+
+}  // namespace bdpt

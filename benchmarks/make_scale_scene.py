@@ -26,7 +26,11 @@ from make_large_scene import Glb, LAMP, WALLS, quads
 
 COUNTS = {"triangles": 10000000, "instances": 100000, "nodes": 100000, "textures": 1000, "panels": 10000, "lamps": 1000}
 WHITE = {"pbrMetallicRoughness": {"baseColorFactor": [0.7, 0.7, 0.7, 1], "metallicFactor": 0}}
-LIT = {**WHITE, "emissiveFactor": [1, 1, 1], "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 12}}}
+
+
+def lit(strength):
+    return {**WHITE, "emissiveFactor": [1, 1, 1],
+            "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": strength}}}
 
 
 def unit_vector(rng):
@@ -42,7 +46,7 @@ def use(glb, *extensions):
 def lit_room():
     glb = Glb()
     glb.add(quads(WALLS), WHITE)
-    glb.add(quads(LAMP), LIT)
+    glb.add(quads(LAMP), lit(12))
     use(glb, "KHR_materials_emissive_strength")
     return glb
 
@@ -91,7 +95,8 @@ def png(size, rng):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
     header = struct.pack(">2I5B", size, size, 8, 2, 0, 0, 0)
-    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(bytes(rows), 1)) + chunk(b"IEND", b"")
+    data = chunk(b"IDAT", zlib.compress(bytes(rows), 1))
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + data + chunk(b"IEND", b"")
 
 
 def panels_with_pictures(count):
@@ -109,7 +114,8 @@ def panels_with_pictures(count):
         glb.data += data + bytes(-len(data) % 4)
         glb.json["images"].append({"bufferView": len(glb.json["bufferViews"]) - 1, "mimeType": "image/png"})
         glb.json["textures"].append({"source": i})
-        glb.add((attributes, indices), {"pbrMetallicRoughness": {"baseColorTexture": {"index": i}, "metallicFactor": 0}})
+        picture = {"baseColorTexture": {"index": i}, "metallicFactor": 0}
+        glb.add((attributes, indices), {"pbrMetallicRoughness": picture})
     return glb
 
 
@@ -161,7 +167,7 @@ def panels(count):
         kinds[i % 4].append([tuple(c + a * d + b * e for c, d, e in zip(p, u, v))
                              for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))])
     for corners, strength in zip(kinds, (1, 4, 20, 100)):
-        glb.add(quads(corners), {**LIT, "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": strength}}})
+        glb.add(quads(corners), lit(strength))
     use(glb, "KHR_materials_emissive_strength")
     return glb
 

@@ -2,8 +2,9 @@
 """Prints how scenes load that are large in one respect: scale_table.py BDPT [KIND...] [--count KIND=N] [--rounds 3].
 
 BDPT is the command. Each scene of make_scale_scene.py is written to a temporary folder (--folder), rendered to 32 x 32
-pixels with one sample each, and deleted before the next. The table has, for the median round, the time to read the file,
-to build the scene and to render, the time from the start of the process to its end, and its greatest memory.
+pixels with one sample each, and deleted before the next. The table has, for the median round, the time to read the
+file, to build the scene and to render, the time from the start of the process to its end, its CPU time, which other programs
+disturb less, and its greatest memory.
 """
 
 import argparse
@@ -21,14 +22,14 @@ MAKER = pathlib.Path(__file__).parent / "make_scale_scene.py"
 
 
 def run(command):
-    """Seconds and greatest resident set [bytes] of a process."""
+    """Seconds, CPU seconds and greatest resident set [bytes] of a process."""
     begin = os.times().elapsed
     process = subprocess.Popen(command)
     _, status, usage = os.wait4(process.pid, 0)
     process.returncode = os.waitstatus_to_exitcode(status)
     if process.returncode != 0:
         sys.exit(f"{' '.join(command)} ended with exit code {process.returncode}")
-    return os.times().elapsed - begin, usage.ru_maxrss * 1024
+    return os.times().elapsed - begin, usage.ru_utime + usage.ru_stime, usage.ru_maxrss * 1024
 
 
 def measure(bdpt, scene, folder, threads):
@@ -36,16 +37,17 @@ def measure(bdpt, scene, folder, threads):
     stats = folder / "stats.json"
     command = [bdpt, "render", str(scene), "--size", "32x32", "--spp", "1", "--quiet", "-o", str(folder / "out.exr"),
                "--stats", str(stats)] + (["--threads", str(threads)] if threads else [])
-    seconds, memory = run(command)
-    return {**json.loads(stats.read_text(encoding="utf-8"))["seconds"], "process": seconds, "memory": memory}
+    seconds, cpu, memory = run(command)
+    return {**json.loads(stats.read_text(encoding="utf-8"))["seconds"], "process": seconds, "cpu": cpu,
+            "memory": memory}
 
 
 def line(kind, count, size, rounds, empty):
     """`empty`: bytes of a process that renders next to nothing."""
     median = {key: statistics.median(r[key] for r in rounds) for key in rounds[0]}
     each = (median["memory"] - empty) / count
-    return (f"| {count:,} {kind} | {size / 1e6:.0f} MB | {median['load']:.2f} s | {median['build']:.2f} s "
-            f"| {median['render']:.2f} s | {median['process']:.2f} s | {median['memory'] / 1e6:.0f} MB | {each:,.0f} |")
+    times = " | ".join(f"{median[key]:.2f} s" for key in ("load", "build", "render", "process", "cpu"))
+    return f"| {count:,} {kind} | {size / 1e6:.0f} MB | {times} | {median['memory'] / 1e6:.0f} MB | {each:,.0f} |"
 
 
 def main():
@@ -61,7 +63,8 @@ def main():
     kinds = arguments.kinds or list(COUNTS)
     for kind in {*kinds, *counts} - COUNTS.keys():
         sys.exit(f"no such kind of scene: {kind}; there are {', '.join(COUNTS)}")
-    print("| scene | file | read | build | first picture | in all | peak memory | bytes each |\n|---|---|---|---|---|---|---|---|")
+    print("| scene | file | read | build | first picture | in all | CPU | "
+          "peak memory | bytes each |\n|---|---|---|---|---|---|---|---|---|")
     with tempfile.TemporaryDirectory(dir=arguments.folder) as temporary:
         folder = pathlib.Path(temporary)
 

@@ -31,10 +31,9 @@ def night_market(title):
         ((0, 2.7, 1.2), (1.4, 2.3, 1.2), (1.4, 2.3, -1.2), (0, 2.7, -1.2)))), cloth))
     goods = gltf.mesh("goods", (gltf.shape(*sphere(16, 8, radius=0.16)), iron))
     colors = ((1, 0.3, 0.15), (1, 0.75, 0.3), (0.4, 0.9, 0.5), (0.4, 0.6, 1))
-    signs = [gltf.mesh(f"sign {i + 1}", (gltf.shape(*quads(((0, 0, 0.4), (0, 0, -0.4), (0, 0.25, -0.4), (0, 0.25, 0.4)))),
-                                         gltf.lambertian(f"sign {i + 1}", (0.3, 0.3, 0.3),
-                                                         emission=[12 * c for c in color])))
-             for i, color in enumerate(colors)]
+    board = quads(((0, 0, 0.4), (0, 0, -0.4), (0, 0.25, -0.4), (0, 0.25, 0.4)))
+    signs = [gltf.mesh(f"sign {i + 1}", (gltf.shape(*board), gltf.lambertian(
+        f"sign {i + 1}", (0.3, 0.3, 0.3), emission=[12 * c for c in color]))) for i, color in enumerate(colors)]
     for i in range(8):
         z = 0.2 - 3 * i
         for mesh, height, x in ((counter, 0, left), (awning, 0, left), (goods, 1.07, left + 0.4)):

@@ -69,6 +69,7 @@ TEST_CASE("wrong usage gives exit code 2 and names the option")
     rejects({"--light-paths", "4097"}, "--light-paths");
     rejects({"--rr-start", "0"}, "--rr-start");
     rejects({"--env-sampling", "even"}, "--env-sampling");
+    rejects({"--light-sampling", "bvh"}, "--light-sampling");
     rejects({"--disable", "s2"}, "--disable \"s2\"");
     rejects({"--disable", "s2t1,"}, "--disable \"s2t1,\"");
     for (const char* integrator : {"pt", "mis", "nee"}) {

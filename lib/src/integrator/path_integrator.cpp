@@ -154,7 +154,7 @@ Rgb PathIntegrator::estimate(Sample& sample, Probe& probe) const
                .pdf = scattered->pdf_fwd,
                .competes = !scattered->delta && options_.integrator != IntegratorKind::pt};
         if (ray.competes && world_.lights().uses_tree(next_event_sampling_.lights)) {
-            ray.receiver = {.p = point->end.p, .normal = point->bsdf.opaque_normal(ray.direction)};
+            ray.receiver = {.p = point->end.p, .normal = point->bsdf.opaque_normal()};
         }
         if (depth >= options_.rr_start) {
             const float survival = std::min(1.0f, max_component(beta));

@@ -71,7 +71,7 @@ public:
 private:
     friend class LightTreeBuilder;
 
-    static constexpr std::size_t most_children = 16;
+    static constexpr std::size_t most_children = 32;
     static constexpr std::size_t most_quads = most_children / LightQuad::width;
     static constexpr std::uint32_t no_slot = 0xffffffffU;
 

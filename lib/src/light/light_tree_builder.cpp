@@ -14,6 +14,8 @@ namespace bdpt {
 namespace {
 
 constexpr std::size_t bin_count = 12;
+/// Of so many lights, spread over a group, the division of a larger one is decided.
+constexpr std::size_t most_binned = 4096;
 /// Below this depth lights are halved whatever that costs, so that no way down is long.
 constexpr int deepest_choice = 16;
 
@@ -110,7 +112,13 @@ void LightTreeBuilder::build(std::span<std::uint32_t> ids, std::uint32_t parent_
 {
     std::array<Group, LightTree::most_children> groups;
     std::size_t count = 1;
-    groups[0] = group_of(ids);
+    if (ids.size() <= groups.size()) {
+        for (count = 0; count < ids.size(); ++count) {
+            groups[count] = group_of(ids.subspan(count, 1));
+        }
+    } else {
+        groups[0] = group_of(ids);
+    }
     while (count < groups.size()) {
         // Single lights have no cost; others may have none either, at one place.
         const auto dearest = std::max_element(
@@ -195,14 +203,15 @@ std::size_t LightTreeBuilder::split(std::span<std::uint32_t> ids, const LightBou
     };
     const Vec3 extent = whole.max - whole.min;
     const float longest = std::max({extent.x, extent.y, extent.z});
+    const std::size_t step = 1 + ids.size() / most_binned;
     Division best;
     for (int axis = 0; axis < 3; ++axis) {
         if (!(high[axis] > low[axis])) {
             continue;
         }
         Bins bins;
-        for (const std::uint32_t id : ids) {
-            add(bins[bin_of(id, axis)], lights_[id]);
+        for (std::size_t i = 0; i < ids.size(); i += step) {
+            add(bins[bin_of(ids[i], axis)], lights_[ids[i]]);
         }
         const Division division = cheapest(bins, axis, static_cast<double>(longest / extent[axis]));
         if (division.cost < best.cost) {

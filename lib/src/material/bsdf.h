@@ -38,16 +38,12 @@ public:
     {
         return has_layers() ? layers_connectible() : model_.plain.has_smooth_lobe();
     }
-    /// The geometric normal, unit, on the side of wo, or of the vector `w`, if all light that
-    /// is scattered stays on one side.
+    /// The geometric normal, unit, on the side of wo: if all light that is scattered stays there.
     [[nodiscard]] std::optional<Vec3> opaque_normal() const noexcept
     {
-        return opaque_normal_beside(is_rare() ? dot(shading_.to_world(local_wo_), ng_)
-                                              : local_wo_.z);
-    }
-    [[nodiscard]] std::optional<Vec3> opaque_normal(Vec3 w) const noexcept
-    {
-        return opaque_normal_beside(dot(w, ng_));
+        const bool transmits = has_layers() ? layers_transmit() : model_.plain.transmits();
+        const float side = is_rare() ? dot(shading_.to_world(local_wo_), ng_) : local_wo_.z;
+        return transmits ? std::nullopt : std::optional(side < 0.0f ? -ng_ : ng_);
     }
     /// Unit, on the front side of the surface; that of the normal map, if there is one.
     [[nodiscard]] Vec3 shading_normal() const noexcept { return shading_.z; }
@@ -95,11 +91,6 @@ private:
     [[nodiscard]] TiltedFacet facet() const noexcept;
     [[nodiscard]] float height(Vec3 local) const noexcept;
     [[nodiscard]] bool layers_connectible() const noexcept;
-    [[nodiscard]] std::optional<Vec3> opaque_normal_beside(float side) const noexcept
-    {
-        const bool transmits = has_layers() ? layers_transmit() : model_.plain.transmits();
-        return transmits ? std::nullopt : std::optional(side < 0.0f ? -ng_ : ng_);
-    }
     [[nodiscard]] bool layers_transmit() const noexcept
     {
         const LayeredParameters& layers = model_.layers;

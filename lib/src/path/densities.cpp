@@ -27,21 +27,11 @@ LightReceiver light_receiver(const PathVertex& x1)
             .normal = x1.kind == VertexKind::surface ? x1.bsdf.opaque_normal() : std::nullopt};
 }
 
-LightReceiver light_receiver(const PathVertex& x1, Vec3 to_light)
-{
-    return {
-        .p = x1.end.p,
-        .normal = x1.kind == VertexKind::surface ? x1.bsdf.opaque_normal(to_light) : std::nullopt};
-}
-
 AreaPdf next_event_density(const World& world, const PathVertex& x0, const PathVertex& x1,
                            NextEventSampling sampling, float time)
 {
     const LightPoint point = light_point(x0, time);
-    const auto receiver = [&x0, &x1] {
-        const bool infinite = x0.kind == VertexKind::infinite;
-        return light_receiver(x1, infinite ? x0.end.p : x0.end.p - x1.end.p);
-    };
+    const auto receiver = [&x1] { return light_receiver(x1); };
     const LightSet& lights = world.lights();
     return lights[*x0.light].pdf_incident(x1.end.p, point, sampling.environments) *
            lights.receiver_probability(*x0.light, receiver, sampling.lights);

@@ -20,10 +20,9 @@ struct LightDensities {
     AreaPdf to_next;  ///< x_1 sampled from x_0 by a light path
 };
 
-/// x_1 as next-event estimation chooses a light for it: before that is chosen, and when it is known
-/// to be in the direction `to_light`, of any length. The two agree wherever the light is scattered.
+/// x_1 as next-event estimation chooses a light for it. The same whichever walk made the vertex:
+/// where light cannot pass, both sides of the path that join there are on one side.
 [[nodiscard]] LightReceiver light_receiver(const PathVertex& x1);
-[[nodiscard]] LightReceiver light_receiver(const PathVertex& x1, Vec3 to_light);
 
 /// x_0 on light `x0.light`, sampled from x_1 by next-event estimation, at a time of the shutter.
 [[nodiscard]] AreaPdf next_event_density(const World& world, const PathVertex& x0,

@@ -10,7 +10,7 @@ namespace bdpt {
 namespace {
 
 /// From so many on a tree is worth the time that it takes; docs/decisions/0033 has the figures.
-constexpr std::size_t many_lights = 8;
+constexpr std::size_t many_lights = 4;
 
 /// What `desc` is as a surface, if it has one.
 std::optional<Sphere> sphere_of(const LightDesc& desc)

@@ -221,4 +221,29 @@ TEST_CASE("lights in any number and place make a tree", "[light][tree]")
     }
 }
 
+TEST_CASE("among lights that shine along their row all behind are seen", "[light][tree]")
+{
+    // Narrow spots one after another: from within a group its centre says nothing about where its
+    // lights are.
+    std::vector<LightBounds> spots;
+    for (int i = 0; i < 300; ++i) {
+        const Vec3 p(0.0f, 0.0f, static_cast<float>(i));
+        spots.push_back({.min = p,
+                         .max = p,
+                         .normals = {.axis = {0, 0, -1}, .cos_angle = 0.999f},
+                         .cos_falloff = 0.999f,
+                         .intensity = 1.0});
+    }
+    const LightTree tree(spots);
+    for (int i = 0; i < 299; ++i) {
+        const LightReceiver receiver{.p = {0.0f, 0.0f, static_cast<float>(i) + 0.5f},
+                                     .normal = Vec3(0, 0, 1)};
+        for (int light = i + 1; light < 300; ++light) {
+            CAPTURE(i, light);
+            REQUIRE(tree.probability(static_cast<std::uint32_t>(light), receiver) > 0.0f);
+        }
+        CHECK(tree.probability(static_cast<std::uint32_t>(i + 1), receiver) > 0.1f);
+    }
+}
+
 }  // namespace bdpt

@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include <array>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <string>
@@ -197,6 +197,7 @@ TEST_CASE("colours of a cube are sRGB, and alpha divides them")
 
 TEST_CASE("light of single texels is neither lost nor made")
 {
+    const int halvings = GENERATE(0, 1);
     // In the middle, at an edge and in a corner of a side, where their solid angles differ.
     for (const auto& [column, line] : {std::pair(8, 7), {0, 8}, {15, 0}}) {
         std::vector<std::string> rows;
@@ -211,7 +212,10 @@ TEST_CASE("light of single texels is neither lost nor made")
         for (const std::size_t side : {0U, 3U}) {
             std::vector<std::string> pictures(6, even({0, 0, 0, 255}));
             pictures[side] = png(16, 16, 8, 6, rows);
-            const Image image = environment_of(under_cube(pictures).load()).radiance;
+            GltfOptions options;
+            options.limits.image_side = halvings == 0 ? 16384 : 32;
+            const Image image = environment_of(under_cube(pictures).load(options)).radiance;
+            REQUIRE(image.height == (halvings == 0 ? 32 : 16));
             double sum = 0.0;
             for (int y = 0; y < image.height; ++y) {
                 const double zone = std::cos(3.141592653589793 * y / image.height) -
@@ -236,8 +240,9 @@ TEST_CASE("light of single texels is neither lost nor made")
                                 std::pow(1 + a * a + b * b, 1.5);
                 }
             }
-            CAPTURE(column, line, side);
-            CHECK(sum == Approx(expected).epsilon(0.03));
+            CAPTURE(column, line, side, halvings);
+            // Halving does not know that texels in corners look smaller.
+            CHECK(sum == Approx(expected).epsilon(halvings == 0 ? 0.03 : 0.25));
         }
     }
 }

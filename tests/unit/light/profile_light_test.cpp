@@ -46,6 +46,20 @@ LightProfile wedge()
             .intensities = {1.0f, 2.0f, 3.0f, 8.0f, 0.5f, 0.0f, 0.0f, 4.0f, 0.0f}};
 }
 
+/// Fine all around, but with two polar angles only, so that there is one row of cells.
+LightProfile striped()
+{
+    LightProfile profile{.polar_angles = {0.0f, pi}, .azimuths = {}, .intensities = {}};
+    constexpr int columns = 150000;
+    for (int column = 0; column <= columns; ++column) {
+        const int phase = column % columns;
+        profile.azimuths.push_back(2.0f * pi * static_cast<float>(column) / columns);
+        const float bright = std::abs(static_cast<float>(phase) / columns - 0.5f);
+        profile.intensities.insert(profile.intensities.end(), {bright, 2.0f * bright});
+    }
+    return profile;
+}
+
 /// A searchlight of half a degree.
 LightProfile narrow()
 {
@@ -148,7 +162,7 @@ TEST_CASE("profile light: a profile without light sends none", "[light]")
 
 TEST_CASE("profile light: the flux is the integral of the intensity", "[light]")
 {
-    for (const LightProfile& grid : {lopsided(), wedge(), narrow()}) {
+    for (const LightProfile& grid : {lopsided(), wedge(), narrow(), striped()}) {
         const IntensityProfile profile(grid);
         const auto first = static_cast<double>(grid.polar_angles.front());
         const auto range = static_cast<double>(grid.polar_angles.back()) - first;

@@ -60,6 +60,7 @@ class Gltf:
     def __init__(self, title):
         self.buffer = bytearray()
         self.lights = []
+        self.profiles = []
         self.extensions = set()
         self.json = {
             "asset": {"version": "2.0", "generator": "bdpt scenes/make_scenes.py"},
@@ -213,6 +214,15 @@ class Gltf:
         return self.node(name, position, rotation,
                          extensions={"KHR_lights_punctual": {"light": len(self.lights) - 1}})
 
+    def profile_lights(self, name, text, color, places):
+        """One light for each (position, direction, up), by the text of one IES file [EXT_lights_ies]."""
+        data = base64.b64encode(text.encode("ascii")).decode("ascii")
+        self.profiles.append({"name": name, "uri": "data:application/x-ies-lm-63;base64," + data})
+        self.extensions.add("EXT_lights_ies")
+        for position, direction, up in places:
+            self.node(name, position, rotation_towards(direction, up), extensions={"EXT_lights_ies": {
+                "light": len(self.profiles) - 1, "color": rounded(color)}})
+
     def sphere_light(self, name, intensity, radius, position, color=(1, 1, 1)):
         """A ball of radiance intensity / (pi radius^2); `intensity` in candela."""
         return self.light(name, "point", intensity, color, position, extras={"radius": rounded(radius)})
@@ -222,8 +232,9 @@ class Gltf:
         result = {key: value for key, value in self.json.items() if value != []}
         if self.extensions:
             result["extensionsUsed"] = sorted(self.extensions)
-        if self.lights:
-            result["extensions"] = {"KHR_lights_punctual": {"lights": self.lights}}
+        for name, lights in (("KHR_lights_punctual", self.lights), ("EXT_lights_ies", self.profiles)):
+            if lights:
+                result.setdefault("extensions", {})[name] = {"lights": lights}
         data = base64.b64encode(bytes(self.buffer)).decode("ascii")
         result["buffers"] = [{"byteLength": len(self.buffer), "uri": "data:application/octet-stream;base64," + data}]
         return json.dumps(result, indent=1) + "\n"

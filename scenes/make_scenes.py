@@ -150,6 +150,26 @@ def room_spot(title):
     return gltf
 
 
+def ies_file(vertical, horizontal, candela):
+    """The text of a light profile of type C; `candela` takes both angles in degrees."""
+    rows = [" ".join(f"{candela(v, h):.1f}" for v in vertical) for h in horizontal]
+    return "\r\n".join(("IES:LM-63-2019", "[TEST] none: made by bdpt scenes/make_scenes.py", "[MANUFAC] bdpt", "TILT=NONE",
+                        f"1 -1 1 {len(vertical)} {len(horizontal)} 1 2 0 0 0", "1 1 60",
+                        " ".join(map(str, vertical)), " ".join(map(str, horizontal)), *rows, ""))
+
+
+def room_profiles(title):
+    gltf = room(title, roof=5)
+    # A ring of light around a bright middle, the same all around.
+    spot = ies_file(range(0, 91, 5), (0,), lambda v, h: max(0, 250 * math.cos(math.radians(4 * v)) + 150) if v < 70 else 0)
+    gltf.profile_lights("downlight", spot, (1, 0.85, 0.65), [((x, 2.95, 0.45), (0, -1, 0), (0, 0, -1)) for x in (-1.3, 0, 1.3)])
+    # Two wings, along +x and -x of the luminaire; a quarter of it is measured.
+    wings = ies_file(range(0, 181, 10), range(0, 91, 15), lambda v, h: 300 * math.sin(math.radians(v)) ** 4
+                     * math.cos(math.radians(h)) ** 8 * (1.5 - v / 180))
+    gltf.profile_lights("wings", wings, (0.7, 0.85, 1), [((0.2, 1.9, 3.1), (0, -1, 0), (0, 0, -1))])
+    return gltf
+
+
 def room_sun(title):
     gltf = room(title, roof=2.5)
     gltf.light("sun", "directional", 50000, (1, 0.95, 0.85), direction=(-0.5, -1, -0.6))
@@ -262,6 +282,7 @@ SCENES = {
     "cornell-lambertian-hidden": cornell_lambertian,
     "furnace": furnace,
     "room-point": room_point,
+    "room-profiles": room_profiles,
     "room-spot": room_spot,
     "room-sun": room_sun,
     "room-environment": room_environment,

@@ -16,7 +16,7 @@ namespace bdpt::app {
 struct Stage {
     Scene scene;
     CameraDesc camera;             ///< named by its name or index, or "auto"
-    std::string environment_name;  ///< for people: its file, "default" or "none"
+    std::string environment_name;  ///< for people: its file, "scene", "default" or "none"
     Size size;
     std::vector<std::string> warnings;  ///< one line each
     double load_seconds = 0.0;          ///< for reading files

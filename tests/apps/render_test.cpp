@@ -1,8 +1,11 @@
 #include <cmath>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "catch.hpp"
@@ -182,6 +185,41 @@ TEST_CASE("option --env chooses the light from all around")
     render(folder, scene, {"--spp", "1", "--size", "8x4", "--from", "0,0,1.01"});
     std::filesystem::rename(folder / "out.exr", folder / "sky.exr");
     CHECK(corner({"--env", (folder / "sky.exr").string()}) >= 1.0f);
+}
+
+TEST_CASE("a file's own environment shines, and --env takes its place")
+{
+    const ScratchFolder folder;
+    // White pictures of one pixel on all sides, times 7.
+    constexpr const char* more = R"(
+        "extensionsUsed": ["EXT_lights_image_based"],
+        "images": [{"uri": "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAAAAAA6fptVAAAACklEQVR4nGP4DwABAQEAsTj2FAAAAABJRU5ErkJggg=="}],
+        "extensions": {"EXT_lights_image_based": {"lights": [
+            {"intensity": 7, "specularImageSize": 1, "specularImages": [[0, 0, 0, 0, 0, 0]]}]}},)";
+    const std::string file =
+        write_cube(folder, "cube", {.cameras = two_cameras, .more = more}).string();
+    // The cube's file has one scene, which gets the environment here.
+    std::ifstream in(file);
+    std::string text{std::istreambuf_iterator<char>(in), {}};
+    const std::string scenes = "\"scenes\": [{";
+    REQUIRE(text.find(scenes) != std::string::npos);
+    text.insert(text.find(scenes) + scenes.size(),
+                R"("extensions": {"EXT_lights_image_based": {"light": 0}}, )");
+    std::ofstream(file) << text;
+
+    const auto corner = [&](const Words& more_words) {
+        Words words{"--spp", "1", "--size", "16x8"};
+        words.insert(words.end(), more_words.begin(), more_words.end());
+        const ExrFile picture = render(folder, file, words);
+        return std::pair(picture.image.at(0, 0).g, settings_of(picture)["environment"]);
+    };
+    const auto [own, own_name] = corner({});
+    CHECK(own == Approx(7.0f));
+    CHECK(own_name == "scene");
+    const auto [sky, sky_name] = corner({"--env", "default"});
+    CHECK((sky > 0.4f && sky < 3.0f));
+    CHECK(sky_name == "default");
+    CHECK(corner({"--env", "none"}).first == 0.0f);
 }
 
 TEST_CASE("the seed makes the picture, the threads do not")

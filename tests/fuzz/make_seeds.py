@@ -5,6 +5,7 @@ FOLDER/scene holds scenes that use what the loader has code for; those of tests/
 FOLDER/image holds a picture of each format.
 """
 
+import base64
 import json
 import pathlib
 import struct
@@ -187,6 +188,27 @@ def stage():
     return document.glb()
 
 
+def lamps():
+    """Light profiles of types B and C, as data and as a view, and an environment of six pictures."""
+    document = Document()
+    document.json["meshes"] = [{"primitives": [{"attributes": square(document)}]}]
+    document.node(mesh=0)
+    type_c = ("IESNA:LM-63-1995\n[TEST] seed\nTILT=INCLUDE\n1 2 0 90 1 0.9\n1 -1 2 3 3 1 2 0 0 0\n1 0.9 10\n"
+              "0 45 90\n0 45 90\n9 5 1 9 4 2 9 3 3\n")
+    type_b = "IES:LM-63-2019\r\nTILT=NONE\r\n1 -1 1 3 2 2 1 0 0 0\r\n1 1 10\r\n-90,0,90\r\n0 90\r\n1 9 1 2 2 2\r\n"
+    data = "data:application/x-ies-lm-63;base64," + base64.b64encode(type_b.encode()).decode()
+    profiles = [{"bufferView": document.view(type_c.encode()), "mimeType": "application/x-ies-lm-63"}, {"uri": data}]
+    document.node(translation=[0, 1, 2], extensions={"EXT_lights_ies": {"light": 0, "multiplier": 2, "color": [1, 0.5, 0.2]}})
+    document.node(translation=[1, 1, 1], scale=[1, -2, 1], extensions={"EXT_lights_ies": {"light": 1}})
+    document.json["images"] = [{"bufferView": document.view(png(2, 2, kind)), "mimeType": "image/png"} for kind in (2, 6)]
+    cube = {"intensity": 3, "rotation": [0, 0.6, 0, 0.8], "specularImageSize": 2, "specularImages": [[0, 1, 0, 1, 0, 1]],
+            "irradianceCoefficients": 9 * [[0, 0, 0]]}
+    document.json["scenes"][0]["extensions"] = {"EXT_lights_image_based": {"light": 0}}
+    document.json["extensions"] = {"EXT_lights_ies": {"lights": profiles}, "EXT_lights_image_based": {"lights": [cube]}}
+    document.use("EXT_lights_ies", "EXT_lights_image_based")
+    return document.glb()
+
+
 def plain():
     """Text with its buffer as a data URI: a fan, of integers."""
     positions = "AAAAAAEAAAABAAEAAAABAA=="  # four points of three signed bytes and a byte of padding
@@ -215,7 +237,7 @@ def main():
         subprocess.run(["oiiotool", source, "--nosoftwareattrib", "--tile", "8", "8", "--compression", "zip", "-o", made],
                        check=True)
         pictures["tiles.exr"] = made.read_bytes()
-    scenes = {"rig.glb": rig(), "stage.glb": stage(), "fan.gltf": plain()}
+    scenes = {"rig.glb": rig(), "stage.glb": stage(), "lamps.glb": lamps(), "fan.gltf": plain()}
     for name, files in {"image": pictures, "scene": scenes}.items():
         (folder / name).mkdir(parents=True, exist_ok=True)
         for file, data in files.items():

@@ -6,8 +6,10 @@
 #include <bdpt/io/gltf.h>
 #include <bdpt/render.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
+#include <variant>
 
 using namespace bdpt;
 
@@ -23,7 +25,12 @@ EnvironmentLightDesc grey_sky()
 /// Four paths, one for each pixel.
 void render_four(io::LoadedScene loaded)
 {
-    loaded.scene.lights.emplace_back(grey_sky());
+    const bool has_sky = std::any_of(
+        loaded.scene.lights.begin(), loaded.scene.lights.end(),
+        [](const LightDesc& light) { return std::holds_alternative<EnvironmentLightDesc>(light); });
+    if (!has_sky) {
+        loaded.scene.lights.emplace_back(grey_sky());
+    }
     const Scene scene(std::move(loaded.scene));
     const CameraDesc camera =
         loaded.cameras.empty() ? frame_scene(scene, 1.0f).camera : loaded.cameras.front();

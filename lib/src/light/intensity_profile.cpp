@@ -15,6 +15,8 @@ constexpr float rounding = 1e-5f;  // [rad]
 // Cells are so narrow that intensities do not vary much within one, even in a coarse grid.
 constexpr float highest_cell = 2.0f * pi / 180.0f;
 constexpr float widest_cell = 6.0f * pi / 180.0f;
+// As many as fit in some megabytes; a grid that is fine in one angle only would get too many.
+constexpr std::size_t usual_cells = std::size_t{1} << 18;
 // Share of what is even over all cells that are not dark: no rounding makes a density zero there.
 constexpr double even_share = 1e-3;
 
@@ -79,16 +81,23 @@ float interpolate(const LightProfile& grid, float polar_angle, float azimuth)
            column.fraction * along(column.index + 1);
 }
 
-/// Flux through a cell of this width per radian of azimuth, for intensities that are linear along
-/// the polar angle: Simpson's rule, whose error is below 1e-9 for cells of this size.
+/// Flux between two polar angles per radian of azimuth, for intensities that are linear in between:
+/// Simpson's rule over so many parts that its error is below 1e-5.
 double flux_along(const LightProfile& grid, float from, float to, float azimuth)
 {
-    const auto at = [&](float angle) {
+    constexpr float widest_part = 0.4f;
+    const int parts = std::max(1, static_cast<int>(std::ceil((to - from) / widest_part)));
+    const auto at = [&](int half) {
+        const float angle =
+            from + (to - from) * (static_cast<float>(half) / static_cast<float>(2 * parts));
         return static_cast<double>(interpolate(grid, angle, azimuth)) *
                static_cast<double>(sin_cos(angle).sin);
     };
-    return static_cast<double>(to - from) / 6.0 *
-           (at(from) + 4.0 * at(0.5f * (from + to)) + at(to));
+    double sum = 0.0;
+    for (int part = 0; part < parts; ++part) {
+        sum += at(2 * part) + 4.0 * at(2 * part + 1) + at(2 * part + 2);
+    }
+    return sum * static_cast<double>(to - from) / (6.0 * parts);
 }
 
 }  // namespace
@@ -96,10 +105,19 @@ double flux_along(const LightProfile& grid, float from, float to, float azimuth)
 IntensityProfile::Cells IntensityProfile::cut(const LightProfile& profile)
 {
     Cells cells;
-    cells.azimuths = profile.azimuths.size() == 1 ? std::vector<float>{0.0f, turn}
-                                                  : refine(profile.azimuths, widest_cell);
+    std::vector<float> rows;
+    const std::size_t most_cells = std::max(usual_cells, 2 * profile.intensities.size());
+    for (float wider = 1.0f; wider < 256.0f; wider *= 2.0f) {
+        rows = refine(profile.polar_angles, wider * highest_cell);
+        cells.azimuths = profile.azimuths.size() == 1
+                             ? std::vector<float>{0.0f, turn}
+                             : refine(profile.azimuths, wider * widest_cell);
+        if (rows.size() * cells.azimuths.size() <= most_cells) {
+            break;
+        }
+    }
     std::vector<float> polar;
-    for (const float angle : refine(profile.polar_angles, highest_cell)) {
+    for (const float angle : rows) {
         const float height = height_of(angle);
         // Angles too close for their heights to differ share a cell.
         if (cells.heights.empty() || height > cells.heights.back()) {

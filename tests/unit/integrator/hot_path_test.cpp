@@ -113,6 +113,10 @@ SceneDesc everything()
                                 .turn = {{0.0f, -1.0f, 0.0f}}});
     builder.light(
         DirectionalLightDesc{.direction = {0.2f, -0.3f, -1.0f}, .illuminance = Rgb(1.0f)});
+    builder.desc.profiles.push_back({.polar_angles = {0.0f, 0.5f, 1.5f},
+                                     .azimuths = {0.0f, 2.0f, 6.2831853f},
+                                     .intensities = {1, 2, 0, 1, 0, 1, 1, 2, 0}});
+    builder.light(ProfileLightDesc{.position = {-0.4f, 0.2f, 0.7f}, .scale = Rgb(0.5f)});
     Image sky{.width = 4, .height = 2, .pixels = std::vector<Rgb>(8, Rgb(0.3f))};
     sky.pixels[2] = Rgb(2.0f);
     builder.light(EnvironmentLightDesc{.radiance = std::move(sky)});

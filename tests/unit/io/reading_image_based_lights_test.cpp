@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include <array>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <string>
@@ -260,6 +260,17 @@ TEST_CASE("large cubes become pictures within the limits")
     const LoadedScene loaded = fixture.load(options);
     CHECK(environment_of(loaded).radiance.width == 24);
     CHECK(warns(loaded.warnings, {"lights/0: 64 x 32 pixels", "loses detail"}));
+
+    // Stripes of one texel become even, wherever they are looked up.
+    std::vector<std::string> rows;
+    for (int y = 0; y < 16; ++y) {
+        rows.push_back(raw(std::vector<int>(16, y % 2 == 0 ? 255 : 0)));
+    }
+    options.limits.image_side = 16;
+    const GltfFixture striped = under_cube(std::vector<std::string>(6, png(16, 16, 8, 0, rows)));
+    for (const Rgb& pixel : environment_of(striped.load(options)).radiance.pixels) {
+        CHECK(pixel.g == Approx(0.5).epsilon(0.01));
+    }
     options.limits = {};
     options.limits.texture_bytes = 10000;
     CHECK(contains(fixture.error(options).what(),

@@ -113,7 +113,6 @@ TEST_CASE("a light profile points down -z of its node")
     CHECK(profile.azimuths == std::vector<float>{0.0f});
     CHECK(profile.intensities == std::vector<float>{100, 50, 0});
     CHECK(towards(loaded, {0, 0, -1}) == 100.0f);
-    CHECK(towards(loaded, {0, 0, 1}) == 0.0f);
     CHECK(loaded.warnings.empty());
 }
 
@@ -319,7 +318,8 @@ TEST_CASE("light profiles that are wrong are refused by line and value")
                    "line 5: the candela multiplier is \"many\", not a finite number"));
     CHECK(contains(message({.multiplier = "nan"}), "not a finite number"));
     CHECK(contains(message({.multiplier = "1e999"}), "not a finite number"));
-    CHECK(contains(message({.multiplier = "1 2000000"}), "the number of vertical angles is 2000000"));
+    CHECK(
+        contains(message({.multiplier = "1 2000000"}), "the number of vertical angles is 2000000"));
     CHECK(contains(message({.multiplier = "1 2.5"}), "the number of vertical angles is 2.5"));
     CHECK(contains(message({.multiplier = "1 1000 1001"}),
                    "horizontal angles is 1001, not an "
@@ -362,8 +362,7 @@ TEST_CASE("light profiles are files, data or views, each read once and only if i
     fixture.json["scenes"][0]["nodes"] = {0, 1, 2};
     const TempFolder folder;
     folder.write("some lamps/a.ies", text);
-    const auto scene = folder.write("scene.gltf", fixture.text());
-    const LoadedScene loaded = load_gltf(scene);
+    const LoadedScene loaded = load_gltf(folder.write("scene.gltf", fixture.text()));
     CHECK(loaded.scene.lights.size() == 2);
     CHECK(loaded.scene.profiles.size() == 1);
     CHECK(loaded.scene.profiles[0].intensities[0] == 100.0f);

@@ -27,11 +27,11 @@ LightProfile even(float intensity)
 LightProfile lopsided()
 {
     LightProfile profile{.polar_angles = {0.0f, 0.1f, 0.4f, 0.9f, 1.7f, 2.4f, pi},
-                         .azimuths = {0.0f, 0.8f, 2.0f, 3.5f, 5.0f, 2.0f * pi},
+                         .azimuths = {0.0f, 0.03f, 0.05f, 0.8f, 2.0f, 3.5f, 5.0f, 2.0f * pi},
                          .intensities = {}};
-    for (int column = 0; column < 6; ++column) {
+    for (int column = 0; column < 8; ++column) {
         for (int row = 0; row < 7; ++row) {
-            const int spread = (3 * (column % 5) + 5 * row) % 7;
+            const int spread = (3 * (column % 7) + 5 * row) % 7;
             profile.intensities.push_back(spread < 2 ? 0.0f : static_cast<float>(spread * spread));
         }
     }
@@ -44,6 +44,20 @@ LightProfile wedge()
     return {.polar_angles = {0.5f, 1.0f, 1.2f},
             .azimuths = {-0.7f, 0.2f, 1.9f},
             .intensities = {1.0f, 2.0f, 3.0f, 8.0f, 0.5f, 0.0f, 0.0f, 4.0f, 0.0f}};
+}
+
+/// Fine all around, but with two polar angles only, so that there is one row of cells.
+LightProfile striped()
+{
+    LightProfile profile{.polar_angles = {0.0f, pi}, .azimuths = {}, .intensities = {}};
+    constexpr int columns = 150000;
+    for (int column = 0; column <= columns; ++column) {
+        const int phase = column % columns;
+        profile.azimuths.push_back(2.0f * pi * static_cast<float>(column) / columns);
+        const float bright = std::abs(static_cast<float>(phase) / columns - 0.5f);
+        profile.intensities.insert(profile.intensities.end(), {bright, 2.0f * bright});
+    }
+    return profile;
 }
 
 /// A searchlight of half a degree.
@@ -113,8 +127,8 @@ TEST_CASE("profile light: intensities are those of the grid, and bilinear in bet
         }
     }
     const float between =
-        0.3f * (0.75f * grid.intensities[7 + 2] + 0.25f * grid.intensities[7 + 3]) +
-        0.7f * (0.75f * grid.intensities[14 + 2] + 0.25f * grid.intensities[14 + 3]);
+        0.3f * (0.75f * grid.intensities[21 + 2] + 0.25f * grid.intensities[21 + 3]) +
+        0.7f * (0.75f * grid.intensities[28 + 2] + 0.25f * grid.intensities[28 + 3]);
     CHECK(profile.intensity(direction_of(0.75 * 0.4 + 0.25 * 0.9, 0.3 * 0.8 + 0.7 * 2.0)) ==
           Approx(between).epsilon(1e-4));
     CHECK(profile.peak() == 36.0f);
@@ -148,7 +162,7 @@ TEST_CASE("profile light: a profile without light sends none", "[light]")
 
 TEST_CASE("profile light: the flux is the integral of the intensity", "[light]")
 {
-    for (const LightProfile& grid : {lopsided(), wedge(), narrow()}) {
+    for (const LightProfile& grid : {lopsided(), wedge(), narrow(), striped()}) {
         const IntensityProfile profile(grid);
         const auto first = static_cast<double>(grid.polar_angles.front());
         const auto range = static_cast<double>(grid.polar_angles.back()) - first;

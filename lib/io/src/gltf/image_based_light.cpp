@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -108,6 +109,12 @@ CubeMap read_cube(const GltfModel& model, const Json& images, const std::string&
     std::uint64_t bytes = 0;
     for (std::size_t side = 0; side < cube.faces.size(); ++side) {
         const std::string face_place = fmt::format("{}/{}", place, side);
+        const auto same = std::find(
+            images.begin(), images.begin() + static_cast<std::ptrdiff_t>(side), images[side]);
+        if (const auto earlier = static_cast<std::size_t>(same - images.begin()); earlier < side) {
+            cube.faces[side] = cube.faces[earlier];
+            continue;
+        }
         try {
             const TexelImage texels = read_face(model, images[side].get<std::size_t>(), limits);
             Image& face = cube.faces[side];
@@ -133,25 +140,34 @@ CubeMap read_cube(const GltfModel& model, const Json& images, const std::string&
     return cube;
 }
 
-/// Four texels of the result for one of the faces along each circle keep their detail.
-int height_for(const CubeMap& cube, const std::string& place, const ReadLimits& limits,
-               Warnings& warnings)
+int longest_side(const CubeMap& cube)
+{
+    int longest = 0;
+    for (const Image& face : cube.faces) {
+        longest = std::max({longest, face.width, face.height});
+    }
+    return longest;
+}
+
+/// Four texels along a full circle for each of a side keep their detail, if the limits let them.
+Image flatten(CubeMap cube, const std::string& place, const ReadLimits& limits, Warnings& warnings)
 {
     constexpr int least = 32;  // so that even sides of one texel have edges
-    int side = 0;
-    for (const Image& face : cube.faces) {
-        side = std::max({side, face.width, face.height});
-    }
+    constexpr double most =
+        2048;  // more takes seconds and gigabytes, which a small file may ask for
     const double affordable =
         std::sqrt(static_cast<double>(limits.image_bytes / sizeof(Rgb)) / 2.0);
-    const int most = std::max(
-        1, static_cast<int>(std::min(affordable, static_cast<double>(limits.image_side) / 2.0)));
-    const int height = std::max(2 * side, least);
-    if (height > most) {
+    const int highest =
+        std::max(1, static_cast<int>(std::min({most, affordable, limits.image_side / 2.0})));
+    const int wanted = std::max(2 * longest_side(cube), least);
+    if (wanted > highest) {
         warnings.add("an environment loses detail, as a picture of all of it would be too large",
-                     fmt::format("{}: {} x {} pixels", place, 2 * height, height));
+                     fmt::format("{}: {} x {} pixels", place, 2 * wanted, wanted));
     }
-    return std::min(height, most);
+    while (longest_side(cube) > 1 && 2 * longest_side(cube) > highest) {
+        cube = halved(cube);
+    }
+    return to_equirectangular(cube, std::min(std::max(2 * longest_side(cube), least), highest));
 }
 
 float read_intensity(const Json& light, const std::string& place, Warnings& warnings)
@@ -189,9 +205,8 @@ std::optional<EnvironmentLightDesc> read_image_based_light(const GltfModel& mode
     }
     EnvironmentLightDesc desc;
     try {
-        const CubeMap cube =
-            read_cube(model, levels[0], place + "/specularImages/0", limits, warnings);
-        desc.radiance = to_equirectangular(cube, height_for(cube, place, limits, warnings));
+        CubeMap cube = read_cube(model, levels[0], place + "/specularImages/0", limits, warnings);
+        desc.radiance = flatten(std::move(cube), place, limits, warnings);
     } catch (const UnreadableCube& error) {
         warnings.add("a picture of the environment cannot be read; the scene does without it",
                      error.what());

@@ -50,7 +50,30 @@ Rgb bilinear(const Image& image, float u, float v)
            fy * ((1.0f - fx) * image.at(x0, y1) + fx * image.at(x1, y1));
 }
 
+Image halved(const Image& image)
+{
+    Image half{std::max(1, image.width / 2), std::max(1, image.height / 2), {}};
+    half.pixels.reserve(image.pixels.size() / 4 + 1);
+    for (int y = 0; y < half.height; ++y) {
+        const int y1 = std::min(2 * y + 1, image.height - 1);
+        for (int x = 0; x < half.width; ++x) {
+            const int x1 = std::min(2 * x + 1, image.width - 1);
+            half.pixels.push_back(0.25f * (image.at(2 * x, 2 * y) + image.at(x1, 2 * y) +
+                                           image.at(2 * x, y1) + image.at(x1, y1)));
+        }
+    }
+    return half;
+}
+
 }  // namespace
+
+CubeMap halved(const CubeMap& cube)
+{
+    CubeMap half;
+    std::transform(cube.faces.begin(), cube.faces.end(), half.faces.begin(),
+                   [](const Image& face) { return halved(face); });
+    return half;
+}
 
 Rgb CubeMap::lookup(const Vec3& direction) const
 {

@@ -18,6 +18,9 @@ struct CubeMap {
     [[nodiscard]] Rgb lookup(const Vec3& direction) const;
 };
 
+/// The same with half as many texels a side, each the mean of four.
+[[nodiscard]] CubeMap halved(const CubeMap& cube);
+
 /// The same as an equirectangular picture, as `EnvironmentLightDesc` has it, twice as wide as high.
 /// Each texel is the mean over its solid angle.
 [[nodiscard]] Image to_equirectangular(const CubeMap& cube, int height);

@@ -325,6 +325,47 @@ TEST_CASE("rays that leave what moves do not meet it again", "[motion][geometry]
     }
 }
 
+TEST_CASE("rays that leave large, level things that move do not meet them again",
+          "[motion][geometry]")
+{
+    // A coordinate that hardly matters is rounded as much as those that are large.
+    test::Random random(6);
+    constexpr float size = 556.0f;
+    for (const bool deforms : {false, true}) {
+        for (const int steps : {1, 7, 128}) {
+            SceneBuilder builder;
+            builder.quad({-size, 0, 0}, {0, 0, 0}, {0, 0, -size}, {-size, 0, -size},
+                         test::lambertian(Rgb(0.5f)));
+            if (deforms) {
+                test::deform(builder.desc.meshes.back(), steps, [](Vec3 p, float t) {
+                    return p + Vec3(300.0f * t, 1e-3f * t * p.x, -200.0f * t);
+                });
+            } else {
+                test::move_last(builder, steps, [](float t) {
+                    return glm::rotate(test::translation({300.0f * t, 1e-3f * t, 0.0f}), 0.8f * t,
+                                       Vec3(0.0f, 1.0f, 0.0f));
+                });
+            }
+            const Traced scene(std::move(builder.desc));
+            int met_again = 0;
+            for (unsigned i = 0; i < 20000; ++i) {
+                const std::uint32_t t = i % 2U;
+                const float time = random.next();
+                const Vec2 u = random.next_2d();
+                const Vec2 b = u.x + u.y < 1.0f ? u : 1.0f - u;
+                const BoundedPoint point = scene.placed[0].point(t, b, time);
+                const Vec3 ng = normalize(scene.placed[0].area_normal(t, time));
+                const Vec3 w = random.direction();
+                Ray ray{.origin = offset_origin(point.p, point.error, ng, w), .direction = w};
+                ray.segment.time = time;
+                met_again += scene.embree->intersect(ray) ? 1 : 0;
+            }
+            CAPTURE(deforms, steps);
+            CHECK(met_again == 0);
+        }
+    }
+}
+
 TEST_CASE("normals and tangents follow what moves", "[motion][geometry]")
 {
     // A triangle that is stretched and tilts: its normals stay at right angles to it.

@@ -271,6 +271,49 @@ TEST_CASE("Embree hits what moves where it is at the ray's time", "[motion][geom
     }
 }
 
+TEST_CASE("Embree hits balls that move where they are at the ray's time", "[motion][geometry]")
+{
+    test::Random random(9);
+    std::vector<std::vector<Vec3>> motions;
+    std::vector<Sphere> spheres;
+    for (int i = 0; i < 12; ++i) {
+        std::vector<Vec3>& motion = motions.emplace_back();
+        for (int step = 0; step < i % 4; ++step) {
+            motion.push_back(4.0f * random.direction());
+        }
+    }
+    for (const std::vector<Vec3>& motion : motions) {
+        spheres.push_back({.center = 4.0f * random.direction(), .radius = 0.3f, .motion = motion});
+    }
+    std::vector<PlacedMesh> nothing;
+    const EmbreeScene embree({}, nothing, 0, spheres);
+    int hits = 0;
+    for (int i = 0; i < 3000; ++i) {
+        Ray ray;
+        ray.origin = 8.0f * random.direction();
+        ray.direction = normalize(4.0f * random.next() * random.direction() - ray.origin);
+        ray.segment.time = random.next();
+        float nearest = std::numeric_limits<float>::infinity();
+        std::uint32_t expected = no_sphere;
+        for (std::uint32_t k = 0; k < spheres.size(); ++k) {
+            const auto& [center, radius, motion] = spheres[k];
+            const Sphere then{
+                .center = motion.empty() ? center : at_time(center, motion, ray.segment.time),
+                .radius = radius};
+            const auto hit = intersect(then, ray, 0.0f);
+            if (hit && hit->t < nearest) {
+                nearest = hit->t;
+                expected = k;
+            }
+        }
+        const auto hit = embree.intersect(ray);
+        REQUIRE((hit ? hit->sphere : no_sphere) == expected);
+        REQUIRE(embree.occluded(ray) == hit.has_value());
+        hits += hit ? 1 : 0;
+    }
+    CHECK(hits > 200);
+}
+
 TEST_CASE("rays that leave what moves do not meet it again", "[motion][geometry]")
 {
     test::Random random(5);

@@ -31,7 +31,7 @@ TEST_CASE("help and version are worth reading and no errors")
                              "--json",           "--filter",     "--aov",       "--crop",
                              "--clamp",          "--stats",      "--tiled",     "--strategies",
                              "--strategy-depth", "--profile",    "--variant",   "--frame-time",
-                             "--animation",      "Exit codes",   "143"}) {
+                             "--animation",      "--shutter",    "Exit codes",  "143"}) {
         CAPTURE(word);
         CHECK(help.find(word) != std::string::npos);
     }

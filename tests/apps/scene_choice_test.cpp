@@ -46,6 +46,10 @@ TEST_CASE("a variant, an animation or a time that there is not is refused")
     check({"--max-memory", "much"}, 2, "--max-memory");
     check({"--max-memory", "1K"}, 4, "1.0 KiB");
     check({"--texture-filter", "nearest"}, 2, "--texture-filter");
+    for (const char* shutter :
+         {"-1", "nan", "inf", "0.1s", "", "0.2,0.1", "0.1,", ",0.1", "1,2,3"}) {
+        check({std::string("--shutter=") + shutter}, 2, "--shutter");
+    }
 }
 
 TEST_CASE("a limit of memory is one for render and info")
@@ -97,6 +101,64 @@ TEST_CASE("option --texture-filter reaches the textures, and the files say which
     CHECK_FALSE(render("plain.exr", {}));
     CHECK_FALSE(render("bilinear.exr", {"--texture-filter", "bilinear"}));
     CHECK(render("mip.exr", {"--texture-filter", "mip"}));
+}
+
+/// A cube that goes by 1 m to the right within a second.
+std::string sliding_cube(const ScratchFolder& folder)
+{
+    const std::filesystem::path scene = write_cube(folder, "slide", {.cameras = two_cameras});
+    nlohmann::json document = nlohmann::json::parse(std::ifstream(scene));
+    std::size_t cube = 0;
+    while (!document["nodes"][cube].contains("mesh")) {
+        ++cube;
+    }
+    const std::size_t buffer = document["buffers"].size();
+    const std::size_t view = document["bufferViews"].size();
+    const std::size_t accessor = document["accessors"].size();
+    // Little-endian floats: 0, 1; 0, 0, 0, 1, 0, 0.
+    document["buffers"].push_back(
+        {{"byteLength", 32},
+         {"uri",
+          "data:application/octet-stream;base64,AAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAAAAAAA="}});
+    document["bufferViews"].push_back({{"buffer", buffer}, {"byteLength", 32}});
+    document["accessors"].push_back(
+        {{"bufferView", view}, {"componentType", 5126}, {"count", 2}, {"type", "SCALAR"}});
+    document["accessors"].push_back({{"bufferView", view},
+                                     {"byteOffset", 8},
+                                     {"componentType", 5126},
+                                     {"count", 2},
+                                     {"type", "VEC3"}});
+    document["animations"] = {
+        {{"channels", {{{"sampler", 0}, {"target", {{"node", cube}, {"path", "translation"}}}}}},
+         {"samplers", {{{"input", accessor}, {"output", accessor + 1}}}}}};
+    write_text(scene, document.dump());
+    return scene.string();
+}
+
+TEST_CASE("a shutter blurs, unless it has no length")
+{
+    const ScratchFolder folder;
+    const std::string scene = sliding_cube(folder);
+    const auto rendered = [&](const std::string& name, const std::vector<std::string>& words) {
+        const std::string out = (folder / name).string();
+        std::vector<std::string> all{"render", scene, "-o", out, "--spp", "4", "--size", "16x8"};
+        all.insert(all.end(), words.begin(), words.end());
+        const Outcome outcome = run(all);
+        CAPTURE(words, outcome.err);
+        REQUIRE(outcome.exit_code == 0);
+        return read_exr(out);
+    };
+    const ExrFile still = rendered("still.exr", {"--frame-time", "0.5"});
+    const ExrFile moment = rendered("moment.exr", {"--frame-time", "0.5", "--shutter", "0"});
+    const ExrFile shifted = rendered("shifted.exr", {"--frame-time", "0", "--shutter=0.5,0.5"});
+    const ExrFile blurred = rendered("blurred.exr", {"--frame-time", "0.5", "--shutter=-0.4,0.5"});
+    CHECK(moment.image.pixels == still.image.pixels);
+    CHECK(shifted.image.pixels == still.image.pixels);
+    CHECK_FALSE(blurred.image.pixels == still.image.pixels);
+    const auto settings = nlohmann::json::parse(blurred.text("bdpt.settings"));
+    CHECK(settings["shutter"] == nlohmann::json{-0.4, 0.5});
+    // A camera that the user places stands still, and a shutter alone plays the animation.
+    rendered("placed.exr", {"--shutter", "0.5", "--from", "0,0,6"});
 }
 
 TEST_CASE("pictures say which part of a file they show, and what the file says about itself")

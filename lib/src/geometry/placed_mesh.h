@@ -109,6 +109,10 @@ private:
     [[nodiscard]] Moment deforming_moment(const UVec3& vertices, float time) const;
     [[nodiscard]] Moment moment(std::uint32_t triangle, float time) const;
     [[nodiscard]] Placement placement(float time) const;
+    [[nodiscard]] TriangleHit moving_hit(std::uint32_t triangle, const Ray& ray) const;
+    // The same as above, of what stands still.
+    [[nodiscard]] std::array<Vec3, 3> still_corners(std::uint32_t triangle) const;
+    [[nodiscard]] BoundedPoint still_point(std::uint32_t triangle, Vec2 barycentrics) const;
 
     template <typename T>
     [[nodiscard]] T interpolate(const std::vector<T>& values, std::uint32_t triangle,

@@ -44,16 +44,12 @@ float TriangleLight::mean_area() const
     return sum / static_cast<float>(last + 1);
 }
 
-std::optional<TriangleLight::Point> TriangleLight::point(Vec2 u, float time) const
+TriangleLight::Point TriangleLight::point(Vec2 u, const Facing& facing, float time) const
 {
-    const Facing facing = this->facing(time);
-    if (!(facing.area > 0.0f)) {
-        return std::nullopt;
-    }
     const Vec2 barycentrics =
         square_to_triangle(emission_.spread ? emission_.spread->sample(u).point : u);
     const BoundedPoint at = mesh_->point(triangle_, barycentrics, time);
-    return Point{
+    return {
         .end = {.p = at.p, .error = at.error, .ng = facing.ng, .media = material_->media()},
         .barycentrics = barycentrics,
         .pdf = pdf_position(barycentrics, facing),
@@ -63,10 +59,11 @@ std::optional<TriangleLight::Point> TriangleLight::point(Vec2 u, float time) con
 std::optional<EmissionSample> TriangleLight::sample_emission(Vec2 u_position, Vec2 u_direction,
                                                              float time) const
 {
-    const auto from = point(u_position, time);
-    if (!from) {
+    const Facing facing = this->facing(time);
+    if (!(facing.area > 0.0f)) {
         return std::nullopt;
     }
+    const Point from = point(u_position, facing, time);
     const bool two_sided = material_->emits_from_both_sides();
     float side = 1.0f;
     if (two_sided) {
@@ -79,38 +76,39 @@ std::optional<EmissionSample> TriangleLight::sample_emission(Vec2 u_position, Ve
     }
     // Le cos / (pdf * cos/pi): the cosine cancels.
     const float sides = two_sided ? 2.0f : 1.0f;
-    return EmissionSample{.end = from->end,
-                          .barycentrics = from->barycentrics,
-                          .direction = Frame::from_normal(side * from->end.ng).to_world(local),
-                          .weight = from->radiance * (pi * sides / from->pdf.value),
-                          .pdf_position = from->pdf,
+    return EmissionSample{.end = from.end,
+                          .barycentrics = from.barycentrics,
+                          .direction = Frame::from_normal(side * from.end.ng).to_world(local),
+                          .weight = from.radiance * (pi * sides / from.pdf.value),
+                          .pdf_position = from.pdf,
                           .pdf_direction = pdf_direction(side * local.z)};
 }
 
 std::optional<IncidentSample> TriangleLight::sample_incident(Vec3 receiver, Vec2 u,
                                                              float time) const
 {
-    const auto from = point(u, time);
-    if (!from) {
+    const Facing facing = this->facing(time);
+    if (!(facing.area > 0.0f)) {
         return std::nullopt;
     }
-    const Vec3 to_light = from->end.p - receiver;
+    const Point from = point(u, facing, time);
+    const Vec3 to_light = from.end.p - receiver;
     const float distance_squared = dot(to_light, to_light);
     const float distance = std::sqrt(distance_squared);
     const Vec3 wi = to_light / distance;
-    const float cosine = dot(from->end.ng, -wi);
+    const float cosine = dot(from.end.ng, -wi);
     const bool dark_side = cosine < 0.0f && !material_->emits_from_both_sides();
     if (!(distance_squared > 0.0f) || cosine == 0.0f || dark_side) {
         return std::nullopt;
     }
     const float geometry = std::abs(cosine) / distance_squared;
-    return IncidentSample{.end = from->end,
-                          .barycentrics = from->barycentrics,
+    return IncidentSample{.end = from.end,
+                          .barycentrics = from.barycentrics,
                           .wi = wi,
                           .distance = distance,
-                          .weight = from->radiance * (geometry / from->pdf.value),
-                          .pdf = from->pdf,
-                          .pdf_solid_angle = {from->pdf.value / geometry}};
+                          .weight = from.radiance * (geometry / from.pdf.value),
+                          .pdf = from.pdf,
+                          .pdf_solid_angle = {from.pdf.value / geometry}};
 }
 
 AreaPdf TriangleLight::pdf_position(Vec2 barycentrics, const Facing& at) const

@@ -37,9 +37,6 @@ private:
         AreaPdf pdf;
         Rgb radiance;
     };
-    /// Nothing where the triangle has no area at that time.
-    [[nodiscard]] std::optional<Point> point(Vec2 u, float time) const;
-
     struct Facing {
         float area;
         Vec3 ng;  ///< unit; not finite without an area
@@ -48,6 +45,8 @@ private:
     [[nodiscard]] Facing facing(float time) const;
     [[nodiscard]] float mean_area() const;
     [[nodiscard]] AreaPdf pdf_position(Vec2 barycentrics, const Facing& at) const;
+    /// `facing` is that at the time, and has an area.
+    [[nodiscard]] Point point(Vec2 u, const Facing& facing, float time) const;
 
     const PlacedMesh* mesh_;
     const Material* material_;

@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace bdpt {
 namespace {
@@ -140,6 +142,48 @@ TEST_CASE("the detail of a mip-mapped texture depends on point and camera, not o
     }
     const auto far = mipped.intersect({.p = {x, 0.01f, 5}}, {0, 0, -1}, {});
     CHECK(far->bsdf.base_color().r == Approx(0.0f).margin(0.01));  // without a camera, all detail
+}
+
+TEST_CASE("surfaces are met, shaded and hidden as they are at the segment's time",
+          "[world][motion]")
+{
+    // A square that goes up, and whose shading normals tilt.
+    MeshDesc mesh;
+    mesh.positions = {{-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}};
+    mesh.normals.assign(4, Vec3(0, 1, 0));
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    MeshPose high{mesh.positions, std::vector<Vec3>(4, normalize(Vec3(1, 2, 0))), {}};
+    for (Vec3& p : high.positions) {
+        p.y = 2.0f;
+    }
+    mesh.motion = {high};
+    SceneBuilder builder;
+    builder.place(builder.add_mesh(mesh), test::lambertian(Rgb(0.5f)), Mat4(1.0f));
+    builder.light(PointLightDesc{.position = {0, 3, 0}, .radius = 0.5f, .motion = {{0, 7, 0}}});
+    const World world(std::move(builder.desc));
+    CHECK(world.moves());
+    CHECK(world.bounds().min == Vec3(-1, 0, -1));
+    CHECK(world.bounds().max == Vec3(1, 7.5f, 1));
+    for (const float time : {0.0f, 0.25f, 0.75f}) {
+        CAPTURE(time);
+        const SegmentKey key{.value = 1, .time = time};
+        const SegmentEnd eye{.p = {0.3f, 2.2f, 0.1f}};
+        const auto hit = world.intersect(eye, {0, -1, 0}, key);
+        REQUIRE(hit.has_value());
+        CHECK(hit->end.p.y == Approx(2.0f * time).margin(1e-6));
+        const Vec3 normal = (1.0f - time) * Vec3(0, 1, 0) + time * normalize(Vec3(1, 2, 0));
+        CHECK(dot(hit->bsdf.shading_normal(), normalize(normal)) == Approx(1.0f));
+        const auto ball = world.intersect({.p = {0, 2.1f, 0}}, {0, 1, 0}, key);
+        REQUIRE(ball.has_value());
+        CHECK(ball->end.p.y == Approx(2.5f + 4.0f * time));
+        CHECK(ball->light.has_value());
+        // A segment at y = 1 is crossed by nothing, one that goes through by the square.
+        const SegmentEnd low{.p = {0, 1.0f, 0}};
+        const SegmentEnd below{.p = {0, -1.0f, 0}};
+        const bool between = 2.0f * time < 1.0f;
+        CHECK((world.transmittance(low, below, key) == Rgb(0.0f)) == between);
+        CHECK((world.transmittance_to_infinity(low, {0.6f, 0.8f, 0}, key) == Rgb(1.0f)) == between);
+    }
 }
 
 }  // namespace bdpt

@@ -1,0 +1,116 @@
+// Lights that move: what is sampled at a time has the densities of that time.
+
+#include "catch.hpp"
+#include "light/light.h"
+#include "moving_scenes.h"
+#include "scene/world.h"
+#include "statistics.h"
+
+#include <glm/geometric.hpp>
+
+#include <cstdint>
+#include <utility>
+#include <variant>
+
+namespace bdpt {
+namespace {
+
+using test::SceneBuilder;
+
+/// Triangles that turn and grow, balls and points that travel, spots and a sun that turn.
+World lights_that_move()
+{
+    SceneBuilder builder = test::moving_stage();
+    const PointLightDesc point{.position = {0.0f, 0.3f, 0.3f},
+                               .intensity = Rgb(0.5f),
+                               .motion = {{0.8f, 0.3f, 0.3f}, {0.2f, 0.9f, 0.3f}}};
+    const SpotLightDesc spot{.position = {0.0f, 0.5f, 0.3f},
+                             .direction = {0.0f, -1.0f, 0.0f},
+                             .intensity = Rgb(0.5f),
+                             .inner_cone_angle = 0.2f,
+                             .outer_cone_angle = 0.6f,
+                             .motion = {{0.9f, 0.5f, 0.3f}},
+                             .turn = {{1.0f, -1.0f, 0.0f}, {1.0f, 0.5f, 0.0f}}};
+    builder.light(point).light(spot);
+    PointLightDesc ball = point;
+    ball.radius = 0.2f;
+    SpotLightDesc spot_ball = spot;
+    spot_ball.radius = 0.1f;
+    builder.light(ball).light(spot_ball);
+    builder.light(DirectionalLightDesc{.direction = {0.0f, -1.0f, -0.5f},
+                                       .illuminance = Rgb(0.5f),
+                                       .turn = {{0.9f, -1.0f, -0.5f}}});
+    return World(std::move(builder.desc));
+}
+
+}  // namespace
+
+TEST_CASE("densities of lights that move are those of their time", "[motion][light]")
+{
+    const World world = lights_that_move();
+    test::Random random(4);
+    int incident_samples = 0;
+    int emitted_samples = 0;
+    for (std::uint32_t i = 0; i < world.lights().size(); ++i) {
+        const Light& light = world.lights()[LightId{i}];
+        if (light.is_infinite()) {
+            continue;
+        }
+        for (int k = 0; k < 300; ++k) {
+            CAPTURE(i, k);
+            const float time = random.next();
+            const Vec3 receiver = 2.0f * random.direction();
+            const auto incident =
+                light.sample_incident(receiver, random.next_2d(), EnvironmentSampling::plain, time);
+            if (incident) {
+                ++incident_samples;
+                const LightPoint x0{.p = incident->end.p,
+                                    .ng = incident->end.ng,
+                                    .barycentrics = incident->barycentrics,
+                                    .time = time};
+                REQUIRE(light.pdf_incident(receiver, x0).value ==
+                        Approx(incident->pdf.value).epsilon(2e-3));
+            }
+            const auto emitted = light.sample_emission(random.next_2d(), random.next_2d(), time);
+            if (emitted) {
+                ++emitted_samples;
+                const LightPoint x0{.p = emitted->end.p,
+                                    .ng = emitted->end.ng,
+                                    .barycentrics = emitted->barycentrics,
+                                    .time = time};
+                const SolidAnglePdf direction =
+                    light.pdf_direction(emitted->end.ng, emitted->direction, time);
+                REQUIRE(light.pdf_position(x0).value * direction.value ==
+                        Approx(emitted->pdf_position.value * emitted->pdf_direction.value)
+                            .epsilon(2e-3));
+            }
+        }
+    }
+    CHECK(incident_samples > 800);
+    CHECK(emitted_samples > 1500);
+}
+
+TEST_CASE("lights that move shine from where they are, by both ways of sampling", "[motion][light]")
+{
+    const World world = lights_that_move();
+    test::Random random(5);
+    for (std::uint32_t i = 0; i < world.lights().size(); ++i) {
+        const Light& light = world.lights()[LightId{i}];
+        if (!std::holds_alternative<PunctualLight>(light.model()) &&
+            !std::holds_alternative<DirectionalLight>(light.model())) {
+            continue;
+        }
+        for (const float time : {0.0f, 0.4f, 0.9f}) {
+            CAPTURE(i, time);
+            const auto emitted = light.sample_emission(random.next_2d(), random.next_2d(), time);
+            REQUIRE(emitted.has_value());
+            const auto incident =
+                light.sample_incident(emitted->end.p + 0.3f * emitted->direction, Vec2(0.5f),
+                                      EnvironmentSampling::plain, time);
+            REQUIRE(incident.has_value());
+            CHECK(dot(incident->wi, emitted->direction) == Approx(-1.0f));
+        }
+    }
+}
+
+}  // namespace bdpt

@@ -1,6 +1,7 @@
 // What smaller copies of textures bring: time, memory and error of renders of a room whose walls
 // have large textures, against lookups in the textures as they are.
 
+#include <bdpt/io/environment.h>
 #include <bdpt/io/gltf.h>
 #include <bdpt/scene.h>
 
@@ -174,7 +175,11 @@ int main(int argc, char** argv)
     CLI11_PARSE(app, argc, argv);
     return report_errors([&] {
         for (const std::string& scene : settings.scenes) {
-            const io::LoadedScene loaded = io::load_gltf(scene);
+            io::LoadedScene loaded = io::load_gltf(scene);
+            if (!settings.subject.environment.empty()) {
+                loaded.scene.lights.emplace_back(
+                    io::load_environment(settings.subject.environment).light);
+            }
             const Subject framed = load_subject(scene, settings.subject);
             measure(framed.name, loaded.scene, framed.camera, settings);
         }

@@ -44,7 +44,7 @@ TEST_CASE("a variant, an animation or a time that there is not is refused")
     check({"--frame-time", "nan"}, 2, "--frame-time");
     check({"--frame-time", "soon"}, 2, "--frame-time");
     check({"--max-memory", "much"}, 2, "--max-memory");
-    check({"--max-memory", "1K"}, 4, "1.0 KiB");
+    check({"--max-memory", "1K"}, 4, "bytes, but the limit is 1024");
     check({"--texture-filter", "nearest"}, 2, "--texture-filter");
     for (const char* shutter :
          {"-1", "nan", "inf", "0.1s", "", "0.2,0.1", "0.1,", ",0.1", "1,2,3"}) {

@@ -6,43 +6,33 @@
 namespace bdpt::test {
 namespace {
 
-/// Smooth and rough texels in turn, of metal and of none. A surface between them looks different
-/// from the mean of both, so walks that take different copies do not agree.
-TexelImage polish(int size)
+/// Blocks of 4 x 4 texels with these values in turn.
+TexelImage blocks(std::uint8_t even, std::uint8_t odd)
 {
-    TexelImage image{.width = size, .height = size, .bytes = {}, .channels = 3};
+    constexpr int size = 64;
+    TexelImage image{.width = size, .height = size, .bytes = {}, .channels = 1};
     for (int y = 0; y < size; ++y) {
         for (int x = 0; x < size; ++x) {
-            const bool odd = (x + y) % 2 == 1;
-            const std::uint8_t roughness = odd ? 255 : 80;
-            const std::uint8_t metallic = odd ? 0 : 255;
-            image.bytes.insert(image.bytes.end(), {0, roughness, metallic});
+            image.bytes.push_back((x / 4 + y / 4) % 2 == 0 ? even : odd);
         }
     }
     return image;
 }
 
-TexelImage colors(int size)
-{
-    TexelImage image{.width = size, .height = size, .bytes = {}, .channels = 3};
-    for (int i = 0; i < size * size; ++i) {
-        const auto value = static_cast<std::uint8_t>(i * 37 % 256);
-        image.bytes.insert(image.bytes.end(), {value, static_cast<std::uint8_t>(255 - value), 200});
-    }
-    return image;
-}
-
-/// A floor and a ball; how large a copy they are looked up in changes over both.
+/// A floor and a ball, white where no light passes and black where it does: the mean of both
+/// reflects half as much as both do on average, so that walks which take different copies do not
+/// agree. How large a copy it is changes over the room.
 EqualityCase room_with(CameraDesc camera, std::string name)
 {
-    MaterialDesc material = metal(Rgb(0.9f), 1.0f);
-    material.base_color_texture = TextureRef{.image = ImageId{1}, .scale = {3, 2}};
-    material.metallic_roughness_texture = TextureRef{.image = ImageId{0}, .scale = {3, 2}};
+    MaterialDesc material = lambertian(Rgb(0.9f));
+    material.transmission = 1.0f;
+    material.transmission_texture = TextureRef{.image = ImageId{0}, .scale = {6, 6}};
+    material.base_color_texture = TextureRef{.image = ImageId{1}, .scale = {6, 6}};
     SceneBuilder builder;
     builder.walls(material, lambertian({0.7f, 0.5f, 0.3f})).ceiling(lambertian(Rgb(0.7f)));
     builder.lamp(0.98f, 0.85f, Rgb(4.0f, 3.5f, 3.0f));
     builder.sphere({0.0f, -0.4f, 0.0f}, 0.55f, material);
-    builder.desc.images = {polish(32), colors(48)};
+    builder.desc.images = {blocks(0, 255), blocks(255, 0)};
     builder.desc.texture_filter = TextureFilter::mip_mapped;
     return {.name = std::move(name), .scene = std::move(builder.desc), .camera = camera};
 }

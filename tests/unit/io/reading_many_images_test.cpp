@@ -56,7 +56,7 @@ TEST_CASE("pictures that are decoded at once keep their order, and their materia
     pictures[3] = "GIF89a";
     pictures[40] = pictures[40].substr(0, 40);
     GltfOptions options;
-    options.limits.image_bytes = 100;  // batches of a few pictures
+    options.limits.image_bytes = 1000;  // batches of a few pictures
     const LoadedScene loaded = with_images(pictures).load(options);
     REQUIRE(loaded.scene.images.size() == 98);
     REQUIRE(loaded.scene.materials.size() == 100);

@@ -190,7 +190,7 @@ TEST_CASE("next-event estimation has the density that others are weighed against
             // The density of the point is that of the light's own tests, but for rounding.
             const LightPoint point{.p = x0.end.p, .ng = x0.end.ng, .barycentrics = x0.barycentrics};
             const float of_point = light.pdf_incident(x1.end.p, point).value;
-            REQUIRE(next_event_density(world, x0, x1, sampling).value ==
+            REQUIRE(next_event_density(world, x0, x1, sampling, 0.0f).value ==
                     Approx(of_point * choice->probability).epsilon(1e-5));
             ++compared;
             const Vec3 to_previous = path[t - 2].end.p - x1.end.p;

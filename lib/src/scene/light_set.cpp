@@ -65,6 +65,18 @@ int most_emission_samples(std::span<const InstanceDesc> instances,
     return static_cast<int>(std::clamp(std::sqrt(each), 8.0, 1024.0));
 }
 
+std::size_t emissive_triangles(std::span<const InstanceDesc> instances,
+                               std::span<const PlacedMesh> placed,
+                               std::span<const Material> materials)
+{
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+        const Material& material = materials[static_cast<std::size_t>(instances[i].material)];
+        count += is_black(material.mean_emission()) ? 0U : placed[i].triangle_count();
+    }
+    return count;
+}
+
 AliasTable powers(const std::vector<Light>& lights)
 {
     std::vector<float> luminances;
@@ -94,6 +106,7 @@ LightSet::LightSet(std::span<const InstanceDesc> instances, std::span<const Plac
     : first_of_instance_(instances.size())
 {
     const int most_samples = most_emission_samples(instances, placed, materials);
+    lights_.reserve(lights.size() + emissive_triangles(instances, placed, materials));
     for (std::size_t i = 0; i < instances.size(); ++i) {
         const Material& material = materials[static_cast<std::size_t>(instances[i].material)];
         if (is_black(material.mean_emission())) {

@@ -23,8 +23,9 @@ const std::array<Vec3, 3> probe_directions{normalize(Vec3{0.4231f, 0.8317f, -0.3
                                            normalize(Vec3{0.1873f, -0.6011f, 0.7769f})};
 /// Triangles that are asked where their mesh lies.
 constexpr std::size_t most_probes = 16;
-/// Surfaces along one ray, beyond which nobody wants to know.
-constexpr int most_crossings = 100000;
+/// Surfaces along one ray, beyond which nobody wants to know: files that nobody trusts can have any
+/// number of them.
+constexpr int most_crossings = 1024;
 
 Bounds bounds_of(const PlacedMesh& placed)
 {

@@ -6,6 +6,7 @@
 
 #include <bdpt/scene.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -18,7 +19,11 @@ namespace bdpt {
 /// it enters. Of three rays two decide.
 class Bodies {
 public:
-    /// `instances` are those whose meshes bound bodies. All else must outlive this.
+    /// Of how many bodies it is worth looking for what lies in what: the work may grow with the
+    /// square of their number.
+    static constexpr std::size_t most = 1024;
+
+    /// `instances` are those whose meshes bound bodies, `most` of them. All else must outlive this.
     Bodies(std::span<const PlacedMesh> placed, std::vector<std::uint32_t> instances,
            std::span<const Sphere> spheres, const EmbreeScene& embree);
 

@@ -21,6 +21,12 @@ void World::find_bodies()
         }
     }
     warn_of_open_bodies();
+    if (instances.size() > Bodies::most) {
+        warnings_.push_back(std::to_string(instances.size()) +
+                            " bodies that light passes through are too many to find out which of "
+                            "them lies in which: all have air around them");
+        return;
+    }
     if (instances.empty()) {
         return;
     }

@@ -202,6 +202,20 @@ TEST_CASE("what lies in a body only partly keeps air around it", "[bodies]")
     CHECK(top.end.media->ahead == Rgb(0.0f));
 }
 
+TEST_CASE("of too many bodies it is said that air is around them", "[bodies]")
+{
+    const auto count_warnings = [](std::size_t bodies) {
+        SceneBuilder builder;
+        builder.cube({}, 1.0f, medium(of_outer, 1.33f));
+        builder.desc.instances.resize(bodies, builder.desc.instances.front());
+        const World world(std::move(builder.desc));
+        CHECK((world.medium_at({0.1f, 0.2f, 0.3f}) != nullptr) == (bodies <= Bodies::most));
+        return world.warnings().size();
+    };
+    CHECK(count_warnings(Bodies::most) == 0);
+    CHECK(count_warnings(Bodies::most + 1) == 1);
+}
+
 TEST_CASE("bodies with holes are judged by most rays", "[bodies]")
 {
     SceneBuilder builder = cubes(1.33f, 1.5f);

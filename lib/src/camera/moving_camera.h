@@ -4,6 +4,7 @@
 
 #include <bdpt/scene_desc.h>
 
+#include <optional>
 #include <vector>
 
 namespace bdpt {
@@ -28,6 +29,23 @@ private:
     Camera first_;
     Mat4 pose_{1.0f};  ///< when the shutter opens
     std::vector<Mat4> motion_;
+};
+
+/// A moving camera at one time; one that stands still is not copied, and must outlive this.
+class TimedCamera {
+public:
+    TimedCamera(const MovingCamera& camera, float time)
+        : moved_(camera.moves() ? std::optional(camera.at(time)) : std::nullopt),
+          camera_(moved_ ? *moved_ : camera.first())
+    {}
+    TimedCamera(const TimedCamera&) = delete;
+    TimedCamera& operator=(const TimedCamera&) = delete;
+
+    [[nodiscard]] const Camera& get() const { return camera_; }
+
+private:
+    std::optional<Camera> moved_;
+    const Camera& camera_;
 };
 
 }  // namespace bdpt

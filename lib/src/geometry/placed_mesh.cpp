@@ -21,10 +21,8 @@ float max_axis(Vec3 v)
     return std::max(v.x, std::max(v.y, v.z));
 }
 
-/// From products of Pluecker coordinates relative to the ray's origin. Inlined in both places: the
-/// one for what stands still is the hottest of all.
-[[gnu::always_inline]] inline Vec2 barycentrics_of(const std::array<Vec3, 3>& corners,
-                                                   const Ray& ray)
+/// From products of Pluecker coordinates relative to the ray's origin.
+Vec2 barycentrics_of(const std::array<Vec3, 3>& corners, const Ray& ray)
 {
     const Vec3 a = corners[0] - ray.origin;
     const Vec3 b = corners[1] - ray.origin;

@@ -80,7 +80,8 @@ void BdptIntegrator::add_sample(const SampleId& id, const Films& films, Scratch&
     Sampler sampler(options_.sampler, options_.seed, x, y, index);
     const Vec2 center(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
     const Vec2 raster = start_sample(sampler, filter_, world_, camera_, x, y);
-    const Camera camera = camera_.at(sampler.time());
+    const TimedCamera timed(camera_, sampler.time());
+    const Camera& camera = timed.get();
     Sample sample{
         .index = index, .sampler = sampler, .camera = camera, .films = films, .pixel = center};
     scratch.weigher.set_time(sampler.time());

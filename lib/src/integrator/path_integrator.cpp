@@ -47,7 +47,8 @@ RenderStats PathIntegrator::render_tile(const Tile& tile, SampleRange samples,
                 SampleTimer timer(films.times, x, y, index);
                 Sampler sampler(options_.sampler, options_.seed, x, y, index);
                 const Vec2 raster = start_sample(sampler, filter_, world_, camera_, x, y);
-                const Camera camera = camera_.at(sampler.time());
+                const TimedCamera timed(camera_, sampler.time());
+                const Camera& camera = timed.get();
                 Sample sample{.pixel = Vec2(x, y) + 0.5f,
                               .raster = raster,
                               .sampler = sampler,

@@ -37,7 +37,8 @@ std::optional<PrimaryHit> AovPass::first_hit(int x, int y, std::int64_t sample_i
     // The random numbers of the integrators' camera rays.
     Sampler sampler(options_.sampler, options_.seed, x, y, sample_index);
     const Vec2 raster = start_sample(sampler, filter_, world_, camera_, x, y);
-    const Camera camera = camera_.at(sampler.time());
+    const TimedCamera timed(camera_, sampler.time());
+    const Camera& camera = timed.get();
     sampler.start(SampleUse::lens);
     const Vec2 u_lens = camera.has_finite_lens() ? sampler.next_2d() : Vec2(0.0f);
     const CameraRay ray = camera.generate_ray(raster, u_lens);

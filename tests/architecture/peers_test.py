@@ -28,8 +28,9 @@ import report
 from scene import NotShared, from_json, to_json
 
 BDPT = sys.argv.pop(1) if len(sys.argv) > 1 else None
-REFUSED = {"orthographic": "perspective", "room-environment": "no light", "room-spot": "spot light",
-           "room-sun": "directional light", "textured-emitter": "no light"}
+REFUSED = {"night-market": "spot light", "orthographic": "perspective", "room-environment": "no light",
+           "room-profiles": "no light", "room-spot": "spot light", "room-sun": "directional light",
+           "textured-emitter": "no light"}
 JOB = {"width": 40, "height": 20, "max_depth": 7, "integrator": "PATHCPU", "seed": 3, "threads": 2, "output": "o.exr",
        "roulette": False}
 

@@ -70,15 +70,18 @@ BoundingSphere sphere_around(const Bounds& bounds)
             .radius = radius > 0.0f ? 1.0001f * radius : 1.0f};
 }
 
-void for_rows(int count, const std::function<void(int, int)>& work)
-{
-    tbb::parallel_for(tbb::blocked_range<int>(0, count, 16),
-                      [&work](const auto& rows) { work(rows.begin(), rows.end()); });
-}
+/// A type of its own, as that of a plain function would be visible from outside of the library.
+struct ForRowsAtOnce {
+    void operator()(int count, const std::function<void(int, int)>& work) const
+    {
+        tbb::parallel_for(tbb::blocked_range<int>(0, count, 16),
+                          [&work](const auto& rows) { work(rows.begin(), rows.end()); });
+    }
+};
 
 }  // namespace
 
-World::World(SceneDesc desc, Isa isa) : desc_(std::move(desc)), mip_maps_(for_rows)
+World::World(SceneDesc desc, Isa isa) : desc_(std::move(desc)), mip_maps_(ForRowsAtOnce{})
 {
     validate(desc_);
     if (std::any_of(desc_.materials.begin(), desc_.materials.end(), has_layers)) {

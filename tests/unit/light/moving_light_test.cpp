@@ -2,6 +2,7 @@
 
 #include "catch.hpp"
 #include "light/light.h"
+#include "math/rgb.h"
 #include "moving_scenes.h"
 #include "scene/world.h"
 #include "statistics.h"
@@ -111,6 +112,32 @@ TEST_CASE("lights that move shine from where they are, by both ways of sampling"
             CHECK(dot(incident->wi, emitted->direction) == Approx(-1.0f));
         }
     }
+}
+
+TEST_CASE("the tree of lights loses none of those that move, at any time", "[motion][light][tree]")
+{
+    const World world = lights_that_move();
+    const LightSet& lights = world.lights();
+    test::Random random(5);
+    int contributions = 0;
+    for (int k = 0; k < 2000; ++k) {
+        const Vec3 p = 3.0f * Vec3(random.next(), random.next(), random.next()) - 1.5f;
+        const LightReceiver receiver{.p = p, .normal = random.direction()};
+        for (std::uint32_t i = 0; i < lights.size(); ++i) {
+            const float chosen =
+                lights.receiver_probability(LightId{i}, receiver, LightSampling::tree);
+            const float time = random.next();
+            const auto incident = lights[LightId{i}].sample_incident(
+                p, random.next_2d(), EnvironmentSampling::plain, time);
+            if (incident && !is_black(incident->weight) &&
+                dot(*receiver.normal, incident->wi) > 0.0f) {
+                ++contributions;
+                CAPTURE(k, i, time);
+                REQUIRE(chosen > 0.0f);
+            }
+        }
+    }
+    CHECK(contributions > 2000);
 }
 
 }  // namespace bdpt

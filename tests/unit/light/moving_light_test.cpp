@@ -41,6 +41,14 @@ World lights_that_move()
     builder.light(DirectionalLightDesc{.direction = {0.0f, -1.0f, -0.5f},
                                        .illuminance = Rgb(0.5f),
                                        .turn = {{0.9f, -1.0f, -0.5f}}});
+    // A small plate that turns on the spot.
+    MeshDesc plate;
+    plate.positions = {{-0.1f, 0, -0.1f}, {0.1f, 0, -0.1f}, {0.1f, 0, 0.1f}};
+    plate.triangles = {{0, 1, 2}};
+    builder.place(builder.add_mesh(plate), test::emitter(Rgb(0.5f)), Mat4(1.0f));
+    test::move_last(builder, 8, [](float t) {
+        return glm::rotate(test::translation({-0.7f, 0.6f, -0.5f}), 2.5f * t, Vec3(1, 0, 0));
+    });
     return World(std::move(builder.desc));
 }
 

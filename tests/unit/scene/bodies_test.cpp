@@ -94,11 +94,18 @@ TEST_CASE("points know which body they are in, the innermost one", "[bodies]")
 TEST_CASE("balls of light do not hide which body a point is in", "[bodies]")
 {
     SceneBuilder builder = cubes(1.33f, 1.5f);
-    for (const Vec3 at : {Vec3(0.6f, 0.8f, 0.2f), Vec3(-0.5f, 0.3f, 0.7f), Vec3(3, 5, -2)}) {
-        builder.light(PointLightDesc{.position = at, .intensity = Rgb(1.0f), .radius = 0.4f});
+    // So many around the first point that each ray from there meets one.
+    const Vec3 within(0.1f, 0.0f, -0.2f);
+    for (int i = 0; i < 27; ++i) {
+        const Vec3 corner(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+        if (corner != Vec3(0.0f)) {
+            builder.light(PointLightDesc{.position = within + 0.2f * normalize(corner),
+                                         .intensity = Rgb(1.0f),
+                                         .radius = 0.11f});
+        }
     }
     const World world(std::move(builder.desc));
-    check_absorption(world.medium_at({0.1f, 0.0f, -0.2f}), of_inner);
+    check_absorption(world.medium_at(within), of_inner);
     check_absorption(world.medium_at({0.55f, 0.0f, 0.9f}), of_outer);
     check_absorption(world.medium_at({0.0f, 0.0f, 1.2f}), Rgb(0.0f));
 }

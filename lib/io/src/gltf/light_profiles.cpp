@@ -34,8 +34,9 @@ Rgb read_scale(const tinygltf::Value& light, const std::string& place, Warnings&
         light.Has("multiplier") ? light.Get("multiplier").GetNumberAsDouble() : 1.0;
     Rgb scale(static_cast<float>(in_range(multiplier, most, place + "/multiplier", warnings)));
     if (light.Has("color")) {
+        const auto& channels = light.Get("color").Get<tinygltf::Value::Array>();
         for (int c = 0; c < 3; ++c) {
-            const double channel = light.Get("color").Get(c).GetNumberAsDouble();
+            const double channel = channels[static_cast<std::size_t>(c)].GetNumberAsDouble();
             scale[c] *= static_cast<float>(
                 in_range(channel, 1.0, fmt::format("{}/color/{}", place, c), warnings));
         }

@@ -119,6 +119,11 @@ std::string red_webp()
         "m8RU8r/+JkAAAA==");
 }
 
+std::string half_webp()
+{
+    return from_base64("UklGRh4AAABXRUJQVlA4TBEAAAAvAAAAEAdQsiJXpoCBiOh/AAA=");
+}
+
 void add_grey_textures(GltfFixture& fixture)
 {
     for (int i = 0; i < 6; ++i) {

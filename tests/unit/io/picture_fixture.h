@@ -25,6 +25,8 @@ namespace bdpt::io {
 [[nodiscard]] std::string orange_jpeg();
 /// 2 x 2 pixels of about (255, 0, 0).
 [[nodiscard]] std::string red_webp();
+/// 1 x 1 pixel of (200, 100, 50) with an alpha of 128.
+[[nodiscard]] std::string half_webp();
 
 /// Adds six one-pixel pictures, whose grey level tells them apart, and a texture of each.
 void add_grey_textures(GltfFixture& fixture);

@@ -96,6 +96,17 @@ TEST_CASE("JPEG and WebP pictures are read")
     CHECK((webp.channels == 3 || webp.bytes[3] == 255));
 }
 
+TEST_CASE("alpha of a WebP picture does not darken its colours")
+{
+    const TexelImage half = load_picture(half_webp());
+    REQUIRE(half.channels == 4);
+    CHECK(half.bytes[3] == 128);
+    // OpenImageIO may have multiplied and rounded them.
+    CHECK(std::abs(half.bytes[0] - 200) <= 1);
+    CHECK(std::abs(half.bytes[1] - 100) <= 1);
+    CHECK(std::abs(half.bytes[2] - 50) <= 1);
+}
+
 TEST_CASE("the WebP picture of a texture comes before its fallback")
 {
     GltfFixture fixture = with_image(data_uri(png(1, 1, 8, 0, {raw({1})})));

@@ -34,6 +34,26 @@ struct BdptPicture {
 
 namespace {
 
+/// Some readers (WebP's of OpenImageIO 2.4) give colours that are multiplied by alpha, whatever
+/// they are asked for.
+void divide_by_alpha(const OIIO::ImageSpec& spec, unsigned char* pixels)
+{
+    if (spec.alpha_channel < 0 || spec.get_int_attribute("oiio:UnassociatedAlpha") == 1) {
+        return;
+    }
+    const auto channels = static_cast<std::size_t>(spec.nchannels);
+    const auto alpha_channel = static_cast<std::size_t>(spec.alpha_channel);
+    for (std::size_t i = 0; i < spec.image_pixels(); ++i, pixels += channels) {
+        const unsigned alpha = pixels[alpha_channel];
+        for (std::size_t c = 0; c < channels && alpha > 0; ++c) {
+            if (c != alpha_channel) {
+                pixels[c] = static_cast<unsigned char>(
+                    std::min(255U, (pixels[c] * 255U + alpha / 2U) / alpha));
+            }
+        }
+    }
+}
+
 template <typename T>
 int read_pixels(BdptPicture* picture, OIIO::TypeDesc type, T* pixels, char* message,
                 std::size_t message_size)
@@ -67,7 +87,8 @@ __attribute__((visibility("default"))) BdptPicture* bdpt_oiio_open(
 {
     try {
         // Whoever calls decodes several pictures at once; a pool of threads would outlive that.
-        OIIO::attribute("threads", 1);
+        // Once, as OpenImageIO must not be told so by two threads at the same time.
+        [[maybe_unused]] static const bool is_told = OIIO::attribute("threads", 1);
         auto picture = std::make_unique<BdptPicture>(bytes, size);
         picture->input = OIIO::ImageInput::create(format);
         if (!picture->input) {
@@ -104,7 +125,11 @@ __attribute__((visibility("default"))) int bdpt_oiio_read_bytes(BdptPicture* pic
                                                                 char* message,
                                                                 std::size_t message_size)
 {
-    return read_pixels(picture, OIIO::TypeDesc::UINT8, pixels, message, message_size);
+    const int done = read_pixels(picture, OIIO::TypeDesc::UINT8, pixels, message, message_size);
+    if (done == 1) {
+        divide_by_alpha(picture->input->spec(), pixels);
+    }
+    return done;
 }
 
 __attribute__((visibility("default"))) int bdpt_oiio_read_words(BdptPicture* picture,

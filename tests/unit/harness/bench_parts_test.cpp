@@ -69,6 +69,8 @@ TEST_CASE("all that a picture depends on is in the hash of a scene, names are no
         [](SceneDesc& s) { s.lights.emplace_back(SpotLightDesc{}); },
         [](SceneDesc& s) { s.lights.emplace_back(ProfileLightDesc{}); },
         [](SceneDesc& s) { s.lights.emplace_back(ProfileLightDesc{.scale = Rgb(2.0f)}); },
+        [](SceneDesc& s) { s.lights.emplace_back(ProfileLightDesc{.motion = {Vec3(1.0f)}}); },
+        [](SceneDesc& s) { s.lights.emplace_back(PointLightDesc{.motion = {Vec3(1.0f)}}); },
         [](SceneDesc& s) {
             s.profiles.push_back({{0.0f, 1.0f}, {0.0f}, {1.0f, 2.0f}});
         },

@@ -41,6 +41,10 @@ World lights_that_move()
     builder.light(DirectionalLightDesc{.direction = {0.0f, -1.0f, -0.5f},
                                        .illuminance = Rgb(0.5f),
                                        .turn = {{0.9f, -1.0f, -0.5f}}});
+    builder.desc.profiles.push_back(
+        {.polar_angles = {0.0f, 3.0f}, .azimuths = {0.0f}, .intensities = {1.0f, 0.5f}});
+    builder.light(
+        ProfileLightDesc{.position = {-0.8f, -0.8f, 0.8f}, .motion = {{-0.8f, 0.8f, 0.8f}}});
     // A small plate that turns on the spot.
     MeshDesc plate;
     plate.positions = {{-0.1f, 0, -0.1f}, {0.1f, 0, -0.1f}, {0.1f, 0, 0.1f}};

@@ -144,6 +144,7 @@ void add(Hasher& hasher, const ProfileLightDesc& light)
     hasher.add(light.world_from_light);
     hasher.add(light.scale);
     hasher.add(light.profile);
+    add_motion(hasher, light.motion);
 }
 
 }  // namespace

@@ -48,8 +48,10 @@ public:
                     add(result.bdpt, s, raster);
                 }
             }
-            for (int i = 0; i < other_samples; ++i) {
-                add(result.others, raster);
+            for (std::size_t other = 0; other < result.others.size(); ++other) {
+                for (int i = 0; i < samples_of(other_integrators[other], 2); ++i) {
+                    add(result.others[other], other, raster);
+                }
             }
         }
         return result;
@@ -102,25 +104,34 @@ private:
     }
 
     /// pt by strategy 0, nee by 1, mis by both, lt by 2 and 3.
-    void add(std::array<harness::RadianceSums, 4>& others, Vec2 raster)
+    void add(harness::RadianceSums& sums, std::size_t integrator, Vec2 raster)
     {
-        const auto tell = [&](std::size_t integrator, double value) {
-            others[integrator].add(
+        const auto tell = [&](double value) {
+            sums.add(
                 {.strategy = {.s = 0, .t = 3},
                  .raster = raster,
                  .unweighted = Rgb(static_cast<float>(fault_.integrators[integrator] * value))});
         };
-        const auto pair = [&](std::size_t integrator, std::size_t a, std::size_t b) {
+        const auto pair = [&](std::size_t a, std::size_t b) {
             for (const std::size_t s : {a, b}) {
                 const double x = sample(s);
                 const std::array<double, 4> p = densities(x, s);
-                tell(integrator, p[s] / (p[a] * p[a] + p[b] * p[b]));
+                tell(p[s] / (p[a] * p[a] + p[b] * p[b]));
             }
         };
-        tell(0, 1.0);
-        tell(1, 1.0 / (2.0 * sample(1)));
-        pair(2, 0, 1);
-        pair(3, 2, 3);
+        switch (integrator) {
+            case 0:
+                tell(1.0);
+                break;
+            case 1:
+                tell(1.0 / (2.0 * sample(1)));
+                break;
+            case 2:
+                pair(0, 1);
+                break;
+            default:
+                pair(2, 3);
+        }
     }
 
     Random random_;

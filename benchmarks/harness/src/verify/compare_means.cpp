@@ -47,4 +47,10 @@ double critical_z(double false_alarm, std::size_t tests)
         2.0 * std::log(2.0 * static_cast<double>(std::max<std::size_t>(tests, 1)) / false_alarm));
 }
 
+double detectable_z(double critical, double freedom)
+{
+    constexpr double ninety_percent = 1.2816;  // of a normal distribution
+    return critical + ninety_percent * std::sqrt(1.0 + critical * critical / (2.0 * freedom));
+}
+
 }  // namespace bdpt::harness

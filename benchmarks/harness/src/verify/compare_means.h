@@ -17,8 +17,8 @@ struct Difference {
     double expected = 0.0;
     /// Variance of the difference, as the spread of the batches says.
     double sample_variance = 0.0;
-    /// What samples add to that which are so bright that they may not have turned up yet, as all
-    /// strategies together say. Of those that have it is there twice, which errs on the safe side.
+    /// What samples add to that which are so bright that they have not turned up yet as often as all
+    /// strategies together expect.
     double rare_variance = 0.0;
     double freedom = 1.0;  ///< degrees of freedom of `sample_variance`
 };
@@ -38,7 +38,8 @@ constexpr double rare_fraction = 0.05;
 /// z at which a test of a family of `tests` fails at the latest, with `false_alarm` for all of it.
 [[nodiscard]] double critical_z(double false_alarm, std::size_t tests);
 
-/// Distance from the critical z at which 90 % of all results lie beyond it.
-constexpr double ninety_percent = 1.2816;
+/// The difference in standard errors beyond which 90 % of all results are beyond the critical z. The
+/// errors are estimates with so many degrees of freedom, and vary by a fraction (2 freedom)^-1/2.
+[[nodiscard]] double detectable_z(double critical, double freedom);
 
 }  // namespace bdpt::harness

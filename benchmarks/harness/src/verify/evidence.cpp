@@ -62,8 +62,12 @@ void Evidence::add_strategies(const Batch& batch)
 
 void Evidence::add_lengths(const Batch& batch)
 {
+    struct OtherSums {
+        std::array<double, 4> radiance{};
+        std::array<SecondMoment, 4> seen{};
+    };
     const auto add = [&](std::size_t cell, int edges, const LengthSums& sums,
-                         const std::array<double, 4>& others) {
+                         const OtherSums& others) {
         LengthEvidence& evidence = lengths_[cell * static_cast<std::size_t>(row_.max_depth()) +
                                             static_cast<std::size_t>(edges - 1)];
         const double samples = bdpt_samples * pixels(cell);
@@ -71,19 +75,22 @@ void Evidence::add_lengths(const Batch& batch)
         evidence.radiance.add(sums.radiance / samples);
         evidence.from_camera.add(sums.from_camera.radiance / samples);
         evidence.from_light.add(sums.from_light.radiance / samples);
-        for (std::size_t i = 0; i < others.size(); ++i) {
-            evidence.others[i].add(others[i] /
+        for (std::size_t i = 0; i < other_integrators.size(); ++i) {
+            evidence.others[i].add(others.radiance[i] /
                                    (samples_of(other_integrators[i], edges) * pixels(cell)));
+            evidence.seen[i] += others.seen[i];
         }
     };
     for (int edges = 1; edges <= row_.max_depth(); ++edges) {
         LengthSums all;
-        std::array<double, 4> all_others{};
+        OtherSums all_others;
         for (std::size_t tile = 0; tile < grid_.size(); ++tile) {
-            std::array<double, 4> others{};
-            for (std::size_t i = 0; i < others.size(); ++i) {
-                others[i] = batch.others[i].at(tile, edges);
-                all_others[i] += others[i];
+            OtherSums others;
+            for (std::size_t i = 0; i < other_integrators.size(); ++i) {
+                others.radiance[i] = batch.others[i].at(tile, edges);
+                others.seen[i] = batch.others[i].seen(tile, edges);
+                all_others.radiance[i] += others.radiance[i];
+                all_others.seen[i] += others.seen[i];
             }
             add(tile, edges, batch.bdpt.length(tile, edges), others);
             all += batch.bdpt.length(tile, edges);

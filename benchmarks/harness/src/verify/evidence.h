@@ -22,6 +22,7 @@ constexpr std::array<IntegratorKind, 4> other_integrators{IntegratorKind::pt, In
 [[nodiscard]] constexpr int samples_of(IntegratorKind integrator, int edges)
 {
     return integrator == IntegratorKind::bdpt               ? bdpt_samples
+           : integrator == IntegratorKind::mis              ? mis_samples
            : integrator == IntegratorKind::pt && edges == 1 ? direct_samples
                                                             : other_samples;
 }
@@ -53,6 +54,7 @@ struct LengthEvidence {
     Moments from_camera;
     Moments from_light;
     std::array<Moments, 4> others;
+    std::array<SecondMoment, 4> seen;  ///< of the samples of `others`
     LengthSums sums;
 };
 

@@ -22,12 +22,23 @@ double samples_in(const Evidence& evidence, std::size_t cell)
     return bdpt_samples * evidence.pixels(cell) * static_cast<double>(evidence.batches());
 }
 
-/// What rare samples add to a variance: those of which one of `samples` moves the mean too much.
-/// `moment` is a sum over all of them.
-double rare_variance(const SecondMoment& moment, double sample_variance, double samples)
+/// Samples of an estimate: how many and which there were, and what `expected_samples` of them are
+/// expected to be.
+struct SampleMoments {
+    double samples;
+    const SecondMoment& seen;
+    double expected_samples;
+    const SecondMoment& expected;
+};
+
+/// What the spread lacks of the variance of a mean: that of rare samples, one of which moves the
+/// mean too much, as far as fewer of them were seen than expected.
+double unseen_variance(const SampleMoments& of, double sample_variance)
 {
-    const double size = rare_fraction * std::sqrt(sample_variance) * samples;
-    return moment.above(size) / (samples * samples);
+    const double size = rare_fraction * std::sqrt(sample_variance) * of.samples;
+    const double unseen =
+        of.expected.above(size) / of.expected_samples - of.seen.above(size) / of.samples;
+    return std::max(unseen, 0.0) / of.samples;
 }
 
 MeanComparison compare_strategy(const Evidence& evidence, std::size_t cell, std::size_t index)
@@ -39,7 +50,11 @@ MeanComparison compare_strategy(const Evidence& evidence, std::size_t cell, std:
         {.found = found.sums.tested / samples,
          .expected = found.sums.expected / samples,
          .sample_variance = variance,
-         .rare_variance = rare_variance(found.sums.second_moment, variance, samples),
+         .rare_variance = unseen_variance({.samples = samples,
+                                           .seen = found.sums.seen,
+                                           .expected_samples = samples,
+                                           .expected = found.sums.second_moment},
+                                          variance),
          .freedom = static_cast<double>(found.difference.count() - 1)});
 }
 
@@ -68,11 +83,16 @@ MeanComparison compare_integrator(const Evidence& evidence, std::size_t cell, in
     const Moments& found = length.others[integrator];
     const double variance = squared_error(found) + squared_error(expected);
     const double samples = samples_in(evidence, cell);
-    // Sums over the samples of bdpt stand for as many of the other's.
-    const double ratio = static_cast<double>(samples_of(kind, edges)) / bdpt_samples;
-    const double rare =
-        rare_variance(second_moment(length.sums, kind), variance / ratio, samples) / ratio +
-        rare_variance(reach.second_moment, variance, samples);
+    const double rare = unseen_variance({.samples = samples / bdpt_samples * samples_of(kind, edges),
+                                         .seen = length.seen[integrator],
+                                         .expected_samples = samples,
+                                         .expected = second_moment(length.sums, kind)},
+                                        variance) +
+                        unseen_variance({.samples = samples,
+                                         .seen = reach.seen,
+                                         .expected_samples = samples,
+                                         .expected = reach.second_moment},
+                                        variance);
     return compare_means({.found = found.mean(),
                           .expected = reach.radiance / samples,
                           .sample_variance = variance,
@@ -289,9 +309,10 @@ VerifyReport judge(const Evidence& evidence, const VerifyOptions& options)
     correct(tests_of_tiles(report));
     if (report.radiance > 0.0) {
         report.unchecked = unchecked / samples_in(evidence, evidence.whole()) / report.radiance;
-        report.detectable = find_detectable(
-            evidence, report,
-            critical_z(0.5 * options.false_alarm, pictures.size()) + ninety_percent);
+        report.detectable =
+            find_detectable(evidence, report,
+                            detectable_z(critical_z(0.5 * options.false_alarm, pictures.size()),
+                                         static_cast<double>(evidence.batches() - 1)));
     }
     report.verdict = has_failed(report)                             ? Verdict::fail
                      : report.detectable <= options.detectable_bias ? Verdict::pass

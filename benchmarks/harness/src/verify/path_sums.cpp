@@ -29,7 +29,8 @@ void add_pair(SecondMoment& moment, double weighted, double all, double a, doubl
     const double y = b / greater;
     const double sum = x * x + y * y;
     const double size = all / greater / sum;
-    moment.add(size * std::max(x, y), weighted * size / sum * (x * x * x + y * y * y));
+    moment.add(size * x, weighted * size / sum * x * x * x);
+    moment.add(size * y, weighted * size / sum * y * y * y);
 }
 
 double share_of(const FoundPath& path, std::size_t s)
@@ -44,6 +45,7 @@ StrategySums& StrategySums::operator+=(const StrategySums& other)
     tested += other.tested;
     expected += other.expected;
     second_moment += other.second_moment;
+    seen += other.seen;
     reach += other.reach;
     weighted += other.weighted;
     unweighted += other.unweighted;
@@ -56,6 +58,7 @@ ReachSums& ReachSums::operator+=(const ReachSums& other)
 {
     radiance += other.radiance;
     second_moment += other.second_moment;
+    seen += other.seen;
     return *this;
 }
 
@@ -158,6 +161,11 @@ void PathSums::add_to_strategies(const FoundPath& path, const Measure& measure, 
         sums.second_moment.add(by_own, weighted * by_own * (1.0 - weight) * g);
         const double by_others = moment - square(weight) * all / share;
         sums.second_moment.add(g * largest, weighted * square(g) * std::max(by_others, 0.0));
+        if (u == own) {
+            sums.seen.add(by_own, square(by_own));
+        } else {
+            sums.seen.add(g * largest, square(g * weighted));
+        }
     }
 }
 
@@ -175,6 +183,7 @@ void PathSums::add_to_length(LengthSums& sums, const FoundPath& path, const Meas
     const auto reach = [&](ReachSums& reached) {
         reached.radiance += weighted;
         reached.second_moment.add(measure.largest, weighted * measure.moment);
+        reached.seen.add(measure.largest, square(weighted));
     };
     if (hit > 0.0 || next_event > 0.0) {
         reach(sums.from_camera);

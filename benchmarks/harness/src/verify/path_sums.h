@@ -57,6 +57,7 @@ struct StrategySums {
     double tested = 0.0;         ///< g times the unweighted paths that u found
     double expected = 0.0;       ///< g times the weighted paths that anyone found
     SecondMoment second_moment;  ///< of a sample's `tested - expected`, estimated from all paths
+    SecondMoment seen;           ///< the same of the paths as they were found
     double reach = 0.0;          ///< weighted paths that u can make, found by anyone
     double weighted = 0.0;       ///< paths that u found
     double unweighted = 0.0;
@@ -69,7 +70,8 @@ struct StrategySums {
 /// Weighted paths that an integrator can make, and the second moment of a sample of them.
 struct ReachSums {
     double radiance = 0.0;
-    SecondMoment second_moment;
+    SecondMoment second_moment;  ///< estimated from all paths
+    SecondMoment seen;
     ReachSums& operator+=(const ReachSums& other);
 };
 

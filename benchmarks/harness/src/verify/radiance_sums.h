@@ -1,5 +1,6 @@
 #pragma once
 
+#include "verify/second_moment.h"
 #include "verify/tile_grid.h"
 
 #include <bdpt/found_path.h>
@@ -17,7 +18,8 @@ public:
     RadianceSums(const TileGrid& grid, int max_depth)
         : grid_(grid),
           max_depth_(max_depth),
-          sums_(grid.size() * static_cast<std::size_t>(max_depth))
+          sums_(grid.size() * static_cast<std::size_t>(max_depth)),
+          seen_(sums_.size())
     {}
 
     /// Longer ones and values that are not finite are ignored.
@@ -29,11 +31,19 @@ public:
             static_cast<double>(path.weight) *
             (static_cast<double>(c.r) + static_cast<double>(c.g) + static_cast<double>(c.b));
         if (edges <= max_depth_ && std::isfinite(sum)) {
-            sums_[index(grid_.tile_at(path.raster), edges)] += sum / 3.0;
+            const std::size_t place = index(grid_.tile_at(path.raster), edges);
+            const double mean = sum / 3.0;
+            sums_[place] += mean;
+            seen_[place].add(mean, mean * mean);
         }
     }
 
     [[nodiscard]] double at(std::size_t tile, int edges) const { return sums_[index(tile, edges)]; }
+    /// Of single paths.
+    [[nodiscard]] const SecondMoment& seen(std::size_t tile, int edges) const
+    {
+        return seen_[index(tile, edges)];
+    }
     /// Over lengths from `shortest` to `longest`.
     [[nodiscard]] double between(std::size_t tile, int shortest, int longest) const
     {
@@ -53,6 +63,7 @@ private:
     const TileGrid& grid_;
     int max_depth_;
     std::vector<double> sums_;
+    std::vector<SecondMoment> seen_;
 };
 
 }  // namespace bdpt::harness

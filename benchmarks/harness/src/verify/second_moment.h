@@ -7,7 +7,8 @@
 
 namespace bdpt::harness {
 
-/// Sum of squares of samples that is told apart by their size, in steps of a factor of 4.
+/// Sum of squares of samples, seen or expected, that is told apart by their size, in steps of a
+/// factor of 4.
 class SecondMoment {
 public:
     /// `moment`: what samples of `size` add to the second moment; both are at least 0.

@@ -1,6 +1,9 @@
 """The figures: for each its cells, that is scenes and options of `bdpt render`. make_figures.py renders them."""
 
 import dataclasses
+import re
+
+BALL = re.compile(r"ball-(\d+)\.glb")  # scenes that make_large_scene.py writes, with about that many triangles
 
 
 @dataclasses.dataclass(frozen=True)
@@ -8,13 +11,16 @@ class Cell:
     """One picture of a sheet. It has either samples (`spp`) or a time to render for (`seconds`)."""
 
     label: str
-    scene: str  # a file of scenes/
+    scene: str  # a file of scenes/, or a BALL
     options: tuple  # of `bdpt render`
     spp: int = None
     seconds: float = None
     reference: tuple = None  # options of a long render of the same light by bdpt, or None: there is none
     rival: tuple = None  # options of a second estimate: the picture is the mean of maxima of the two (biased!)
     rounds: int = 1  # how many maxima, each of pictures of spp / rounds samples
+    profiled: bool = False  # tell where the time goes; the picture has a layer time.Y
+    layer: str = None  # shown in false colours, on one scale for the sheet, in place of the picture
+    without_bvh: bool = False  # tell the rays per second with and without a BVH
 
 
 @dataclasses.dataclass(frozen=True)
@@ -121,6 +127,17 @@ def direct_indirect():
     return tuple(Cell(label, scene, part + depth(6), 64, reference=part + depth(6)) for label, part in parts.items())
 
 
+def profile():
+    """Pictures with the shares of time, and below them the time of a sample in each pixel."""
+    scene = "fourteen-specular.gltf"
+    names = ("pt", "nee", "mis", "lt", "bdpt")
+    pictures = [Cell(name, scene, by(name) + depth(5), 64, reference=None if name == "lt" else depth(5),
+                     profiled=True) for name in names]
+    times = [Cell(f"{name}: time of a sample", scene, by(name) + depth(5), 64, profiled=True,
+                  layer="time.Y") for name in names]
+    return tuple(pictures + times)
+
+
 def sweep(scene, integrators, counts, edges):
     """A row for each integrator, a column for each number of samples."""
     return tuple(Cell(f"{name}, {count} spp", scene, by(name) + depth(edges), count, reference=depth(edges))
@@ -153,6 +170,14 @@ FIGURES = {
         for bounces in (0, 1, 2, 3, 100))),
     "samples": Figure("1 to 1024 samples per pixel", 11, sweep(
         "cornell-box-hidden.gltf", ("mis", "bdpt"), tuple(2 ** k for k in range(11)), 6), 8192),
+    "hidden-lamp": Figure("Balls under a hidden lamp, as path tracers have it, and in under a minute", 3, (
+        Cell("mis, 256 spp", "cornell-spheres-hidden.gltf", by("mis") + depth(6), 256, reference=depth(6)),
+        Cell("bdpt, 16 spp", "cornell-spheres-hidden.gltf", depth(6), 16, reference=depth(6)),
+        Cell("bdpt, 50 s", "cornell-spheres-hidden.gltf", depth(6), seconds=50.0, reference=depth(6))), 8192),
+    "profile": Figure("Where the time of a sample goes, by phase and by pixel", 5, profile()),
+    "bvh": Figure("Rays per second with and without a BVH", 3, tuple(
+        Cell(f"{triangles:,} triangles", f"ball-{triangles}.glb", depth(5), 64, reference=depth(5), without_bvh=True)
+        for triangles in (5000, 50000, 130000))),
     "rays": Figure("What each integrator spends its rays on", 5, tuple(
         Cell(name, "fourteen-specular.gltf", by(name) + depth(5), 16, reference=None if name == "lt" else depth(5))
         for name in ("pt", "nee", "mis", "lt", "bdpt"))),

@@ -9,6 +9,7 @@ Writes DIR/NAME.png, NAME.json and NAME.csv, and the pictures as DIR/NAME/NN.exr
 import argparse
 import csv
 import dataclasses
+import functools
 import json
 import pathlib
 import shlex
@@ -18,9 +19,9 @@ import sys
 
 sys.dont_write_bytecode = True
 import sheet
-from figures import FIGURES
+from figures import BALL, FIGURES
 
-SCENES = pathlib.Path(__file__).resolve().parents[2] / "scenes"
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 REFERENCE_SEED = 1000  # other numbers than any cell: errors of the same numbers would cancel
 
 
@@ -40,7 +41,9 @@ SCALES = {"quick": Scale(52, 64, 256, 0.3), "medium": Scale(128, 1024, 512, 4.0)
 
 def aspect_ratio(scene):
     """That of the first camera of the file."""
-    cameras = json.loads((SCENES / scene).read_text(encoding="utf-8"))["cameras"]
+    if BALL.fullmatch(scene):
+        return 1.0
+    cameras = json.loads((ROOT / "scenes" / scene).read_text(encoding="utf-8"))["cameras"]
     return cameras[0]["perspective"]["aspectRatio"]
 
 
@@ -65,21 +68,44 @@ def scaled(figure, scale):
 class Renderer:
     """Calls bdpt. References are made once for all figures."""
 
-    def __init__(self, bdpt, scale):
-        self.bdpt, self.scale, self.references = bdpt, scale, {}
+    def __init__(self, bdpt, ray_replay, scale, folder):
+        self.bdpt, self.ray_replay, self.scale, self.folder, self.references = bdpt, ray_replay, scale, folder, {}
+
+    @functools.lru_cache(maxsize=None)
+    def file(self, scene):
+        """Where a scene is. Balls are made here."""
+        ball = BALL.fullmatch(scene)
+        if not ball:
+            return str(ROOT / "scenes" / scene)
+        file = self.folder / scene
+        subprocess.run([sys.executable, str(ROOT / "benchmarks/make_large_scene.py"), str(file), "--triangles", ball[1]],
+                       check=True, stdout=subprocess.DEVNULL)
+        return str(file)
+
+    def throughput(self, scene):
+        """Rays per CPU second with and without a BVH."""
+        done = subprocess.run([self.ray_replay, self.file(scene), "--json", "--without-bvh", "--size",
+                               str(self.scale.width)], check=True, stdout=subprocess.PIPE, text=True)
+        report = json.loads(done.stdout)
+        return {"triangles": report["triangles"], "bvh_rays_per_second": report["embree_rays_per_second"],
+                "loop_rays_per_second": report["all_triangles_rays_per_second"]}
 
     def render(self, scene, options, limits, output, extra=()):
         """What the command said when it was done, its statistics and itself."""
         width, height = size_of(scene, self.scale)
         stats = output.with_suffix(".stats.json")
-        command = [self.bdpt, "render", str(SCENES / scene), *options, "--size", f"{width}x{height}", *limits,
+        command = [self.bdpt, "render", self.file(scene), *options, "--size", f"{width}x{height}", *limits,
                    "-o", str(output), "--stats", str(stats), "--json", *extra]
         lines = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout.splitlines()
         done = next(event for event in map(json.loads, lines) if event["event"] == "done")
-        rays = json.loads(stats.read_text(encoding="utf-8"))["rays"]
+        told = json.loads(stats.read_text(encoding="utf-8"))
         stats.unlink()
-        return {"samples": done["samples"], "seconds": done["seconds"], "exposure": done["exposure"], "rays": rays,
-                "command": shlex.join(["bdpt", *command[1:]])}
+        row = {"samples": done["samples"], "seconds": done["seconds"], "exposure": done["exposure"],
+               "rays": told["rays"], "command": shlex.join(["bdpt", *command[1:]])}
+        if told.get("profile"):
+            row["time_shares"] = told["profile"]["shares"]
+            row["sample_nanoseconds"] = 1e9 * told["profile"]["seconds"] / told["profile"]["samples"]
+        return row
 
     def reference(self, cell, spp, folder):
         """File and report of the long render for a cell; None if it has none."""
@@ -98,7 +124,7 @@ class Renderer:
         """Renders a cell. Returns its numbers."""
         if cell.rival is None:
             limits = ("--spp", str(cell.spp)) if cell.spp else ("--time", f"{cell.seconds}s")
-            return self.render(cell.scene, cell.options, limits, output)
+            return self.render(cell.scene, cell.options, limits, output, ("--profile",) if cell.profiled else ())
         rounds = min(cell.rounds, cell.spp)
         pairs, reports = [], []
         for seed in range(rounds):
@@ -138,10 +164,18 @@ def write_numbers(name, figure, scale_name, rows, folder):
             writer.writerow([flat.get(key, "") for key in keys])
 
 
-def caption(row):
-    """The line below the label."""
+def captions(row):
+    """The lines below the label."""
+    if "bvh_rays_per_second" in row:
+        bvh, loop = row["bvh_rays_per_second"], row["loop_rays_per_second"]
+        return [f"BVH {bvh / 1e6:.2g} M rays/s, without {loop / 1e3:.2g} k",
+                f"{float(f'{bvh / loop:.2g}'):,.0f} times as fast"]
+    if "time_shares" in row:
+        percent = {phase: f"{phase} {100 * share:.0f}" for phase, share in row["time_shares"].items()}
+        return [f"{row['sample_nanoseconds']:.0f} ns; " + ", ".join(percent[p] for p in ("walk", "shade")),
+                ", ".join(percent[phase] for phase in ("connect", "weigh", "splat")) + " %"]
     error = f"relMSE {row['relmse']:.3g}, " if "relmse" in row else ""
-    return f"{error}{row['samples']} spp, {row['seconds']:.2g} s"
+    return [f"{error}{row['samples']} spp, {row['seconds']:.2g} s"]
 
 
 def make(name, renderer, scale_name, folder):
@@ -152,11 +186,15 @@ def make(name, renderer, scale_name, folder):
     pictures.mkdir(parents=True, exist_ok=True)
     references = folder / "references"
     references.mkdir(exist_ok=True)
-    rows, exposures = [], {}
+    rows, exposures, brightest = [], {}, 0.0
     for number, cell in enumerate(cells):
         picture = pictures / f"{number:02}.exr"
         row = {"label": cell.label, "scene": cell.scene, **renderer.cell(cell, picture)}
         row["mean"] = sheet.mean(picture)
+        if cell.without_bvh:
+            row.update(renderer.throughput(cell.scene))
+        if cell.layer:
+            brightest = max(brightest, 1.5 * sheet.mean(picture, cell.layer)[0])
         reference = renderer.reference(cell, figure.reference_spp, references)
         if reference:
             file, report = reference
@@ -165,13 +203,17 @@ def make(name, renderer, scale_name, folder):
             row["reference"] = report["command"]
         row.pop("exposure", None)
         rows.append(row)
-        print(f"{name} {number + 1}/{len(cells)}: {cell.label}: {caption(row)}", flush=True)
+        print(f"{name} {number + 1}/{len(cells)}: {cell.label}: {', '.join(captions(row))}", flush=True)
     shown = []
     for number, (cell, row) in enumerate(zip(cells, rows)):
         shown.append(pictures / f"{number:02}.png")
-        sheet.shown(pictures / f"{number:02}.exr", size_of(cell.scene, renderer.scale),
-                    exposures[cell.scene] if figure.exposure is None else figure.exposure,
-                    (cell.label, caption(row)), shown[-1])
+        if cell.layer:
+            look = sheet.false_colours(cell.layer, brightest)
+            lines = [cell.label, f"black to yellow: 0 to {1000 * brightest:.0f} ns"]
+        else:
+            look = sheet.developed(exposures[cell.scene] if figure.exposure is None else figure.exposure)
+            lines = [cell.label, *captions(row)]
+        sheet.shown(pictures / f"{number:02}.exr", size_of(cell.scene, renderer.scale), look, lines, shown[-1])
     sheet.mosaic(shown, columns, folder / f"{name}.png")
     write_numbers(name, figure, scale_name, rows, folder)
 
@@ -183,6 +225,8 @@ def main():
     parser.add_argument("-o", "--output", type=pathlib.Path, metavar="DIR")
     parser.add_argument("--scale", choices=SCALES, default="quick", help="size and samples; quick if not given")
     parser.add_argument("--bdpt", default="bdpt", metavar="PATH", help="the command; found in PATH if not given")
+    parser.add_argument("--ray-replay", default="bdpt_ray_replay", metavar="PATH",
+                        help="the benchmark that measures for bvh; found in PATH if not given")
     arguments = parser.parse_args()
     if arguments.list:
         print("\n".join(f"{name:20} {len(figure.cells):3} cells  {figure.title}" for name, figure in FIGURES.items()))
@@ -191,12 +235,13 @@ def main():
     unknown = [name for name in names if name not in FIGURES]
     if unknown or not names or not arguments.output:
         parser.error(f"no such figure: {', '.join(unknown)}" if unknown else "NAME and -o DIR are required")
-    for tool in ("oiiotool", arguments.bdpt):
+    measuring = any(cell.without_bvh for name in names for cell in FIGURES[name].cells)
+    for tool in ["oiiotool", arguments.bdpt] + [arguments.ray_replay] * measuring:
         if not shutil.which(tool):
             parser.error(f"{tool}: no such program")
     if not sheet.font():
         print("make_figures: oiiotool finds no font; labels are in the .json files only", file=sys.stderr)
-    renderer = Renderer(arguments.bdpt, SCALES[arguments.scale])
+    renderer = Renderer(arguments.bdpt, arguments.ray_replay, SCALES[arguments.scale], arguments.output)
     for name in names:
         try:
             make(name, renderer, arguments.scale, arguments.output)

@@ -8,7 +8,7 @@ import subprocess
 import tempfile
 
 CELL = 208  # least width of a cell on a sheet [px]
-CAPTION = 36  # height of its two lines of text [px]
+LINE = 16  # height of a line of text below it [px]
 
 
 def oiiotool(*arguments):
@@ -17,10 +17,10 @@ def oiiotool(*arguments):
     return done.stdout
 
 
-def mean(picture):
-    """Means of red, green and blue [nit]."""
-    line = re.search(r"Stats Avg: (.*) \(float\)", oiiotool("--stats", picture, "--ch", "R,G,B"))
-    return [float(word) for word in line[1].split()[:3]]
+def mean(picture, channels="R,G,B"):
+    """Means of red, green and blue [nit], or of other channels."""
+    line = re.search(r"Stats Avg: (.*) \(float\)", oiiotool(picture, "--ch", channels, "--printstats"))
+    return [float(word) for word in line[1].split()]
 
 
 def mean_of_maxima(pairs, output):
@@ -47,17 +47,26 @@ def font():
     return None
 
 
-def shown(picture, size, exposure, lines, output):
-    """Writes a cell: the picture times 2^exposure as sRGB, and lines of text below it if there is a font."""
+def developed(exposure):
+    """What makes a picture times 2^exposure of radiance, as sRGB. To be called on enlarged pictures."""
+    return ["--ch", "R,G,B", "--mulc", 2 ** exposure, "--clamp:min=0:max=1", "--colorconvert", "linear", "sRGB"]
+
+
+def false_colours(channel, greatest):
+    """What shows a channel from 0 to `greatest` in colours from black to yellow."""
+    return ["--ch", channel, "--mulc", 1 / greatest, "--clamp:min=0:max=1", "--colormap", "inferno"]
+
+
+def shown(picture, size, look, lines, output):
+    """Writes a cell: the picture as `look` makes it, and lines of text below it if there is a font."""
     width, height = size
     factor = math.ceil(CELL / width)
     width, height = width * factor, height * factor
-    caption = CAPTION if font() else 0
+    caption = 4 + LINE * len(lines) if font() else 0
     text = []
     for number, line in enumerate(lines if font() else ()):
-        text += [f"--text:font={font()}:size=12:x=4:y={height + 15 + 16 * number}:color=1,1,1", line]
-    oiiotool(picture, "--ch", "R,G,B", "--resample:interp=0", f"{width}x{height}", "--mulc", 2 ** exposure,
-             "--clamp:min=0:max=1", "--colorconvert", "linear", "sRGB", "--create", f"{width}x{height + caption}", 3,
+        text += [f"--text:font={font()}:size=12:x=4:y={height + 15 + LINE * number}:color=1,1,1", line]
+    oiiotool(picture, *look, "--resample:interp=0", f"{width}x{height}", "--create", f"{width}x{height + caption}", 3,
              "--paste", "+0+0", *text, "-d", "uint8", "-o", output)
 
 

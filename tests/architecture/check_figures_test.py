@@ -108,6 +108,18 @@ class Table(unittest.TestCase):
         self.assertEqual(left - {"s0t7", "s7t0"}, {f"s{s}t{7 - s}" for s in range(1, 7)})
 
 
+    def test_captions(self):
+        """What is measured stands below the label: rays with and without a BVH, phases, or else the error."""
+        row = {"samples": 16, "seconds": 2.0, "relmse": 0.125}
+        self.assertEqual(make_figures.captions(row), ["relMSE 0.125, 16 spp, 2 s"])
+        rays = {**row, "bvh_rays_per_second": 4.2e6, "loop_rays_per_second": 1.5e3}
+        self.assertEqual(make_figures.captions(rays), ["BVH 4.2 M rays/s, without 1.5 k", "2,800 times as fast"])
+        shares = {"walk": 0.5, "shade": 0.1, "connect": 0.3, "weigh": 0.06, "splat": 0.04}
+        phases = {**row, "time_shares": shares, "sample_nanoseconds": 1234.5}
+        self.assertEqual(make_figures.captions(phases),
+                         ["1234 ns; walk 50, shade 10", "connect 30, weigh 6, splat 4 %"])
+
+
 @unittest.skipUnless(shutil.which("oiiotool"), "oiiotool is not there")
 class Pictures(unittest.TestCase):
     def test_means_and_maxima(self):
@@ -125,15 +137,32 @@ class Pictures(unittest.TestCase):
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
             sheet.oiiotool("--pattern", "constant:color=0.25,0.5,4", "52x26", 3, "-d", "float", "-o", folder / "a.exr")
-            sheet.shown(folder / "a.exr", (52, 26), 1.0, ("", ""), folder / "a.png")
+            sheet.shown(folder / "a.exr", (52, 26), sheet.developed(1.0), ("", ""), folder / "a.png")
             sheet.mosaic([folder / "a.png"] * 3, 2, folder / "sheet.png")
-            height = 104 + (sheet.CAPTION if sheet.font() else 0)
+            height = 104 + (4 + 2 * sheet.LINE if sheet.font() else 0)
             self.assertIn(f"{2 * 208 + 4} x {2 * height + 4}, 3 channel", " ".join(
                 sheet.oiiotool("--info", folder / "sheet.png").split()).replace(" x  ", " x "))
             sheet.oiiotool(folder / "a.png", "--cut", "208x104", "-d", "float", "-o", folder / "cut.exr")
             red, green, blue = sheet.mean(folder / "cut.exr")  # of 0.5, 1 and 8 as sRGB
             self.assertAlmostEqual(red, 188 / 255, delta=0.01)
             self.assertEqual((green, blue), (1.0, 1.0))
+
+    def test_false_colours(self):
+        """A channel besides the picture's, from dark to bright, up to the greatest value."""
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            sums = []
+            for value in (0, 2, 4, 9):
+                sheet.oiiotool("--pattern", f"constant:color=1,1,1,{value}", "4x4", 4, "--chnames", "R,G,B,time.Y", "-d",
+                               "float", "-o", folder / "a.exr")
+                self.assertEqual(sheet.mean(folder / "a.exr", "time.Y"), [value])
+                sheet.shown(folder / "a.exr", (4, 4), sheet.false_colours("time.Y", 4.0), (), folder / "a.png")
+                sheet.oiiotool(folder / "a.png", "--cut", "208x208", "-d", "float", "-o", folder / "cut.exr")
+                sums.append(sum(sheet.mean(folder / "cut.exr")))
+            self.assertLess(sums[0], 0.1)
+            self.assertLess(sums[0] + 0.3, sums[1])
+            self.assertLess(sums[1] + 0.3, sums[2])
+            self.assertEqual(sums[2], sums[3])
 
 
 if __name__ == "__main__":

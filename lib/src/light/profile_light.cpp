@@ -1,12 +1,11 @@
 #include "light/profile_light.h"
 
 #include "geometry/motion.h"
+#include "light/incident_from_point.h"
 #include "math/rgb.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-
-#include <cmath>
 
 namespace bdpt {
 
@@ -38,24 +37,8 @@ std::optional<EmissionSample> ProfileLight::sample_emission(Vec2 u, float time) 
 
 std::optional<IncidentSample> ProfileLight::sample_incident(Vec3 receiver, float time) const
 {
-    const Vec3 position = at_time(position_, motion_, time);
-    const Vec3 to_light = position - receiver;
-    const float distance_squared = dot(to_light, to_light);
-    if (!(distance_squared > 0.0f)) {
-        return std::nullopt;
-    }
-    const float distance = std::sqrt(distance_squared);
-    const Vec3 wi = to_light / distance;
-    const float intensity = profile_->intensity(to_local(-wi));
-    if (intensity == 0.0f) {
-        return std::nullopt;
-    }
-    return IncidentSample{.end = {.p = position},
-                          .wi = wi,
-                          .distance = distance,
-                          .weight = scale_ * (intensity / distance_squared),
-                          .pdf = {1.0f},
-                          .pdf_solid_angle = {1.0f}};
+    return incident_from_point(at_time(position_, motion_, time), receiver, scale_,
+                               [this](Vec3 from) { return profile_->intensity(to_local(from)); });
 }
 
 SolidAnglePdf ProfileLight::pdf_direction(Vec3 direction) const

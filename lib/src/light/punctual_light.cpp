@@ -1,11 +1,8 @@
 #include "light/punctual_light.h"
 
 #include "geometry/motion.h"
+#include "light/incident_from_point.h"
 #include "math/rgb.h"
-
-#include <glm/geometric.hpp>
-
-#include <cmath>
 
 namespace bdpt {
 
@@ -46,24 +43,8 @@ EmissionSample PunctualLight::sample_emission(Vec2 u, float time) const
 
 std::optional<IncidentSample> PunctualLight::sample_incident(Vec3 receiver, float time) const
 {
-    const Vec3 position = this->position(time);
-    const Vec3 to_light = position - receiver;
-    const float distance_squared = dot(to_light, to_light);
-    if (!(distance_squared > 0.0f)) {
-        return std::nullopt;
-    }
-    const float distance = std::sqrt(distance_squared);
-    const Vec3 wi = to_light / distance;
-    const float attenuation = cone(time).falloff(-wi);
-    if (attenuation == 0.0f) {
-        return std::nullopt;
-    }
-    return IncidentSample{.end = {.p = position},
-                          .wi = wi,
-                          .distance = distance,
-                          .weight = intensity_ * (attenuation / distance_squared),
-                          .pdf = {1.0f},
-                          .pdf_solid_angle = {1.0f}};
+    return incident_from_point(position(time), receiver, intensity_,
+                               [&](Vec3 from) { return cone(time).falloff(from); });
 }
 
 LightBounds PunctualLight::bounds() const

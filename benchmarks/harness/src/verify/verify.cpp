@@ -73,8 +73,8 @@ VerifyReport verify(const Scene& scene, const CameraDesc& camera, const VerifyOp
                  tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)));
     tbb::task_arena arena(threads);
 
-    // Sharpness is looked at each time that the number of batches has doubled, and what it asks is
-    // how much noise there is, not how much difference: p-values know of one look only.
+    // Sharpness is looked at each time that the number of batches has grown by a quarter, and what
+    // it asks is how much noise there is, not how much difference: p-values know of one look only.
     std::int64_t next_look = 32;
     double detectable = 1.0;
     while (evidence.batches() < options.most_batches) {
@@ -93,7 +93,7 @@ VerifyReport verify(const Scene& scene, const CameraDesc& camera, const VerifyOp
         }
         if (evidence.batches() == next_look) {
             detectable = judge(evidence, options).detectable;
-            next_look *= 2;
+            next_look += (next_look + 3) / 4;
             if (detectable <= options.detectable_bias) {
                 break;
             }

@@ -53,6 +53,14 @@ constexpr std::string_view fixed_members = R"(
 
 }  // namespace
 
+CubeFile shining_room()
+{
+    return {.material = R"({"pbrMetallicRoughness": {"metallicFactor": 0,
+                "baseColorFactor": [0.5, 0.4, 0.3, 1]}, "emissiveFactor": [1, 1, 1]})",
+            .cameras = R"({"camera": 0, "translation": [0, 0, 0.9]}, {"camera": 1},)",
+            .inside_out = true};
+}
+
 std::filesystem::path write_cube(const ScratchFolder& folder, const std::string& name,
                                  const CubeFile& cube)
 {

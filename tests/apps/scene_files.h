@@ -28,6 +28,9 @@ struct CubeFile {
     std::string more{};  ///< further members of the file's object, each with a comma
 };
 
+/// A grey room whose walls shine, seen from within (camera 0) and from its middle (1).
+CubeFile shining_room();
+
 /// A cube as NAME.gltf with NAME.bin beside it.
 std::filesystem::path write_cube(const ScratchFolder& folder, const std::string& name,
                                  const CubeFile& cube);

@@ -21,19 +21,10 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// A room that shines, seen through a pinhole.
+/// A room that shines.
 class Room {
 public:
-    Room()
-        : scene_(write_cube(folder_, "room",
-                            {.material = R"({"pbrMetallicRoughness": {"metallicFactor": 0,
-                                 "baseColorFactor": [0.5, 0.4, 0.3, 1]},
-                                 "emissiveFactor": [1, 1, 1]})",
-                             .cameras = R"({"camera": 0, "translation": [0, 0, 0.9]},
-                                           {"camera": 1},)",
-                             .inside_out = true})
-                     .string())
-    {}
+    Room() : scene_(write_cube(folder_, "room", shining_room()).string()) {}
 
     Outcome render(const Words& more, const std::string& size = "16x8") const
     {

@@ -34,7 +34,7 @@ ALLOWED = {
               INTRINSICS],
     "benchmarks/harness/include": [],
     "benchmarks/harness/src": [r"glm/", r"nlohmann/", r"(oneapi/)?tbb/", r"zlib\.h"],
-    "benchmarks": [r"glm/", r"CLI/", r"OpenImageIO/", r"benchmark/", r"embree[34]/", r"(oneapi/)?tbb/", POSIX, INTRINSICS],
+    "benchmarks": [r"glm/", r"CLI/", r"OpenImageIO/", r"benchmark/", r"nlohmann/", r"embree[34]/", r"(oneapi/)?tbb/", POSIX, INTRINSICS],
 }
 # Area -> what it may include of our own by <bdpt/...>.
 OWN = {

@@ -3,7 +3,7 @@
 
 #include "catch.hpp"
 #include "equal_means.h"
-#include "scene_builder.h"
+#include "lambertian_floor.h"
 
 #include <cmath>
 #include <vector>
@@ -11,22 +11,11 @@
 namespace bdpt::test {
 namespace {
 
-constexpr double pi_double = 3.14159265358979;
-constexpr float albedo = 0.5f;
-
-/// A floor at y = 0 that is seen around the origin.
-SceneBuilder floor()
-{
-    SceneBuilder builder;
-    builder.quad({-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}, lambertian(Rgb(albedo)));
-    return builder;
-}
-
 void check_irradiance(SceneBuilder builder, double irradiance)
 {
     const Scene scene(std::move(builder.desc));
-    const CameraDesc camera = camera_at({0.3f, 0.4f, 0.5f}, {0.0f, 0.0f, 0.0f}, 1e-3f);
-    const double expected = static_cast<double>(albedo) * irradiance / pi_double;
+    const CameraDesc camera = patch_camera();
+    const double expected = static_cast<double>(floor_albedo) * irradiance / pi_double;
     for (const auto kind : {IntegratorKind::pt, IntegratorKind::mis, IntegratorKind::bdpt}) {
         RenderOptions options;
         options.integrator = kind;
@@ -46,7 +35,7 @@ void check_irradiance(SceneBuilder builder, double irradiance)
 /// A ball of the given radiance, seen from the origin in the direction of `center`.
 SceneBuilder ball(Vec3 center, float radius, float radiance)
 {
-    SceneBuilder builder = floor();
+    SceneBuilder builder = lambertian_floor();
     builder.light(PointLightDesc{.position = center,
                                  .intensity = Rgb(radiance * 3.14159265f * radius * radius),
                                  .radius = radius});
@@ -91,7 +80,7 @@ TEST_CASE("sphere spot light: the cone is that of the direction of emission", "[
     // E = L pi sin^2(cone).
     constexpr float cone = 0.4f;
     constexpr float radius = 0.4f;
-    SceneBuilder builder = floor();
+    SceneBuilder builder = lambertian_floor();
     builder.light(SpotLightDesc{.position = {0.0f, 0.8f, 0.0f},
                                 .direction = {0.0f, -1.0f, 0.0f},
                                 .intensity = Rgb(2.0f),
@@ -112,7 +101,7 @@ TEST_CASE("profile light: E = I cos / d^2, with I between the angles of the grid
     const double distance = 1.3;
     const Vec3 to_patch(std::sin(0.6) * std::cos(0.5), std::sin(0.6) * std::sin(0.5),
                         -std::cos(0.6));
-    SceneBuilder builder = floor();
+    SceneBuilder builder = lambertian_floor();
     builder.desc.profiles.push_back({.polar_angles = {0.0f, 0.5f, 1.0f},
                                      .azimuths = {0.0f, 1.0f},
                                      .intensities = {1.0f, 2.0f, 7.0f, 1.0f, 6.0f, 1.0f}});
@@ -137,7 +126,7 @@ TEST_CASE("disk light of triangles: E = pi L R^2 / (R^2 + d^2)", "[closed-form]"
         const auto next = static_cast<unsigned>((i + 1) % corners);
         disk.triangles.emplace_back(0U, static_cast<unsigned>(i) + 1, next + 1);  // looks down
     }
-    SceneBuilder builder = floor();
+    SceneBuilder builder = lambertian_floor();
     const MeshId mesh = builder.add_mesh(std::move(disk));
     builder.place(mesh, emitter(Rgb(2.0f), Rgb(0.0f)), Mat4(1.0f));
     check_irradiance(std::move(builder), pi_double * 2.0 * 0.49 / (0.49 + 1.44));
@@ -155,7 +144,7 @@ TEST_CASE("quad light: the contour integral of Lambert", "[closed-form]")
         const glm::dvec3 b = normalize(corners[(i + 1) % 4]);
         sum += std::acos(dot(a, b)) * normalize(cross(a, b)).y;
     }
-    SceneBuilder builder = floor();
+    SceneBuilder builder = lambertian_floor();
     builder.quad(Vec3(corners[0]), Vec3(corners[1]), Vec3(corners[2]), Vec3(corners[3]),
                  emitter(Rgb(2.0f), Rgb(0.0f)));
     check_irradiance(std::move(builder), std::abs(sum));

@@ -3,6 +3,7 @@
 
 #include "catch.hpp"
 #include "equal_means.h"
+#include "lambertian_floor.h"
 #include "moving_scenes.h"
 
 #include <glm/geometric.hpp>
@@ -15,16 +16,6 @@
 namespace bdpt::test {
 namespace {
 
-constexpr double pi_double = 3.14159265358979;
-constexpr float albedo = 0.5f;
-
-SceneBuilder floor()
-{
-    SceneBuilder builder;
-    builder.quad({-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}, lambertian(Rgb(albedo)));
-    return builder;
-}
-
 double mean(const std::function<double(double)>& irradiance)
 {
     constexpr int times = 4000;
@@ -35,13 +26,12 @@ double mean(const std::function<double(double)>& irradiance)
     return sum;
 }
 
-/// The patch around the origin is so small that its irradiance is even.
 void check_irradiance(SceneBuilder builder, const std::function<double(double)>& irradiance,
                       double detectable_bias = 0.01)
 {
     const Scene scene(std::move(builder.desc));
-    const CameraDesc camera = camera_at({0.3f, 0.4f, 0.5f}, {0.0f, 0.0f, 0.0f}, 1e-3f);
-    const double expected = static_cast<double>(albedo) * mean(irradiance) / pi_double;
+    const CameraDesc camera = patch_camera();
+    const double expected = static_cast<double>(floor_albedo) * mean(irradiance) / pi_double;
     for (const auto kind :
          {IntegratorKind::pt, IntegratorKind::nee, IntegratorKind::mis, IntegratorKind::bdpt}) {
         RenderOptions options;
@@ -78,13 +68,13 @@ TEST_CASE("point and sphere lights that move: the mean of their irradiances",
           "[closed-form][motion]")
 {
     const auto height = [](double t) { return 0.6 + 1.2 * t; };
-    SceneBuilder point = floor();
+    SceneBuilder point = lambertian_floor();
     point.light(PointLightDesc{
         .position = {0.0f, 0.6f, 0.0f}, .intensity = Rgb(2.0f), .motion = {{0.0f, 1.8f, 0.0f}}});
     check_irradiance(std::move(point), [&](double t) { return 2.0 / (height(t) * height(t)); });
 
     // E = pi L (r / d)^2 cos, and pi L r^2 is the intensity.
-    SceneBuilder ball = floor();
+    SceneBuilder ball = lambertian_floor();
     ball.light(PointLightDesc{.position = {-0.5f, 0.8f, 0.0f},
                               .intensity = Rgb(2.0f),
                               .radius = 0.3f,
@@ -98,7 +88,7 @@ TEST_CASE("point and sphere lights that move: the mean of their irradiances",
 
 TEST_CASE("a sun that turns: the mean of its cosines", "[closed-form][motion]")
 {
-    SceneBuilder sun = floor();
+    SceneBuilder sun = lambertian_floor();
     sun.light(DirectionalLightDesc{
         .direction = {0.0f, -1.0f, 0.0f}, .illuminance = Rgb(2.0f), .turn = {{2.0f, -1.0f, 0.0f}}});
     check_irradiance(std::move(sun), [](double t) { return 2.0 / std::sqrt(1.0 + 4.0 * t * t); });
@@ -127,12 +117,12 @@ TEST_CASE("an emitter that travels, turns and grows: the mean of its irradiances
         mesh.positions.emplace_back(p);
     }
     mesh.triangles = {{0, 1, 2}, {0, 2, 3}};  // the front looks down
-    SceneBuilder rigid = floor();
+    SceneBuilder rigid = lambertian_floor();
     rigid.place(rigid.add_mesh(mesh), emitter(Rgb(3.0f), Rgb(0.0f)), Mat4(1.0f));
     move_last(rigid, 2, pose);
     check_irradiance(std::move(rigid), irradiance);
 
-    SceneBuilder deforming = floor();
+    SceneBuilder deforming = lambertian_floor();
     deform(mesh, 2, [&](Vec3 p, float t) { return Vec3(pose(t) * Vec4(p, 1.0f)); });
     deforming.place(deforming.add_mesh(mesh), emitter(Rgb(3.0f), Rgb(0.0f)), Mat4(1.0f));
     check_irradiance(std::move(deforming), irradiance);
@@ -141,7 +131,7 @@ TEST_CASE("an emitter that travels, turns and grows: the mean of its irradiances
 TEST_CASE("a shutter of the sun: something between for a part of the time", "[closed-form][motion]")
 {
     // A blind covers the patch until three quarters of the time are over.
-    SceneBuilder builder = floor();
+    SceneBuilder builder = lambertian_floor();
     builder.light(DirectionalLightDesc{.direction = {0.0f, -1.0f, 0.0f}, .illuminance = Rgb(2.0f)});
     builder.quad({-2, 1, -2}, {2, 1, -2}, {2, 1, 2}, {-2, 1, 2}, lambertian(Rgb(0.0f)));
     move_last(builder, 2, [](float t) { return translation({4.0f * t - 1.0f, 0.0f, 0.0f}); });

@@ -34,18 +34,12 @@ CameraDesc pinhole()
 /// So wide that light paths hit it.
 CameraDesc thin_lens()
 {
-    CameraDesc camera = pinhole();
-    camera.lens_radius = 1.2f;
-    camera.focus_distance = 3.4f;
-    return camera;
+    return with_lens(pinhole(), 1.2f, 3.4f);
 }
 
 CameraDesc parallel()
 {
-    CameraDesc camera = pinhole();
-    camera.projection = Projection::orthographic;
-    camera.vertical_extent = 2.6f;
-    return camera;
+    return in_parallel(pinhole(), 2.6f);
 }
 
 RenderOptions options(IntegratorKind integrator, int min_depth, int max_depth)

@@ -186,6 +186,22 @@ inline CameraDesc camera_at(Vec3 from, Vec3 to, float vertical_fov)
     return camera;
 }
 
+/// The same view through a thin lens.
+inline CameraDesc with_lens(CameraDesc camera, float radius, float focus_distance)
+{
+    camera.lens_radius = radius;
+    camera.focus_distance = focus_distance;
+    return camera;
+}
+
+/// The same view in parallel.
+inline CameraDesc in_parallel(CameraDesc camera, float vertical_extent)
+{
+    camera.projection = Projection::orthographic;
+    camera.vertical_extent = vertical_extent;
+    return camera;
+}
+
 /// Sees the whole of `walls` through the open front.
 inline CameraDesc room_camera()
 {

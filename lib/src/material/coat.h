@@ -64,4 +64,12 @@ private:
     bool tilted_;
 };
 
+/// A delta sample of the coat, when the coat is chosen with these chances from either side.
+inline void choose_delta_coat(BsdfSample& sample, float from_choice, float to_choice)
+{
+    sample.weight /= from_choice;
+    sample.pdf_fwd.value *= from_choice;
+    sample.pdf_rev.value *= to_choice;
+}
+
 }  // namespace bdpt

@@ -87,9 +87,7 @@ std::optional<BsdfSample> CoatedFacet::sample_coat(const Side& from, float u_lob
     }
     sampled->wi = from_surface(sampled->wi, from.above);
     if (sampled->delta) {
-        sampled->weight /= from.coat_choice;
-        sampled->pdf_fwd.value *= from.coat_choice;
-        sampled->pdf_rev.value *= side(sampled->wi).coat_choice;
+        choose_delta_coat(*sampled, from.coat_choice, side(sampled->wi).coat_choice);
     }
     return sampled;
 }

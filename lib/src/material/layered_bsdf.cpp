@@ -125,9 +125,7 @@ std::optional<BsdfSample> LayeredBsdf::sample_coat(const Side& from, Vec3 wo, fl
     }
     sampled->wi = from_above(sampled->wi, above);
     if (sampled->delta) {
-        sampled->weight /= from.coat_choice;
-        sampled->pdf_fwd.value *= from.coat_choice;
-        sampled->pdf_rev.value *= side(sampled->wi).coat_choice;
+        choose_delta_coat(*sampled, from.coat_choice, side(sampled->wi).coat_choice);
     }
     return sampled;
 }

@@ -32,18 +32,12 @@ CameraDesc pinhole()
 
 CameraDesc thin_lens()
 {
-    CameraDesc camera = pinhole();
-    camera.lens_radius = 1.2f;
-    camera.focus_distance = 3.4f;
-    return camera;
+    return test::with_lens(pinhole(), 1.2f, 3.4f);
 }
 
 CameraDesc parallel()
 {
-    CameraDesc camera = pinhole();
-    camera.projection = Projection::orthographic;
-    camera.vertical_extent = 2.6f;
-    return camera;
+    return test::in_parallel(pinhole(), 2.6f);
 }
 
 RenderOptions options(IntegratorKind integrator = IntegratorKind::bdpt)

@@ -9,11 +9,11 @@ namespace bdpt::harness {
 
 /// Samples a pixel of a batch. bdpt and mis have most of the time: how sharp the verdict is hangs on
 /// them, for mis is the one to check what only one strategy of bdpt can make.
-constexpr int bdpt_samples = 16;
-constexpr int mis_samples = 32;
-constexpr int other_samples = 8;  ///< of pt, nee and lt
+constexpr int bdpt_samples = 32;
+constexpr int mis_samples = 64;
+constexpr int other_samples = 16;  ///< of pt, nee and lt
 /// Of pt for paths of one edge: a single ray each, and lamps that are seen are often small.
-constexpr int direct_samples = 32;
+constexpr int direct_samples = 64;
 
 /// What `verify` does, and how sure and how sharp it is to be.
 struct VerifyOptions {

@@ -173,7 +173,7 @@ FIGURES = {
     "hidden-lamp": Figure("Balls under a hidden lamp, as path tracers have it, and in under a minute", 3, (
         Cell("mis, 256 spp", "cornell-spheres-hidden.gltf", by("mis") + depth(6), 256, reference=depth(6)),
         Cell("bdpt, 16 spp", "cornell-spheres-hidden.gltf", depth(6), 16, reference=depth(6)),
-        Cell("bdpt, 50 s", "cornell-spheres-hidden.gltf", depth(6), seconds=50.0, reference=depth(6))), 8192),
+        Cell("bdpt, 50 s", "cornell-spheres-hidden.gltf", depth(6), seconds=50.0, reference=depth(6)))),
     "profile": Figure("Where the time of a sample goes, by phase and by pixel", 5, profile()),
     "bvh": Figure("Rays per second with and without a BVH", 3, tuple(
         Cell(f"{triangles:,} triangles", f"ball-{triangles}.glb", depth(5), 64, reference=depth(5), without_bvh=True)

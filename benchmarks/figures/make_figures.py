@@ -59,6 +59,8 @@ def scaled(figure, scale):
                                     seconds=cell.seconds and min(cell.seconds, scale.most_seconds))
         if cell.spp != small.spp:
             small = dataclasses.replace(small, label=cell.label.replace(f"{cell.spp} spp", f"{small.spp} spp"))
+        if cell.seconds != small.seconds:
+            small = dataclasses.replace(small, label=cell.label.replace(f"{cell.seconds:g} s", f"{small.seconds:g} s"))
         if small == cell or small not in cells:
             cells.append(small)
     rows = len(figure.cells) // figure.columns

@@ -85,8 +85,9 @@ class Table(unittest.TestCase):
         self.assertEqual((columns, {cell.spp for cell in small}), (2, {1, 64}))
         repeated = (cells[0], cells[1], cells[0], cells[4])
         self.assertEqual(make_figures.scaled(Figure("Rows", 2, repeated), scale), (list(repeated), 2))
-        timed = Figure("Time", 1, (dataclasses.replace(cells[0], spp=None, seconds=9.0),))
-        self.assertEqual(make_figures.scaled(timed, scale)[0][0].seconds, 0.5)
+        timed = Figure("Time", 1, (dataclasses.replace(cells[0], label="pt, 9 s", spp=None, seconds=9.0),))
+        small = make_figures.scaled(timed, scale)[0][0]
+        self.assertEqual((small.seconds, small.label), (0.5, "pt, 0.5 s"))
 
     def test_sums_of_lengths(self):
         """Each cell of the grid has the reference of all paths that its subpaths can make, and no splats."""

@@ -1,0 +1,61 @@
+"""Ways to break light transport on purpose, each in one place: what `bdpt verify` is held against."""
+
+import dataclasses
+
+
+@dataclasses.dataclass(frozen=True)
+class Breakage:
+    """`old`, which stands once in the file, becomes `new`; then `bdpt verify` has to fail on the scene."""
+
+    name: str
+    file: str
+    old: str
+    new: str
+    scene: str = "cornell-box.gltf"
+    options: tuple = ()  # of `bdpt verify`
+
+
+CONNECT = "lib/src/path/connect.cpp"
+WALK = "lib/src/path/random_walk.cpp"
+SUMS = "lib/src/path/weight_sums.cpp"
+CAMERA = "lib/src/camera/camera.cpp"
+
+BREAKAGES = (
+    Breakage("a join lacks 1/d^2", CONNECT, "f_y.f_cos * y.beta / distance_squared", "f_y.f_cos * y.beta"),
+    Breakage("the longest light subpath is not joined", "lib/src/integrator/bdpt_integrator.cpp",
+             "options_.max_depth + 1 - t);", "options_.max_depth - t);"),
+    Breakage("splats begin at s = 3", "lib/src/integrator/bdpt_integrator.cpp",
+             "for (int s = 2; s <= longest_s; ++s) {\n        if (!strategies_.uses(s, 1)",
+             "for (int s = 3; s <= longest_s; ++s) {\n        if (!strategies_.uses(s, 1)"),
+    Breakage("survivors of roulette are not worth more", WALK, "    beta /= survival;\n", ""),
+    Breakage("area densities of walks lack the cosine", WALK, "to_area(step.pdf, cosine, distance_squared);\n    if (prev",
+             "to_area(step.pdf, 1.0f, distance_squared);\n    if (prev"),
+    Breakage("reverse densities of walks are halved", WALK,
+             "scattered->pdf_rev.value * previous.area_per_solid_angle",
+             "0.5f * scattered->pdf_rev.value * previous.area_per_solid_angle", "cornell-box-hidden.gltf"),
+    Breakage("the density of camera rays is that of cos^-2", CAMERA, "inv_cos * inv_cos * inv_cos / film_area_",
+             "inv_cos * inv_cos / film_area_"),
+    Breakage("the importance of a lens that is hit lacks the cosine", CAMERA,
+             "pdf_direction.value * pdf_lens_.value / d.z", "pdf_direction.value * pdf_lens_.value",
+             "nine-spheres-dof.gltf", ("--lens-radius", "0.3")),
+    Breakage("joins lack the adjoint factor of shading normals", "lib/src/material/bsdf.cpp",
+             "value.f_cos *= ratio_i / ratio_o_;", "static_cast<void>(ratio_i);", "shading-normals.gltf"),
+    Breakage("walks have the adjoint factor upside down", "lib/src/material/bsdf.cpp",
+             "sampled->weight *= ratio_i / ratio_o_;", "sampled->weight *= ratio_o_ / ratio_i;", "shading-normals.gltf"),
+    Breakage("light leaves a surface with the cosine twice", "lib/src/light/triangle_light.cpp",
+             "from.radiance * (pi * sides / from.pdf.value)", "from.radiance * (2.0f * local.z * pi * sides / from.pdf.value)"),
+    Breakage("points of textured emitters have one density", "lib/src/light/triangle_light.cpp",
+             "emission_.spread ? emission_.spread->pdf(triangle_to_square(barycentrics)) : 1.0f", "1.0f",
+             "textured-emitter.gltf"),
+    Breakage("next-event estimation on ball lights has half the density", "lib/src/light/sphere_light.cpp",
+             "SolidAnglePdf pdf() const { return cone_pdf(one_minus_cos); }",
+             "SolidAnglePdf pdf() const { return {0.5f * cone_pdf(one_minus_cos).value}; }", "veach-plates.gltf"),
+    Breakage("weights forget next-event estimation", SUMS, "k == 1 ? next_event_term_ : 1.0", "1.0", "veach-plates.gltf"),
+    Breakage("weights of the lens count camera paths twice", SUMS, "lens_term(neighbor, camera[0])",
+             "2.0 * lens_term(neighbor, camera[0])"),
+    Breakage("shadow rays to infinity meet nothing", "lib/src/scene/world.cpp",
+             "if (embree_->occluded({.origin = offset_origin(a.p, a.error, a.ng, direction),\n"
+             "                           .direction = direction,",
+             "if (false && embree_->occluded({.origin = offset_origin(a.p, a.error, a.ng, direction),\n"
+             "                           .direction = direction,", "room-environment.gltf", ("--env", "default")),
+)

@@ -43,10 +43,8 @@ def verify(bdpt, breakage, seconds):
     """Exit code, and the first thing that it found."""
     done = subprocess.run([bdpt, "verify", ROOT / "scenes" / breakage.scene, "--time", f"{seconds}s",
                            *breakage.options], capture_output=True, text=True)
-    lines = done.stdout.splitlines()
-    first = next((i for i, line in enumerate(lines) if line.startswith("FAIL")), None)
-    told = lines[first + 1].strip() if first is not None and first + 1 < len(lines) else lines[-1] if lines else done.stderr
-    return done.returncode, told
+    _, _, findings = done.stdout.rstrip().rpartition("\n\n")  # the last paragraph: findings, then the verdict
+    return done.returncode, findings.splitlines()[0].strip() if findings else done.stderr.strip()
 
 
 def try_out(breakage, folder, seconds):

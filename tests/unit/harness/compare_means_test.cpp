@@ -34,6 +34,33 @@ TEST_CASE("means are compared in standard errors")
     CHECK(few.p == Approx(student_two_sided_p(3.0, 2.0)).epsilon(1e-3));
 }
 
+TEST_CASE("nine of ten differences as great as is said are beyond the critical z")
+{
+    test::Random random(1);
+    const auto normal = [&random] {
+        const auto u = static_cast<double>(1.0f - random.next());
+        return std::sqrt(-2.0 * std::log(u)) *
+               std::cos(6.283185307179586 * static_cast<double>(random.next()));
+    };
+    constexpr double critical = 5.0;
+    CHECK(detectable_z(critical, 1e12) == Approx(critical + 1.2816));
+    for (const int freedom : {31, 100}) {
+        constexpr int runs = 10000;
+        int beyond = 0;
+        for (int run = 0; run < runs; ++run) {
+            const double difference = detectable_z(critical, freedom) + normal();
+            double squares = 0.0;
+            for (int i = 0; i < freedom; ++i) {
+                const double x = normal();
+                squares += x * x;
+            }
+            beyond += difference > critical * std::sqrt(squares / freedom) ? 1 : 0;
+        }
+        CAPTURE(freedom);
+        CHECK(beyond / static_cast<double>(runs) == Approx(0.9).margin(0.012));
+    }
+}
+
 TEST_CASE("equal means are not compared, and what only one side has differs for sure")
 {
     CHECK(compare_means({.found = 2.0, .expected = 2.0}).p == 1.0);

@@ -226,6 +226,46 @@ TEST_CASE("light that only one strategy can make is at stake, or unchecked")
     }
 }
 
+TEST_CASE("rare samples count as far as they have not been seen")
+{
+    // Of two edges, found by s = 1, which has nearly all of the share, in each batch once. pt, which
+    // takes half as many samples, finds the same light by s = 0 in one of 200 batches, 99 nit.
+    static_assert(bdpt_samples == 2 * other_samples);
+    constexpr int batches = 400;
+    constexpr float share = 0.01f;
+    constexpr double bright = 99.0;
+    const std::array<float, 4> shares{share, 1.0f - share, 0.0f, 0.0f};
+    const float squares = share * share + (1.0f - share) * (1.0f - share);
+    const auto error_of_pt = [&](bool seen) {
+        Evidence evidence(grid, 2);
+        for (int i = 0; i < batches; ++i) {
+            const RadianceSums none(grid, 2);
+            Batch batch{
+                .bdpt = PathSums(grid, 2), .others = {none, none, none, none}, .pictures = {}};
+            const auto find = [&](int s, float radiance) {
+                return FoundPath{.strategy = {.s = s, .t = 3 - s},
+                                 .raster = Vec2(0.5f),
+                                 .unweighted = Rgb(radiance)};
+            };
+            FoundPath found = find(1, 1.0f);
+            found.weight = (1.0f - share) * (1.0f - share) / squares;
+            found.shares = shares;
+            batch.bdpt.add(found);
+            if (seen && i % 200 == 0) {
+                batch.others[0].add(find(0, static_cast<float>(bright)));
+            }
+            evidence.add(batch);
+        }
+        return finding(judge(evidence, toy_options()), IntegratorKind::pt).whole.error;
+    };
+    // Of two batches in 400: the spread alone.
+    const double samples = 16.0 * other_samples * batches;
+    const double spread = bright * std::sqrt(2.0 * (1.0 - 2.0 / batches)) / samples;
+    CHECK(error_of_pt(true) == Approx(spread).epsilon(0.01));
+    // None of them: what they would have added.
+    CHECK(error_of_pt(false) == Approx(spread).epsilon(0.02));
+}
+
 TEST_CASE("what is said to be detectable is detected nine times out of ten")
 {
     constexpr int batches = 320;  // with few, wrong samples among the rare ones raise the error, too

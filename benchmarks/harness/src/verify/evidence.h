@@ -93,6 +93,12 @@ public:
         return cell == whole() ? grid_.pixels() : grid_.pixels(cell);
     }
 
+    /// Samples of bdpt in a cell.
+    [[nodiscard]] double bdpt_samples_in(std::size_t cell) const
+    {
+        return bdpt_samples * pixels(cell) * static_cast<double>(batches_);
+    }
+
 private:
     void add_strategies(const Batch& batch);
     void add_lengths(const Batch& batch);

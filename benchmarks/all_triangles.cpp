@@ -15,9 +15,8 @@ AllTriangles::AllTriangles(const SceneDesc& scene)
         };
         for (const UVec3& triangle : mesh.triangles) {
             const Vec3 a = corner(triangle.x);
-            triangles_.push_back({.corner = a,
-                                  .edge1 = corner(triangle.y) - a,
-                                  .edge2 = corner(triangle.z) - a});
+            triangles_.push_back(
+                {.corner = a, .edge1 = corner(triangle.y) - a, .edge2 = corner(triangle.z) - a});
         }
     }
 }

@@ -75,9 +75,10 @@ void measure(const std::string& file, const Choice& choice, const Settings& sett
 int main(int argc, char** argv)
 {
     Settings settings;
-    CLI::App app{"Error and time of ways to sample: Sobol points against independent numbers "
-                 "(sampler), compensated against plain sampling of environments (environment), the "
-                 "tree against the power of lights (lights)"};
+    CLI::App app{
+        "Error and time of ways to sample: Sobol points against independent numbers "
+        "(sampler), compensated against plain sampling of environments (environment), the "
+        "tree against the power of lights (lights)"};
     std::vector<std::string> names;
     for (const Choice& choice : choices) {
         names.emplace_back(choice.name);

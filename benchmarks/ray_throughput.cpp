@@ -134,7 +134,8 @@ LoopThroughput measure_loop(const AllTriangles& triangles, const RayLogs& logs)
         different += found[i] != expected[i] ? 1U : 0U;
     }
     const auto count = static_cast<double>(rays.size());
-    return {.rays_per_second = count / seconds, .different = static_cast<double>(different) / count};
+    return {.rays_per_second = count / seconds,
+            .different = static_cast<double>(different) / count};
 }
 
 }  // namespace bdpt

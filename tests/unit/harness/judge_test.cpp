@@ -228,8 +228,9 @@ TEST_CASE("light that only one strategy can make is at stake, or unchecked")
 
 TEST_CASE("rare samples count as far as they have not been seen")
 {
-    // Of two edges, found by s = 1, which has nearly all of the share, in each batch once. pt, which
-    // takes half as many samples, finds the same light by s = 0 in one of 200 batches, 99 nit.
+    // Of two edges, found by s = 1, which has nearly all of the share, in each batch once. pt,
+    // which takes half as many samples, finds the same light by s = 0 in one of 200 batches, 99
+    // nit.
     static_assert(bdpt_samples == 2 * other_samples);
     constexpr int batches = 400;
     constexpr float share = 0.01f;
@@ -268,7 +269,8 @@ TEST_CASE("rare samples count as far as they have not been seen")
 
 TEST_CASE("what is said to be detectable is detected nine times out of ten")
 {
-    constexpr int batches = 320;  // with few, wrong samples among the rare ones raise the error, too
+    constexpr int batches =
+        320;  // with few, wrong samples among the rare ones raise the error, too
     constexpr int runs = 30;
     const VerifyReport sound = judge_toy({}, batches);
     for (int s = 0; s < 3; ++s) {

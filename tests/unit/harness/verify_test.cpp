@@ -58,8 +58,8 @@ std::string text_of(VerifyReport report)
 TEST_CASE("verify passes on a stage through all cameras")
 {
     const Scene scene = stage();
-    for (const CameraDesc& view : {camera(), test::with_lens(camera(), 0.6f, 3.4f),
-                                   test::in_parallel(camera(), 2.6f)}) {
+    for (const CameraDesc& view :
+         {camera(), test::with_lens(camera(), 0.6f, 3.4f), test::in_parallel(camera(), 2.6f)}) {
         VerifyOptions how = options(4096);
         how.detectable_bias = 0.1;
         const VerifyReport report = verify(scene, view, how);

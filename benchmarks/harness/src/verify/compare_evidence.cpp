@@ -51,16 +51,15 @@ MeanComparison compare_strategy(const Evidence& evidence, std::size_t cell, std:
     const StrategyEvidence& found = evidence.strategy(cell, index);
     const double samples = evidence.bdpt_samples_in(cell);
     const double variance = squared_error(found.difference);
-    return compare_means(
-        {.found = found.sums.tested / samples,
-         .expected = found.sums.expected / samples,
-         .sample_variance = variance,
-         .rare_variance = unseen_variance({.samples = samples,
-                                           .seen = found.sums.seen,
-                                           .expected_samples = samples,
-                                           .expected = found.sums.second_moment},
-                                          variance),
-         .freedom = static_cast<double>(found.difference.count() - 1)});
+    return compare_means({.found = found.sums.tested / samples,
+                          .expected = found.sums.expected / samples,
+                          .sample_variance = variance,
+                          .rare_variance = unseen_variance({.samples = samples,
+                                                            .seen = found.sums.seen,
+                                                            .expected_samples = samples,
+                                                            .expected = found.sums.second_moment},
+                                                           variance),
+                          .freedom = static_cast<double>(found.difference.count() - 1)});
 }
 
 MeanComparison compare_integrator(const Evidence& evidence, std::size_t cell, int edges,
@@ -74,16 +73,17 @@ MeanComparison compare_integrator(const Evidence& evidence, std::size_t cell, in
     const Moments& found = length.others[integrator];
     const double variance = squared_error(found) + squared_error(expected);
     const double samples = evidence.bdpt_samples_in(cell);
-    const double rare = unseen_variance({.samples = samples / bdpt_samples * samples_of(kind, edges),
-                                         .seen = length.seen[integrator],
-                                         .expected_samples = samples,
-                                         .expected = second_moment(length.sums, kind)},
-                                        variance) +
-                        unseen_variance({.samples = samples,
-                                         .seen = reach.seen,
-                                         .expected_samples = samples,
-                                         .expected = reach.second_moment},
-                                        variance);
+    const double rare =
+        unseen_variance({.samples = samples / bdpt_samples * samples_of(kind, edges),
+                         .seen = length.seen[integrator],
+                         .expected_samples = samples,
+                         .expected = second_moment(length.sums, kind)},
+                        variance) +
+        unseen_variance({.samples = samples,
+                         .seen = reach.seen,
+                         .expected_samples = samples,
+                         .expected = reach.second_moment},
+                        variance);
     return compare_means({.found = found.mean(),
                           .expected = reach.radiance / samples,
                           .sample_variance = variance,

@@ -17,8 +17,8 @@ struct Difference {
     double expected = 0.0;
     /// Variance of the difference, as the spread of the batches says.
     double sample_variance = 0.0;
-    /// What samples add to that which are so bright that they have not turned up yet as often as all
-    /// strategies together expect.
+    /// What samples add to that which are so bright that they have not turned up yet as often as
+    /// all strategies together expect.
     double rare_variance = 0.0;
     double freedom = 1.0;  ///< degrees of freedom of `sample_variance`
 };
@@ -38,8 +38,9 @@ constexpr double rare_fraction = 0.05;
 /// z at which a test of a family of `tests` fails at the latest, with `false_alarm` for all of it.
 [[nodiscard]] double critical_z(double false_alarm, std::size_t tests);
 
-/// The difference in standard errors beyond which 90 % of all results are beyond the critical z. The
-/// errors are estimates with so many degrees of freedom, and vary by a fraction (2 freedom)^-1/2.
+/// The difference in standard errors beyond which 90 % of all results are beyond the critical z.
+/// The errors are estimates with so many degrees of freedom, and vary by a fraction (2
+/// freedom)^-1/2.
 [[nodiscard]] double detectable_z(double critical, double freedom);
 
 }  // namespace bdpt::harness

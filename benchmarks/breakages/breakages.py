@@ -20,6 +20,9 @@ WALK = "lib/src/path/random_walk.cpp"
 SUMS = "lib/src/path/weight_sums.cpp"
 CAMERA = "lib/src/camera/camera.cpp"
 
+# So wide, and so far into the box, that light paths hit it.
+WIDE_LENS = ("--lens-radius", "0.1", "--from", "0.278,0.273,-0.1", "--look-at", "0.278,0.273,0.28", "--fov", "100")
+
 BREAKAGES = (
     Breakage("a join lacks 1/d^2", CONNECT, "f_y.f_cos * y.beta / distance_squared", "f_y.f_cos * y.beta"),
     Breakage("the longest light subpath is not joined", "lib/src/integrator/bdpt_integrator.cpp",
@@ -37,7 +40,7 @@ BREAKAGES = (
              "inv_cos * inv_cos / film_area_"),
     Breakage("the importance of a lens that is hit lacks the cosine", CAMERA,
              "pdf_direction.value * pdf_lens_.value / d.z", "pdf_direction.value * pdf_lens_.value",
-             "nine-spheres-dof.gltf", ("--lens-radius", "0.3")),
+             options=WIDE_LENS),
     Breakage("joins lack the adjoint factor of shading normals", "lib/src/material/bsdf.cpp",
              "value.f_cos *= ratio_i / ratio_o_;", "static_cast<void>(ratio_i);", "shading-normals.gltf"),
     Breakage("walks have the adjoint factor upside down", "lib/src/material/bsdf.cpp",
@@ -51,8 +54,10 @@ BREAKAGES = (
              "SolidAnglePdf pdf() const { return cone_pdf(one_minus_cos); }",
              "SolidAnglePdf pdf() const { return {0.5f * cone_pdf(one_minus_cos).value}; }", "veach-plates.gltf"),
     Breakage("weights forget next-event estimation", SUMS, "k == 1 ? next_event_term_ : 1.0", "1.0", "veach-plates.gltf"),
-    Breakage("weights of the lens count camera paths twice", SUMS, "lens_term(neighbor, camera[0])",
-             "2.0 * lens_term(neighbor, camera[0])"),
+    Breakage("weights count the next join to the camera path twice", SUMS,
+             "(if_joined(joinable(camera[t - 2]), 1.0) + beyond);", "(if_joined(joinable(camera[t - 2]), 2.0) + beyond);"),
+    Breakage("weights count lenses that are hit twice", SUMS, "lens_term(neighbor, camera[0])",
+             "2.0 * lens_term(neighbor, camera[0])", options=WIDE_LENS),
     Breakage("shadow rays to infinity meet nothing", "lib/src/scene/world.cpp",
              "if (embree_->occluded({.origin = offset_origin(a.p, a.error, a.ng, direction),\n"
              "                           .direction = direction,",

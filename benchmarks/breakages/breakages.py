@@ -22,6 +22,8 @@ CAMERA = "lib/src/camera/camera.cpp"
 
 # So wide, and so far into the box, that light paths hit it.
 WIDE_LENS = ("--lens-radius", "0.1", "--from", "0.278,0.273,-0.1", "--look-at", "0.278,0.273,0.28", "--fov", "100")
+# In the roughest ball of glass-rough.gltf, below the lamp.
+INSIDE_GLASS = ("--from", "1.05,0.29,0.3", "--look-at", "1.05,1.5,0.31", "--fov", "90")
 
 BREAKAGES = (
     Breakage("a join lacks 1/d^2", CONNECT, "f_y.f_cos * y.beta / distance_squared", "f_y.f_cos * y.beta"),
@@ -45,6 +47,9 @@ BREAKAGES = (
              "value.f_cos *= ratio_i / ratio_o_;", "static_cast<void>(ratio_i);", "shading-normals.gltf"),
     Breakage("walks have the adjoint factor upside down", "lib/src/material/bsdf.cpp",
              "sampled->weight *= ratio_i / ratio_o_;", "sampled->weight *= ratio_o_ / ratio_i;", "shading-normals.gltf"),
+    Breakage("refraction lacks 1/eta^2 in camera paths", "lib/src/material/gltf_bsdf.cpp",
+             "n_o * n_o / (n_i * n_i) : 1.0f;\n    return {share", "1.0f : 1.0f;\n    return {share", "glass-rough.gltf",
+             INSIDE_GLASS),
     Breakage("light leaves a surface with the cosine twice", "lib/src/light/triangle_light.cpp",
              "from.radiance * (pi * sides / from.pdf.value)", "from.radiance * (2.0f * local.z * pi * sides / from.pdf.value)"),
     Breakage("points of textured emitters have one density", "lib/src/light/triangle_light.cpp",

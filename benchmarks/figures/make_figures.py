@@ -155,14 +155,18 @@ class Renderer:
 def write_numbers(name, figure, scale_name, rows, folder):
     document = {"figure": name, "title": figure.title, "scale": scale_name, "cells": rows}
     (folder / f"{name}.json").write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
-    keys = ("label", "scene", "samples", "seconds", "mean", "relmse", "bias", "bias_standard_error", "camera_rays",
-            "light_rays", "shadow_rays")
+    keys = ["label", "scene", "samples", "seconds", "mean", "relmse", "bias", "bias_standard_error", "camera_rays",
+            "light_rays", "shadow_rays"]
+    keys += [key for key in ("sample_nanoseconds", "triangles", "bvh_rays_per_second", "loop_rays_per_second")
+             if any(key in row for row in rows)]
+    keys += [f"{phase}_share" for phase in rows[0].get("time_shares", ())]
     with open(folder / f"{name}.csv", "w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
         writer.writerow(keys)
         for row in rows:
             flat = dict(row, mean=sum(row["mean"]) / 3, **{f"{kind}_rays": row["rays"][kind]
-                                                            for kind in ("camera", "light", "shadow")})
+                                                            for kind in ("camera", "light", "shadow")},
+                        **{f"{phase}_share": share for phase, share in row.get("time_shares", {}).items()})
             writer.writerow([flat.get(key, "") for key in keys])
 
 

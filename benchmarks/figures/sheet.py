@@ -48,7 +48,7 @@ def font():
 
 
 def developed(exposure):
-    """What makes a picture times 2^exposure of radiance, as sRGB. To be called on enlarged pictures."""
+    """What makes a picture of radiance, times 2^exposure, as sRGB."""
     return ["--ch", "R,G,B", "--mulc", 2 ** exposure, "--clamp:min=0:max=1", "--colorconvert", "linear", "sRGB"]
 
 

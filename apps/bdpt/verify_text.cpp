@@ -181,6 +181,11 @@ std::string verdict_text(const VerifyReport& report, const harness::VerifyOption
     if (!(report.radiance > 0.0)) {
         return "\nINCONCLUSIVE: no light reaches the camera\n";
     }
+    if (report.verdict == harness::Verdict::inconclusive && !std::isfinite(report.detectable)) {
+        return "\nINCONCLUSIVE: nothing disagrees, but there are too few samples to tell what "
+               "would "
+               "have been found. Give it more --time\n";
+    }
     const std::string found = fmt::format(
         "errors of a strategy that change the picture by {} would have been found, by 90 %",
         percent(report.detectable));

@@ -65,6 +65,7 @@ TEST_CASE("verify: too little time is inconclusive")
     CHECK(report["batches"].get<int>() >= 8);
     CHECK(report["strategies"].size() == 3 + 4 + 5);
     CHECK(room.verify({"--bias", "0.001", "--time", "0.001s", "-q"}).out.empty());
+    CHECK(contains(room.verify({"--time", "0.001s"}).out, "too few samples"));
 }
 
 TEST_CASE("verify: options choose camera, light and seed as in render")

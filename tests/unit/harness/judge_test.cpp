@@ -4,6 +4,7 @@
 
 #include "catch.hpp"
 #include "toy_light.h"
+#include "verify/sharpness.h"
 
 #include <algorithm>
 #include <cmath>
@@ -88,6 +89,25 @@ TEST_CASE("a sound renderer with few samples is inconclusive")
     CHECK(report.verdict == Verdict::inconclusive);
     CHECK(report.detectable > 0.02);
     CHECK(judge_toy({}, 2).verdict == Verdict::inconclusive);
+}
+
+TEST_CASE("what is noisier than was asked for is inconclusive, with many samples too")
+{
+    VerifyOptions strict = toy_options();
+    strict.detectable_bias = 1e-4;
+    const VerifyReport report = judge(gather({}, enough), strict);
+    CHECK(report.verdict == Verdict::inconclusive);
+    CHECK(report.detectable > 1e-4);
+    CHECK(report.detectable < 0.02);
+}
+
+TEST_CASE("nothing is said to be detectable with so few samples that it would not be")
+{
+    const int fewest = static_cast<int>(trusted_samples / (16 * bdpt_samples));
+    VerifyOptions lenient = toy_options();
+    lenient.detectable_bias = 1.0;
+    CHECK(judge(gather({}, fewest - 1), lenient).verdict == Verdict::inconclusive);
+    CHECK(judge(gather({}, fewest), lenient).verdict == Verdict::pass);
 }
 
 TEST_CASE("nothing can be said about the dark")
@@ -221,7 +241,7 @@ TEST_CASE("light that only one strategy can make is at stake, or unchecked")
         CHECK(report.unchecked == (s == 2 ? 1.0 : 0.0));
         CHECK(finding(report, {s, 3 - s}).solitary == Approx(report.radiance));
         if (s == 0) {
-            CHECK(report.detectable >= 1.0);
+            CHECK(finding(report, {0, 3}).whole.detectable >= 1.0);
         }
     }
 }
@@ -269,8 +289,8 @@ TEST_CASE("rare samples count as far as they have not been seen")
 
 TEST_CASE("what is said to be detectable is detected nine times out of ten")
 {
-    constexpr int batches =
-        320;  // with few, wrong samples among the rare ones raise the error, too
+    // As few as anything is said of.
+    const int batches = static_cast<int>(trusted_samples / (16 * bdpt_samples));
     constexpr int runs = 30;
     const VerifyReport sound = judge_toy({}, batches);
     for (int s = 0; s < 3; ++s) {

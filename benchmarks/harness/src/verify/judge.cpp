@@ -150,11 +150,15 @@ VerifyReport judge(const Evidence& evidence, const VerifyOptions& options)
     correct(pictures);
     correct(tests_of_tiles(report));
     if (report.radiance > 0.0) {
-        report.unchecked = unchecked / evidence.bdpt_samples_in(evidence.whole()) / report.radiance;
-        report.detectable =
+        const double samples = evidence.bdpt_samples_in(evidence.whole());
+        report.unchecked = unchecked / samples / report.radiance;
+        const double worst =
             find_detectable(evidence, report,
                             detectable_z(critical_z(0.5 * options.false_alarm, pictures.size()),
                                          static_cast<double>(evidence.batches() - 1)));
+        if (samples >= trusted_samples) {
+            report.detectable = worst;
+        }
     }
     report.verdict = has_failed(report)                             ? Verdict::fail
                      : report.detectable <= options.detectable_bias ? Verdict::pass

@@ -90,7 +90,7 @@ struct VerifyReport {
     /// The mean of the picture [nit].
     double radiance = 0.0;
     /// Errors of a strategy that change the mean of the picture by this fraction would have been
-    /// found with 90 % chance.
+    /// found with 90 % chance. Infinite with too few samples to tell.
     double detectable = std::numeric_limits<double>::infinity();
     /// Fraction of the picture along paths that only one strategy of bdpt, and neither pt, nee nor
     /// mis, can make: nothing checks it.

@@ -10,7 +10,7 @@ import pathlib
 import re
 import sys
 
-LAYERS = {"math": 1, "geometry": 2, "material": 2, "light": 3, "camera": 3, "scene": 4, "path": 5, "integrator": 6,
+LAYERS = {"math": 1, "film": 2, "profile": 2, "geometry": 2, "material": 2, "light": 3, "camera": 3, "scene": 4, "path": 5, "integrator": 6,
           "render": 7}
 MAX_LINES = 400
 AREAS = ("lib", "apps", "tests", "benchmarks")
@@ -24,6 +24,7 @@ ALLOWED = {
     "lib/src": [r"glm/"],
     "lib/src/geometry": [r"glm/", r"embree[34]/", INTRINSICS],
     "lib/src/scene": [r"glm/", r"(oneapi/)?tbb/"],
+    "lib/src/profile": [r"glm/", r"(oneapi/)?tbb/"],
     "lib/src/render": [r"glm/", r"(oneapi/)?tbb/", INTRINSICS],
     "lib/io/include": [r"glm/"],
     "lib/io/src": [r"glm/", FILE_LIBRARIES, POSIX],

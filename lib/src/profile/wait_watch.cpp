@@ -1,6 +1,6 @@
-#include "integrator/wait_watch.h"
+#include "profile/wait_watch.h"
 
-#include "math/probe.h"
+#include "profile/phase_clock.h"
 
 #include <algorithm>
 #include <chrono>

@@ -9,9 +9,6 @@
 
 namespace bdpt {
 
-// Code that may be clocked is a template over its probe: `NoProbe`, which compiles to nothing, or
-// `PhaseClock`.
-
 /// Time in ticks of a fixed but unknown length: the time stamp counter, which takes less than half
 /// of the time of std::chrono's clock, or that clock where there is none.
 [[nodiscard]] inline std::uint64_t read_ticks() noexcept
@@ -22,13 +19,6 @@ namespace bdpt {
     return static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch().count());
 #endif
 }
-
-/// Notes nothing.
-class NoProbe {
-public:
-    static constexpr void enter(Phase /*phase*/) noexcept {}
-    [[nodiscard]] static constexpr Phase phase() noexcept { return Phase::walk; }
-};
 
 /// Ticks in a phase, in how many pieces.
 struct PhaseTicks {
@@ -64,20 +54,27 @@ private:
     Phase phase_ = Phase::walk;
 };
 
-/// Enters a phase, and at its end the one before.
-template <typename Probe>
+/// Enters a phase, and at its end the one before. Does nothing without a clock.
 class PhaseScope {
 public:
-    PhaseScope(Probe& probe, Phase phase) noexcept : probe_(probe), before_(probe.phase())
+    PhaseScope(PhaseClock* clock, Phase phase) noexcept
+        : clock_(clock), before_(clock != nullptr ? clock->phase() : phase)
     {
-        probe_.enter(phase);
+        if (clock_ != nullptr) [[unlikely]] {
+            clock_->enter(phase);
+        }
     }
-    ~PhaseScope() { probe_.enter(before_); }
+    ~PhaseScope()
+    {
+        if (clock_ != nullptr) [[unlikely]] {
+            clock_->enter(before_);
+        }
+    }
     PhaseScope(const PhaseScope&) = delete;
     PhaseScope& operator=(const PhaseScope&) = delete;
 
 private:
-    Probe& probe_;
+    PhaseClock* clock_;
     Phase before_;
 };
 

@@ -1,14 +1,10 @@
 #pragma once
 
-#include "camera/pixel_filter.h"
+#include "film/pixel_filter.h"
+#include "integrator/contribution_sink.h"
 #include "integrator/integrator.h"
 
-#include "scene/world.h"
-
 namespace bdpt {
-
-class Camera;
-class Sampler;
 
 /// Path tracing from the camera. `pt` finds lights by BSDF sampling alone, but for delta lights,
 /// which no such sample can hit; `mis` weighs BSDF sampling and light sampling [Veach 1997, ch. 9];
@@ -18,28 +14,16 @@ public:
     PathIntegrator(const World& world, const MovingCamera& camera, const RenderOptions& options);
     [[nodiscard]] RenderStats render_tile(const Tile& tile, SampleRange samples,
                                           const Films& films) const override;
-    [[nodiscard]] bool splats() const override { return false; }
 
 private:
     struct Ray;
-    /// The sample at work.
-    struct Sample {
-        Vec2 pixel;   // centre [pixels]
-        Vec2 raster;  // where the camera ray goes through [pixels]
-        Sampler& sampler;
-        const Camera& camera;  // at its time
-        const Films& films;
-        RayCounts& rays;
-    };
-    /// Here and below the probe is told what is being done.
-    template <typename Probe>
-    [[nodiscard]] Rgb estimate(Sample& sample, Probe& probe) const;
+    void trace_path(SampleContext& sample, Vec2 raster, ContributionSink& sink) const;
     /// Radiance that the ray brings from a light it hit, weighed against light sampling.
     [[nodiscard]] Rgb emission(const Ray& ray, LightId light, const LightPoint& hit,
                                Rgb radiance) const;
-    template <typename Probe>
-    [[nodiscard]] Rgb sample_light(const SurfacePoint& point, SegmentKey segment, Sampler& sampler,
-                                   RayCounts& rays, Probe& probe) const;
+    /// Next-event estimation at the point, which is vertex `depth` + 1 of the path.
+    [[nodiscard]] Rgb sample_light(SampleContext& sample, const SurfacePoint& point,
+                                   int depth) const;
     /// Weights of a light sample and of a BSDF sample that find the same point of a light, by their
     /// densities.
     [[nodiscard]] float light_weight(float light_pdf, float bsdf_pdf) const;

@@ -1,4 +1,4 @@
-#include "camera/pixel_filter.h"
+#include "film/pixel_filter.h"
 
 #include "math/elementary.h"
 

@@ -1,7 +1,7 @@
 #include "camera/moving_camera.h"
 #include "integrator/integrator.h"
-#include "integrator/sample_timer.h"
-#include "render/time_recorder.h"
+#include "profile/sample_timer.h"
+#include "profile/time_recorder.h"
 #include "scene/world.h"
 
 #include <bdpt/render.h>

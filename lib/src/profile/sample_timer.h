@@ -1,7 +1,7 @@
 #pragma once
 
-#include "integrator/wait_watch.h"
-#include "math/probe.h"
+#include "profile/phase_clock.h"
+#include "profile/wait_watch.h"
 
 #include <bdpt/pixel_rect.h>
 

@@ -1,4 +1,4 @@
-#include "render/time_recorder.h"
+#include "profile/time_recorder.h"
 
 #include <algorithm>
 #include <limits>

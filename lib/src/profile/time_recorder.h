@@ -1,6 +1,6 @@
 #pragma once
 
-#include "integrator/sample_timer.h"
+#include "profile/sample_timer.h"
 
 #include <tbb/combinable.h>
 

@@ -1,11 +1,9 @@
-#include "integrator/path_integrator.h"
+#include "integrator/path/path_integrator.h"
 
 #include "camera/moving_camera.h"
 #include "integrator/sample_start.h"
-#include "integrator/sample_timer.h"
 #include "math/rgb.h"
-#include "math/sampler.h"
-#include "path/path_vertex.h"
+#include "profile/sample_timer.h"
 
 #include <glm/geometric.hpp>
 
@@ -41,31 +39,24 @@ RenderStats PathIntegrator::render_tile(const Tile& tile, SampleRange samples,
                                         const Films& films) const
 {
     RenderStats stats;
+    ContributionSink sink(films, filter_, nullptr, 0);
     for (int y = tile.y_begin; y < tile.y_end; ++y) {
         for (int x = tile.x_begin; x < tile.x_end; ++x) {
             for (std::int64_t index = samples.begin; index < samples.end; ++index) {
                 SampleTimer timer(films.times, x, y, index);
-                Sampler sampler(options_.sampler, options_.seed, x, y, index);
-                const Vec2 raster = start_sample(sampler, filter_, world_, camera_, x, y);
-                const TimedCamera timed(camera_, sampler.time());
-                const Camera& camera = timed.get();
-                Sample sample{.pixel = Vec2(x, y) + 0.5f,
-                              .raster = raster,
-                              .sampler = sampler,
-                              .camera = camera,
-                              .films = films,
-                              .rays = stats.rays};
-                const auto add_sample = [&](auto& probe) {
-                    const Rgb radiance = estimate(sample, probe);
-                    probe.enter(Phase::splat);
-                    films.film.add_sample(x, y, index, radiance);
-                };
-                if (PhaseClock* clock = timer.clock()) {
-                    add_sample(*clock);
-                } else {
-                    NoProbe probe;
-                    add_sample(probe);
-                }
+                const SampleStart start(options_, filter_, world_, camera_, x, y, index);
+                const TimedCamera camera(camera_, start.time);
+                SampleContext sample{.world = world_,
+                                     .camera = camera.get(),
+                                     .sampler = start.sampler,
+                                     .time = start.time,
+                                     .wavelength = start.wavelength,
+                                     .rays = stats.rays,
+                                     .clock = timer.clock()};
+                sink.begin_sample(x, y, index);
+                trace_path(sample, start.raster, sink);
+                sample.enter(Phase::splat);
+                sink.end_sample();
                 ++stats.paths.camera;
             }
         }
@@ -73,89 +64,79 @@ RenderStats PathIntegrator::render_tile(const Tile& tile, SampleRange samples,
     return stats;
 }
 
-template <typename Probe>
-Rgb PathIntegrator::estimate(Sample& sample, Probe& probe) const
+void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, ContributionSink& sink) const
 {
     Sampler& sampler = sample.sampler;
-    RayCounts& rays = sample.rays;
+    const Camera& camera = sample.camera;
     sampler.start(SampleUse::lens);
-    const Vec2 u_lens = sample.camera.has_finite_lens() ? sampler.next_2d() : Vec2(0.0f);
-    const CameraRay first = sample.camera.generate_ray(sample.raster, u_lens);
+    const Vec2 u_lens = camera.has_finite_lens() ? sampler.next_2d() : Vec2(0.0f);
+    const CameraRay first = camera.generate_ray(raster, u_lens);
     Ray ray{.origin = first.lens, .direction = first.direction, .pdf = first.pdf_direction};
-    Rgb radiance(0.0f);
     Rgb beta(1.0f);
-    Rgb spectrum(1.0f);
-    const auto measure = [&](Strategy strategy, Rgb found) {
-        const Rgb value = spectrum * found;
-        if (strategy.s + strategy.t <= options_.min_depth || is_black(value)) {
-            return;
-        }
-        radiance += value;
-        if (sample.films.on_path) {
-            sample.films.on_path(
-                {.strategy = strategy, .raster = sample.pixel, .unweighted = value});
+    bool dispersed = false;
+    const auto add = [&](Strategy strategy, Rgb found) {
+        if (strategy.s + strategy.t > options_.min_depth && !is_black(found)) {
+            sink.add(sample, strategy, {.unweighted = found, .dispersed = dispersed}, 1.0f);
         }
     };
     for (int depth = 1; depth <= options_.max_depth; ++depth) {
-        ++rays.camera;
-        const auto point = world_.intersect(
-            ray.origin, ray.direction, sampler.segment_key(0, depth), sample.camera.pixel_cone(), probe);
-        if (!point) {
+        ++sample.rays.camera;
+        const SegmentKey segment = sample.segment(0, depth);
+        const auto hit = world_.first_hit(ray.origin, ray.direction, segment);
+        if (!hit) {
             if (const auto id = world_.lights().environment()) {
-                const PhaseScope scope(probe, Phase::weigh);
+                const PhaseScope scope(sample.clock, Phase::weigh);
                 const auto& light = std::get<EnvironmentLight>(world_.lights()[*id].model());
                 const Rgb open = medium_transmittance(ray.origin, {}, ray.direction,
                                                       std::numeric_limits<float>::max());
-                measure({.s = 0, .t = depth + 1}, beta * open *
-                                                      emission(ray, *id, {.p = ray.direction},
-                                                               light.radiance(ray.direction)));
+                add({.s = 0, .t = depth + 1},
+                    beta * open *
+                        emission(ray, *id, {.p = ray.direction}, light.radiance(ray.direction)));
             }
             break;
         }
-        const Vec3 along = point->end.p - ray.origin.p;
+        sample.enter(Phase::shade);
+        const SurfacePoint point =
+            world_.surface_at(*hit, ray.direction, segment, camera.pixel_cone());
+        sample.enter(Phase::walk);
+        const Vec3 along = point.end.p - ray.origin.p;
         const float distance_squared = dot(along, along);
         if (distance_squared < coincident) {
             break;
         }
-        beta *= medium_transmittance(ray.origin, point->end, ray.direction,
-                                     std::sqrt(distance_squared));
-        if (point->light) {
-            const PhaseScope scope(probe, Phase::weigh);
-            const LightPoint hit{.p = point->end.p,
-                                 .ng = point->end.ng,
-                                 .barycentrics = point->barycentrics,
-                                 .time = sampler.time()};
-            measure({.s = 0, .t = depth + 1},
-                    beta * emission(ray, *point->light, hit, point->emission));
+        beta *=
+            medium_transmittance(ray.origin, point.end, ray.direction, std::sqrt(distance_squared));
+        if (point.light) {
+            const PhaseScope scope(sample.clock, Phase::weigh);
+            const LightPoint on_light{.p = point.end.p,
+                                      .ng = point.end.ng,
+                                      .barycentrics = point.barycentrics,
+                                      .time = sample.time};
+            add({.s = 0, .t = depth + 1},
+                beta * emission(ray, *point.light, on_light, point.emission));
         }
         if (depth == options_.max_depth) {
             break;
         }
-        if (point->disperses) {
-            spectrum = spectral_weight(sampler.wavelength());
+        dispersed = dispersed || point.disperses;
+        if (point.bsdf.connectible() && depth + 1 >= options_.min_depth) {
+            const PhaseScope scope(sample.clock, Phase::connect);
+            add({.s = 1, .t = depth + 1}, beta * sample_light(sample, point, depth));
         }
-        const auto vertex = static_cast<std::uint32_t>(depth + 1);
-        if (point->bsdf.connectible() && depth + 1 >= options_.min_depth) {
-            const PhaseScope scope(probe, Phase::connect);
-            sampler.start(SampleUse::next_event, vertex);
-            measure({.s = 1, .t = depth + 1},
-                    beta * sample_light(*point, sampler.segment_key(1, depth + 1), sampler, rays,
-                                        probe));
-        }
-        sampler.start(SampleUse::camera_walk, vertex);
+        sampler.start(SampleUse::camera_walk, static_cast<std::uint32_t>(depth + 1));
         const Vec2 u_direction = sampler.next_2d();
         const auto scattered =
-            point->bsdf.sample(sampler.next_1d(), u_direction, TransportMode::radiance);
+            point.bsdf.sample(sampler.next_1d(), u_direction, TransportMode::radiance);
         if (!scattered || is_black(scattered->weight)) {
             break;
         }
         beta *= scattered->weight;
-        ray = {.origin = point->end,
+        ray = {.origin = point.end,
                .direction = scattered->wi,
                .pdf = scattered->pdf_fwd,
                .competes = !scattered->delta && options_.integrator != IntegratorKind::pt};
         if (ray.competes && world_.lights().uses_tree(next_event_sampling_.lights)) {
-            ray.receiver = {.p = point->end.p, .normal = point->bsdf.opaque_normal()};
+            ray.receiver = {.p = point.end.p, .normal = point.bsdf.opaque_normal()};
         }
         if (depth >= options_.rr_start) {
             const float survival = std::min(1.0f, max_component(beta));
@@ -165,7 +146,6 @@ Rgb PathIntegrator::estimate(Sample& sample, Probe& probe) const
             beta /= survival;
         }
     }
-    return radiance;
 }
 
 float PathIntegrator::light_weight(float light_pdf, float bsdf_pdf) const
@@ -218,10 +198,10 @@ Rgb PathIntegrator::emission(const Ray& ray, LightId light, const LightPoint& hi
     return radiance * bsdf_weight(used.value, pdf.value);
 }
 
-template <typename Probe>
-Rgb PathIntegrator::sample_light(const SurfacePoint& point, SegmentKey segment, Sampler& sampler,
-                                 RayCounts& rays, Probe& probe) const
+Rgb PathIntegrator::sample_light(SampleContext& sample, const SurfacePoint& point, int depth) const
 {
+    Sampler& sampler = sample.sampler;
+    sampler.start(SampleUse::next_event, static_cast<std::uint32_t>(depth + 1));
     const Vec2 u_position = sampler.next_2d();
     const auto receiver = [&point] {
         return LightReceiver{.p = point.end.p, .normal = point.bsdf.opaque_normal()};
@@ -236,7 +216,7 @@ Rgb PathIntegrator::sample_light(const SurfacePoint& point, SegmentKey segment, 
         return Rgb(0.0f);
     }
     const auto incident = light.sample_incident(point.end.p, u_position,
-                                                next_event_sampling_.environments, sampler.time());
+                                                next_event_sampling_.environments, sample.time);
     if (!incident) {
         return Rgb(0.0f);
     }
@@ -245,14 +225,15 @@ Rgb PathIntegrator::sample_light(const SurfacePoint& point, SegmentKey segment, 
     if (is_black(value)) {
         return Rgb(0.0f);
     }
-    ++rays.shadow;
+    ++sample.rays.shadow;
+    const SegmentKey segment = sample.segment(1, depth + 1);
     value *= light.is_infinite()
                  ? world_.transmittance_to_infinity(point.end, incident->wi, segment)
                  : world_.transmittance(point.end, incident->end, segment);
     if (light.is_delta()) {
         return value;
     }
-    probe.enter(Phase::weigh);
+    sample.enter(Phase::weigh);
     return value *
            light_weight(incident->pdf_solid_angle.value * choice->probability, f.pdf_fwd.value);
 }

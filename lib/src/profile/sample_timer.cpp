@@ -1,4 +1,4 @@
-#include "integrator/sample_timer.h"
+#include "profile/sample_timer.h"
 
 #include "math/split_mix.h"
 

@@ -14,7 +14,7 @@
 namespace bdpt::app {
 namespace {
 
-using harness::BenchOptions;
+using eval::BenchOptions;
 
 constexpr const char* footer = R"(Examples:
   bdpt bench scenes/cornell-box.gltf scenes/cornell-box-hidden.gltf -o out/bench
@@ -66,7 +66,7 @@ std::vector<IntegratorKind> to_integrators(const std::string& words)
     while (begin <= words.size()) {
         const std::size_t end = std::min(words.find(',', begin), words.size());
         const auto kind =
-            harness::parse_integrator(std::string_view(words).substr(begin, end - begin));
+            eval::parse_integrator(std::string_view(words).substr(begin, end - begin));
         if (!kind) {
             refuse("--integrators", words, "pt, nee, mis, lt or bdpt, with commas between");
         }

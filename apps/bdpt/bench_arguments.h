@@ -1,6 +1,6 @@
 #pragma once
 
-#include <bdpt/harness/bench/bench_options.h>
+#include <bdpt/eval/bench/bench_options.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -43,7 +43,7 @@ struct BenchSubject {
 struct BenchArguments {
     std::vector<BenchSubject> subjects;
     std::filesystem::path folder;
-    harness::BenchOptions options;
+    eval::BenchOptions options;
     std::optional<Size> size;
     int pixels = 0;  ///< of each picture without `size`, at about
     Format format = Format::text;

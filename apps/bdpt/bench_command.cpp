@@ -1,9 +1,9 @@
 #include "bench_command.h"
 
 #include <bdpt/error.h>
-#include <bdpt/harness/bench/bench.h>
-#include <bdpt/harness/bench/bench_scene.h>
-#include <bdpt/harness/report/bench_output.h>
+#include <bdpt/eval/bench/bench.h>
+#include <bdpt/eval/bench/bench_scene.h>
+#include <bdpt/eval/report/bench_output.h>
 #include <bdpt/io/output_file.h>
 #include <fmt/core.h>
 
@@ -53,7 +53,7 @@ std::vector<fs::path> all_files(const BenchArguments& arguments)
     const Outputs outputs = outputs_in(arguments.folder);
     std::vector<fs::path> files{outputs.json, outputs.csv, outputs.page};
     for (const BenchSubject& subject : arguments.subjects) {
-        const auto more = harness::scene_files(arguments.folder, subject.name, arguments.options);
+        const auto more = eval::scene_files(arguments.folder, subject.name, arguments.options);
         files.insert(files.end(), more.begin(), more.end());
     }
     return files;
@@ -66,12 +66,12 @@ void write_file(const fs::path& file, const std::string& text)
     output.commit();
 }
 
-void write_all(const harness::BenchRecord& record, const fs::path& folder)
+void write_all(const eval::BenchRecord& record, const fs::path& folder)
 {
     const Outputs outputs = outputs_in(folder);
-    write_file(outputs.json, harness::bench_json(record));
-    write_file(outputs.csv, harness::bench_csv(record));
-    write_file(outputs.page, harness::bench_page(record, folder));
+    write_file(outputs.json, eval::bench_json(record));
+    write_file(outputs.csv, eval::bench_csv(record));
+    write_file(outputs.page, eval::bench_page(record, folder));
 }
 
 std::string time_now()
@@ -97,7 +97,7 @@ public:
         worked_ = 0.0;
         --scenes_left_;
     }
-    void tell(const harness::BenchProgress& progress)
+    void tell(const eval::BenchProgress& progress)
     {
         worked_ = progress.worked;
         const double worked = worked_before_ + worked_;
@@ -125,33 +125,33 @@ public:
     BenchSession(const BenchArguments& arguments, Console& console, std::stop_token stop)
         : arguments_(arguments),
           console_(console),
-          clock_(console, harness::planned_seconds(arguments.options), arguments.subjects.size()),
+          clock_(console, eval::planned_seconds(arguments.options), arguments.subjects.size()),
           stop_(std::move(stop))
     {}
 
-    [[nodiscard]] std::optional<harness::SceneResult> run(const BenchSubject& subject)
+    [[nodiscard]] std::optional<eval::SceneResult> run(const BenchSubject& subject)
     {
         std::uint64_t content = 0;
         const Stage stage = prepare_stage(
-            subject.render, [&](const SceneDesc& desc) { content = harness::content_hash(desc); });
+            subject.render, [&](const SceneDesc& desc) { content = eval::content_hash(desc); });
         for (const std::string& warning : stage.warnings) {
             console_.warning(warning);
         }
         const Size size = arguments_.size.value_or(bench_size(stage.size, arguments_.pixels));
-        const harness::BenchScene scene{.name = subject.name,
-                                        .file = subject.render.file.string(),
-                                        .environment = stage.environment_name,
-                                        .content = content,
-                                        .scene = stage.scene,
-                                        .camera = stage.camera,
-                                        .width = size.width,
-                                        .height = size.height};
+        const eval::BenchScene scene{.name = subject.name,
+                                     .file = subject.render.file.string(),
+                                     .environment = stage.environment_name,
+                                     .content = content,
+                                     .scene = stage.scene,
+                                     .camera = stage.camera,
+                                     .width = size.width,
+                                     .height = size.height};
         clock_.begin_scene(subject.name);
-        harness::BenchControl control;
+        eval::BenchControl control;
         control.stop = stop_;
         control.on_progress = [this](const auto& progress) { clock_.tell(progress); };
         control.on_note = [this](const std::string& note) { console_.note(note); };
-        auto result = harness::run_scene(scene, arguments_.options, arguments_.folder, control);
+        auto result = eval::run_scene(scene, arguments_.options, arguments_.folder, control);
         console_.end_progress();
         return result;
     }
@@ -164,8 +164,7 @@ private:
 };
 
 /// Prints a table on stdout, or an event.
-void report_scene(const harness::SceneResult& scene, const BenchArguments& arguments,
-                  Console& console)
+void report_scene(const eval::SceneResult& scene, const BenchArguments& arguments, Console& console)
 {
     console.event(
         "scene", {{"name", scene.name}, {"runs", scene.runs.size()}, {"complete", scene.complete}});
@@ -189,11 +188,11 @@ int run_bench(const BenchArguments& arguments, const std::vector<std::string>& c
     Interrupt interrupt(temporary_paths(files), [&console] {
         console.note("stopping after the pass in flight; interrupt again to end at once");
     });
-    harness::BenchRecord record{.options = arguments.options,
-                                .machine = harness::machine_facts(),
-                                .started = time_now(),
-                                .command = {},
-                                .scenes = {}};
+    eval::BenchRecord record{.options = arguments.options,
+                             .machine = eval::machine_facts(),
+                             .started = time_now(),
+                             .command = {},
+                             .scenes = {}};
     for (const std::string& word : command) {
         record.command += (record.command.empty() ? "" : " ") + one_line(word);
     }

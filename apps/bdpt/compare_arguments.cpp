@@ -1,7 +1,7 @@
 #include "compare_arguments.h"
 
 #include <bdpt/error.h>
-#include <bdpt/harness/metrics/metric.h>
+#include <bdpt/eval/metrics/metric.h>
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
@@ -14,7 +14,7 @@
 namespace bdpt::app {
 namespace {
 
-using harness::Metric;
+using eval::Metric;
 
 constexpr const char* footer = R"(Examples:
   bdpt compare out.exr reference.exr
@@ -41,14 +41,14 @@ cannot be written, 7 out of memory.)";
 std::vector<Metric> to_metrics(const std::optional<std::string>& words)
 {
     if (!words) {
-        return {harness::all_metrics.begin(), harness::all_metrics.end()};
+        return {eval::all_metrics.begin(), eval::all_metrics.end()};
     }
     std::vector<Metric> result;
     std::size_t begin = 0;
     while (begin <= words->size()) {
         const std::size_t end = std::min(words->find(',', begin), words->size());
         const std::optional<Metric> metric =
-            harness::parse_metric(std::string_view(*words).substr(begin, end - begin));
+            eval::parse_metric(std::string_view(*words).substr(begin, end - begin));
         if (!metric) {
             refuse("--metrics", *words,
                    "relmse, mse, rmse, mape, smape, psnr, flip or flip_ldr, with commas between");
@@ -62,7 +62,7 @@ std::vector<Metric> to_metrics(const std::optional<std::string>& words)
 }
 
 /// "START,STOP,COUNT".
-harness::FlipExposures to_exposures(const std::string& word)
+eval::FlipExposures to_exposures(const std::string& word)
 {
     const std::optional<Vec3> numbers = parse_vec3(word);
     constexpr float most = 100.0f;  // [EV] or of them: far beyond what scenes need
@@ -85,12 +85,12 @@ double positive(const char* option, double value)
     return value;
 }
 
-harness::MetricOptions to_scale(const CompareWords& words)
+eval::MetricOptions to_scale(const CompareWords& words)
 {
-    harness::MetricOptions scale;
+    eval::MetricOptions scale;
     scale.epsilon = positive("--epsilon", words.epsilon);
     scale.epsilon_unit =
-        words.relative ? harness::EpsilonUnit::reference_mean : harness::EpsilonUnit::absolute;
+        words.relative ? eval::EpsilonUnit::reference_mean : eval::EpsilonUnit::absolute;
     if (words.peak) {
         scale.peak = positive("--peak", *words.peak);
     }
@@ -115,18 +115,18 @@ harness::MetricOptions to_scale(const CompareWords& words)
 
 Metric to_map_metric(const std::string& word)
 {
-    const std::optional<Metric> metric = harness::parse_metric(word);
+    const std::optional<Metric> metric = eval::parse_metric(word);
     if (!metric || *metric == Metric::psnr) {
         refuse("--error-metric", word, "relmse, mse, rmse, mape, smape, flip or flip_ldr");
     }
     return *metric;
 }
 
-std::vector<harness::Threshold> to_thresholds(const std::vector<std::string>& words)
+std::vector<eval::Threshold> to_thresholds(const std::vector<std::string>& words)
 {
-    std::vector<harness::Threshold> result;
+    std::vector<eval::Threshold> result;
     for (const std::string& word : words) {
-        const std::optional<harness::Threshold> threshold = harness::parse_threshold(word);
+        const std::optional<eval::Threshold> threshold = eval::parse_threshold(word);
         if (!threshold) {
             refuse("--threshold", word, "NAME=NUMBER, where NAME is a metric, bias or p");
         }
@@ -247,9 +247,9 @@ CompareArguments understand(const CompareWords& words)
     result.options.tile_size = words.tile_size;
     result.options.worst_tiles = words.worst_tiles;
     result.thresholds = to_thresholds(words.thresholds);
-    for (const harness::Threshold& threshold : result.thresholds) {
+    for (const eval::Threshold& threshold : result.thresholds) {
         std::vector<Metric>& metrics = result.options.metrics;
-        if (threshold.kind == harness::ThresholdKind::metric &&
+        if (threshold.kind == eval::ThresholdKind::metric &&
             std::find(metrics.begin(), metrics.end(), threshold.metric) == metrics.end()) {
             metrics.push_back(threshold.metric);
         }

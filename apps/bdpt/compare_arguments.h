@@ -1,7 +1,7 @@
 #pragma once
 
-#include <bdpt/harness/compare/comparison.h>
-#include <bdpt/harness/compare/threshold.h>
+#include <bdpt/eval/compare/comparison.h>
+#include <bdpt/eval/compare/threshold.h>
 
 #include <filesystem>
 #include <optional>
@@ -43,8 +43,8 @@ struct CompareArguments {
     std::filesystem::path image;  ///< a picture, or a folder of them
     std::filesystem::path reference;
     std::optional<std::string> layer;
-    harness::ComparisonOptions options;
-    std::vector<harness::Threshold> thresholds;
+    eval::ComparisonOptions options;
+    std::vector<eval::Threshold> thresholds;
     std::optional<std::filesystem::path> error_image;
     double scale = 1.0;  ///< of the error image
     Format format = Format::text;

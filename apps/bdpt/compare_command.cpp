@@ -1,9 +1,9 @@
 #include "compare_command.h"
 
-#include <bdpt/harness/compare/compare_files.h>
-#include <bdpt/harness/compare/comparison_json.h>
-#include <bdpt/harness/compare/seed_files.h>
-#include <bdpt/harness/image/false_color.h>
+#include <bdpt/eval/compare/compare_files.h>
+#include <bdpt/eval/compare/comparison_json.h>
+#include <bdpt/eval/compare/seed_files.h>
+#include <bdpt/eval/image/false_color.h>
 #include <bdpt/io/png.h>
 #include <bdpt/version.h>
 #include <fmt/core.h>
@@ -40,15 +40,15 @@ void check_error_image(const CompareArguments& arguments, std::span<const fs::pa
     check_outputs(outputs, inputs);
 }
 
-void write_error_image(const CompareArguments& arguments, const harness::ComparisonReport& report)
+void write_error_image(const CompareArguments& arguments, const eval::ComparisonReport& report)
 {
     io::PngOptions options;
     options.metadata.version = BDPT_VERSION;
     options.metadata.created = std::chrono::system_clock::now();
     io::write_png(
         *arguments.error_image,
-        harness::false_color(report.map, {.scale = arguments.scale,
-                                          .title = std::string(to_string(report.map_metric))}),
+        eval::false_color(report.map, {.scale = arguments.scale,
+                                       .title = std::string(to_string(report.map_metric))}),
         options);
 }
 
@@ -70,14 +70,14 @@ int run_compare(const CompareArguments& arguments)
                     fmt::format("{}: the reference is a folder; it comes second and is one file",
                                 arguments.reference.string()));
     }
-    const std::vector<fs::path> files = harness::seed_files(arguments.image, arguments.reference);
+    const std::vector<fs::path> files = eval::seed_files(arguments.image, arguments.reference);
     check_error_image(arguments, files);
-    const harness::FileComparison comparison =
-        harness::compare_files(files, arguments.reference, arguments.layer, arguments.options);
-    const harness::ComparisonReport& report = comparison.report;
-    std::vector<harness::ThresholdResult> results;
-    for (const harness::Threshold& threshold : arguments.thresholds) {
-        results.push_back(harness::check_threshold(report, threshold));
+    const eval::FileComparison comparison =
+        eval::compare_files(files, arguments.reference, arguments.layer, arguments.options);
+    const eval::ComparisonReport& report = comparison.report;
+    std::vector<eval::ThresholdResult> results;
+    for (const eval::Threshold& threshold : arguments.thresholds) {
+        results.push_back(eval::check_threshold(report, threshold));
     }
     const bool passed = std::all_of(results.begin(), results.end(),
                                     [](const auto& result) { return result.passed; });
@@ -96,8 +96,8 @@ int run_compare(const CompareArguments& arguments)
         }
     }
     if (arguments.format == Format::json) {
-        print(harness::comparison_json(report, results, arguments.image.string(),
-                                       arguments.reference.string()));
+        print(eval::comparison_json(report, results, arguments.image.string(),
+                                    arguments.reference.string()));
     } else if (arguments.verbosity == Verbosity::normal) {
         print(compare_text(report, results));
     }

@@ -9,7 +9,7 @@
 namespace bdpt::app {
 namespace {
 
-using harness::ComparisonReport;
+using eval::ComparisonReport;
 
 constexpr std::array<const char*, 4> channel_names{"red", "green", "blue", "mean"};
 
@@ -29,14 +29,14 @@ std::string metrics_text(const ComparisonReport& report)
     std::string result = seeds ? fmt::format("{:<10}{:>12}{:>12}{:>12}{:>12}\n", "metric", "mean",
                                              "deviation", "least", "greatest")
                                : fmt::format("{:<10}{:>12}\n", "metric", "value");
-    for (const harness::MetricSummary& metric : report.metrics) {
+    for (const eval::MetricSummary& metric : report.metrics) {
         const std::string_view name = to_string(metric.metric);
         result += fmt::format("{:<10}{:>12.6g}", name, metric.mean);
         if (seeds) {
             result += fmt::format("{:>12}{:>12.6g}{:>12.6g}", optional_text(metric.deviation),
                                   metric.least, metric.greatest);
         }
-        result += metric.metric == harness::Metric::psnr
+        result += metric.metric == eval::Metric::psnr
                       ? fmt::format("  dB, peak {:.4g}\n", report.scale.peak)
                       : "\n";
     }
@@ -45,13 +45,13 @@ std::string metrics_text(const ComparisonReport& report)
 
 std::string bias_text(const ComparisonReport& report)
 {
-    const harness::Bias& bias = report.bias;
+    const eval::Bias& bias = report.bias;
     std::string result = fmt::format("{:<10}{:>12}{:>18}\n", "bias", "value", "standard error");
     for (std::size_t c = 0; c < channel_names.size(); ++c) {
         result += fmt::format("{:<10}{:>12.4g}{:>18}\n", channel_names[c], bias.channels[c].value,
                               optional_text(bias.channels[c].standard_error));
     }
-    if (bias.source == harness::BiasSource::blocks) {
+    if (bias.source == eval::BiasSource::blocks) {
         return result + "(from blocks of one picture; a folder of seeds tells more)\n";
     }
     return result + fmt::format("standard error of a pixel {}, of a tile {}\n",
@@ -63,7 +63,7 @@ std::string tiles_text(const ComparisonReport& report)
 {
     std::string result = fmt::format("worst tiles of {0} x {0} by {1}\n", report.tile_size,
                                      to_string(report.map_metric));
-    for (const harness::TileError& tile : report.worst_tiles) {
+    for (const eval::TileError& tile : report.worst_tiles) {
         result += fmt::format("  {:<24}{:>12.4g}\n", rect_text(tile.tile), tile.value);
     }
     if (report.biased_tiles.empty()) {
@@ -71,7 +71,7 @@ std::string tiles_text(const ComparisonReport& report)
     }
     result += fmt::format("\n{:<26}{:<8}{:>12}{:>16}{:>8}{:>10}\n", "tiles by bias", "channel",
                           "bias", "standard error", "t", "p (Holm)");
-    for (const harness::TileBias& tile : report.biased_tiles) {
+    for (const eval::TileBias& tile : report.biased_tiles) {
         result +=
             fmt::format("  {:<24}{:<8}{:>12.4g}{:>16.4g}{:>8.3g}{:>10.3g}\n", rect_text(tile.tile),
                         channel_names[static_cast<std::size_t>(tile.channel)], tile.bias,
@@ -83,14 +83,14 @@ std::string tiles_text(const ComparisonReport& report)
 }  // namespace
 
 std::string compare_text(const ComparisonReport& report,
-                         std::span<const harness::ThresholdResult> thresholds)
+                         std::span<const eval::ThresholdResult> thresholds)
 {
     const std::size_t count = report.images.size();
     std::string result = fmt::format("{} of {} x {} pixels\n\n{}\n{}\n{}",
                                      count == 1 ? "1 picture" : fmt::format("{} pictures", count),
                                      report.region.width(), report.region.height(),
                                      metrics_text(report), bias_text(report), tiles_text(report));
-    for (const harness::ThresholdResult& threshold : thresholds) {
+    for (const eval::ThresholdResult& threshold : thresholds) {
         result +=
             fmt::format("{}threshold {}={:.6g}: {} with {:.6g}\n",
                         &threshold == thresholds.data() ? "\n" : "", threshold.name,

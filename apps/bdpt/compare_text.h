@@ -1,7 +1,7 @@
 #pragma once
 
-#include <bdpt/harness/compare/comparison_report.h>
-#include <bdpt/harness/compare/threshold.h>
+#include <bdpt/eval/compare/comparison_report.h>
+#include <bdpt/eval/compare/threshold.h>
 
 #include <span>
 #include <string>
@@ -9,7 +9,7 @@
 namespace bdpt::app {
 
 /// The report as tables for people.
-[[nodiscard]] std::string compare_text(const harness::ComparisonReport& report,
-                                       std::span<const harness::ThresholdResult> thresholds);
+[[nodiscard]] std::string compare_text(const eval::ComparisonReport& report,
+                                       std::span<const eval::ThresholdResult> thresholds);
 
 }  // namespace bdpt::app

@@ -1,6 +1,6 @@
 #include "render_command.h"
 
-#include <bdpt/harness/bench/option_names.h>
+#include <bdpt/eval/bench/option_names.h>
 #include <bdpt/io/tone_map.h>
 #include <bdpt/render.h>
 #include <bdpt/version.h>
@@ -112,7 +112,7 @@ void announce(Console& console, const RenderArguments& arguments, const Stage& s
     console.note(fmt::format("{}: {} triangles, {} lights; {}x{}, {}, camera {}",
                              arguments.file.string(), counts.instanced_triangles, counts.lights,
                              stage.size.width, stage.size.height,
-                             harness::to_string(arguments.options.integrator), stage.camera.name));
+                             eval::to_string(arguments.options.integrator), stage.camera.name));
 }
 
 RenderOptions options_for(const RenderArguments& arguments, const Stage& stage, Console& console)
@@ -224,7 +224,7 @@ PictureOptions picture_options(const RenderArguments& arguments, const Stage& st
     metadata.version = BDPT_VERSION;
     metadata.scene = one_line(arguments.file.string());
     metadata.settings = settings.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
-    metadata.integrator = harness::to_string(arguments.options.integrator);
+    metadata.integrator = eval::to_string(arguments.options.integrator);
     metadata.seed = arguments.options.seed;
     metadata.samples_per_pixel = result.film.sample_count();
     metadata.render_seconds = result.seconds;

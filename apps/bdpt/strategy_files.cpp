@@ -1,7 +1,7 @@
 #include "strategy_files.h"
 
 #include <bdpt/error.h>
-#include <bdpt/harness/bench/option_names.h>
+#include <bdpt/eval/bench/option_names.h>
 #include <bdpt/io/output_file.h>
 #include <bdpt/io/png.h>
 #include <fmt/core.h>
@@ -81,7 +81,7 @@ std::optional<StrategyFiles> strategy_files(const StrategyWords& words,
     if (options.integrator != IntegratorKind::bdpt && options.integrator != IntegratorKind::lt) {
         reject("--strategies", *words.file,
                fmt::format("--integrator bdpt or lt with it, not {}",
-                           harness::to_string(options.integrator))
+                           eval::to_string(options.integrator))
                    .c_str());
     }
     return StrategyFiles{

@@ -1,6 +1,6 @@
 #include "transport_arguments.h"
 
-#include <bdpt/harness/bench/option_names.h>
+#include <bdpt/eval/bench/option_names.h>
 
 #include <fmt/format.h>
 
@@ -48,7 +48,7 @@ std::vector<std::string> all_names(const Values& values)
 {
     std::vector<std::string> names;
     for (const auto value : values) {
-        names.emplace_back(harness::to_string(value));
+        names.emplace_back(eval::to_string(value));
     }
     return names;
 }
@@ -183,11 +183,11 @@ void add_transport_options(CLI::App& command, TransportWords& words)
             ->type_name(fmt::format("{}", fmt::join(values, "|")))
             ->group(group);
     };
-    add_choice("--integrator", words.integrator, all_names(harness::all_integrators),
+    add_choice("--integrator", words.integrator, all_names(eval::all_integrators),
                "bdpt (the default): bidirectional path tracing; mis: path tracing with light and "
                "BSDF sampling; pt: with BSDF sampling only; nee: with light sampling only; lt: "
                "light tracing");
-    add_choice("--heuristic", words.heuristic, all_names(harness::all_heuristics),
+    add_choice("--heuristic", words.heuristic, all_names(eval::all_heuristics),
                "How strategies share a path: power (the default), balance, cutoff, maximum, or "
                "uniform, for tests");
     add_choice("--env-sampling", words.environment_sampling, names_of(environment_samplings),
@@ -216,8 +216,8 @@ void add_transport_options(CLI::App& command, TransportWords& words)
 RenderOptions with_transport(const TransportWords& words, RenderOptions options)
 {
     check_bidirectional(words);
-    options.integrator = harness::parse_integrator(words.integrator).value();
-    options.heuristic = harness::parse_heuristic(words.heuristic).value();
+    options.integrator = eval::parse_integrator(words.integrator).value();
+    options.heuristic = eval::parse_heuristic(words.heuristic).value();
     options.environment_sampling = value_of(environment_samplings, words.environment_sampling);
     options.light_sampling = value_of(light_samplings, words.light_sampling);
     options.max_depth = words.max_depth;
@@ -243,8 +243,8 @@ nlohmann::ordered_json transport_json(const RenderOptions& options)
 {
     constexpr int unlimited = std::numeric_limits<int>::max();
     nlohmann::ordered_json result{
-        {"integrator", harness::to_string(options.integrator)},
-        {"heuristic", harness::to_string(options.heuristic)},
+        {"integrator", eval::to_string(options.integrator)},
+        {"heuristic", eval::to_string(options.heuristic)},
         {"environment_sampling", name_of(environment_samplings, options.environment_sampling)},
         {"light_sampling", name_of(light_samplings, options.light_sampling)},
         {"max_depth", options.max_depth},

@@ -98,7 +98,7 @@ VerifyArguments understand(const VerifyWords& words)
 {
     constexpr int widest = 4096;
     VerifyArguments result{.stage = understand(words.render), .options = {}};
-    harness::VerifyOptions& options = result.options;
+    eval::VerifyOptions& options = result.options;
     if (const std::optional<Size>& size = result.stage.size) {
         if (std::max(size->width, size->height) > widest) {
             refuse("--size", *words.render.size, "WIDTHxHEIGHT from 1x1 to 4096x4096");

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <bdpt/harness/verify/verify_options.h>
+#include <bdpt/eval/verify/verify_options.h>
 
 #include <optional>
 #include <string>
@@ -17,8 +17,8 @@ namespace bdpt::app {
 /// The words of `bdpt verify` as they were given.
 struct VerifyWords {
     RenderWords render;  ///< what it shares with `bdpt render`; the rest is left alone
-    int max_depth = harness::VerifyOptions{}.max_depth;
-    int grid = harness::VerifyOptions{}.grid;
+    int max_depth = eval::VerifyOptions{}.max_depth;
+    int grid = eval::VerifyOptions{}.grid;
     double bias = 1.0;         // [%]
     double false_alarm = 0.1;  // [%]
 };
@@ -26,7 +26,7 @@ struct VerifyWords {
 /// What `bdpt verify` is to do.
 struct VerifyArguments {
     RenderArguments stage;  ///< which scene, seen how
-    harness::VerifyOptions options;
+    eval::VerifyOptions options;
 };
 
 /// Describes the options of `bdpt verify` to the parser, which will store into `words`.

@@ -1,7 +1,7 @@
 #include "verify_command.h"
 
-#include <bdpt/harness/verify/verify.h>
-#include <bdpt/harness/verify/verify_json.h>
+#include <bdpt/eval/verify/verify.h>
+#include <bdpt/eval/verify/verify_json.h>
 #include <fmt/core.h>
 
 #include <cstdio>
@@ -24,14 +24,14 @@ void print(const std::string& text)
 
 }  // namespace
 
-int exit_code(harness::Verdict verdict)
+int exit_code(eval::Verdict verdict)
 {
     switch (verdict) {
-        case harness::Verdict::pass:
+        case eval::Verdict::pass:
             return 0;
-        case harness::Verdict::fail:
+        case eval::Verdict::fail:
             return verify_failed;
-        case harness::Verdict::inconclusive:
+        case eval::Verdict::inconclusive:
             return verify_inconclusive;
     }
     return verify_failed;
@@ -54,19 +54,19 @@ int run_verify(const VerifyArguments& arguments)
     console.note(fmt::format("{}: {} triangles, {} lights; {}x{}, camera {}", file,
                              stage.scene.counts().instanced_triangles, stage.scene.counts().lights,
                              stage.size.width, stage.size.height, stage.camera.name));
-    harness::VerifyControl control;
+    eval::VerifyControl control;
     control.stop = interrupt.stop_token();
-    control.on_progress = [&](const harness::VerifyProgress& progress) {
-        console.progress({.samples_done = progress.batches * harness::bdpt_samples,
+    control.on_progress = [&](const eval::VerifyProgress& progress) {
+        console.progress({.samples_done = progress.batches * eval::bdpt_samples,
                           .samples_total = 0,
                           .seconds = progress.seconds},
                          {.samples = std::nullopt, .seconds = arguments.options.seconds});
     };
-    const harness::VerifyReport report =
-        harness::verify(stage.scene, stage.camera, arguments.options, control);
+    const eval::VerifyReport report =
+        eval::verify(stage.scene, stage.camera, arguments.options, control);
     console.end_progress();
     if (what.format == Format::json) {
-        print(harness::verify_json(report, file));
+        print(eval::verify_json(report, file));
     } else if (what.verbosity == Verbosity::normal) {
         print(verify_text(report, arguments.options));
     }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <bdpt/harness/verify/verify_report.h>
+#include <bdpt/eval/verify/verify_report.h>
 
 #include "verify_arguments.h"
 
@@ -11,7 +11,7 @@ constexpr int verify_failed = 10;
 constexpr int verify_inconclusive = 11;
 
 /// 0 for a pass, else one of the above.
-[[nodiscard]] int exit_code(harness::Verdict verdict);
+[[nodiscard]] int exit_code(eval::Verdict verdict);
 
 /// `bdpt verify`: prints on stdout whether all estimators agree on the scene. The result is the
 /// exit code. Throws `Error`.

@@ -1,7 +1,7 @@
 #include "verify_text.h"
 
-#include <bdpt/harness/bench/option_names.h>
-#include <bdpt/harness/verify/verify_json.h>
+#include <bdpt/eval/bench/option_names.h>
+#include <bdpt/eval/verify/verify_json.h>
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -11,10 +11,10 @@
 namespace bdpt::app {
 namespace {
 
-using harness::IntegratorFinding;
-using harness::MeanComparison;
-using harness::StrategyFinding;
-using harness::VerifyReport;
+using eval::IntegratorFinding;
+using eval::MeanComparison;
+using eval::StrategyFinding;
+using eval::VerifyReport;
 
 std::string percent(double fraction)
 {
@@ -36,10 +36,10 @@ std::string pictures_text(const VerifyReport& report)
 {
     std::string result = fmt::format("{:<11}{:>12}{:>16}{:>10}\n", "integrator", "mean [nit]",
                                      "standard error", "defects");
-    for (const harness::PictureFinding& picture : report.pictures) {
+    for (const eval::PictureFinding& picture : report.pictures) {
         result += fmt::format("{:<11}{:>12.6g}{:>16.2g}{:>10}\n",
-                              harness::to_string(picture.integrator), picture.radiance,
-                              picture.error, picture.defects.invalid + picture.defects.saturated);
+                              eval::to_string(picture.integrator), picture.radiance, picture.error,
+                              picture.defects.invalid + picture.defects.saturated);
     }
     return result;
 }
@@ -48,7 +48,7 @@ std::string lengths_text(const VerifyReport& report)
 {
     std::string result = fmt::format("\n{:<8}{:>12}{:>12}{:>18}{:>16}\n", "edges", "of the light",
                                      "error", "pt, nee, mis see", "lt sees");
-    for (const harness::LengthFinding& length : report.lengths) {
+    for (const eval::LengthFinding& length : report.lengths) {
         result += fmt::format("{:<8}{:>12}{:>12}{:>18}{:>16}\n", length.edges,
                               percent(length.radiance, report.radiance),
                               percent(length.error, length.radiance),
@@ -91,8 +91,8 @@ std::string integrators_text(const VerifyReport& report)
         if (finding.whole.found == 0.0 && finding.whole.expected == 0.0) {
             continue;
         }
-        result += fmt::format("{:<12}{:<8}{}\n", harness::to_string(finding.integrator),
-                              finding.edges, comparison_text(finding.whole));
+        result += fmt::format("{:<12}{:<8}{}\n", eval::to_string(finding.integrator), finding.edges,
+                              comparison_text(finding.whole));
     }
     return result;
 }
@@ -118,22 +118,22 @@ void add_failures(const std::string& name, const MeanComparison& whole,
 std::vector<std::string> failures(const VerifyReport& report)
 {
     std::vector<std::string> lines;
-    for (const harness::PictureFinding& picture : report.pictures) {
+    for (const eval::PictureFinding& picture : report.pictures) {
         if (const auto& place = picture.defects.first_invalid) {
             lines.push_back(fmt::format(
                 "{}: {} contributions were NaN, infinite or negative; the first at pixel ({}, {}), "
                 "sample {}",
-                harness::to_string(picture.integrator), picture.defects.invalid, place->x, place->y,
+                eval::to_string(picture.integrator), picture.defects.invalid, place->x, place->y,
                 place->sample_index));
         }
         if (picture.defects.saturated > 0) {
             lines.push_back(fmt::format("{}: {} contributions were too great for the film",
-                                        harness::to_string(picture.integrator),
+                                        eval::to_string(picture.integrator),
                                         picture.defects.saturated));
         }
         if (loses_light(picture)) {
             lines.push_back(fmt::format("{}: the paths and the picture of a tile differ by {}",
-                                        harness::to_string(picture.integrator),
+                                        eval::to_string(picture.integrator),
                                         percent(picture.lost)));
         }
     }
@@ -148,8 +148,8 @@ std::vector<std::string> failures(const VerifyReport& report)
                      finding.whole, finding.tiles, report, lines);
     }
     for (const IntegratorFinding& finding : report.integrators) {
-        add_failures(fmt::format("{} against bdpt, {} edges",
-                                 harness::to_string(finding.integrator), finding.edges),
+        add_failures(fmt::format("{} against bdpt, {} edges", eval::to_string(finding.integrator),
+                                 finding.edges),
                      finding.whole, finding.tiles, report, lines);
     }
     return lines;
@@ -164,9 +164,9 @@ std::string noisiest(const VerifyReport& report)
     return fmt::format("s={} t={}", worst->strategy.s, worst->strategy.t);
 }
 
-std::string verdict_text(const VerifyReport& report, const harness::VerifyOptions& options)
+std::string verdict_text(const VerifyReport& report, const eval::VerifyOptions& options)
 {
-    if (report.verdict == harness::Verdict::fail) {
+    if (report.verdict == eval::Verdict::fail) {
         constexpr std::size_t most_lines = 20;
         const std::vector<std::string> lines = failures(report);
         std::string result = "\n";
@@ -181,7 +181,7 @@ std::string verdict_text(const VerifyReport& report, const harness::VerifyOption
     if (!(report.radiance > 0.0)) {
         return "\nINCONCLUSIVE: no light reaches the camera\n";
     }
-    if (report.verdict == harness::Verdict::inconclusive && !std::isfinite(report.detectable)) {
+    if (report.verdict == eval::Verdict::inconclusive && !std::isfinite(report.detectable)) {
         return "\nINCONCLUSIVE: nothing disagrees, but there are too few samples to tell what "
                "would "
                "have been found. Give it more --time\n";
@@ -189,7 +189,7 @@ std::string verdict_text(const VerifyReport& report, const harness::VerifyOption
     const std::string found = fmt::format(
         "errors of a strategy that change the picture by {} would have been found, by 90 %",
         percent(report.detectable));
-    if (report.verdict == harness::Verdict::inconclusive) {
+    if (report.verdict == eval::Verdict::inconclusive) {
         return fmt::format(
             "\nINCONCLUSIVE: nothing disagrees, but only {}; {} was asked for. The "
             "noisiest is {}. Give it more --time\n",
@@ -200,7 +200,7 @@ std::string verdict_text(const VerifyReport& report, const harness::VerifyOption
 
 }  // namespace
 
-std::string verify_text(const VerifyReport& report, const harness::VerifyOptions& options)
+std::string verify_text(const VerifyReport& report, const eval::VerifyOptions& options)
 {
     std::string result = fmt::format(
         "{} batches in {:.1f} s, paths of up to {} edges; weights of {} paths checked, worst "

@@ -29,11 +29,11 @@ ALLOWED = {
     "lib/io/src": [r"glm/", FILE_LIBRARIES, POSIX],
     "lib/io/src/gltf": [r"glm/", FILE_LIBRARIES, r"draco/", r"meshoptimizer\.h", r"(oneapi/)?tbb/"],
     "lib/io/src/oiio_module": [r"OpenImageIO/"],
+    "lib/eval/include": [],
+    "lib/eval/src": [r"glm/", r"nlohmann/", r"(oneapi/)?tbb/", r"zlib\.h"],
     "apps": [r"glm/", r"CLI/", r"nlohmann/", r"fmt/", POSIX],
     "tests": [r"glm/", r"catch2/", r"embree[34]/", r"(oneapi/)?tbb/", FILE_LIBRARIES, POSIX, r"pthread\.h",
               INTRINSICS],
-    "benchmarks/harness/include": [],
-    "benchmarks/harness/src": [r"glm/", r"nlohmann/", r"(oneapi/)?tbb/", r"zlib\.h"],
     "benchmarks": [r"glm/", r"CLI/", r"OpenImageIO/", r"benchmark/", r"nlohmann/", r"embree[34]/", r"(oneapi/)?tbb/", POSIX, INTRINSICS],
 }
 # Area -> what it may include of our own by <bdpt/...>.
@@ -41,9 +41,10 @@ OWN = {
     "lib/include": r"bdpt/[a-z0-9_]+\.h",
     "lib/src": r"bdpt/[a-z0-9_]+\.h",
     "lib/io": r"bdpt/(io/)?[a-z0-9_]+\.h",
-    "apps": r"bdpt/(io/|harness/[a-z_]+/)?[a-z0-9_]+\.h",
-    "tests": r"bdpt/(io/|harness/[a-z_]+/)?[a-z0-9_]+\.h",
-    "benchmarks": r"bdpt/(io/|harness/[a-z_]+/)?[a-z0-9_]+\.h",
+    "lib/eval": r"bdpt/(io/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
+    "apps": r"bdpt/(io/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
+    "tests": r"bdpt/(io/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
+    "benchmarks": r"bdpt/(io/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
 }
 STANDARD = re.compile(r"[a-z_]+")  # <vector>; the C headers with .h are not ours to use
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"]+)"|<([^>]+)>)', re.MULTILINE)
@@ -69,11 +70,11 @@ def angle_error(path, header):
 
 def quoted_error(path, header):
     """What is wrong with `#include "header"` in the file `path`, or None."""
-    if path.startswith(("lib/include/", "lib/io/include/", "benchmarks/harness/include/")):
+    if path.startswith(("lib/include/", "lib/io/include/", "lib/eval/include/")):
         return f'is public: "{header}" must be a <bdpt/...> header'
     folder = header.split("/")[0]
     if not path.startswith("lib/src/"):
-        may_look_inside = path.startswith(("tests/", "benchmarks/")) and not path.startswith("benchmarks/harness/")
+        may_look_inside = path.startswith(("tests/", "benchmarks/"))
         internal = folder in LAYERS and "/" in header and not may_look_inside
         return f'reaches into lib/src: "{header}"' if internal else None
     layer = path.split("/")[2]

@@ -1,4 +1,4 @@
-#include "verify_command.h"
+#include "commands/verify_command.h"
 
 #include <bdpt/eval/verify/verify_options.h>
 #include <bdpt/eval/verify/verify_report.h>
@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "catch.hpp"
+#include "report/verify_text.h"
 #include "scene_files.h"
 #include "scratch_folder.h"
 #include "subprocess.h"
-#include "verify_text.h"
 
 namespace bdpt::test {
 namespace {

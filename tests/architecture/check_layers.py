@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Fails when the source tree breaks the rules of docs/architecture.md: check_layers.py ROOT.
 
-A folder of lib/src includes only folders of a lower layer, public headers need nothing but GLM and the standard
+A folder of lib/src or of apps/bdpt includes only folders of a lower layer, public headers need nothing but GLM and the standard
 library, each third-party library stays where it belongs, no file is longer than 400 lines, and every source file is
 listed in a CMakeLists.txt or in a .cmake file beside one.
 """
@@ -12,6 +12,7 @@ import sys
 
 LAYERS = {"math": 1, "geometry": 2, "material": 2, "light": 3, "camera": 3, "scene": 4, "path": 5, "integrator": 6,
           "render": 7}
+COMMAND_LAYERS = {"terminal": 1, "options": 2, "stage": 3, "report": 4, "commands": 5}
 MAX_LINES = 400
 AREAS = ("lib", "apps", "tests", "benchmarks")
 
@@ -68,23 +69,30 @@ def angle_error(path, header):
     return f"may not include <{header}>"
 
 
+def layer_error(layers, layer, header):
+    """What is wrong with `#include "header"` in a file of `layer`, or None."""
+    folder = header.split("/")[0]
+    if layer not in layers:
+        return f"is in the unknown layer {layer}"
+    if folder not in layers or "/" not in header:
+        return f'"{header}" does not name its layer'
+    if folder != layer and layers[folder] >= layers[layer]:
+        return f'{layer} (layer {layers[layer]}) may not include "{header}" (layer {layers[folder]})'
+    return None
+
+
 def quoted_error(path, header):
     """What is wrong with `#include "header"` in the file `path`, or None."""
     if path.startswith(("lib/include/", "lib/io/include/", "lib/eval/include/")):
         return f'is public: "{header}" must be a <bdpt/...> header'
     folder = header.split("/")[0]
+    if path.startswith("apps/bdpt/") and folder not in LAYERS:
+        return layer_error(COMMAND_LAYERS, path.split("/")[2], header) if path.count("/") > 2 else None
     if not path.startswith("lib/src/"):
         may_look_inside = path.startswith(("tests/", "benchmarks/"))
         internal = folder in LAYERS and "/" in header and not may_look_inside
         return f'reaches into lib/src: "{header}"' if internal else None
-    layer = path.split("/")[2]
-    if layer not in LAYERS:
-        return f"is in the unknown layer {layer}"
-    if folder not in LAYERS or "/" not in header:
-        return f'"{header}" does not name its layer'
-    if folder != layer and LAYERS[folder] >= LAYERS[layer]:
-        return f'{layer} (layer {LAYERS[layer]}) may not include "{header}" (layer {LAYERS[folder]})'
-    return None
+    return layer_error(LAYERS, path.split("/")[2], header)
 
 
 def listed_sources(root):

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Fails when the source tree breaks the rules of docs/architecture.md: check_layers.py ROOT.
 
-A folder of lib/src includes only folders of a lower layer, public headers need nothing but GLM and the standard
+A folder of lib/src or of apps/bdpt includes only folders of a lower layer, public headers need nothing but GLM and the standard
 library, each third-party library stays where it belongs, no file is longer than 400 lines, and every source file is
 listed in a CMakeLists.txt or in a .cmake file beside one.
 """
@@ -12,6 +12,7 @@ import sys
 
 LAYERS = {"math": 1, "film": 2, "profile": 2, "geometry": 2, "material": 2, "light": 3, "camera": 3, "scene": 4, "path": 5, "integrator": 6,
           "render": 7}
+COMMAND_LAYERS = {"terminal": 1, "options": 2, "stage": 3, "report": 4, "commands": 5}
 MAX_LINES = 400
 AREAS = ("lib", "apps", "tests", "benchmarks")
 
@@ -30,11 +31,11 @@ ALLOWED = {
     "lib/io/src": [r"glm/", FILE_LIBRARIES, POSIX],
     "lib/io/src/gltf": [r"glm/", FILE_LIBRARIES, r"draco/", r"meshoptimizer\.h", r"(oneapi/)?tbb/"],
     "lib/io/src/oiio_module": [r"OpenImageIO/"],
+    "lib/eval/include": [],
+    "lib/eval/src": [r"glm/", r"nlohmann/", r"(oneapi/)?tbb/", r"zlib\.h"],
     "apps": [r"glm/", r"CLI/", r"nlohmann/", r"fmt/", POSIX],
     "tests": [r"glm/", r"catch2/", r"embree[34]/", r"(oneapi/)?tbb/", FILE_LIBRARIES, POSIX, r"pthread\.h",
               INTRINSICS],
-    "benchmarks/harness/include": [],
-    "benchmarks/harness/src": [r"glm/", r"nlohmann/", r"(oneapi/)?tbb/", r"zlib\.h"],
     "benchmarks": [r"glm/", r"CLI/", r"OpenImageIO/", r"benchmark/", r"nlohmann/", r"embree[34]/", r"(oneapi/)?tbb/", POSIX, INTRINSICS],
 }
 # Area -> what it may include of our own by <bdpt/...>.
@@ -42,9 +43,10 @@ OWN = {
     "lib/include": r"bdpt/[a-z0-9_]+\.h",
     "lib/src": r"bdpt/[a-z0-9_]+\.h",
     "lib/io": r"bdpt/(io/)?[a-z0-9_]+\.h",
-    "apps": r"bdpt/(io/|harness/[a-z_]+/)?[a-z0-9_]+\.h",
-    "tests": r"bdpt/(io/|harness/[a-z_]+/)?[a-z0-9_]+\.h",
-    "benchmarks": r"bdpt/(io/|harness/[a-z_]+/)?[a-z0-9_]+\.h",
+    "lib/eval": r"bdpt/(io/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
+    "apps": r"bdpt/(io/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
+    "tests": r"bdpt/(io/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
+    "benchmarks": r"bdpt/(io/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
 }
 STANDARD = re.compile(r"[a-z_]+")  # <vector>; the C headers with .h are not ours to use
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"]+)"|<([^>]+)>)', re.MULTILINE)
@@ -68,23 +70,30 @@ def angle_error(path, header):
     return f"may not include <{header}>"
 
 
+def layer_error(layers, layer, header):
+    """What is wrong with `#include "header"` in a file of `layer`, or None."""
+    folder = header.split("/")[0]
+    if layer not in layers:
+        return f"is in the unknown layer {layer}"
+    if folder not in layers or "/" not in header:
+        return f'"{header}" does not name its layer'
+    if folder != layer and layers[folder] >= layers[layer]:
+        return f'{layer} (layer {layers[layer]}) may not include "{header}" (layer {layers[folder]})'
+    return None
+
+
 def quoted_error(path, header):
     """What is wrong with `#include "header"` in the file `path`, or None."""
-    if path.startswith(("lib/include/", "lib/io/include/", "benchmarks/harness/include/")):
+    if path.startswith(("lib/include/", "lib/io/include/", "lib/eval/include/")):
         return f'is public: "{header}" must be a <bdpt/...> header'
     folder = header.split("/")[0]
+    if path.startswith("apps/bdpt/") and folder not in LAYERS:
+        return layer_error(COMMAND_LAYERS, path.split("/")[2], header) if path.count("/") > 2 else None
     if not path.startswith("lib/src/"):
-        may_look_inside = path.startswith(("tests/", "benchmarks/")) and not path.startswith("benchmarks/harness/")
+        may_look_inside = path.startswith(("tests/", "benchmarks/"))
         internal = folder in LAYERS and "/" in header and not may_look_inside
         return f'reaches into lib/src: "{header}"' if internal else None
-    layer = path.split("/")[2]
-    if layer not in LAYERS:
-        return f"is in the unknown layer {layer}"
-    if folder not in LAYERS or "/" not in header:
-        return f'"{header}" does not name its layer'
-    if folder != layer and LAYERS[folder] >= LAYERS[layer]:
-        return f'{layer} (layer {LAYERS[layer]}) may not include "{header}" (layer {LAYERS[folder]})'
-    return None
+    return layer_error(LAYERS, path.split("/")[2], header)
 
 
 def listed_sources(root):

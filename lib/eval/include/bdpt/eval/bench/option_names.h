@@ -1,0 +1,26 @@
+#pragma once
+
+#include <bdpt/export.h>
+#include <bdpt/render_options.h>
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+namespace bdpt::eval {
+
+/// From the simplest to the one that has all strategies.
+inline constexpr std::array all_integrators{IntegratorKind::pt, IntegratorKind::nee,
+                                            IntegratorKind::mis, IntegratorKind::lt,
+                                            IntegratorKind::bdpt};
+
+inline constexpr std::array all_heuristics{Heuristic::balance, Heuristic::power, Heuristic::cutoff,
+                                           Heuristic::maximum, Heuristic::uniform};
+
+/// The enumerator's own name.
+[[nodiscard]] BDPT_EXPORT std::string_view to_string(IntegratorKind kind);
+[[nodiscard]] BDPT_EXPORT std::optional<IntegratorKind> parse_integrator(std::string_view name);
+[[nodiscard]] BDPT_EXPORT std::string_view to_string(Heuristic heuristic);
+[[nodiscard]] BDPT_EXPORT std::optional<Heuristic> parse_heuristic(std::string_view name);
+
+}  // namespace bdpt::eval

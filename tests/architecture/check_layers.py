@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Fails when the source tree breaks the rules of docs/architecture.md: check_layers.py ROOT.
 
-A folder of lib/src includes only folders of a lower layer, public headers need nothing but GLM and the standard
+A folder of lib/src or lib/io/src includes only folders of a lower layer, public headers need nothing but GLM and the standard
 library, each third-party library stays where it belongs, no file is longer than 400 lines, and every source file is
 listed in a CMakeLists.txt or in a .cmake file beside one.
 """
@@ -12,6 +12,10 @@ import sys
 
 LAYERS = {"math": 1, "geometry": 2, "material": 2, "light": 3, "camera": 3, "scene": 4, "path": 5, "integrator": 6,
           "render": 7}
+# The same of lib/io/src. Headers are named by their folder there too.
+IO_LAYERS = {"file": 1, "image": 2, "ies": 2, "output": 2, "oiio_module": 3, "gltf/checks": 3, "gltf/compression": 4,
+             "gltf/document": 5, "gltf/animation": 6, "gltf/geometry": 7, "gltf/material": 7, "gltf/light_camera": 7,
+             "gltf/scene": 8}
 MAX_LINES = 400
 AREAS = ("lib", "apps", "tests", "benchmarks")
 
@@ -67,6 +71,19 @@ def angle_error(path, header):
     return f"may not include <{header}>"
 
 
+def io_layer_error(path, header):
+    """The same within lib/io/src."""
+    folder = path.removeprefix("lib/io/src/").rpartition("/")[0]
+    target = header.rpartition("/")[0]
+    if folder not in IO_LAYERS:
+        return f"is in the unknown layer {folder}"
+    if target not in IO_LAYERS:
+        return f'"{header}" does not name its layer'
+    if target != folder and IO_LAYERS[target] >= IO_LAYERS[folder]:
+        return f'{folder} (layer {IO_LAYERS[folder]}) may not include "{header}" (layer {IO_LAYERS[target]})'
+    return None
+
+
 def quoted_error(path, header):
     """What is wrong with `#include "header"` in the file `path`, or None."""
     if path.startswith(("lib/include/", "lib/io/include/", "benchmarks/harness/include/")):
@@ -75,7 +92,9 @@ def quoted_error(path, header):
     if not path.startswith("lib/src/"):
         may_look_inside = path.startswith(("tests/", "benchmarks/")) and not path.startswith("benchmarks/harness/")
         internal = folder in LAYERS and "/" in header and not may_look_inside
-        return f'reaches into lib/src: "{header}"' if internal else None
+        if internal:
+            return f'reaches into lib/src: "{header}"'
+        return io_layer_error(path, header) if path.startswith("lib/io/src/") else None
     layer = path.split("/")[2]
     if layer not in LAYERS:
         return f"is in the unknown layer {layer}"

@@ -3,6 +3,7 @@
 #include <bdpt/error.h>
 #include <fcntl.h>
 #include <fmt/core.h>
+#include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -79,6 +80,36 @@ void sync_folder(const fs::path& target)
     }
 }
 
+/// While it lives, a write beyond the process' limit of file sizes (ulimit -f) fails with EFBIG
+/// instead of ending the process. Of the calling thread only, so that the host's handling of the
+/// signal stays as it is.
+class SizeSignalBlock {
+public:
+    SizeSignalBlock()
+    {
+        ::sigemptyset(&signal_);
+        ::sigaddset(&signal_, SIGXFSZ);
+        sigset_t pending;
+        ::sigpending(&pending);
+        was_pending_ = ::sigismember(&pending, SIGXFSZ) == 1;
+        ::pthread_sigmask(SIG_BLOCK, &signal_, &before_);
+    }
+    ~SizeSignalBlock()
+    {
+        const timespec no_time{};
+        while (!was_pending_ && ::sigtimedwait(&signal_, nullptr, &no_time) < 0 && errno == EINTR) {
+        }
+        ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+    }
+    SizeSignalBlock(const SizeSignalBlock&) = delete;
+    SizeSignalBlock& operator=(const SizeSignalBlock&) = delete;
+
+private:
+    sigset_t signal_{};
+    sigset_t before_{};
+    bool was_pending_ = false;
+};
+
 }  // namespace
 
 fs::path OutputFile::temporary_path(const fs::path& file)
@@ -108,6 +139,7 @@ OutputFile::~OutputFile()
 
 void OutputFile::write(std::span<const char> bytes)
 {
+    const SizeSignalBlock no_signal;
     while (!bytes.empty()) {
         const ssize_t count =
             ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(position_));

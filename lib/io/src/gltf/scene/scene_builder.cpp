@@ -127,7 +127,8 @@ private:
         if (source.mesh < 0) {
             return;
         }
-        const std::vector<glm::dmat4> places = instance_transforms(model_, node, budget_);
+        const std::vector<glm::dmat4> places = instance_transforms(
+            model_, node, limits_.instances - result_.scene.instances.size(), budget_);
         const auto mesh = static_cast<std::size_t>(source.mesh);
         for (std::size_t i = 0; i < model_.meshes[mesh].primitives.size(); ++i) {
             const std::optional<ShownMesh> shown = meshes_.get(node, i);

@@ -15,6 +15,7 @@ target_sources(bdpt_io PRIVATE
   src/image/exr_reader.cpp
   src/image/hdr_reader.cpp
   src/image/oiio_library.cpp
+  src/image/png_picture.cpp
   src/image/read_image.cpp
   src/image/texels.cpp
   src/image/webp_header.cpp

@@ -4,6 +4,7 @@ target_sources(bdpt_io PRIVATE
   src/file/data_budget.cpp
   src/file/json_parser.cpp
   src/file/json_place.cpp
+  src/file/memory_figures.cpp
   src/file/read_file.cpp
   src/file/uri.cpp
   src/file/warnings.cpp

@@ -2,6 +2,7 @@
 target_sources(bdpt_io PRIVATE
   # files, JSON, what loading may spend
   src/file/data_budget.cpp
+  src/file/file_kind.cpp
   src/file/json_parser.cpp
   src/file/json_place.cpp
   src/file/memory_figures.cpp

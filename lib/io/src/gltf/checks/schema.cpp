@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <limits>
+#include <vector>
 
 namespace bdpt::io {
 
@@ -129,8 +130,9 @@ void walk(const JsonPlace& place, std::string_view path, const SchemaRule& rule,
     }
 }
 
-/// Texture references stand in many places of a material; all have a name that ends alike.
-void check_texture_references(const JsonPlace& place, std::size_t textures)
+/// Texture references stand in many places of a material; all have a name that ends alike. Marks
+/// the textures that they lead to.
+void check_texture_references(const JsonPlace& place, std::vector<bool>& used)
 {
     constexpr SchemaRule transform_rules[] = {{"offset", numbers, "", 2},
                                               {"scale", numbers, "", 2},
@@ -145,16 +147,36 @@ void check_texture_references(const JsonPlace& place, std::size_t textures)
         }
         const JsonPlace member = place.member(item.key());
         if (!item.key().ends_with("Texture")) {
-            check_texture_references(member, textures);
+            check_texture_references(member, used);
             continue;
         }
         check_value(member, {"", object}, 0);
-        walk(member, "index!", {"", index, "textures"}, textures);
+        walk(member, "index!", {"", index, "textures"}, used.size());
+        used[member.value()["index"].get<std::size_t>()] = true;
         walk(member, "texCoord", {"", code}, 0);
         walk(member, "extensions", {"", object}, 0);
         walk(member, "extensions/KHR_texture_transform", {"", object}, 0);
         for (const SchemaRule& rule : transform_rules) {
             walk(member, fmt::format("extensions/KHR_texture_transform/{}", rule.path), rule, 0);
+        }
+    }
+}
+
+/// What a texture refers to must be there, unless nothing refers to the texture.
+void check_textures(const JsonPlace& root, const std::vector<bool>& used, Warnings& warnings)
+{
+    for (std::size_t i = 0; i < used.size(); ++i) {
+        const JsonPlace textures = root.member("textures");
+        const JsonPlace texture = textures.element(i);
+        try {
+            for (const SchemaRule& rule : texture_rules) {
+                walk(texture, rule.path, rule, array_size(root, rule.target));
+            }
+        } catch (const Error& error) {
+            if (used[i]) {
+                throw;
+            }
+            warnings.add("a broken texture that no material uses is left out", error.what());
         }
     }
 }
@@ -202,7 +224,7 @@ void check_lights(const JsonPlace& root)
 
 }  // namespace
 
-void check_schema(const JsonPlace& root)
+void check_schema(const JsonPlace& root, Warnings& warnings)
 {
     if (!root.value().is_object()) {
         root.fail("a glTF document must be a JSON object, but is " + brief(root.value()));
@@ -214,14 +236,12 @@ void check_schema(const JsonPlace& root)
         check_cameras(root.member("cameras"));
     }
     check_lights(root);
-    if (!root.has("materials")) {
-        return;
+    std::vector<bool> used_textures(array_size(root, "textures"), false);
+    for (std::size_t i = 0; i < array_size(root, "materials"); ++i) {
+        const JsonPlace materials = root.member("materials");
+        check_texture_references(materials.element(i), used_textures);
     }
-    const JsonPlace materials = root.member("materials");
-    const std::size_t textures = array_size(root, "textures");
-    for (std::size_t i = 0; i < materials.size(); ++i) {
-        check_texture_references(materials.element(i), textures);
-    }
+    check_textures(root, used_textures, warnings);
 }
 
 }  // namespace bdpt::io

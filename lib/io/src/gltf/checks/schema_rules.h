@@ -29,6 +29,14 @@ struct SchemaRule {
     std::size_t length = 0;
 };
 
+/// What textures refer to, from each of them. Files have textures that no material uses and whose
+/// images were taken away; no harm comes of these.
+inline constexpr std::array texture_rules{
+    SchemaRule{"source", Kind::index, "images"},
+    SchemaRule{"sampler", Kind::index, "samplers"},
+    SchemaRule{"extensions/EXT_texture_webp/source", Kind::index, "images"},
+};
+
 inline constexpr std::array schema_rules{
     SchemaRule{"asset!", Kind::object},
     SchemaRule{"asset/version!", Kind::string},
@@ -183,11 +191,8 @@ inline constexpr std::array schema_rules{
     SchemaRule{"samplers/*/wrapS", Kind::code},
     SchemaRule{"samplers/*/wrapT", Kind::code},
     SchemaRule{"textures/*", Kind::object},
-    SchemaRule{"textures/*/source", Kind::index, "images"},
-    SchemaRule{"textures/*/sampler", Kind::index, "samplers"},
     SchemaRule{"textures/*/extensions", Kind::object},
     SchemaRule{"textures/*/extensions/EXT_texture_webp", Kind::object},
-    SchemaRule{"textures/*/extensions/EXT_texture_webp/source", Kind::index, "images"},
     SchemaRule{"cameras/*", Kind::object},
     SchemaRule{"cameras/*/type!", Kind::string},
     SchemaRule{"cameras/*/perspective", Kind::object},

@@ -1,5 +1,6 @@
 #include "gltf/document/prepass.h"
 
+#include "file/file_kind.h"
 #include "file/read_file.h"
 #include "file/uri.h"
 #include "gltf/checks/glb.h"
@@ -13,7 +14,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace bdpt::io {
 
@@ -165,6 +168,9 @@ CheckedGltf read_checked_gltf(const std::filesystem::path& file, const ReadLimit
             bin = std::move(bytes);
         }
     } else {
+        if (const std::optional<std::string_view> kind = other_kind(bytes)) {
+            throw Error(ErrorCode::invalid_input, fmt::format("not a glTF file but {}", *kind));
+        }
         result.document = parse_json(bytes, limits);
     }
     const JsonPlace root(result.document);
@@ -173,7 +179,7 @@ CheckedGltf read_checked_gltf(const std::filesystem::path& file, const ReadLimit
     }
     check_version(root);
     result.extensions = check_extensions(root, warnings);
-    check_schema(root);
+    check_schema(root, warnings);
     check_layout(root, limits, warnings);
     check_node_graph(root, limits);
     check_uris_of_all(root, result.folder);

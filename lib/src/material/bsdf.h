@@ -38,6 +38,11 @@ public:
     {
         return has_layers() ? layers_connectible() : model_.plain.has_smooth_lobe();
     }
+    /// Samples without `u_lobe`.
+    [[nodiscard]] bool has_one_lobe() const noexcept
+    {
+        return !is_rare() && extra_.from.specular_choice == 0.0f;
+    }
     /// The geometric normal, unit, on the side of wo: if all light that is scattered stays there.
     [[nodiscard]] std::optional<Vec3> opaque_normal() const noexcept
     {

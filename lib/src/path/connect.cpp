@@ -62,17 +62,20 @@ std::optional<Contribution> connect_to_light(SampleContext& sample,
     if (z.kind != VertexKind::surface || !z.connectible) {
         return std::nullopt;
     }
-    sampler.start(SampleUse::next_event, static_cast<std::uint32_t>(camera.size()));
-    const Vec2 u_position = sampler.next_2d();
     const NextEventSampling sampling = weigher.next_event_sampling();
+    const auto draw_fine = [&] {
+        sampler.start(SampleUse::camera_choice, static_cast<std::uint32_t>(camera.size()));
+        static_cast<void>(sampler.next_1d());  // chose the lobe
+        return sampler.next_fine();
+    };
     const auto choice = world.lights().choose_for_receiver([&z] { return light_receiver(z); },
-                                                           sampler.next_fine(), sampling.lights);
+                                                           z.u_light, draw_fine, sampling.lights);
     if (!choice) {
         return std::nullopt;
     }
     const Light& light = world.lights()[choice->id];
     const auto incident =
-        light.sample_incident(z.end.p, u_position, sampling.environments, sample.time);
+        light.sample_incident(z.end.p, choice->u, sampling.environments, sample.time);
     if (!incident) {
         return std::nullopt;
     }
@@ -126,14 +129,16 @@ std::optional<Splat> connect_light_to_lens(SampleContext& sample, PathWeigher& w
     const Vec2 u_lens = camera.has_finite_lens() ? sampler.next_2d() : Vec2(0.0f);
     // The lens is the receiver; where on it is settled before the light is chosen.
     const SegmentEnd receiver = camera.generate_ray(Vec2(0.0f), u_lens).lens;
-    sampler.start(SampleUse::next_event, 1);
+    sampler.start(SampleUse::camera_choice, 1);
+    const Vec2 u = sampler.next_2d();
     const auto choice = world.lights().choose_for_receiver(
-        LightReceiver{.p = receiver.p}, sampler.next_fine(), weigher.next_event_sampling().lights);
+        LightReceiver{.p = receiver.p}, u, [&sampler] { return sampler.next_fine(); },
+        weigher.next_event_sampling().lights);
     if (!choice || !can_be_seen_directly(world.lights()[choice->id], camera)) {
         return std::nullopt;
     }
     const auto incident = world.lights()[choice->id].sample_incident(
-        receiver.p, sampler.next_2d(), EnvironmentSampling::plain, sample.time);
+        receiver.p, choice->u, EnvironmentSampling::plain, sample.time);
     if (!incident) {
         return std::nullopt;
     }

@@ -111,10 +111,13 @@ void look_for_lens(const Camera& camera, const Step& step, float free_distance, 
 
 /// Ends a walk by chance in proportion to what it has lost since `full`. The survivors are worth
 /// more in return; no density knows of it, so that all strategies are treated alike.
-bool survives(Rgb& beta, Rgb full, float u)
+bool survives(Rgb& beta, Rgb full, Sampler& sampler)
 {
-    const float survival = std::min(1.0f, max_component(beta) / max_component(full));
-    if (u >= survival) {
+    const float survival = max_component(beta) / max_component(full);
+    if (survival >= 1.0f) {
+        return true;
+    }
+    if (sampler.next_1d() >= survival) {
         return false;
     }
     beta /= survival;
@@ -172,9 +175,15 @@ void walk(SampleContext& sample, const Walk& rules, Step step, Subpath& path)
         }
         PathVertex& vertex = path.back();
         Sampler& sampler = sample.sampler;
-        sampler.start(rules.use, static_cast<std::uint32_t>(path.size()));
+        const auto number = static_cast<std::uint32_t>(path.size());
+        sampler.start(rules.use, number);
         const Vec2 u_direction = sampler.next_2d();
-        const auto scattered = vertex.bsdf->sample(sampler.next_1d(), u_direction, rules.mode);
+        if (rules.from_camera()) {
+            vertex.u_light = sampler.next_2d();
+            sampler.start(SampleUse::camera_choice, number);
+        }
+        const float u_lobe = vertex.bsdf->has_one_lobe() ? 0.0f : sampler.next_1d();
+        const auto scattered = vertex.bsdf->sample(u_lobe, u_direction, rules.mode);
         if (!scattered || is_black(scattered->weight)) {
             return;
         }
@@ -186,7 +195,7 @@ void walk(SampleContext& sample, const Walk& rules, Step step, Subpath& path)
                 .pdf = scattered->pdf_fwd,
                 .pdf_plane = std::nullopt,
                 .origin = vertex.end};
-        if (path.size() > rules.limits.rr_start && !survives(step.beta, full, sampler.next_1d())) {
+        if (path.size() > rules.limits.rr_start && !survives(step.beta, full, sampler)) {
             return;
         }
     }
@@ -226,12 +235,14 @@ void trace_light_subpath(SampleContext& sample, const WalkLimits& limits,
     Sampler& sampler = sample.sampler;
     sampler.start(SampleUse::light_start);
     const Vec2 u_position = sampler.next_2d();
-    const auto choice = world.lights().choose_for_emission(sampler.next_fine());
+    const Vec2 u_direction = sampler.next_2d();
+    const auto choice =
+        world.lights().choose_for_emission(u_position, [&sampler] { return sampler.next_fine(); });
     if (!choice || limits.max_vertices < 1) {
         return;
     }
     const Light& light = world.lights()[choice->id];
-    const auto emitted = light.sample_emission(u_position, sampler.next_2d(), sample.time);
+    const auto emitted = light.sample_emission(choice->u, u_direction, sample.time);
     if (!emitted || is_black(emitted->weight)) {
         return;
     }

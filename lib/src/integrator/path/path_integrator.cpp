@@ -119,14 +119,16 @@ void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, Contribution
             break;
         }
         dispersed = dispersed || point.disperses;
+        const auto vertex = static_cast<std::uint32_t>(depth + 1);
+        sampler.start(SampleUse::camera_walk, vertex);
+        const Vec2 u_direction = sampler.next_2d();
         if (point.bsdf.connectible() && depth + 1 >= options_.min_depth) {
             const PhaseScope scope(sample.clock, Phase::connect);
             add({.s = 1, .t = depth + 1}, beta * sample_light(sample, point, depth));
         }
-        sampler.start(SampleUse::camera_walk, static_cast<std::uint32_t>(depth + 1));
-        const Vec2 u_direction = sampler.next_2d();
-        const auto scattered =
-            point.bsdf.sample(sampler.next_1d(), u_direction, TransportMode::radiance);
+        sampler.start(SampleUse::camera_choice, vertex);
+        const float u_lobe = point.bsdf.has_one_lobe() ? 0.0f : sampler.next_1d();
+        const auto scattered = point.bsdf.sample(u_lobe, u_direction, TransportMode::radiance);
         if (!scattered || is_black(scattered->weight)) {
             break;
         }
@@ -139,11 +141,13 @@ void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, Contribution
             ray.receiver = {.p = point.end.p, .normal = point.bsdf.opaque_normal()};
         }
         if (depth >= options_.rr_start) {
-            const float survival = std::min(1.0f, max_component(beta));
-            if (sampler.next_1d() >= survival) {
-                break;
+            const float survival = max_component(beta);
+            if (survival < 1.0f) {
+                if (sampler.next_1d() >= survival) {
+                    break;
+                }
+                beta /= survival;
             }
-            beta /= survival;
         }
     }
 }
@@ -201,13 +205,17 @@ Rgb PathIntegrator::emission(const Ray& ray, LightId light, const LightPoint& hi
 Rgb PathIntegrator::sample_light(SampleContext& sample, const SurfacePoint& point, int depth) const
 {
     Sampler& sampler = sample.sampler;
-    sampler.start(SampleUse::next_event, static_cast<std::uint32_t>(depth + 1));
-    const Vec2 u_position = sampler.next_2d();
+    const Vec2 u = sampler.next_2d();
+    const auto draw_fine = [&] {
+        sampler.start(SampleUse::camera_choice, static_cast<std::uint32_t>(depth + 1));
+        static_cast<void>(sampler.next_1d());  // chooses the lobe
+        return sampler.next_fine();
+    };
     const auto receiver = [&point] {
         return LightReceiver{.p = point.end.p, .normal = point.bsdf.opaque_normal()};
     };
-    const auto choice = world_.lights().choose_for_receiver(receiver, sampler.next_fine(),
-                                                            next_event_sampling_.lights);
+    const auto choice =
+        world_.lights().choose_for_receiver(receiver, u, draw_fine, next_event_sampling_.lights);
     if (!choice) {
         return Rgb(0.0f);
     }
@@ -215,7 +223,7 @@ Rgb PathIntegrator::sample_light(SampleContext& sample, const SurfacePoint& poin
     if (options_.integrator == IntegratorKind::pt && !light.is_delta()) {
         return Rgb(0.0f);
     }
-    const auto incident = light.sample_incident(point.end.p, u_position,
+    const auto incident = light.sample_incident(point.end.p, choice->u,
                                                 next_event_sampling_.environments, sample.time);
     if (!incident) {
         return Rgb(0.0f);

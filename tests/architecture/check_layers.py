@@ -10,8 +10,8 @@ import pathlib
 import re
 import sys
 
-LAYERS = {"math": 1, "geometry": 2, "material": 2, "light": 3, "camera": 3, "scene": 4, "path": 5, "integrator": 6,
-          "render": 7}
+LAYERS = {"math": 1, "texture": 2, "geometry": 3, "material": 3, "light": 4, "camera": 4, "scene": 5, "path": 6,
+          "integrator": 7, "render": 8}
 MAX_LINES = 400
 AREAS = ("lib", "apps", "tests", "benchmarks")
 

@@ -5,8 +5,8 @@
 #include "material/material_layers.h"
 #include "material/normal_map.h"
 #include "material/shading_point.h"
-#include "material/texture.h"
 #include "math/side_media.h"
+#include "texture/texture.h"
 
 #include <bdpt/scene_desc.h>
 

@@ -5,7 +5,7 @@
 #include "material/layers.h"
 #include "material/normal_map.h"
 #include "material/shading_point.h"
-#include "material/texture.h"
+#include "texture/texture.h"
 
 #include <bdpt/scene_desc.h>
 

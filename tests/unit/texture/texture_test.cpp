@@ -1,4 +1,4 @@
-#include "material/texture.h"
+#include "texture/texture.h"
 
 #include "catch.hpp"
 

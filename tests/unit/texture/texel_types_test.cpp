@@ -1,5 +1,5 @@
 #include "catch.hpp"
-#include "material/texture.h"
+#include "texture/texture.h"
 
 #include <glm/gtc/packing.hpp>
 

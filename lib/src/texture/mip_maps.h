@@ -1,6 +1,6 @@
 #pragma once
 
-#include "material/texel_coding.h"
+#include "texture/texel_coding.h"
 
 #include <bdpt/image.h>
 

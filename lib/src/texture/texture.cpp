@@ -1,7 +1,7 @@
-#include "material/texture.h"
+#include "texture/texture.h"
 
-#include "material/texel_access.h"
 #include "math/elementary.h"
+#include "texture/texel_access.h"
 
 #include <algorithm>
 #include <bit>

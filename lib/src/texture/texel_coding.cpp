@@ -1,4 +1,4 @@
-#include "material/texel_coding.h"
+#include "texture/texel_coding.h"
 
 #include <array>
 #include <cstddef>

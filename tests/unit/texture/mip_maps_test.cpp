@@ -1,8 +1,8 @@
-#include "material/mip_maps.h"
+#include "texture/mip_maps.h"
 
 #include "catch.hpp"
 #include "material/material.h"
-#include "material/texture.h"
+#include "texture/texture.h"
 
 #include <glm/gtc/packing.hpp>
 

@@ -1,6 +1,6 @@
-#include "material/mip_maps.h"
+#include "texture/mip_maps.h"
 
-#include "material/texel_access.h"
+#include "texture/texel_access.h"
 
 #include <algorithm>
 #include <array>

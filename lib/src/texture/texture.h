@@ -1,8 +1,8 @@
 #pragma once
 
-#include "material/mip_maps.h"
-#include "material/texel_coding.h"
 #include "math/footprint.h"
+#include "texture/mip_maps.h"
+#include "texture/texel_coding.h"
 
 #include <bdpt/scene_desc.h>
 

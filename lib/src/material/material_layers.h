@@ -14,7 +14,7 @@
 
 namespace bdpt {
 
-/// Does the material need more than a `GltfBsdf`?
+/// Does the material need more than a `PlainModel`?
 [[nodiscard]] bool has_layers(const MaterialDesc& desc);
 
 /// The factors and maps of a material's layers. Refers to the images and tables, which must outlive

@@ -1,6 +1,6 @@
-#include "material/thin_film.h"
+#include "material/lobes/thin_film.h"
 
-#include "material/fresnel.h"
+#include "material/lobes/fresnel.h"
 #include "math/elementary.h"
 #include "math/rgb.h"
 
@@ -85,6 +85,22 @@ struct Interfaces {
 }
 
 }  // namespace
+
+Rgb ThinFilm::over(Rgb bare, Rgb f0, float cosine) const noexcept
+{
+    return factor == 0.0f ? bare : bare + factor * (reflectance(cosine, f0) - bare);
+}
+
+float ThinFilm::bound(float bare, float split_f0, float split_f90) const noexcept
+{
+    const float filmed = f0_bound * split_f0 + split_f90;
+    return glm::mix(bare, std::max(bare, filmed), factor);
+}
+
+float ThinFilm::greatest_over(float bare, float cosine, Rgb f0) const noexcept
+{
+    return factor > 0.0f ? bare + factor * std::max(0.0f, greatest(cosine, f0) - bare) : bare;
+}
 
 Rgb ThinFilm::reflectance(float cosine, Rgb f0) const noexcept
 {

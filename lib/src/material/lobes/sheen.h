@@ -1,6 +1,6 @@
 #pragma once
 
-#include "material/bsdf_model.h"
+#include "material/lobes/lobe.h"
 #include "material/sheen_albedo.h"
 
 #include <bdpt/types.h>
@@ -16,9 +16,12 @@ public:
     [[nodiscard]] bool exists() const noexcept { return weight_ > 0.0f; }
     /// The share of light from this cosine that the fibres reflect, in the brightest channel.
     [[nodiscard]] float reflected(float cosine) const noexcept;
+
     /// The densities are those of directions uniform in the hemisphere.
-    [[nodiscard]] BsdfEval eval(Vec3 wo, Vec3 wi) const noexcept;
-    [[nodiscard]] static Vec3 sample(Vec2 u) noexcept;
+    [[nodiscard]] BsdfEval eval(Vec3 wo, Vec3 wi, TransportMode mode) const noexcept;
+    [[nodiscard]] std::optional<BsdfSample> sample(Vec3 wo, float u_lobe, Vec2 u,
+                                                   TransportMode mode) const noexcept;
+    [[nodiscard]] bool is_delta() const noexcept { return false; }
 
 private:
     Rgb color_;
@@ -26,5 +29,7 @@ private:
     float weight_;
     const SheenAlbedo* albedo_;
 };
+
+static_assert(Lobe<Sheen>);
 
 }  // namespace bdpt

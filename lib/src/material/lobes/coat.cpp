@@ -1,8 +1,8 @@
-#include "material/coat.h"
+#include "material/lobes/coat.h"
 
-#include "material/fresnel.h"
-#include "material/ggx.h"
-#include "material/gltf_bsdf.h"
+#include "material/lobes/fresnel.h"
+#include "material/lobes/ggx.h"
+#include "material/lobes/roughness.h"
 #include "material/mapped_bsdf.h"
 
 #include <glm/geometric.hpp>
@@ -18,9 +18,9 @@ EvenCoat::EvenCoat(float weight, float roughness, const SpecularAlbedo* albedo)
       albedo_(albedo)
 {}
 
-bool EvenCoat::is_rough() const noexcept
+bool EvenCoat::is_delta() const noexcept
 {
-    return alpha_ >= GltfBsdf::smooth_alpha;
+    return !(alpha_ >= smooth_alpha);
 }
 
 float EvenCoat::reflected(float cosine) const noexcept
@@ -32,7 +32,7 @@ float EvenCoat::reflected(float cosine) const noexcept
 
 BsdfEval EvenCoat::eval(Vec3 wo, Vec3 wi, TransportMode) const noexcept
 {
-    if (!is_rough() || wo.z <= 0.0f || wi.z <= 0.0f) {
+    if (is_delta() || wo.z <= 0.0f || wi.z <= 0.0f) {
         return {};
     }
     const ggx::Lobe lobe = ggx::reflect(wo, wi, alpha_);
@@ -45,17 +45,16 @@ std::optional<BsdfSample> EvenCoat::sample(Vec3 wo, float, Vec2 u, TransportMode
     if (wo.z <= 0.0f) {
         return std::nullopt;
     }
-    if (!is_rough()) {
+    if (is_delta()) {
         const float weight = weight_ * fresnel_dielectric(std::min(1.0f, wo.z), albedo_->ior());
         return BsdfSample{Vec3{-wo.x, -wo.y, wo.z}, Rgb{weight}, SolidAnglePdf{wo.z},
                           SolidAnglePdf{wo.z}, true};
     }
-    const Vec3 h = ggx::sample_visible_normal(wo, alpha_, u);
-    const Vec3 wi = 2.0f * std::min(1.0f, dot(wo, h)) * h - wo;
+    const Vec3 wi = ggx::visible_microfacet(wo, alpha_, u).reflected();
     if (wi.z <= 0.0f) {
         return std::nullopt;  // masked
     }
-    return BsdfSample{.wi = wi};
+    return towards(wi);
 }
 
 Coat::Coat(float weight, float roughness, Vec3 normal, const SpecularAlbedo* albedo)

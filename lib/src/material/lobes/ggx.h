@@ -7,6 +7,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace bdpt::ggx {
@@ -65,6 +66,23 @@ template <typename Alpha>
     const Vec3 cap = square_to_cone(u, 1.0f + stretched.z);
     const Vec3 h = cap + stretched;
     return normalize(stretched_by(Vec3{h.x, h.y, std::max(h.z, 1e-12f)}, alpha));
+}
+
+/// A microfacet with the normal h that is seen from o, o.z >= 0.
+struct Microfacet {
+    Vec3 o;
+    Vec3 h;
+    float cosine;  ///< of the angle between them
+
+    [[nodiscard]] Vec3 reflected() const { return 2.0f * cosine * h - o; }
+};
+
+/// Of the density of `sample_visible_normal`.
+template <typename Alpha>
+[[nodiscard]] Microfacet visible_microfacet(Vec3 o, Alpha alpha, Vec2 u)
+{
+    const Vec3 h = sample_visible_normal(o, alpha, u);
+    return {o, h, std::min(1.0f, dot(o, h))};
 }
 
 /// A microfacet lobe before Fresnel, with its densities under visible-normal sampling.

@@ -1,4 +1,4 @@
-#include "material/sheen.h"
+#include "material/lobes/sheen.h"
 
 #include "math/rgb.h"
 #include "math/warp.h"
@@ -17,15 +17,15 @@ float Sheen::reflected(float cosine) const noexcept
     return weight_ == 0.0f ? 0.0f : weight_ * albedo_->directional(cosine, roughness_);
 }
 
-BsdfEval Sheen::eval(Vec3 wo, Vec3 wi) const noexcept
+BsdfEval Sheen::eval(Vec3 wo, Vec3 wi, TransportMode) const noexcept
 {
     const SolidAnglePdf pdf = cone_pdf(1.0f);
     return {color_ * (albedo_->value(wo, wi, roughness_) * wi.z), pdf, pdf};
 }
 
-Vec3 Sheen::sample(Vec2 u) noexcept
+std::optional<BsdfSample> Sheen::sample(Vec3, float, Vec2 u, TransportMode) const noexcept
 {
-    return square_to_cone(u, 1.0f);
+    return towards(square_to_cone(u, 1.0f));
 }
 
 }  // namespace bdpt

@@ -1,9 +1,7 @@
 #pragma once
 
-#include "material/bsdf_model.h"
-#include "material/coat.h"
-#include "material/layered_bsdf.h"
-#include "material/layers.h"
+#include "material/lobes/coat.h"
+#include "material/models/layered_bsdf.h"
 #include "material/tilted_facet.h"
 #include "math/frame.h"
 

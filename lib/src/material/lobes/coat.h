@@ -1,6 +1,6 @@
 #pragma once
 
-#include "material/bsdf_model.h"
+#include "material/lobes/lobe.h"
 #include "material/specular_albedo.h"
 #include "material/tilted_facet.h"
 #include "math/frame.h"
@@ -15,15 +15,13 @@ class EvenCoat {
 public:
     EvenCoat(float weight, float roughness, const SpecularAlbedo* albedo);
 
-    /// Is it not perfectly smooth? Whether `eval` has anything.
-    [[nodiscard]] bool is_rough() const noexcept;
+    [[nodiscard]] bool is_delta() const noexcept;
     /// The share of light from a direction with this cosine that is reflected.
     [[nodiscard]] float reflected(float cosine) const noexcept;
     [[nodiscard]] bool exists() const noexcept { return weight_ > 0.0f; }
 
     /// Grey, and the same in both modes.
     [[nodiscard]] BsdfEval eval(Vec3 wo, Vec3 wi, TransportMode mode) const noexcept;
-    /// Of a perfectly smooth coat the reflection, a delta lobe; else the direction alone counts.
     [[nodiscard]] std::optional<BsdfSample> sample(Vec3 wo, float u_lobe, Vec2 u,
                                                    TransportMode mode) const noexcept;
 
@@ -45,15 +43,15 @@ public:
 
     [[nodiscard]] bool has_smooth_lobe() const noexcept
     {
-        return even_.exists() && even_.is_rough();
+        return even_.exists() && !even_.is_delta();
     }
+    [[nodiscard]] bool is_delta() const noexcept { return even_.is_delta(); }
     /// The share of light from `w` that the coat reflects; the base gets no more than the rest.
     [[nodiscard]] float reflected(Vec3 w) const noexcept;
 
-    /// Grey; of a coat that is not perfectly smooth.
+    /// Grey.
     [[nodiscard]] BsdfEval eval(Vec3 wo, Vec3 wi, TransportMode mode) const noexcept;
-    /// Of a perfectly smooth coat its delta lobe, with densities before the choice of this lobe;
-    /// else the direction alone counts.
+    /// The densities of delta samples are those before the choice of this lobe.
     [[nodiscard]] std::optional<BsdfSample> sample(Vec3 wo, float u_lobe, Vec2 u,
                                                    TransportMode mode) const noexcept;
 
@@ -63,6 +61,8 @@ private:
     TiltedFacet facet_;  ///< local to `frame_`
     bool tilted_;
 };
+
+static_assert(Lobe<EvenCoat> && Lobe<Coat>);
 
 /// A delta sample of the coat, when the coat is chosen with these chances from either side.
 inline void choose_delta_coat(BsdfSample& sample, float from_choice, float to_choice)

@@ -1,17 +1,12 @@
-#include "material/layered_bsdf.h"
+#include "material/models/layered_bsdf.h"
 
 #include "math/rgb.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <type_traits>
 
 namespace bdpt {
 namespace {
-
-static_assert(std::is_trivially_copyable_v<LayeredParameters>);
-static_assert(sizeof(LayeredParameters) <= sizeof(GltfBsdf));
 
 /// Layers see their own side of the surface from above.
 [[nodiscard]] Vec3 from_above(Vec3 w, bool above)
@@ -19,14 +14,15 @@ static_assert(sizeof(LayeredParameters) <= sizeof(GltfBsdf));
     return above ? w : -w;
 }
 
-[[nodiscard]] RichFeatures features_of(const LayeredParameters& parameters)
+[[nodiscard]] LayerBase base_of(const LayeredParameters& parameters)
 {
-    return {.anisotropy = parameters.anisotropy.value(),
-            .film = {.factor = parameters.film.value(),
+    return {parameters, *parameters.constants->base,
+            AnisotropicRoughness(parameters.roughness, parameters.anisotropy.value()),
+            ThinFilm{.factor = parameters.film.value(),
                      .ior = parameters.constants->film_ior,
                      .thickness = parameters.film_thickness},
-            .diffuse_transmission = parameters.diffuse_transmission.value(),
-            .transmission_color = parameters.transmission_color.value()};
+            TranslucentBase(parameters.diffuse_transmission.value(),
+                            parameters.transmission_color.value())};
 }
 
 /// Roughly the albedo of the base; above 0.
@@ -34,7 +30,7 @@ static_assert(sizeof(LayeredParameters) <= sizeof(GltfBsdf));
 {
     const float transmitted = parameters.diffuse_transmission.value() *
                               max_component(parameters.transmission_color.value());
-    const float brightest = std::max(max_component(parameters.base.base_color), transmitted);
+    const float brightest = std::max(max_component(parameters.base_color), transmitted);
     return 0.05f + 0.95f * std::clamp(brightest, 0.0f, 1.0f);
 }
 
@@ -47,13 +43,13 @@ static_assert(sizeof(LayeredParameters) <= sizeof(GltfBsdf));
 }  // namespace
 
 LayeredBsdf::LayeredBsdf(const LayeredParameters& parameters)
-    : base_(parameters.base, *parameters.constants->base, features_of(parameters)),
+    : base_(base_of(parameters)),
       coat_(parameters.coat.value(), parameters.coat_roughness.value(),
             parameters.coat_normal.value(), parameters.constants->tables->coat.get()),
       sheen_(parameters.sheen.value(), parameters.sheen_roughness.value(),
              parameters.constants->tables->sheen.get()),
       base_weight_(weight_of(parameters)),
-      solid_(parameters.base.body == Body::solid)
+      solid_(parameters.body == Body::solid)
 {}
 
 bool LayeredBsdf::has_smooth_lobe() const noexcept
@@ -85,26 +81,21 @@ BsdfEval LayeredBsdf::eval_lobes(const Side& from, Vec3 wo, Vec3 wi,
 {
     const Side to = side(wi);
     const float below_coat = passed(from.below_coat, to.below_coat);
-    BsdfEval sum = base_.eval(from.base, wo, wi, mode);
+    BsdfEval sum = chosen(base_.eval(from.base, wo, wi, mode), from.base_choice, to.base_choice);
     sum.f_cos *= below_coat * passed(from.below_sheen, to.below_sheen);
-    sum.pdf_fwd.value *= from.base_choice;
-    sum.pdf_rev.value *= to.base_choice;
     const bool above = wo.z > 0.0f;
     if (above != (wi.z > 0.0f) || !is_covered(wo)) {
         return sum;
     }
-    const auto add = [&sum](const BsdfEval& lobe, float share, float choice_fwd, float choice_rev) {
-        sum.f_cos += lobe.f_cos * share;
-        sum.pdf_fwd.value += choice_fwd * lobe.pdf_fwd.value;
-        sum.pdf_rev.value += choice_rev * lobe.pdf_rev.value;
-    };
     const Vec3 o = from_above(wo, above);
     const Vec3 i = from_above(wi, above);
     if (coat_.has_smooth_lobe()) {
-        add(coat_.eval(o, i, mode), 1.0f, from.coat_choice, to.coat_choice);
+        add(sum, chosen(coat_.eval(o, i, mode), from.coat_choice, to.coat_choice));
     }
     if (sheen_.exists()) {
-        add(sheen_.eval(o, i), below_coat, from.sheen_choice, to.sheen_choice);
+        BsdfEval sheen = chosen(sheen_.eval(o, i, mode), from.sheen_choice, to.sheen_choice);
+        sheen.f_cos *= below_coat;
+        add(sum, sheen);
     }
     return sum;
 }
@@ -159,7 +150,9 @@ std::optional<BsdfSample> LayeredBsdf::sample(Vec3 wo, float u_lobe, Vec2 u,
     if (u_lobe < from.coat_choice) {
         sampled = sample_coat(from, wo, u_lobe / from.coat_choice, u, mode);
     } else if (u_lobe < above_base) {
-        sampled = BsdfSample{.wi = from_above(Sheen::sample(u), wo.z > 0.0f)};
+        const bool above = wo.z > 0.0f;
+        sampled = sheen_.sample(from_above(wo, above), u_lobe, u, mode);
+        sampled->wi = from_above(sampled->wi, above);
     } else if (from.base_choice > 0.0f) {
         const float u_base = std::min((u_lobe - above_base) / from.base_choice, below_one);
         sampled = sample_base(from, wo, u_base, u, mode);
@@ -167,12 +160,7 @@ std::optional<BsdfSample> LayeredBsdf::sample(Vec3 wo, float u_lobe, Vec2 u,
     if (!sampled || sampled->delta || grazes(sampled->wi)) {
         return sampled && sampled->delta ? sampled : std::nullopt;
     }
-    const BsdfEval value = eval_lobes(from, wo, sampled->wi, mode);
-    if (!(value.pdf_fwd.value >= std::numeric_limits<float>::min())) {
-        return std::nullopt;
-    }
-    return BsdfSample{sampled->wi, value.f_cos * (1.0f / value.pdf_fwd.value), value.pdf_fwd,
-                      value.pdf_rev, false};
+    return smooth_sample(sampled->wi, eval_lobes(from, wo, sampled->wi, mode));
 }
 
 }  // namespace bdpt

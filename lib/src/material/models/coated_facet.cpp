@@ -1,4 +1,4 @@
-#include "material/coated_facet.h"
+#include "material/models/coated_facet.h"
 
 #include "material/mapped_bsdf.h"
 
@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <limits>
 
 namespace bdpt {
 namespace {
@@ -26,8 +25,8 @@ CoatedFacet::CoatedFacet(const TiltedFacet& facet, const LayeredParameters& para
       coat_(parameters.coat.value(), parameters.coat_roughness.value(),
             local_coat_normal(parameters.coat_normal.value()),
             parameters.constants->tables->coat.get()),
-      color_(clamp(parameters.base.base_color, 0.0f, 1.0f)),
-      solid_(parameters.base.body == Body::solid)
+      color_(clamp(parameters.base_color, 0.0f, 1.0f)),
+      solid_(parameters.body == Body::solid)
 {}
 
 /// Exactly +z where the coat lies even on the surface.
@@ -57,15 +56,11 @@ BsdfEval CoatedFacet::eval_lobes(const Side& from, Vec3 wo, Vec3 wi,
                                  TransportMode mode) const noexcept
 {
     const Side to = side(wi);
-    BsdfEval sum = MappedBsdf(facet_, below_, color_).eval(wo, wi, mode);
+    BsdfEval sum = chosen(MappedBsdf(facet_, below_, color_).eval(wo, wi, mode),
+                          1.0f - from.coat_choice, 1.0f - to.coat_choice);
     sum.f_cos *= std::min(from.below_coat, to.below_coat);
-    sum.pdf_fwd.value *= 1.0f - from.coat_choice;
-    sum.pdf_rev.value *= 1.0f - to.coat_choice;
     if (coat_.has_smooth_lobe() && from.covered && from.above == to.above) {
-        const BsdfEval coat = coat_.eval(from.w, to.w, mode);
-        sum.f_cos += coat.f_cos;
-        sum.pdf_fwd.value += from.coat_choice * coat.pdf_fwd.value;
-        sum.pdf_rev.value += to.coat_choice * coat.pdf_rev.value;
+        add(sum, chosen(coat_.eval(from.w, to.w, mode), from.coat_choice, to.coat_choice));
     }
     return sum;
 }
@@ -122,12 +117,7 @@ std::optional<BsdfSample> CoatedFacet::sample(Vec3 wo, float u_lobe, Vec2 u,
     if (!sampled || sampled->delta || grazes(surface_.to_local(sampled->wi))) {
         return sampled && sampled->delta ? sampled : std::nullopt;
     }
-    const BsdfEval value = eval_lobes(from, wo, sampled->wi, mode);
-    if (!(value.pdf_fwd.value >= std::numeric_limits<float>::min())) {
-        return std::nullopt;
-    }
-    return BsdfSample{sampled->wi, value.f_cos * (1.0f / value.pdf_fwd.value), value.pdf_fwd,
-                      value.pdf_rev, false};
+    return smooth_sample(sampled->wi, eval_lobes(from, wo, sampled->wi, mode));
 }
 
 }  // namespace bdpt

@@ -1,18 +1,17 @@
 #pragma once
 
-#include "material/bsdf_model.h"
-#include "material/coat.h"
-#include "material/gltf_bsdf.h"
 #include "material/layers.h"
-#include "material/sheen.h"
+#include "material/lobes/coat.h"
+#include "material/lobes/sheen.h"
+#include "material/models/metallic_roughness.h"
 
 #include <optional>
 
 namespace bdpt {
 
 /// Layers over the glTF material model: KHR_materials_{clearcoat, sheen}, and a base with
-/// KHR_materials_{anisotropy, diffuse_transmission, iridescence}. Directions are as those of
-/// `GltfBsdf`; +x is the rougher direction. Layers cover the outside of solid bodies, and both
+/// KHR_materials_{anisotropy, diffuse_transmission, iridescence}. Directions are as those of all
+/// models; +x is the rougher direction. Layers cover the outside of solid bodies, and both
 /// sides of all else.
 ///
 /// What lies below a layer is multiplied by min(T(wo), T(wi)), where T is what the layer does not
@@ -34,7 +33,7 @@ public:
 private:
     /// What follows from one direction alone.
     struct Side {
-        RichGltfBsdf::Side base;
+        LayerBase::Side base;
         // Probabilities of the lobes.
         float coat_choice = 0.0f;
         float sheen_choice = 0.0f;
@@ -53,7 +52,7 @@ private:
     [[nodiscard]] std::optional<BsdfSample> sample_base(const Side& from, Vec3 wo, float u_lobe,
                                                         Vec2 u, TransportMode mode) const noexcept;
 
-    RichGltfBsdf base_;
+    LayerBase base_;
     Coat coat_;
     Sheen sheen_;
     float base_weight_;

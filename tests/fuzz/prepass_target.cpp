@@ -1,6 +1,6 @@
 #include "fuzz_target.h"
-#include "gltf/layout.h"
-#include "gltf/prepass.h"
+#include "gltf/checks/layout.h"
+#include "gltf/document/prepass.h"
 #include "input_file.h"
 #include "promises.h"
 

@@ -71,16 +71,8 @@ public:
         const std::uint64_t number = std::uint64_t{1} << 63U |
                                      std::uint64_t{static_cast<std::uint32_t>(s)} << 32U |
                                      static_cast<std::uint32_t>(t);
-        return {split_mix(key_ + golden_ratio_64 * number + split_mix(reversed_index_)),
-                wavelength_, time_};
+        return {split_mix(key_ + golden_ratio_64 * number + split_mix(reversed_index_))};
     }
-
-    /// Of the sample; green until it is chosen.
-    [[nodiscard]] Wavelength wavelength() const { return wavelength_; }
-    void set_wavelength(Wavelength wavelength) { wavelength_ = wavelength; }
-    /// Of the sample, in [0, 1] while the shutter is open; 0 until it is chosen.
-    [[nodiscard]] float time() const { return time_; }
-    void set_time(float time) { time_ = time; }
 
 private:
     static constexpr std::size_t set_size = 4;
@@ -120,8 +112,6 @@ private:
     std::size_t next_ = set_size;
     std::uint32_t reversed_index_ = 0;  ///< of the point in its sequence
     SamplerKind kind_;
-    Wavelength wavelength_ = Wavelength::green;
-    float time_ = 0.0f;
     std::array<float, set_size> set_{};
 };
 

@@ -2,8 +2,8 @@
 
 #include "catch.hpp"
 #include "file/read_file.h"
-#include "gltf/draco_decoder.h"
-#include "gltf/prepass.h"
+#include "gltf/compression/draco_decoder.h"
+#include "gltf/document/prepass.h"
 #include "gltf_fixture.h"
 #include "image/exr_header.h"
 

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "file/warnings.h"
+#include "gltf/document/model.h"
+
+#include <bdpt/io/read_limits.h>
+#include <bdpt/scene_desc.h>
+
+#include <cstddef>
+#include <optional>
+
+namespace bdpt::io {
+
+/// The environment of a scene [EXT_lights_image_based], from the first level of its cube; none,
+/// with a warning, when a picture of it cannot be read. Throws `Error` (invalid_input) for a cube
+/// that lacks a side, or is beyond the limits.
+[[nodiscard]] std::optional<EnvironmentLightDesc> read_image_based_light(const GltfModel& model,
+                                                                         std::size_t scene,
+                                                                         const ReadLimits& limits,
+                                                                         Warnings& warnings);
+
+}  // namespace bdpt::io

@@ -1,0 +1,48 @@
+#include <bdpt/io/gltf.h>
+
+#include "file/named_errors.h"
+#include "file/warnings.h"
+#include "gltf/animation/animation.h"
+#include "gltf/document/facts.h"
+#include "gltf/document/prepass.h"
+#include "gltf/document/selection.h"
+#include "gltf/scene/scene_builder.h"
+
+#include <utility>
+
+namespace bdpt::io {
+
+namespace {
+
+LoadedScene load(const std::filesystem::path& file, const GltfOptions& options)
+{
+    Warnings warnings;
+    CheckedGltf checked = read_checked_gltf(file, options.limits, warnings);
+    GltfFacts facts = collect_facts(checked);
+    facts.scene = select_scene(checked.document, options.scene);
+    if (!facts.scene) {
+        warnings.add("the file has no scene; all its nodes are shown", "/scenes");
+    }
+    SceneChoice choice;
+    choice.scene = facts.scene;
+    if (options.variant) {
+        choice.variant = select("variant", facts.variant_names, *options.variant);
+    }
+    choice.animations = select_animations(facts.animation_names, options, warnings);
+    choice.time = options.time.value_or(0.0);
+    choice.shutter = options.shutter.value_or(Shutter{});
+    LoadedScene loaded =
+        build_scene(std::move(checked), choice, options.limits, options.on_progress, warnings);
+    loaded.facts = std::move(facts);
+    loaded.warnings = warnings.lines();
+    return loaded;
+}
+
+}  // namespace
+
+LoadedScene load_gltf(const std::filesystem::path& file, const GltfOptions& options)
+{
+    return with_named_errors(file, [&] { return load(file, options); });
+}
+
+}  // namespace bdpt::io

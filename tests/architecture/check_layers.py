@@ -10,8 +10,8 @@ import pathlib
 import re
 import sys
 
-LAYERS = {"math": 1, "film": 2, "profile": 2, "geometry": 2, "material": 2, "light": 3, "camera": 3, "scene": 4, "path": 5, "integrator": 6,
-          "render": 7}
+LAYERS = {"math": 1, "film": 2, "profile": 2, "texture": 2, "geometry": 3, "material": 3, "light": 4, "camera": 4,
+          "scene": 5, "path": 6, "integrator": 7, "render": 8}
 COMMAND_LAYERS = {"terminal": 1, "options": 2, "stage": 3, "report": 4, "commands": 5}
 # The same of lib/io/src. Headers are named by their folder there too.
 IO_LAYERS = {"file": 1, "image": 2, "ies": 2, "output": 2, "oiio_module": 3, "gltf/checks": 3, "gltf/compression": 4,

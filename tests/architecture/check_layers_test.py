@@ -51,7 +51,7 @@ SOUND = {
 # Name -> (file, its text or a line that is added to it, a part of the finding)
 VIOLATIONS = {
     "lower layer includes higher": ("lib/src/math/warp.h", '#include "path/walk.h"', "math (layer 1) may not include"),
-    "layers of one height": ("lib/src/material/bsdf.h", '#include "geometry/ray.h"', "material (layer 2) may not"),
+    "layers of one height": ("lib/src/material/bsdf.h", '#include "geometry/ray.h"', "material (layer 3) may not"),
     "include without layer": ("lib/src/math/warp.h", '#include "warp_detail.h"', "does not name its layer"),
     "unusual spacing": ("lib/src/math/warp.h", '  #  include  "render/render.h"', "math (layer 1) may not include"),
     "unknown layer": ("lib/src/util/misc.h", '#include "math/warp.h"', "unknown layer util"),

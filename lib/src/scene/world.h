@@ -6,11 +6,11 @@
 #include "light/intensity_profile.h"
 #include "material/bsdf.h"
 #include "material/material.h"
-#include "material/mip_maps.h"
 #include "math/footprint.h"
 #include "scene/bodies.h"
 #include "scene/light_set.h"
 #include "scene/medium.h"
+#include "texture/mip_maps.h"
 
 #include <bdpt/scene.h>
 

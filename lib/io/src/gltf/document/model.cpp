@@ -177,7 +177,8 @@ std::string one_line(std::string text)
 
 }  // namespace
 
-Bytes read_source(const GltfModel& model, const ImageSource& source, std::uint64_t limit)
+Bytes read_source(const GltfModel& model, const ImageSource& source, std::uint64_t limit,
+                  const LoadContext& context)
 {
     if (source.buffer_view) {
         const tinygltf::BufferView& view = model.structs.bufferViews[*source.buffer_view];
@@ -196,7 +197,7 @@ Bytes read_source(const GltfModel& model, const ImageSource& source, std::uint64
     if (is_data_uri(source.uri)) {
         return decode_data_uri(source.uri, limit);
     }
-    const std::filesystem::path file = resolve_uri(model.folder, source.uri);
+    const std::filesystem::path file = resolve_uri(context.folder, source.uri);
     try {
         return read_file(file, limit);
     } catch (const Error& error) {
@@ -207,7 +208,6 @@ Bytes read_source(const GltfModel& model, const ImageSource& source, std::uint64
 GltfModel build_model(CheckedGltf checked)
 {
     GltfModel model;
-    model.folder = std::move(checked.folder);
     model.images = take_images(checked.document);
     model.light_profiles = take_profiles(checked.document);
     model.environments = take_lights(checked.document, "EXT_lights_image_based");

@@ -2,12 +2,12 @@
 
 #include "file/bytes.h"
 #include "file/json.h"
+#include "file/load_context.h"
 #include "gltf/document/prepass.h"
 #include "gltf/document/tinygltf.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,13 +32,12 @@ struct GltfModel {
     std::vector<ImageSource> light_profiles;  ///< of EXT_lights_ies
     Json environments;                        ///< the array "lights" of EXT_lights_image_based
     Json motion;  ///< an object with the arrays "skins" and "animations" of the document
-    std::filesystem::path folder;
 };
 
 /// The bytes of a file, of data, or of a view. Throws `Error`: not_found for a file that is
 /// missing, invalid_input when it is larger than `limit` bytes, or the source says nothing.
 [[nodiscard]] Bytes read_source(const GltfModel& model, const ImageSource& source,
-                                std::uint64_t limit);
+                                std::uint64_t limit, const LoadContext& context);
 
 /// Throws `Error` (invalid_input) for what the checks before let through and tinygltf does not.
 [[nodiscard]] GltfModel build_model(CheckedGltf checked);

@@ -27,14 +27,14 @@ struct Blend {
 
 /// Adds what set `n` of joints and weights says; false when there is no such set.
 bool add_set(std::vector<Blend>& blends, const PrimitiveReader& primitive, int n,
-             std::span<const glm::dmat4> joints, Warnings& warnings)
+             std::span<const glm::dmat4> joints, LoadContext& context)
 {
     const std::string joint_name = fmt::format("JOINTS_{}", n);
     const std::string weight_name = fmt::format("WEIGHTS_{}", n);
     const std::vector<Vec4> indices =
-        primitive.read<Vec4>(joint_name, blends.size(), warnings, Integers::whole);
+        primitive.read<Vec4>(joint_name, blends.size(), context, Integers::whole);
     const std::vector<Vec4> weights =
-        primitive.read<Vec4>(weight_name, blends.size(), warnings, Integers::normalized);
+        primitive.read<Vec4>(weight_name, blends.size(), context, Integers::normalized);
     if (indices.empty() || weights.empty()) {
         return false;
     }
@@ -42,7 +42,7 @@ bool add_set(std::vector<Blend>& blends, const PrimitiveReader& primitive, int n
         for (int c = 0; c < 4; ++c) {
             const double weight = static_cast<double>(weights[i][c]);
             if (!std::isfinite(weight) || weight < 0.0) {
-                warnings.add("weights of joints that are no weights count as 0",
+                context.warn("weights of joints that are no weights count as 0",
                              fmt::format("{}/attributes/{}: vertex {}: {}",
                                          primitive.id().pointer(), weight_name, i, weight));
                 continue;
@@ -64,17 +64,17 @@ bool add_set(std::vector<Blend>& blends, const PrimitiveReader& primitive, int n
 }
 
 std::vector<Blend> blend_joints(const PrimitiveReader& primitive, std::size_t vertices,
-                                std::span<const glm::dmat4> joints, Warnings& warnings)
+                                std::span<const glm::dmat4> joints, LoadContext& context)
 {
     std::vector<Blend> blends(vertices);
-    for (int n = 0; add_set(blends, primitive, n, joints, warnings); ++n) {
+    for (int n = 0; add_set(blends, primitive, n, joints, context); ++n) {
     }
     // Eight weights of 8 bits may be off by this in good faith.
     constexpr double tolerance = 8.0 * 0.5 / 255.0;
     for (std::size_t i = 0; i < vertices; ++i) {
         Blend& blend = blends[i];
         if (!(std::abs(blend.weight - 1.0) <= tolerance)) {
-            warnings.add(blend.weight > 0.0
+            context.warn(blend.weight > 0.0
                              ? "weights of joints that do not add up to 1 are made to"
                              : "vertices without a weight follow the first joint of their skin",
                          fmt::format("{}/attributes/WEIGHTS_0: vertex {}: {}",
@@ -110,10 +110,10 @@ bool has_joints(const PrimitiveReader& primitive)
 
 std::vector<glm::dmat4> joint_matrices(const tinygltf::Model& model, const JsonPlace& skin,
                                        NodeTransforms& transforms, const NodeMotion& motion,
-                                       std::size_t step, DataBudget& budget)
+                                       std::size_t step, LoadContext& context)
 {
     const Json& joints = skin.member("joints").value();
-    budget.spend(skin.pointer(), joints.size(), sizeof(glm::dmat4));
+    context.budget.spend(skin.pointer(), joints.size(), sizeof(glm::dmat4));
     std::vector<glm::dmat4> matrices;
     matrices.reserve(joints.size());
     for (const Json& joint : joints) {
@@ -127,8 +127,8 @@ std::vector<glm::dmat4> joint_matrices(const tinygltf::Model& model, const JsonP
     const JsonPlace place = skin.member("inverseBindMatrices");
     const auto accessor = static_cast<int>(place.as_unsigned());
     constexpr std::size_t size = 16;
-    budget.spend(skin.pointer(), model.accessors[static_cast<std::size_t>(accessor)].count,
-                 size * sizeof(float));
+    context.budget.spend(skin.pointer(), model.accessors[static_cast<std::size_t>(accessor)].count,
+                         size * sizeof(float));
     const std::vector<float> values = read_numbers(model, accessor, TINYGLTF_TYPE_MAT4);
     if (values.size() / size < matrices.size()) {
         place.fail(fmt::format("{} matrices, but there are {} joints", values.size() / size,
@@ -149,13 +149,13 @@ bool moves(const JsonPlace& skin, const NodeMotion& motion)
 }
 
 void apply_skin(MeshDesc& mesh, const PrimitiveReader& primitive,
-                std::span<const glm::dmat4> joints, Warnings& warnings)
+                std::span<const glm::dmat4> joints, LoadContext& context)
 {
     if (joints.empty()) {
         return;
     }
     const std::vector<Blend> blends =
-        blend_joints(primitive, mesh.positions.size(), joints, warnings);
+        blend_joints(primitive, mesh.positions.size(), joints, context);
     std::vector<double> determinants;
     determinants.reserve(blends.size());
     for (std::size_t i = 0; i < blends.size(); ++i) {

@@ -1,8 +1,7 @@
 #pragma once
 
-#include "file/data_budget.h"
 #include "file/json.h"
-#include "file/warnings.h"
+#include "file/load_context.h"
 #include "gltf/animation/node_motion.h"
 #include "gltf/animation/node_transforms.h"
 #include "gltf/geometry/primitive_reader.h"
@@ -24,7 +23,7 @@ namespace bdpt::io {
                                                      const JsonPlace& skin,
                                                      NodeTransforms& transforms,
                                                      const NodeMotion& motion, std::size_t step,
-                                                     DataBudget& budget);
+                                                     LoadContext& context);
 
 /// Does any joint of the skin move?
 [[nodiscard]] bool moves(const JsonPlace& skin, const NodeMotion& motion);
@@ -33,7 +32,7 @@ namespace bdpt::io {
 /// count. Weights are made to add up to one. Parts that the joints mirror keep their front. Does
 /// nothing for no joints. Throws `Error` (invalid_input) for a joint that there is not.
 void apply_skin(MeshDesc& mesh, const PrimitiveReader& primitive,
-                std::span<const glm::dmat4> joints, Warnings& warnings);
+                std::span<const glm::dmat4> joints, LoadContext& context);
 
 /// Can the primitive be skinned: does it say which joints move its vertices?
 [[nodiscard]] bool has_joints(const PrimitiveReader& primitive);

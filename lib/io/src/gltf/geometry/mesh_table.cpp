@@ -52,16 +52,15 @@ const MeshTable::Joints& MeshTable::joints(int skin)
 {
     const auto [found, is_new] = joints_.try_emplace(skin);
     if (is_new) {
-        const JsonPlace root(model_.motion);
-        const JsonPlace skins = root.member("skins");
-        const JsonPlace place = skins.element(static_cast<std::size_t>(skin));
-        if (place.member("joints").size() == 0) {
-            place.member("joints").fail("a skin needs at least one");
+        const tinygltf::Skin& source = model_.structs.skins[static_cast<std::size_t>(skin)];
+        if (source.joints.empty()) {
+            throw Error(ErrorCode::invalid_input,
+                        fmt::format("/skins/{}/joints: a skin needs at least one", skin));
         }
-        const std::size_t steps = moves(place, motion_) ? motion_.steps() : 0;
+        const std::size_t steps = moves(source, motion_) ? motion_.steps() : 0;
         for (std::size_t step = 0; step <= steps; ++step) {
             found->second.push_back(
-                joint_matrices(model_.structs, place, transforms_, motion_, step, context_));
+                joint_matrices(model_.structs, skin, transforms_, motion_, step, context_));
         }
     }
     return found->second;

@@ -2,6 +2,8 @@
 
 #include "gltf/document/accessor.h"
 
+#include <bdpt/error.h>
+
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -108,31 +110,32 @@ bool has_joints(const PrimitiveReader& primitive)
     return primitive.attribute("JOINTS_0") && primitive.attribute("WEIGHTS_0");
 }
 
-std::vector<glm::dmat4> joint_matrices(const tinygltf::Model& model, const JsonPlace& skin,
+std::vector<glm::dmat4> joint_matrices(const tinygltf::Model& model, int skin,
                                        NodeTransforms& transforms, const NodeMotion& motion,
                                        std::size_t step, LoadContext& context)
 {
-    const Json& joints = skin.member("joints").value();
-    context.budget.spend(skin.pointer(), joints.size(), sizeof(glm::dmat4));
+    const tinygltf::Skin& source = model.skins[static_cast<std::size_t>(skin)];
+    const std::string place = fmt::format("/skins/{}", skin);
+    context.budget.spend(place, source.joints.size(), sizeof(glm::dmat4));
     std::vector<glm::dmat4> matrices;
-    matrices.reserve(joints.size());
-    for (const Json& joint : joints) {
-        const auto node = joint.get<std::size_t>();
+    matrices.reserve(source.joints.size());
+    for (const int joint : source.joints) {
+        const auto node = static_cast<std::size_t>(joint);
         const std::span<const glm::dmat4> moving = motion.world(node);
         matrices.push_back(moving.empty() ? transforms.world(node) : moving[step]);
     }
-    if (!skin.has("inverseBindMatrices")) {
+    const int accessor = source.inverseBindMatrices;
+    if (accessor < 0) {
         return matrices;
     }
-    const JsonPlace place = skin.member("inverseBindMatrices");
-    const auto accessor = static_cast<int>(place.as_unsigned());
     constexpr std::size_t size = 16;
-    context.budget.spend(skin.pointer(), model.accessors[static_cast<std::size_t>(accessor)].count,
+    context.budget.spend(place, model.accessors[static_cast<std::size_t>(accessor)].count,
                          size * sizeof(float));
     const std::vector<float> values = read_numbers(model, accessor, TINYGLTF_TYPE_MAT4);
     if (values.size() / size < matrices.size()) {
-        place.fail(fmt::format("{} matrices, but there are {} joints", values.size() / size,
-                               matrices.size()));
+        throw Error(ErrorCode::invalid_input,
+                    fmt::format("{}/inverseBindMatrices: {} matrices, but there are {} joints",
+                                place, values.size() / size, matrices.size()));
     }
     for (std::size_t i = 0; i < matrices.size(); ++i) {
         matrices[i] *= glm::dmat4(glm::make_mat4(values.data() + i * size));
@@ -140,11 +143,10 @@ std::vector<glm::dmat4> joint_matrices(const tinygltf::Model& model, const JsonP
     return matrices;
 }
 
-bool moves(const JsonPlace& skin, const NodeMotion& motion)
+bool moves(const tinygltf::Skin& skin, const NodeMotion& motion)
 {
-    const Json& joints = skin.member("joints").value();
-    return std::any_of(joints.begin(), joints.end(), [&motion](const Json& joint) {
-        return !motion.world(joint.get<std::size_t>()).empty();
+    return std::any_of(skin.joints.begin(), skin.joints.end(), [&motion](int joint) {
+        return !motion.world(static_cast<std::size_t>(joint)).empty();
     });
 }
 

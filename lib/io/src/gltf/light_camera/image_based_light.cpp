@@ -92,10 +92,11 @@ Image decode_rgbd(const TexelImage& texels, const std::string& place, LoadContex
 
 TexelImage read_face(const GltfModel& model, std::size_t image, const LoadContext& context)
 {
+    const tinygltf::Image& source = model.structs.images[image];
     try {
-        return decode_texels(
-            read_source(model, model.images[image], context.limits.file_bytes, context),
-            context.limits);
+        return decode_texels(read_source(model.structs, source.uri, source.bufferView,
+                                         context.limits.file_bytes, context),
+                             context.limits);
     } catch (const Error& error) {
         if (error.code() == ErrorCode::not_found) {
             throw UnreadableCube(error.what());

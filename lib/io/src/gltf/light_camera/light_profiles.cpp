@@ -53,9 +53,10 @@ const LightProfiles::Known& LightProfiles::get(std::size_t index)
         return found->second;
     }
     const std::string place = fmt::format("/extensions/EXT_lights_ies/lights/{}", index);
+    const ProfileSource& source = model_.light_profiles[index];
     try {
         const Bytes bytes =
-            read_source(model_, model_.light_profiles[index],
+            read_source(model_.structs, source.uri, source.buffer_view,
                         std::min(context_.limits.file_bytes, most_ies_bytes), context_);
         IesProfile read =
             make_profile(read_ies(bytes, place, context_.warnings), place, context_.warnings);

@@ -76,9 +76,10 @@ struct ImageTable::Job {
 /// broken, so that the verdict does not depend on the order in which pictures are decoded.
 void ImageTable::open(const OiioLibrary& library, Job& job)
 {
-    const ImageSource& source = model_.images[job.index];
-    if (source.buffer_view) {
-        const tinygltf::BufferView& view = model_.structs.bufferViews[*source.buffer_view];
+    const tinygltf::Image& source = model_.structs.images[job.index];
+    if (source.bufferView >= 0) {
+        const tinygltf::BufferView& view =
+            model_.structs.bufferViews[static_cast<std::size_t>(source.bufferView)];
         const auto& data = model_.structs.buffers[static_cast<std::size_t>(view.buffer)].data;
         job.bytes = ByteView(data).subspan(view.byteOffset, view.byteLength);
     } else if (source.uri.empty()) {

@@ -12,10 +12,12 @@ namespace bdpt::io {
 /// name one of gigabytes a thousand times.
 class DataBudget {
 public:
-    /// `buffers`: bytes of the file's buffers, which are in memory already.
-    DataBudget(const ReadLimits& limits, std::uint64_t buffers)
-        : limit_(limits.mesh_bytes), memory_limit_(limits.memory_bytes), memory_(buffers)
+    explicit DataBudget(const ReadLimits& limits)
+        : limit_(limits.mesh_bytes), memory_limit_(limits.memory_bytes)
     {}
+
+    /// Counts bytes that are in memory already, whether the limit allows them or not.
+    void hold(std::uint64_t bytes) { memory_ += bytes; }
 
     /// Takes `count` elements of `size` bytes. `place` is the JSON pointer to what needs them.
     /// Throws `Error` (invalid_input) that names place, need and limit when there is no more.

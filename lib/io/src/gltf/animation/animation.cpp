@@ -75,14 +75,14 @@ std::size_t count_targets(const tinygltf::Model& model, const tinygltf::Node& no
 }
 
 std::vector<float> read_column(const tinygltf::Model& model, const JsonPlace& place, int type,
-                               Integers integers, DataBudget& budget)
+                               Integers integers, LoadContext& context)
 {
     const auto accessor = static_cast<int>(place.as_unsigned());
     const auto& described = model.accessors[static_cast<std::size_t>(accessor)];
     const int components =
         tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(described.type));
-    budget.spend(place.pointer(), described.count,
-                 static_cast<std::uint64_t>(components) * sizeof(float));
+    context.budget.spend(place.pointer(), described.count,
+                         static_cast<std::uint64_t>(components) * sizeof(float));
     std::vector<float> values = read_numbers(model, accessor, type, integers);
     for (std::size_t i = 0; i < values.size(); ++i) {
         if (!std::isfinite(values[i])) {
@@ -93,13 +93,13 @@ std::vector<float> read_column(const tinygltf::Model& model, const JsonPlace& pl
 }
 
 KeyFrames read_key_frames(const tinygltf::Model& model, const JsonPlace& sampler, const Path& path,
-                          std::size_t width, DataBudget& budget)
+                          std::size_t width, LoadContext& context)
 {
     KeyFrames frames;
     frames.interpolation = read_interpolation(sampler);
     frames.width = width;
     const JsonPlace input = require(sampler, "input");
-    frames.times = read_column(model, input, TINYGLTF_TYPE_SCALAR, Integers::as_declared, budget);
+    frames.times = read_column(model, input, TINYGLTF_TYPE_SCALAR, Integers::as_declared, context);
     const auto stop = std::adjacent_find(frames.times.begin(), frames.times.end(),
                                          [](float a, float b) { return !(a < b); });
     if (stop != frames.times.end()) {
@@ -108,7 +108,7 @@ KeyFrames read_key_frames(const tinygltf::Model& model, const JsonPlace& sampler
     }
     const JsonPlace output = require(sampler, "output");
     // Integers are fractions, whether they say so or not [glTF 2.0, sec. 3.11].
-    frames.values = read_column(model, output, path.type, Integers::normalized, budget);
+    frames.values = read_column(model, output, path.type, Integers::normalized, context);
     const std::size_t rows = frames.interpolation == Interpolation::cubic_spline ? 3 : 1;
     const std::size_t needed = frames.times.size() * rows * width;
     if (frames.values.size() < needed) {
@@ -120,8 +120,7 @@ KeyFrames read_key_frames(const tinygltf::Model& model, const JsonPlace& sampler
 
 /// None where nothing is to be moved.
 std::optional<AnimatedProperty> read_channel(const GltfModel& model, const JsonPlace& animation,
-                                             const JsonPlace& channel, DataBudget& budget,
-                                             Warnings& warnings)
+                                             const JsonPlace& channel, LoadContext& context)
 {
     const JsonPlace target = require(channel, "target");
     const JsonPlace path_place = require(target, "path");
@@ -129,7 +128,7 @@ std::optional<AnimatedProperty> read_channel(const GltfModel& model, const JsonP
         return path_place.value() == known.name;
     });
     if (path == std::end(paths)) {
-        warnings.add("only translation, rotation, scale and weights of nodes are animated",
+        context.warn("only translation, rotation, scale and weights of nodes are animated",
                      fmt::format("{}: {}", path_place.pointer(), brief(path_place.value())));
         return std::nullopt;
     }
@@ -142,15 +141,15 @@ std::optional<AnimatedProperty> read_channel(const GltfModel& model, const JsonP
     if (weights && node.mesh >= 0) {
         // Each channel looks at all of them.
         const auto& mesh = model.structs.meshes[static_cast<std::size_t>(node.mesh)];
-        budget.spend(target.pointer(), mesh.primitives.size(), sizeof(double));
+        context.budget.spend(target.pointer(), mesh.primitives.size(), sizeof(double));
     }
     const std::size_t width = weights ? count_targets(model.structs, node) : path->width;
     if (weights && width == 0) {
-        warnings.add("weights of a node without morph targets are not animated", target.pointer());
+        context.warn("weights of a node without morph targets are not animated", target.pointer());
         return std::nullopt;
     }
     if (!weights && !node.matrix.empty()) {
-        warnings.add("a node that has a matrix is not animated", target.pointer());
+        context.warn("a node that has a matrix is not animated", target.pointer());
         return std::nullopt;
     }
     const JsonPlace samplers = require(animation, "samplers");
@@ -161,7 +160,7 @@ std::optional<AnimatedProperty> read_channel(const GltfModel& model, const JsonP
     }
     const JsonPlace sampler = samplers.element(static_cast<std::size_t>(index.as_unsigned()));
     return AnimatedProperty{number, path->member, path->quantity,
-                            read_key_frames(model.structs, sampler, *path, width, budget)};
+                            read_key_frames(model.structs, sampler, *path, width, context)};
 }
 
 void check_shutter(const Shutter& shutter)
@@ -177,7 +176,7 @@ void check_shutter(const Shutter& shutter)
 }  // namespace
 
 std::vector<std::size_t> select_animations(const std::vector<std::string>& names,
-                                           const GltfOptions& options, Warnings& warnings)
+                                           const GltfOptions& options, LoadContext& context)
 {
     if (options.time && !std::isfinite(*options.time)) {
         throw Error(ErrorCode::usage, fmt::format("no time of an animation: {}", *options.time));
@@ -197,18 +196,18 @@ std::vector<std::size_t> select_animations(const std::vector<std::string>& names
         return {};
     }
     if (names.empty()) {
-        warnings.add("a time is given, but the file has no animations", "/animations");
+        context.warn("a time is given, but the file has no animations", "/animations");
         return {};
     }
     if (names.size() > 1) {
-        warnings.add("several animations and none is chosen: the first one plays",
+        context.warn("several animations and none is chosen: the first one plays",
                      fmt::format("/animations: {}", names.size()));
     }
     return {0};
 }
 
 std::vector<AnimatedProperty> read_animation(const GltfModel& model, std::size_t animation,
-                                             DataBudget& budget, Warnings& warnings)
+                                             LoadContext& context)
 {
     const JsonPlace root(model.motion);
     const JsonPlace animations = root.member("animations");
@@ -216,7 +215,7 @@ std::vector<AnimatedProperty> read_animation(const GltfModel& model, std::size_t
     const JsonPlace channels = require(place, "channels");
     std::vector<AnimatedProperty> properties;
     for (std::size_t i = 0; i < channels.size(); ++i) {
-        if (auto property = read_channel(model, place, channels.element(i), budget, warnings)) {
+        if (auto property = read_channel(model, place, channels.element(i), context)) {
             properties.push_back(std::move(*property));
         }
     }

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "file/data_budget.h"
-#include "file/warnings.h"
+#include "file/load_context.h"
 #include "gltf/animation/keyframes.h"
 #include "gltf/document/model.h"
 
@@ -18,7 +17,7 @@ namespace bdpt::io {
 /// those of all its animations. Throws `Error` (not_found, usage).
 [[nodiscard]] std::vector<std::size_t> select_animations(const std::vector<std::string>& names,
                                                          const GltfOptions& options,
-                                                         Warnings& warnings);
+                                                         LoadContext& context);
 
 /// A property of a node, its translation, rotation, scale or weights of morph targets, and what
 /// moves it.
@@ -32,7 +31,7 @@ struct AnimatedProperty {
 /// All that an animation moves. Throws `Error` (invalid_input) for key frames that make no sense.
 [[nodiscard]] std::vector<AnimatedProperty> read_animation(const GltfModel& model,
                                                            std::size_t animation,
-                                                           DataBudget& budget, Warnings& warnings);
+                                                           LoadContext& context);
 
 /// Puts the nodes where they are at a time [s]; where two properties are the same the last decides.
 void pose(tinygltf::Model& model, std::span<const AnimatedProperty> properties, double time);

@@ -55,7 +55,7 @@ std::size_t count_values(const tinygltf::Model& model, const tinygltf::Value& at
 }  // namespace
 
 std::vector<glm::dmat4> instance_transforms(const tinygltf::Model& model, std::size_t node,
-                                            std::size_t most, DataBudget& budget)
+                                            std::size_t most, LoadContext& context)
 {
     const tinygltf::ExtensionMap& extensions = model.nodes[node].extensions;
     const auto found = extensions.find(extension_name);
@@ -70,7 +70,7 @@ std::vector<glm::dmat4> instance_transforms(const tinygltf::Model& model, std::s
             ErrorCode::invalid_input,
             fmt::format("{}: {} instances, but the limits allow {} more", place, count, most));
     }
-    budget.spend(place, count, sizeof(glm::dmat4) + 2 * sizeof(Vec3) + sizeof(Vec4));
+    context.budget.spend(place, count, sizeof(glm::dmat4) + 2 * sizeof(Vec3) + sizeof(Vec4));
     const auto translations = read<Vec3>(model, attributes, "TRANSLATION", Integers::as_declared);
     const auto rotations = read<Vec4>(model, attributes, "ROTATION", Integers::normalized);
     const auto scales = read<Vec3>(model, attributes, "SCALE", Integers::as_declared);

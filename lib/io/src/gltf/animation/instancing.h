@@ -1,6 +1,6 @@
 #pragma once
 
-#include "file/data_budget.h"
+#include "file/load_context.h"
 #include "gltf/document/tinygltf.h"
 
 #include <glm/mat4x4.hpp>
@@ -15,6 +15,6 @@ namespace bdpt::io {
 /// before any is read.
 [[nodiscard]] std::vector<glm::dmat4> instance_transforms(const tinygltf::Model& model,
                                                           std::size_t node, std::size_t most,
-                                                          DataBudget& budget);
+                                                          LoadContext& context);
 
 }  // namespace bdpt::io

@@ -47,14 +47,15 @@ struct Samples {
 };
 
 Samples take_samples(tinygltf::Model& model, std::span<const AnimatedProperty> properties,
-                     const Movable& movable, double open, double close, std::size_t steps)
+                     const Movable& movable, double open, double close, std::size_t steps,
+                     LoadContext& context)
 {
     Samples samples;
-    Warnings unheard;  // The pose of the opening says all that there is to say.
+    const Silence silence(context.warnings);  // The pose of the opening says all.
     for (std::size_t i = 0; i <= steps; ++i) {
         const double u = static_cast<double>(i) / static_cast<double>(steps);
         pose(model, properties, (1.0 - u) * open + u * close);
-        NodeTransforms transforms(model, unheard);
+        NodeTransforms transforms(model, context);
         for (const std::size_t node : movable.nodes) {
             samples.world[node].push_back(transforms.world(node));
         }
@@ -115,7 +116,7 @@ std::map<std::size_t, std::vector<T>> every_second(
 }  // namespace
 
 NodeMotion::NodeMotion(tinygltf::Model& model, std::span<const AnimatedProperty> properties,
-                       double open, double close, DataBudget& budget)
+                       double open, double close, LoadContext& context)
 {
     constexpr std::size_t most_steps = 64;
     pose(model, properties, open);
@@ -129,9 +130,10 @@ NodeMotion::NodeMotion(tinygltf::Model& model, std::span<const AnimatedProperty>
     }
     for (std::size_t steps = 1; steps <= most_steps; steps *= 2) {
         // Twice as many, to see whether lines are close halfway between two.
-        budget.spend("/animations", 2 * steps + 1,
-                     movable.nodes.size() * sizeof(glm::dmat4) + weights * sizeof(double));
-        const Samples samples = take_samples(model, properties, movable, open, close, 2 * steps);
+        context.budget.spend("/animations", 2 * steps + 1,
+                             movable.nodes.size() * sizeof(glm::dmat4) + weights * sizeof(double));
+        const Samples samples =
+            take_samples(model, properties, movable, open, close, 2 * steps, context);
         if (steps == most_steps || samples_are_close(samples)) {
             world_ = every_second(samples.world);
             weights_ = every_second(samples.weights);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "file/data_budget.h"
+#include "file/load_context.h"
 #include "gltf/animation/animation.h"
 
 #include <bdpt/io/gltf.h>
@@ -24,7 +24,7 @@ public:
     /// Leaves the model in its pose at the opening. `open` and `close` [s] are times of the
     /// animation. Throws `Error` (invalid_input).
     NodeMotion(tinygltf::Model& model, std::span<const AnimatedProperty> properties, double open,
-               double close, DataBudget& budget);
+               double close, LoadContext& context);
 
     /// After the opening; 0: nothing moves.
     [[nodiscard]] std::size_t steps() const { return steps_; }

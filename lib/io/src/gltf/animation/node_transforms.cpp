@@ -23,9 +23,9 @@ void check_finite(const glm::dmat4& world, std::size_t node)
 
 }  // namespace
 
-NodeTransforms::NodeTransforms(const tinygltf::Model& model, Warnings& warnings)
+NodeTransforms::NodeTransforms(const tinygltf::Model& model, LoadContext& context)
     : model_(model),
-      warnings_(warnings),
+      context_(context),
       parents_(model.nodes.size(), no_parent),
       world_(model.nodes.size())
 {
@@ -45,7 +45,7 @@ const glm::dmat4& NodeTransforms::world(std::size_t node)
     for (; !unknown.empty(); unknown.pop_back()) {
         const std::size_t i = unknown.back();
         const std::size_t parent = parents_[i];
-        const glm::dmat4 local = local_transform(model_, i, warnings_);
+        const glm::dmat4 local = local_transform(model_, i, context_);
         const glm::dmat4 world = parent == no_parent ? local : *world_[parent] * local;
         check_finite(world, i);
         world_[i] = world;

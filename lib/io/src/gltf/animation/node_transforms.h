@@ -1,6 +1,6 @@
 #pragma once
 
-#include "file/warnings.h"
+#include "file/load_context.h"
 #include "gltf/document/tinygltf.h"
 
 #include <glm/mat4x4.hpp>
@@ -15,14 +15,14 @@ namespace bdpt::io {
 class NodeTransforms {
 public:
     /// The arguments must outlive this. The nodes must be a forest (check_node_graph).
-    NodeTransforms(const tinygltf::Model& model, Warnings& warnings);
+    NodeTransforms(const tinygltf::Model& model, LoadContext& context);
 
     /// Node space to world space. Throws `Error` (invalid_input) when it is not finite.
     [[nodiscard]] const glm::dmat4& world(std::size_t node);
 
 private:
     const tinygltf::Model& model_;
-    Warnings& warnings_;
+    LoadContext& context_;
     std::vector<std::size_t> parents_;
     std::vector<std::optional<glm::dmat4>> world_;
 };

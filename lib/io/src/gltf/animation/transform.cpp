@@ -14,13 +14,13 @@ namespace bdpt::io {
 namespace {
 
 glm::dmat4 from_matrix(const std::vector<double>& values, const std::string& place,
-                       Warnings& warnings)
+                       LoadContext& context)
 {
     glm::dmat4 matrix = glm::make_mat4(values.data());
     for (int column = 0; column < 4; ++column) {
         const double wanted = column == 3 ? 1.0 : 0.0;
         if (matrix[column][3] != wanted) {
-            warnings.add("the last row of a matrix is taken as 0 0 0 1", place + "/matrix");
+            context.warn("the last row of a matrix is taken as 0 0 0 1", place + "/matrix");
             matrix[column][3] = wanted;
         }
     }
@@ -47,19 +47,19 @@ double cube_root(double x)
 
 }  // namespace
 
-glm::dmat4 local_transform(const tinygltf::Model& model, std::size_t node, Warnings& warnings)
+glm::dmat4 local_transform(const tinygltf::Model& model, std::size_t node, LoadContext& context)
 {
     const tinygltf::Node& source = model.nodes[node];
     const std::string place = fmt::format("/nodes/{}", node);
     if (!source.matrix.empty()) {
-        return from_matrix(source.matrix, place, warnings);
+        return from_matrix(source.matrix, place, context);
     }
     glm::dmat4 transform(1.0);
     if (!source.translation.empty()) {
         transform = glm::translate(transform, glm::make_vec3(source.translation.data()));
     }
     if (!source.rotation.empty()) {
-        transform = transform * rotation(source.rotation, place, warnings);
+        transform = transform * rotation(source.rotation, place, context);
     }
     if (!source.scale.empty()) {
         transform = glm::scale(transform, glm::make_vec3(source.scale.data()));
@@ -77,14 +77,14 @@ Vec3 transform_direction(const glm::dmat4& world_from_node, const glm::dvec3& di
     return Vec3(turned / length);
 }
 
-glm::dmat4 rotation(const std::vector<double>& xyzw, const std::string& place, Warnings& warnings)
+glm::dmat4 rotation(const std::vector<double>& xyzw, const std::string& place, LoadContext& context)
 {
     const glm::dquat given(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
     const double length = glm::length(given);
     // Single-precision values and a few digits of text are not worth a word.
     constexpr double tolerance = 1e-3;
     if (std::abs(length - 1.0) > tolerance) {
-        warnings.add(length > 0.0 ? "a rotation that is not of unit length is normalised"
+        context.warn(length > 0.0 ? "a rotation that is not of unit length is normalised"
                                   : "a rotation of length 0 is ignored",
                      fmt::format("{}/rotation: length {}", place, length));
     }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "file/warnings.h"
+#include "file/load_context.h"
 #include "gltf/document/tinygltf.h"
 
 #include <bdpt/types.h>
@@ -16,7 +16,7 @@ namespace bdpt::io {
 /// The node's own transform, from its matrix or its translation, rotation and scale [glTF 2.0,
 /// sec. 3.5.3]. Affine; in double, so that deep hierarchies lose nothing.
 [[nodiscard]] glm::dmat4 local_transform(const tinygltf::Model& model, std::size_t node,
-                                         Warnings& warnings);
+                                         LoadContext& context);
 
 /// A direction [not zero] of the node's space in world space, of unit length; (0, 0, -1) where the
 /// transform leaves none.
@@ -25,7 +25,7 @@ namespace bdpt::io {
 
 /// The rotation of a quaternion (x, y, z, w); of unit length or made so, with a warning.
 [[nodiscard]] glm::dmat4 rotation(const std::vector<double>& xyzw, const std::string& place,
-                                  Warnings& warnings);
+                                  LoadContext& context);
 
 /// What is left of a transform without scale and shear: orthonormal axes. -z points where the
 /// transform takes it and x as near as it can; it mirrors if the transform does.

@@ -36,7 +36,7 @@ bool is_glb(ByteView file)
     return file.size() >= 4 && read_u32(file, 0) == magic;
 }
 
-GlbChunks find_glb_chunks(ByteView file, Warnings& warnings)
+GlbChunks find_glb_chunks(ByteView file, LoadContext& context)
 {
     if (file.size() < header_size) {
         fail(fmt::format("truncated: {} bytes are less than a header", file.size()));
@@ -51,7 +51,7 @@ GlbChunks find_glb_chunks(ByteView file, Warnings& warnings)
                          file.size()));
     }
     if (length < file.size()) {
-        warnings.add("bytes after the end of the GLB are ignored",
+        context.warn("bytes after the end of the GLB are ignored",
                      fmt::format("GLB: {} bytes", file.size() - length));
     }
     std::optional<GlbChunks::Range> json;

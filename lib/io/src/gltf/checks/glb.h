@@ -1,7 +1,7 @@
 #pragma once
 
 #include "file/bytes.h"
-#include "file/warnings.h"
+#include "file/load_context.h"
 
 #include <cstddef>
 #include <optional>
@@ -23,6 +23,6 @@ struct GlbChunks {
 
 /// Finds the chunks; both lie within the file. Throws `Error`: unsupported for another container
 /// version than 2, invalid_input for lengths that do not fit.
-[[nodiscard]] GlbChunks find_glb_chunks(ByteView file, Warnings& warnings);
+[[nodiscard]] GlbChunks find_glb_chunks(ByteView file, LoadContext& context);
 
 }  // namespace bdpt::io

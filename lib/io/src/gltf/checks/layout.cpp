@@ -52,7 +52,7 @@ void check_span(const JsonPlace& place, const JsonPlace& views, std::uint64_t vi
     }
 }
 
-void check_views(const JsonPlace& views, const JsonPlace& buffers, Warnings& warnings)
+void check_views(const JsonPlace& views, const JsonPlace& buffers, LoadContext& context)
 {
     for (std::size_t i = 0; i < views.size(); ++i) {
         const JsonPlace view = views.element(i);
@@ -71,7 +71,7 @@ void check_views(const JsonPlace& views, const JsonPlace& buffers, Warnings& war
                 .fail(fmt::format("{}, but must be a multiple of 4 up to 252", stride));
         }
         if (view.has("byteStride") && stride == 0) {
-            warnings.add("a stride of 0 is taken as none", view.member("byteStride").pointer());
+            context.warn("a stride of 0 is taken as none", view.member("byteStride").pointer());
         }
     }
 }
@@ -103,8 +103,7 @@ void check_sparse(const JsonPlace& accessor, const JsonPlace& views, std::uint64
                {values.unsigned_or("byteOffset", 0), element_size, count, element_size});
 }
 
-void check_accessor(const JsonPlace& accessor, const JsonPlace& views, const ReadLimits& limits,
-                    Warnings& warnings)
+void check_accessor(const JsonPlace& accessor, const JsonPlace& views, LoadContext& context)
 {
     const std::uint64_t component_type = accessor.member("componentType").as_unsigned();
     const std::uint64_t component = component_size(component_type);
@@ -123,10 +122,11 @@ void check_accessor(const JsonPlace& accessor, const JsonPlace& views, const Rea
         count_place.fail("0, but must be at least 1");
     }
     const std::uint64_t bytes = product(count_place, count, element_size);
-    if (bytes > limits.buffer_bytes) {
-        count_place.fail(fmt::format("{} elements need {}, but the limit is {}", count,
-                                     human_bytes(static_cast<long double>(bytes)),
-                                     human_bytes(static_cast<long double>(limits.buffer_bytes))));
+    if (bytes > context.limits.buffer_bytes) {
+        count_place.fail(
+            fmt::format("{} elements need {}, but the limit is {}", count,
+                        human_bytes(static_cast<long double>(bytes)),
+                        human_bytes(static_cast<long double>(context.limits.buffer_bytes))));
     }
     if (accessor.has("bufferView")) {
         const std::uint64_t view = accessor.member("bufferView").as_unsigned();
@@ -140,7 +140,7 @@ void check_accessor(const JsonPlace& accessor, const JsonPlace& views, const Rea
         check_span(accessor, views, view,
                    {offset, given != 0 ? given : element_size, count, element_size});
         if (offset % component != 0) {
-            warnings.add("accessor is not aligned", accessor.pointer());
+            context.warn("accessor is not aligned", accessor.pointer());
         }
     }
     if (accessor.has("sparse")) {
@@ -183,7 +183,7 @@ std::uint64_t component_size(std::uint64_t component_type)
     }
 }
 
-void check_layout(const JsonPlace& root, const ReadLimits& limits, Warnings& warnings)
+void check_layout(const JsonPlace& root, LoadContext& context)
 {
     const Json none = Json::array();
     const JsonPlace nothing(none);
@@ -199,15 +199,15 @@ void check_layout(const JsonPlace& root, const ReadLimits& limits, Warnings& war
         const JsonPlace buffer = buffers.element(i);
         const JsonPlace length = buffer.member("byteLength");
         const std::uint64_t bytes = length.as_unsigned();
-        if (bytes > limits.buffer_bytes || total + bytes > limits.buffer_bytes) {
+        if (bytes > context.limits.buffer_bytes || total + bytes > context.limits.buffer_bytes) {
             length.fail(fmt::format("{} bytes, but the limit for all buffers is {}", bytes,
-                                    limits.buffer_bytes));
+                                    context.limits.buffer_bytes));
         }
         total += bytes;
     }
-    check_views(views, buffers, warnings);
+    check_views(views, buffers, context);
     for (std::size_t i = 0; i < accessors.size(); ++i) {
-        check_accessor(accessors.element(i), views, limits, warnings);
+        check_accessor(accessors.element(i), views, context);
     }
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "file/json.h"
-#include "file/warnings.h"
+#include "file/load_context.h"
 
 #include <cstdint>
 #include <string_view>
@@ -16,6 +16,6 @@ namespace bdpt::io {
 
 /// Checks that views lie within their buffers, accessors and their sparse parts within their views,
 /// all in arithmetic that cannot overflow. Relies on check_schema. Throws `Error` (invalid_input).
-void check_layout(const JsonPlace& root, const ReadLimits& limits, Warnings& warnings);
+void check_layout(const JsonPlace& root, LoadContext& context);
 
 }  // namespace bdpt::io

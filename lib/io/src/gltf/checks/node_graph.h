@@ -1,7 +1,6 @@
 #pragma once
 
 #include "file/json.h"
-#include "file/warnings.h"
 
 namespace bdpt::io {
 

@@ -163,7 +163,7 @@ void check_texture_references(const JsonPlace& place, std::vector<bool>& used)
 }
 
 /// What a texture refers to must be there, unless nothing refers to the texture.
-void check_textures(const JsonPlace& root, const std::vector<bool>& used, Warnings& warnings)
+void check_textures(const JsonPlace& root, const std::vector<bool>& used, LoadContext& context)
 {
     for (std::size_t i = 0; i < used.size(); ++i) {
         const JsonPlace textures = root.member("textures");
@@ -176,7 +176,7 @@ void check_textures(const JsonPlace& root, const std::vector<bool>& used, Warnin
             if (used[i]) {
                 throw;
             }
-            warnings.add("a broken texture that no material uses is left out", error.what());
+            context.warn("a broken texture that no material uses is left out", error.what());
         }
     }
 }
@@ -224,7 +224,7 @@ void check_lights(const JsonPlace& root)
 
 }  // namespace
 
-void check_schema(const JsonPlace& root, Warnings& warnings)
+void check_schema(const JsonPlace& root, LoadContext& context)
 {
     if (!root.value().is_object()) {
         root.fail("a glTF document must be a JSON object, but is " + brief(root.value()));
@@ -241,7 +241,7 @@ void check_schema(const JsonPlace& root, Warnings& warnings)
         const JsonPlace materials = root.member("materials");
         check_texture_references(materials.element(i), used_textures);
     }
-    check_textures(root, used_textures, warnings);
+    check_textures(root, used_textures, context);
 }
 
 }  // namespace bdpt::io

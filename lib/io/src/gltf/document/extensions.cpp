@@ -95,7 +95,7 @@ std::span<const ExtensionSupport> known_extensions()
     return table;
 }
 
-std::vector<ExtensionUse> check_extensions(const JsonPlace& root, Warnings& warnings)
+std::vector<ExtensionUse> check_extensions(const JsonPlace& root, LoadContext& context)
 {
     std::vector<ExtensionUse> uses;
     const auto find = [&uses](const std::string& name) {
@@ -127,7 +127,7 @@ std::vector<ExtensionUse> check_extensions(const JsonPlace& root, Warnings& warn
                 continue;
             }
             if (use.status != supported) {
-                warnings.add(
+                context.warn(
                     fmt::format("extension {} is {}{}", use.name,
                                 use.status == ignored ? "ignored: " : "unknown and ignored",
                                 use.note),

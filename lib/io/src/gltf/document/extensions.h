@@ -1,7 +1,7 @@
 #pragma once
 
 #include "file/json.h"
-#include "file/warnings.h"
+#include "file/load_context.h"
 
 #include <bdpt/io/gltf.h>
 
@@ -23,6 +23,7 @@ struct ExtensionSupport {
 
 /// The extensions that a document lists. Throws `Error` (unsupported) for a required one that is
 /// not supported; warns of used ones that are not.
-[[nodiscard]] std::vector<ExtensionUse> check_extensions(const JsonPlace& root, Warnings& warnings);
+[[nodiscard]] std::vector<ExtensionUse> check_extensions(const JsonPlace& root,
+                                                         LoadContext& context);
 
 }  // namespace bdpt::io

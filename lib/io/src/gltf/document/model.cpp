@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <limits>
 #include <utility>
 
@@ -45,21 +46,18 @@ void for_each(Json& document, const char* section, const Visit& visit)
     }
 }
 
-ImageSource take_source(Json& holder)
+/// The images, which are taken away: tinygltf would decode the data in their URIs.
+std::vector<tinygltf::Image> take_images(Json& document)
 {
-    ImageSource source;
-    if (holder.contains("uri")) {
-        source.uri = std::move(holder["uri"].get_ref<std::string&>());
-    } else if (holder.contains("bufferView")) {
-        source.buffer_view = holder["bufferView"].get<std::size_t>();
-    }
-    return source;
-}
-
-std::vector<ImageSource> take_images(Json& document)
-{
-    std::vector<ImageSource> images;
-    for_each(document, "images", [&images](Json& image) { images.push_back(take_source(image)); });
+    std::vector<tinygltf::Image> images;
+    for_each(document, "images", [&images](Json& image) {
+        tinygltf::Image& taken = images.emplace_back();
+        if (image.contains("uri")) {
+            taken.uri = std::move(image["uri"].get_ref<std::string&>());
+        } else if (image.contains("bufferView")) {
+            taken.bufferView = image["bufferView"].get<int>();
+        }
+    });
     document.erase("images");
     return images;
 }
@@ -76,23 +74,26 @@ Json take_lights(Json& document, const char* extension)
     return taken.contains("lights") ? std::move(taken["lights"]) : Json::array();
 }
 
-std::vector<ImageSource> take_profiles(Json& document)
+std::vector<ProfileSource> take_profiles(Json& document)
 {
-    std::vector<ImageSource> profiles;
+    std::vector<ProfileSource> profiles;
     for (Json& profile : take_lights(document, "EXT_lights_ies")) {
-        profiles.push_back(take_source(profile));
+        ProfileSource& taken = profiles.emplace_back();
+        if (profile.contains("uri")) {
+            taken.uri = std::move(profile["uri"].get_ref<std::string&>());
+        } else if (profile.contains("bufferView")) {
+            taken.buffer_view = profile["bufferView"].get<int>();
+        }
     }
     return profiles;
 }
 
 Json take_motion(Json& document)
 {
+    const auto found = document.find("animations");
     Json motion = Json::object();
-    for (const char* section : {"skins", "animations"}) {
-        const auto found = document.find(section);
-        motion[section] = found != document.end() ? std::move(*found) : Json::array();
-        document.erase(section);
-    }
+    motion["animations"] = found != document.end() ? std::move(*found) : Json::array();
+    document.erase("animations");
     return motion;
 }
 
@@ -177,38 +178,38 @@ std::string one_line(std::string text)
 
 }  // namespace
 
-Bytes read_source(const GltfModel& model, const ImageSource& source, std::uint64_t limit)
+Bytes read_source(const tinygltf::Model& model, const std::string& uri, int buffer_view,
+                  std::uint64_t limit, const LoadContext& context)
 {
-    if (source.buffer_view) {
-        const tinygltf::BufferView& view = model.structs.bufferViews[*source.buffer_view];
+    if (uri.empty() && buffer_view >= 0) {
+        const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(buffer_view)];
         if (view.byteLength > limit) {
             throw Error(
                 ErrorCode::invalid_input,
                 fmt::format("a view of {} bytes, but the limit is {}", view.byteLength, limit));
         }
-        const Bytes& data = model.structs.buffers[static_cast<std::size_t>(view.buffer)].data;
+        const Bytes& data = model.buffers[static_cast<std::size_t>(view.buffer)].data;
         const ByteView bytes = ByteView(data).subspan(view.byteOffset, view.byteLength);
         return {bytes.begin(), bytes.end()};
     }
-    if (source.uri.empty()) {
+    if (uri.empty()) {
         throw Error(ErrorCode::invalid_input, "neither \"uri\" nor \"bufferView\"");
     }
-    if (is_data_uri(source.uri)) {
-        return decode_data_uri(source.uri, limit);
+    if (is_data_uri(uri)) {
+        return decode_data_uri(uri, limit);
     }
-    const std::filesystem::path file = resolve_uri(model.folder, source.uri);
+    const std::filesystem::path file = resolve_uri(context.folder, uri);
     try {
         return read_file(file, limit);
     } catch (const Error& error) {
-        throw Error(error.code(), quote(source.uri) + ": " + error.what());
+        throw Error(error.code(), quote(uri) + ": " + error.what());
     }
 }
 
 GltfModel build_model(CheckedGltf checked)
 {
     GltfModel model;
-    model.folder = std::move(checked.folder);
-    model.images = take_images(checked.document);
+    std::vector<tinygltf::Image> images = take_images(checked.document);
     model.light_profiles = take_profiles(checked.document);
     model.environments = take_lights(checked.document, "EXT_lights_image_based");
     model.motion = take_motion(checked.document);
@@ -232,6 +233,7 @@ GltfModel build_model(CheckedGltf checked)
                                     tinygltf::REQUIRE_VERSION)) {
         throw Error(ErrorCode::invalid_input, "glTF: " + one_line(error));
     }
+    model.structs.images = std::move(images);
     return model;
 }
 

@@ -49,18 +49,17 @@ void check_version(const JsonPlace& root)
 
 /// `length` bytes of what the URI names, and one more if there are more. Many buffers may share one
 /// large file.
-Bytes read_buffer(const JsonPlace& buffer, std::uint64_t length,
-                  const std::filesystem::path& folder, const ReadLimits& limits)
+Bytes read_buffer(const JsonPlace& buffer, std::uint64_t length, const LoadContext& context)
 {
     const JsonPlace place = buffer.member("uri");
     const auto& uri = place.value().get_ref<const std::string&>();
     try {
         if (is_data_uri(uri)) {
-            return decode_data_uri(uri, limits.file_bytes);
+            return decode_data_uri(uri, context.limits.file_bytes);
         }
-        const std::filesystem::path file = resolve_uri(folder, uri);
+        const std::filesystem::path file = resolve_uri(context.folder, uri);
         try {
-            return read_file(file, limits.file_bytes, length + 1);
+            return read_file(file, context.limits.file_bytes, length + 1);
         } catch (const Error& error) {
             throw Error(error.code(), quote(uri) + ": " + error.what());
         }
@@ -71,8 +70,7 @@ Bytes read_buffer(const JsonPlace& buffer, std::uint64_t length,
 
 /// Buffer 0 of a binary file is its BIN chunk, unless it has a URI [glTF 2.0, sec. 4.4.3.3].
 std::vector<Bytes> read_buffers(const JsonPlace& root, std::optional<Bytes> bin,
-                                const std::filesystem::path& folder, const ReadLimits& limits,
-                                Warnings& warnings)
+                                LoadContext& context)
 {
     std::vector<Bytes> buffers;
     const std::vector<bool> fallback = find_fallback_buffers(root);
@@ -89,14 +87,14 @@ std::vector<Bytes> read_buffers(const JsonPlace& root, std::optional<Bytes> bin,
             buffer.fail(i == 0 ? "no \"uri\", and there is no BIN chunk" : "no \"uri\"");
         }
         const std::uint64_t length = buffer.member("byteLength").as_unsigned();
-        Bytes bytes = in_bin ? std::move(*bin) : read_buffer(buffer, length, folder, limits);
+        Bytes bytes = in_bin ? std::move(*bin) : read_buffer(buffer, length, context);
         if (bytes.size() < length) {
             buffer.member("byteLength")
                 .fail(fmt::format("{} bytes, but there are {}", length, bytes.size()));
         }
         // The BIN chunk may have up to three bytes of padding.
         if (bytes.size() > length + (in_bin ? 3 : 0)) {
-            warnings.add("the buffer holds more bytes than it says; they are ignored",
+            context.warn("the buffer holds more bytes than it says; they are ignored",
                          fmt::format("{}: {}", buffer.member("byteLength").pointer(), length));
         }
         buffers.push_back(std::move(bytes));
@@ -149,17 +147,15 @@ void check_uris_of_all(const JsonPlace& root, const std::filesystem::path& folde
 
 }  // namespace
 
-CheckedGltf read_checked_gltf(const std::filesystem::path& file, const ReadLimits& limits,
-                              Warnings& warnings)
+CheckedGltf read_checked_gltf(const std::filesystem::path& file, LoadContext& context)
 {
-    Bytes bytes = read_file(file, limits.file_bytes);
+    Bytes bytes = read_file(file, context.limits.file_bytes);
     CheckedGltf result;
-    result.folder = file.parent_path();
     std::optional<Bytes> bin;
     if (is_glb(bytes)) {
-        const GlbChunks chunks = find_glb_chunks(bytes, warnings);
-        result.document =
-            parse_json(ByteView(bytes).subspan(chunks.json.offset, chunks.json.size), limits);
+        const GlbChunks chunks = find_glb_chunks(bytes, context);
+        result.document = parse_json(ByteView(bytes).subspan(chunks.json.offset, chunks.json.size),
+                                     context.limits);
         if (chunks.bin) {
             // In place: a scene's vertices should not be in memory twice.
             bytes.resize(chunks.bin->offset + chunks.bin->size);
@@ -171,24 +167,24 @@ CheckedGltf read_checked_gltf(const std::filesystem::path& file, const ReadLimit
         if (const std::optional<std::string_view> kind = other_kind(bytes)) {
             throw Error(ErrorCode::invalid_input, fmt::format("not a glTF file but {}", *kind));
         }
-        result.document = parse_json(bytes, limits);
+        result.document = parse_json(bytes, context.limits);
     }
     const JsonPlace root(result.document);
     if (!root.value().is_object()) {
         root.fail("a glTF document must be a JSON object, but is " + brief(root.value()));
     }
     check_version(root);
-    result.extensions = check_extensions(root, warnings);
-    check_schema(root, warnings);
-    check_layout(root, limits, warnings);
-    check_node_graph(root, limits);
-    check_uris_of_all(root, result.folder);
-    result.buffers = read_buffers(root, std::move(bin), result.folder, limits, warnings);
-    decode_meshopt_views(result.document, result.buffers, limits);
-    decode_draco_primitives(result.document, result.buffers, limits);
+    result.extensions = check_extensions(root, context);
+    check_schema(root, context);
+    check_layout(root, context);
+    check_node_graph(root, context.limits);
+    check_uris_of_all(root, context.folder);
+    result.buffers = read_buffers(root, std::move(bin), context);
+    decode_meshopt_views(result.document, result.buffers, context.limits);
+    decode_draco_primitives(result.document, result.buffers, context.limits);
     // What was decoded is trusted no more than what was read.
-    Warnings known;
-    check_layout(JsonPlace(result.document), limits, known);
+    const Silence silence(context.warnings);
+    check_layout(JsonPlace(result.document), context);
     return result;
 }
 

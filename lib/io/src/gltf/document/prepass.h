@@ -2,7 +2,7 @@
 
 #include "file/bytes.h"
 #include "file/json.h"
-#include "file/warnings.h"
+#include "file/load_context.h"
 
 #include <bdpt/io/gltf.h>
 
@@ -17,13 +17,12 @@ namespace bdpt::io {
 struct CheckedGltf {
     Json document;
     std::vector<Bytes> buffers;  ///< each at least as long as its `byteLength`
-    std::filesystem::path folder;
     std::vector<ExtensionUse> extensions;
 };
 
 /// Reads and checks a document and its buffers before any other code sees it. Throws `Error`; the
 /// message lacks the file's path.
 [[nodiscard]] CheckedGltf read_checked_gltf(const std::filesystem::path& file,
-                                            const ReadLimits& limits, Warnings& warnings);
+                                            LoadContext& context);
 
 }  // namespace bdpt::io

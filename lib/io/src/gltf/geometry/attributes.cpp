@@ -53,7 +53,7 @@ void replace_normals(MeshDesc& mesh, const std::vector<bool>& broken)
     }
 }
 
-void repair_normals(MeshDesc& mesh, const std::string& place, Warnings& warnings)
+void repair_normals(MeshDesc& mesh, const std::string& place, LoadContext& context)
 {
     std::vector<bool> broken(mesh.normals.size(), false);
     bool any_broken = false;
@@ -67,13 +67,13 @@ void repair_normals(MeshDesc& mesh, const std::string& place, Warnings& warnings
         }
     }
     if (any_broken) {
-        warnings.add("zero or invalid normals are replaced by those of the faces",
+        context.warn("zero or invalid normals are replaced by those of the faces",
                      place + "/attributes/NORMAL");
         replace_normals(mesh, broken);
     }
 }
 
-void repair_tangents(MeshDesc& mesh, const std::string& place, Warnings& warnings)
+void repair_tangents(MeshDesc& mesh, const std::string& place, LoadContext& context)
 {
     if (mesh.normals.empty()) {
         mesh.tangents.clear();  // They mean nothing without normals [glTF 2.0, sec. 3.7.2.1].
@@ -82,7 +82,7 @@ void repair_tangents(MeshDesc& mesh, const std::string& place, Warnings& warning
     for (Vec4& tangent : mesh.tangents) {
         const std::optional<Vec3> direction = unit(Vec3(tangent));
         if (!direction || std::isnan(tangent.w)) {
-            warnings.add("zero or invalid tangents: all are derived from TEXCOORD_0",
+            context.warn("zero or invalid tangents: all are derived from TEXCOORD_0",
                          place + "/attributes/TANGENT");
             mesh.tangents.clear();
             return;
@@ -91,22 +91,22 @@ void repair_tangents(MeshDesc& mesh, const std::string& place, Warnings& warning
     }
 }
 
-void repair_uvs(std::vector<Vec2>& uvs, const std::string& place, Warnings& warnings)
+void repair_uvs(std::vector<Vec2>& uvs, const std::string& place, LoadContext& context)
 {
     for (Vec2& uv : uvs) {
         if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) {
-            warnings.add("texture coordinates that are not finite are taken as 0", place);
+            context.warn("texture coordinates that are not finite are taken as 0", place);
             uv = Vec2(0.0f);
         }
     }
 }
 
-void repair_colors(MeshDesc& mesh, const std::string& place, Warnings& warnings)
+void repair_colors(MeshDesc& mesh, const std::string& place, LoadContext& context)
 {
     for (Vec4& color : mesh.colors) {
         for (int c = 0; c < 4; ++c) {
             if (!(color[c] >= 0.0f && color[c] <= 1.0f)) {
-                warnings.add("vertex colours beyond [0, 1] are clamped",
+                context.warn("vertex colours beyond [0, 1] are clamped",
                              place + "/attributes/COLOR_0");
                 color[c] = color[c] > 1.0f ? 1.0f : 0.0f;
             }
@@ -116,13 +116,13 @@ void repair_colors(MeshDesc& mesh, const std::string& place, Warnings& warnings)
 
 }  // namespace
 
-void repair_attributes(MeshDesc& mesh, const std::string& place, Warnings& warnings)
+void repair_attributes(MeshDesc& mesh, const std::string& place, LoadContext& context)
 {
-    repair_normals(mesh, place, warnings);
-    repair_tangents(mesh, place, warnings);
-    repair_uvs(mesh.uvs[0], place + "/attributes/TEXCOORD_0", warnings);
-    repair_uvs(mesh.uvs[1], place + "/attributes/TEXCOORD_1", warnings);
-    repair_colors(mesh, place, warnings);
+    repair_normals(mesh, place, context);
+    repair_tangents(mesh, place, context);
+    repair_uvs(mesh.uvs[0], place + "/attributes/TEXCOORD_0", context);
+    repair_uvs(mesh.uvs[1], place + "/attributes/TEXCOORD_1", context);
+    repair_colors(mesh, place, context);
 }
 
 }  // namespace bdpt::io

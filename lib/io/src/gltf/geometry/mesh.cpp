@@ -53,7 +53,7 @@ std::vector<std::uint32_t> read_checked_indices(const PrimitiveReader& primitive
 
 /// COLOR_0 has three or four components; integers are fractions, whether they say so or not.
 std::vector<Vec4> read_colors(const PrimitiveReader& primitive, std::size_t vertices,
-                              Warnings& warnings)
+                              LoadContext& context)
 {
     const std::string semantic = "COLOR_0";
     const std::optional<int> accessor = primitive.attribute(semantic);
@@ -62,10 +62,10 @@ std::vector<Vec4> read_colors(const PrimitiveReader& primitive, std::size_t vert
     }
     const auto& described = primitive.model().accessors[static_cast<std::size_t>(*accessor)];
     if (described.type == TINYGLTF_TYPE_VEC4) {
-        return primitive.read<Vec4>(semantic, vertices, warnings, Integers::normalized);
+        return primitive.read<Vec4>(semantic, vertices, context, Integers::normalized);
     }
     const std::vector<Vec3> rgb =
-        primitive.read<Vec3>(semantic, vertices, warnings, Integers::normalized);
+        primitive.read<Vec3>(semantic, vertices, context, Integers::normalized);
     std::vector<Vec4> colors;
     colors.reserve(rgb.size());
     for (const Vec3& color : rgb) {
@@ -75,13 +75,13 @@ std::vector<Vec4> read_colors(const PrimitiveReader& primitive, std::size_t vert
 }
 
 /// What reading all attributes takes, morph targets too.
-void spend(const PrimitiveReader& primitive, DataBudget& budget)
+void spend(const PrimitiveReader& primitive, LoadContext& context)
 {
     constexpr std::uint64_t element_bytes = sizeof(Vec4);
     const auto spend_all = [&](const std::map<std::string, int>& attributes) {
         for (const auto& [semantic, accessor] : attributes) {
             const auto& described = primitive.model().accessors[static_cast<std::size_t>(accessor)];
-            budget.spend(primitive.id().pointer(), described.count, element_bytes);
+            context.budget.spend(primitive.id().pointer(), described.count, element_bytes);
         }
     };
     spend_all(primitive.source().attributes);
@@ -92,7 +92,7 @@ void spend(const PrimitiveReader& primitive, DataBudget& budget)
 
 /// They stay, since tracing leaves them out, but one should know of them: often they are what is
 /// left of a part that went wrong.
-void warn_of_no_area(const MeshDesc& mesh, PrimitiveId id, Warnings& warnings)
+void warn_of_no_area(const MeshDesc& mesh, PrimitiveId id, LoadContext& context)
 {
     const auto flat =
         std::count_if(mesh.triangles.begin(), mesh.triangles.end(), [&mesh](const UVec3& triangle) {
@@ -101,7 +101,7 @@ void warn_of_no_area(const MeshDesc& mesh, PrimitiveId id, Warnings& warnings)
                    Vec3(0.0f);
         });
     if (flat > 0) {
-        warnings.add("triangles without area are not rendered",
+        context.warn("triangles without area are not rendered",
                      fmt::format("{}: {} of {}", id.pointer(), flat, mesh.triangles.size()));
     }
 }
@@ -141,8 +141,7 @@ std::vector<UVec3> to_triangles(const std::vector<std::uint32_t>& indices, int m
 }
 
 std::optional<MeshDesc> read_primitive(const tinygltf::Model& model, PrimitiveId id,
-                                       const Deformation& deformation, DataBudget& budget,
-                                       Warnings& warnings)
+                                       const Deformation& deformation, LoadContext& context)
 {
     const PrimitiveReader primitive(model, id);
     const int mode = primitive.source().mode;
@@ -150,16 +149,16 @@ std::optional<MeshDesc> read_primitive(const tinygltf::Model& model, PrimitiveId
         primitive.fail("mode", fmt::format("{} is no mode", mode));
     }
     if (mode < TINYGLTF_MODE_TRIANGLES) {
-        warnings.add("points and lines are not rendered",
+        context.warn("points and lines are not rendered",
                      fmt::format("{}: mode {}", id.pointer(), mode));
         return std::nullopt;
     }
     const std::optional<int> position_accessor = primitive.attribute("POSITION");
     if (!position_accessor) {
-        warnings.add("primitive without POSITION is not rendered", id.pointer());
+        context.warn("primitive without POSITION is not rendered", id.pointer());
         return std::nullopt;
     }
-    spend(primitive, budget);
+    spend(primitive, context);
 
     MeshDesc desc;
     desc.name = model.meshes[id.mesh].name;
@@ -169,22 +168,22 @@ std::optional<MeshDesc> read_primitive(const tinygltf::Model& model, PrimitiveId
     const std::vector<std::uint32_t> indices = read_checked_indices(primitive, vertices);
     desc.triangles = to_triangles(indices, mode);
     if (desc.triangles.empty() || (mode == TINYGLTF_MODE_TRIANGLES && indices.size() % 3 != 0)) {
-        warnings.add("the number of indices does not make whole triangles",
+        context.warn("the number of indices does not make whole triangles",
                      fmt::format("{}: {}", id.pointer(), indices.size()));
     }
     if (desc.triangles.empty()) {
         return std::nullopt;
     }
-    desc.normals = primitive.read<Vec3>("NORMAL", vertices, warnings);
-    desc.tangents = primitive.read<Vec4>("TANGENT", vertices, warnings);
-    desc.uvs[0] = primitive.read<Vec2>("TEXCOORD_0", vertices, warnings);
-    desc.uvs[1] = primitive.read<Vec2>("TEXCOORD_1", vertices, warnings);
-    desc.colors = read_colors(primitive, vertices, warnings);
-    apply_morph(desc, primitive, deformation.weights, warnings);
-    apply_skin(desc, primitive, deformation.joints, warnings);
+    desc.normals = primitive.read<Vec3>("NORMAL", vertices, context);
+    desc.tangents = primitive.read<Vec4>("TANGENT", vertices, context);
+    desc.uvs[0] = primitive.read<Vec2>("TEXCOORD_0", vertices, context);
+    desc.uvs[1] = primitive.read<Vec2>("TEXCOORD_1", vertices, context);
+    desc.colors = read_colors(primitive, vertices, context);
+    apply_morph(desc, primitive, deformation.weights, context);
+    apply_skin(desc, primitive, deformation.joints, context);
     check_finite(primitive, desc.positions);
-    repair_attributes(desc, id.pointer(), warnings);
-    warn_of_no_area(desc, id, warnings);
+    repair_attributes(desc, id.pointer(), context);
+    warn_of_no_area(desc, id, context);
     return desc;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "file/data_budget.h"
-#include "file/warnings.h"
+#include "file/load_context.h"
 #include "gltf/document/tinygltf.h"
 
 #include <bdpt/scene_desc.h>
@@ -36,7 +35,7 @@ struct Deformation {
 /// finite and indices out of range among others.
 [[nodiscard]] std::optional<MeshDesc> read_primitive(const tinygltf::Model& model, PrimitiveId id,
                                                      const Deformation& deformation,
-                                                     DataBudget& budget, Warnings& warnings);
+                                                     LoadContext& context);
 
 /// Triangles from indices in the order of a strip, a fan or a list [glTF 2.0, sec. 3.7.2.1]; none
 /// for modes without triangles. `mode` is that of glTF.

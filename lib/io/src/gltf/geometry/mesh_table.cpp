@@ -52,16 +52,15 @@ const MeshTable::Joints& MeshTable::joints(int skin)
 {
     const auto [found, is_new] = joints_.try_emplace(skin);
     if (is_new) {
-        const JsonPlace root(model_.motion);
-        const JsonPlace skins = root.member("skins");
-        const JsonPlace place = skins.element(static_cast<std::size_t>(skin));
-        if (place.member("joints").size() == 0) {
-            place.member("joints").fail("a skin needs at least one");
+        const tinygltf::Skin& source = model_.structs.skins[static_cast<std::size_t>(skin)];
+        if (source.joints.empty()) {
+            throw Error(ErrorCode::invalid_input,
+                        fmt::format("/skins/{}/joints: a skin needs at least one", skin));
         }
-        const std::size_t steps = moves(place, motion_) ? motion_.steps() : 0;
+        const std::size_t steps = moves(source, motion_) ? motion_.steps() : 0;
         for (std::size_t step = 0; step <= steps; ++step) {
             found->second.push_back(
-                joint_matrices(model_.structs, place, transforms_, motion_, step, budget_));
+                joint_matrices(model_.structs, skin, transforms_, motion_, step, context_));
         }
     }
     return found->second;
@@ -70,14 +69,14 @@ const MeshTable::Joints& MeshTable::joints(int skin)
 MeshId MeshTable::add(MeshDesc mesh, PrimitiveId id)
 {
     triangles_ += mesh.triangles.size();
-    if (triangles_ > limits_.triangles) {
-        throw Error(ErrorCode::invalid_input,
-                    fmt::format("{}: more than {} triangles", id.pointer(), limits_.triangles));
+    if (triangles_ > context_.limits.triangles) {
+        throw Error(ErrorCode::invalid_input, fmt::format("{}: more than {} triangles",
+                                                          id.pointer(), context_.limits.triangles));
     }
     // Copies of the corners and the tree over them, by Embree (benchmarks/load_memory.py).
     constexpr std::uint64_t traced_triangle = 100;  // [bytes]
     try {
-        budget_.spend_memory(mesh.triangles.size() * traced_triangle);
+        context_.budget.spend_memory(mesh.triangles.size() * traced_triangle);
     } catch (const Error& error) {
         throw Error(error.code(), id.pointer() + ": " + error.what());
     }
@@ -93,13 +92,12 @@ std::optional<MeshDesc> MeshTable::read(PrimitiveId id, const std::vector<Weight
             joints.empty() ? std::span<const glm::dmat4>() : joints[joints.size() > 1 ? step : 0];
         return Deformation{weights[weights.size() > 1 ? step : 0], joints_then};
     };
-    std::optional<MeshDesc> mesh =
-        read_primitive(model_.structs, id, deformation(0), budget_, warnings_);
+    std::optional<MeshDesc> mesh = read_primitive(model_.structs, id, deformation(0), context_);
     const bool deforms = weights.size() > 1 || joints.size() > 1;
     for (std::size_t step = 1; mesh && deforms && step <= motion_.steps(); ++step) {
-        Warnings unheard;  // The first pose has said it all.
+        const Silence silence(context_.warnings);  // The first pose has said it all.
         std::optional<MeshDesc> later =
-            read_primitive(model_.structs, id, deformation(step), budget_, unheard);
+            read_primitive(model_.structs, id, deformation(step), context_);
         mesh->motion.push_back(
             {std::move(later->positions), std::move(later->normals), std::move(later->tangents)});
     }
@@ -116,7 +114,7 @@ std::optional<ShownMesh> MeshTable::get(std::size_t node, std::size_t primitive)
     const tinygltf::Mesh& mesh = model_.structs.meshes[id.mesh];
     int skin = source.skin;
     if (skin >= 0 && !has_joints(PrimitiveReader(model_.structs, id))) {
-        warnings_.add("a mesh without JOINTS_0 and WEIGHTS_0 does not follow its skin",
+        context_.warn("a mesh without JOINTS_0 and WEIGHTS_0 does not follow its skin",
                       id.pointer());
         skin = -1;
     }
@@ -141,9 +139,9 @@ std::optional<MeshId> MeshTable::flatten(MeshId mesh, PrimitiveId id,
                                          std::span<const glm::dmat4> world_from_object)
 {
     const MeshDesc& source = meshes_[static_cast<std::size_t>(mesh)];
-    budget_.spend(id.pointer(),
-                  source.positions.size() * world_from_object.size() + source.triangles.size(),
-                  sizeof(Vec4));
+    context_.budget.spend(
+        id.pointer(), source.positions.size() * world_from_object.size() + source.triangles.size(),
+        sizeof(Vec4));
     std::optional<MeshDesc> flat = place_mesh(source, world_from_object);
     return flat ? std::optional(add(std::move(*flat), id)) : std::nullopt;
 }

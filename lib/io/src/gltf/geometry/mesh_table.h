@@ -1,13 +1,11 @@
 #pragma once
 
-#include "file/data_budget.h"
-#include "file/warnings.h"
+#include "file/load_context.h"
 #include "gltf/animation/node_motion.h"
 #include "gltf/animation/node_transforms.h"
 #include "gltf/document/model.h"
 #include "gltf/geometry/mesh.h"
 
-#include <bdpt/io/read_limits.h>
 #include <bdpt/scene_desc.h>
 
 #include <glm/mat4x4.hpp>
@@ -32,16 +30,13 @@ struct ShownMesh {
 class MeshTable {
 public:
     /// The arguments must outlive the table. Meshes are added to `meshes`.
-    MeshTable(const GltfModel& model, const ReadLimits& limits, NodeTransforms& transforms,
-              const NodeMotion& motion, DataBudget& budget, std::vector<MeshDesc>& meshes,
-              Warnings& warnings)
+    MeshTable(const GltfModel& model, NodeTransforms& transforms, const NodeMotion& motion,
+              std::vector<MeshDesc>& meshes, LoadContext& context)
         : model_(model),
-          limits_(limits),
           transforms_(transforms),
           motion_(motion),
-          budget_(budget),
           meshes_(meshes),
-          warnings_(warnings)
+          context_(context)
     {}
 
     /// Primitive `primitive` of the mesh that `node` has, with the node's skin and weights of morph
@@ -68,12 +63,10 @@ private:
                                                const Joints& joints);
 
     const GltfModel& model_;
-    const ReadLimits& limits_;
     NodeTransforms& transforms_;
     const NodeMotion& motion_;
-    DataBudget& budget_;
     std::vector<MeshDesc>& meshes_;
-    Warnings& warnings_;
+    LoadContext& context_;
     std::map<Key, std::optional<MeshId>> known_;
     std::map<int, Joints> joints_;  // by skin
     std::uint64_t triangles_ = 0;

@@ -20,7 +20,7 @@ void add(std::vector<V>& values, const std::vector<V>& displacements, float weig
 }  // namespace
 
 void apply_morph(MeshDesc& mesh, const PrimitiveReader& primitive, std::span<const double> weights,
-                 Warnings& warnings)
+                 LoadContext& context)
 {
     const std::size_t targets = std::min(weights.size(), primitive.source().targets.size());
     const std::size_t vertices = mesh.positions.size();
@@ -30,7 +30,7 @@ void apply_morph(MeshDesc& mesh, const PrimitiveReader& primitive, std::span<con
             continue;
         }
         const auto read = [&]<typename V>(const char* semantic, V) {
-            return primitive.read_target<V>(t, semantic, vertices, warnings);
+            return primitive.read_target<V>(t, semantic, vertices, context);
         };
         add(mesh.positions, read("POSITION", Vec3()), weight);
         // What the mesh does not have by itself, a target cannot move.

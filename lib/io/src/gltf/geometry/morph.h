@@ -1,6 +1,6 @@
 #pragma once
 
-#include "file/warnings.h"
+#include "file/load_context.h"
 #include "gltf/geometry/primitive_reader.h"
 
 #include <bdpt/scene_desc.h>
@@ -13,6 +13,6 @@ namespace bdpt::io {
 /// texture coordinates and colours [glTF 2.0, sec. 3.7.2.2]; targets beyond the weights have none.
 /// Normals and tangents are left as long as they become. Throws `Error` (invalid_input).
 void apply_morph(MeshDesc& mesh, const PrimitiveReader& primitive, std::span<const double> weights,
-                 Warnings& warnings);
+                 LoadContext& context);
 
 }  // namespace bdpt::io

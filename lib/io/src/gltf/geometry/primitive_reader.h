@@ -1,6 +1,6 @@
 #pragma once
 
-#include "file/warnings.h"
+#include "file/load_context.h"
 #include "gltf/document/accessor.h"
 #include "gltf/document/tinygltf.h"
 #include "gltf/geometry/mesh.h"
@@ -38,20 +38,20 @@ public:
     /// As many values as there are vertices; none if the attribute is not there.
     template <typename V>
     [[nodiscard]] std::vector<V> read(const std::string& semantic, std::size_t vertices,
-                                      Warnings& warnings,
+                                      LoadContext& context,
                                       Integers integers = Integers::as_declared) const
     {
-        return read_from<V>(source_->attributes, "attributes", semantic, vertices, warnings,
+        return read_from<V>(source_->attributes, "attributes", semantic, vertices, context,
                             integers);
     }
 
     /// The same from the morph target `target`, which must be one.
     template <typename V>
     [[nodiscard]] std::vector<V> read_target(std::size_t target, const std::string& semantic,
-                                             std::size_t vertices, Warnings& warnings) const
+                                             std::size_t vertices, LoadContext& context) const
     {
         return read_from<V>(source_->targets[target], fmt::format("targets/{}", target), semantic,
-                            vertices, warnings, Integers::as_declared);
+                            vertices, context, Integers::as_declared);
     }
 
 private:
@@ -63,7 +63,7 @@ private:
     template <typename V>
     [[nodiscard]] std::vector<V> read_from(const Attributes& attributes, const std::string& where,
                                            const std::string& semantic, std::size_t vertices,
-                                           Warnings& warnings, Integers integers) const
+                                           LoadContext& context, Integers integers) const
     {
         const std::optional<int> accessor = find(attributes, semantic);
         if (!accessor) {
@@ -75,7 +75,7 @@ private:
                  fmt::format("{} values, but there are {} vertices", values.size(), vertices));
         }
         if (values.size() > vertices) {
-            warnings.add("more values than vertices; the rest is ignored",
+            context.warn("more values than vertices; the rest is ignored",
                          fmt::format("{}/{}/{}", id_.pointer(), where, semantic));
             values.resize(vertices);
         }

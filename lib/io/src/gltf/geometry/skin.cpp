@@ -2,6 +2,8 @@
 
 #include "gltf/document/accessor.h"
 
+#include <bdpt/error.h>
+
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -27,14 +29,14 @@ struct Blend {
 
 /// Adds what set `n` of joints and weights says; false when there is no such set.
 bool add_set(std::vector<Blend>& blends, const PrimitiveReader& primitive, int n,
-             std::span<const glm::dmat4> joints, Warnings& warnings)
+             std::span<const glm::dmat4> joints, LoadContext& context)
 {
     const std::string joint_name = fmt::format("JOINTS_{}", n);
     const std::string weight_name = fmt::format("WEIGHTS_{}", n);
     const std::vector<Vec4> indices =
-        primitive.read<Vec4>(joint_name, blends.size(), warnings, Integers::whole);
+        primitive.read<Vec4>(joint_name, blends.size(), context, Integers::whole);
     const std::vector<Vec4> weights =
-        primitive.read<Vec4>(weight_name, blends.size(), warnings, Integers::normalized);
+        primitive.read<Vec4>(weight_name, blends.size(), context, Integers::normalized);
     if (indices.empty() || weights.empty()) {
         return false;
     }
@@ -42,7 +44,7 @@ bool add_set(std::vector<Blend>& blends, const PrimitiveReader& primitive, int n
         for (int c = 0; c < 4; ++c) {
             const double weight = static_cast<double>(weights[i][c]);
             if (!std::isfinite(weight) || weight < 0.0) {
-                warnings.add("weights of joints that are no weights count as 0",
+                context.warn("weights of joints that are no weights count as 0",
                              fmt::format("{}/attributes/{}: vertex {}: {}",
                                          primitive.id().pointer(), weight_name, i, weight));
                 continue;
@@ -64,17 +66,17 @@ bool add_set(std::vector<Blend>& blends, const PrimitiveReader& primitive, int n
 }
 
 std::vector<Blend> blend_joints(const PrimitiveReader& primitive, std::size_t vertices,
-                                std::span<const glm::dmat4> joints, Warnings& warnings)
+                                std::span<const glm::dmat4> joints, LoadContext& context)
 {
     std::vector<Blend> blends(vertices);
-    for (int n = 0; add_set(blends, primitive, n, joints, warnings); ++n) {
+    for (int n = 0; add_set(blends, primitive, n, joints, context); ++n) {
     }
     // Eight weights of 8 bits may be off by this in good faith.
     constexpr double tolerance = 8.0 * 0.5 / 255.0;
     for (std::size_t i = 0; i < vertices; ++i) {
         Blend& blend = blends[i];
         if (!(std::abs(blend.weight - 1.0) <= tolerance)) {
-            warnings.add(blend.weight > 0.0
+            context.warn(blend.weight > 0.0
                              ? "weights of joints that do not add up to 1 are made to"
                              : "vertices without a weight follow the first joint of their skin",
                          fmt::format("{}/attributes/WEIGHTS_0: vertex {}: {}",
@@ -108,31 +110,32 @@ bool has_joints(const PrimitiveReader& primitive)
     return primitive.attribute("JOINTS_0") && primitive.attribute("WEIGHTS_0");
 }
 
-std::vector<glm::dmat4> joint_matrices(const tinygltf::Model& model, const JsonPlace& skin,
+std::vector<glm::dmat4> joint_matrices(const tinygltf::Model& model, int skin,
                                        NodeTransforms& transforms, const NodeMotion& motion,
-                                       std::size_t step, DataBudget& budget)
+                                       std::size_t step, LoadContext& context)
 {
-    const Json& joints = skin.member("joints").value();
-    budget.spend(skin.pointer(), joints.size(), sizeof(glm::dmat4));
+    const tinygltf::Skin& source = model.skins[static_cast<std::size_t>(skin)];
+    const std::string place = fmt::format("/skins/{}", skin);
+    context.budget.spend(place, source.joints.size(), sizeof(glm::dmat4));
     std::vector<glm::dmat4> matrices;
-    matrices.reserve(joints.size());
-    for (const Json& joint : joints) {
-        const auto node = joint.get<std::size_t>();
+    matrices.reserve(source.joints.size());
+    for (const int joint : source.joints) {
+        const auto node = static_cast<std::size_t>(joint);
         const std::span<const glm::dmat4> moving = motion.world(node);
         matrices.push_back(moving.empty() ? transforms.world(node) : moving[step]);
     }
-    if (!skin.has("inverseBindMatrices")) {
+    const int accessor = source.inverseBindMatrices;
+    if (accessor < 0) {
         return matrices;
     }
-    const JsonPlace place = skin.member("inverseBindMatrices");
-    const auto accessor = static_cast<int>(place.as_unsigned());
     constexpr std::size_t size = 16;
-    budget.spend(skin.pointer(), model.accessors[static_cast<std::size_t>(accessor)].count,
-                 size * sizeof(float));
+    context.budget.spend(place, model.accessors[static_cast<std::size_t>(accessor)].count,
+                         size * sizeof(float));
     const std::vector<float> values = read_numbers(model, accessor, TINYGLTF_TYPE_MAT4);
     if (values.size() / size < matrices.size()) {
-        place.fail(fmt::format("{} matrices, but there are {} joints", values.size() / size,
-                               matrices.size()));
+        throw Error(ErrorCode::invalid_input,
+                    fmt::format("{}/inverseBindMatrices: {} matrices, but there are {} joints",
+                                place, values.size() / size, matrices.size()));
     }
     for (std::size_t i = 0; i < matrices.size(); ++i) {
         matrices[i] *= glm::dmat4(glm::make_mat4(values.data() + i * size));
@@ -140,22 +143,21 @@ std::vector<glm::dmat4> joint_matrices(const tinygltf::Model& model, const JsonP
     return matrices;
 }
 
-bool moves(const JsonPlace& skin, const NodeMotion& motion)
+bool moves(const tinygltf::Skin& skin, const NodeMotion& motion)
 {
-    const Json& joints = skin.member("joints").value();
-    return std::any_of(joints.begin(), joints.end(), [&motion](const Json& joint) {
-        return !motion.world(joint.get<std::size_t>()).empty();
+    return std::any_of(skin.joints.begin(), skin.joints.end(), [&motion](int joint) {
+        return !motion.world(static_cast<std::size_t>(joint)).empty();
     });
 }
 
 void apply_skin(MeshDesc& mesh, const PrimitiveReader& primitive,
-                std::span<const glm::dmat4> joints, Warnings& warnings)
+                std::span<const glm::dmat4> joints, LoadContext& context)
 {
     if (joints.empty()) {
         return;
     }
     const std::vector<Blend> blends =
-        blend_joints(primitive, mesh.positions.size(), joints, warnings);
+        blend_joints(primitive, mesh.positions.size(), joints, context);
     std::vector<double> determinants;
     determinants.reserve(blends.size());
     for (std::size_t i = 0; i < blends.size(); ++i) {

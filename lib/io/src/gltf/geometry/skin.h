@@ -1,8 +1,6 @@
 #pragma once
 
-#include "file/data_budget.h"
-#include "file/json.h"
-#include "file/warnings.h"
+#include "file/load_context.h"
 #include "gltf/animation/node_motion.h"
 #include "gltf/animation/node_transforms.h"
 #include "gltf/geometry/primitive_reader.h"
@@ -18,22 +16,20 @@
 namespace bdpt::io {
 
 /// World from bind pose for each joint of a skin, at a step of the motion: the joint's world
-/// transform times its inverse bind matrix [glTF 2.0, sec. 3.7.3]. `skin` is the place of the skin
-/// in the checked document. Throws `Error` (invalid_input).
-[[nodiscard]] std::vector<glm::dmat4> joint_matrices(const tinygltf::Model& model,
-                                                     const JsonPlace& skin,
+/// transform times its inverse bind matrix [glTF 2.0, sec. 3.7.3]. Throws `Error` (invalid_input).
+[[nodiscard]] std::vector<glm::dmat4> joint_matrices(const tinygltf::Model& model, int skin,
                                                      NodeTransforms& transforms,
                                                      const NodeMotion& motion, std::size_t step,
-                                                     DataBudget& budget);
+                                                     LoadContext& context);
 
 /// Does any joint of the skin move?
-[[nodiscard]] bool moves(const JsonPlace& skin, const NodeMotion& motion);
+[[nodiscard]] bool moves(const tinygltf::Skin& skin, const NodeMotion& motion);
 
 /// Moves a mesh to where its joints take it, which is world space; all sets JOINTS_n and WEIGHTS_n
 /// count. Weights are made to add up to one. Parts that the joints mirror keep their front. Does
 /// nothing for no joints. Throws `Error` (invalid_input) for a joint that there is not.
 void apply_skin(MeshDesc& mesh, const PrimitiveReader& primitive,
-                std::span<const glm::dmat4> joints, Warnings& warnings);
+                std::span<const glm::dmat4> joints, LoadContext& context);
 
 /// Can the primitive be skinned: does it say which joints move its vertices?
 [[nodiscard]] bool has_joints(const PrimitiveReader& primitive);

@@ -12,12 +12,12 @@ namespace bdpt::io {
 namespace {
 
 std::optional<CameraDesc> read_perspective(const tinygltf::Camera& camera, const std::string& place,
-                                           Warnings& warnings)
+                                           LoadContext& context)
 {
     constexpr double pi = 3.141592653589793;
     const double yfov = camera.perspective.yfov;
     if (!(yfov > 0.0 && yfov < pi)) {
-        warnings.add("a camera with an impossible field of view is skipped",
+        context.warn("a camera with an impossible field of view is skipped",
                      fmt::format("{}/perspective/yfov: {}", place, yfov));
         return std::nullopt;
     }
@@ -30,12 +30,12 @@ std::optional<CameraDesc> read_perspective(const tinygltf::Camera& camera, const
 }
 
 std::optional<CameraDesc> read_orthographic(const tinygltf::Camera& camera,
-                                            const std::string& place, Warnings& warnings)
+                                            const std::string& place, LoadContext& context)
 {
     const double xmag = camera.orthographic.xmag;
     const double ymag = camera.orthographic.ymag;
     if (!is_length(xmag) || !is_length(ymag) || !is_length(2.0 * ymag) || !is_length(xmag / ymag)) {
-        warnings.add("an orthographic camera with an impossible extent is skipped",
+        context.warn("an orthographic camera with an impossible extent is skipped",
                      fmt::format("{}/orthographic: xmag {}, ymag {}", place, xmag, ymag));
         return std::nullopt;
     }
@@ -49,7 +49,7 @@ std::optional<CameraDesc> read_orthographic(const tinygltf::Camera& camera,
 }  // namespace
 
 std::optional<CameraDesc> read_camera(const tinygltf::Model& model, std::size_t node,
-                                      const glm::dmat4& world_from_node, Warnings& warnings)
+                                      const glm::dmat4& world_from_node, LoadContext& context)
 {
     const tinygltf::Node& holder = model.nodes[node];
     if (holder.camera < 0) {
@@ -58,19 +58,19 @@ std::optional<CameraDesc> read_camera(const tinygltf::Model& model, std::size_t 
     const auto& camera = model.cameras[static_cast<std::size_t>(holder.camera)];
     const std::string place = fmt::format("/cameras/{}", holder.camera);
     std::optional<CameraDesc> desc = camera.type == "orthographic"
-                                         ? read_orthographic(camera, place, warnings)
-                                         : read_perspective(camera, place, warnings);
+                                         ? read_orthographic(camera, place, context)
+                                         : read_perspective(camera, place, context);
     if (!desc) {
         return std::nullopt;
     }
     if (!std::isnormal(glm::determinant(Mat3(world_from_node)))) {
-        warnings.add("a camera whose transform has no inverse is skipped",
+        context.warn("a camera whose transform has no inverse is skipped",
                      fmt::format("/nodes/{}", node));
         return std::nullopt;
     }
     desc->name = camera.name.empty() ? holder.name : camera.name;
     desc->world_from_camera = Mat4(world_from_node);
-    const Lens lens = read_lens(camera, *desc, place, warnings);
+    const Lens lens = read_lens(camera, *desc, place, context);
     desc->lens_radius = lens.radius;
     desc->focus_distance = lens.focus_distance;
     return desc;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "file/warnings.h"
+#include "file/load_context.h"
 #include "gltf/document/tinygltf.h"
 
 #include <bdpt/scene_desc.h>
@@ -15,6 +15,6 @@ namespace bdpt::io {
 /// The camera that a node holds, if it holds one that can be rendered; else a warning.
 [[nodiscard]] std::optional<CameraDesc> read_camera(const tinygltf::Model& model, std::size_t node,
                                                     const glm::dmat4& world_from_node,
-                                                    Warnings& warnings);
+                                                    LoadContext& context);
 
 }  // namespace bdpt::io

@@ -64,7 +64,7 @@ std::uint8_t code_of(const TexelImage& texels, std::size_t texel, int channel)
 }
 
 /// Radiance from RGBD: colours are sRGB, and alpha divides them. A picture without alpha has 255.
-Image decode_rgbd(const TexelImage& texels, const std::string& place, Warnings& warnings)
+Image decode_rgbd(const TexelImage& texels, const std::string& place, LoadContext& context)
 {
     Image image{texels.width, texels.height, {}};
     if (texels.type != TexelType::unorm8 && texels.type != TexelType::unorm16) {
@@ -85,15 +85,18 @@ Image decode_rgbd(const TexelImage& texels, const std::string& place, Warnings& 
         image.pixels.push_back(divisor > 0.0f ? color / divisor : Rgb(0.0f));
     }
     if (is_divided_by_zero) {
-        warnings.add("texels of an environment whose alpha is 0 are black", place);
+        context.warn("texels of an environment whose alpha is 0 are black", place);
     }
     return image;
 }
 
-TexelImage read_face(const GltfModel& model, std::size_t image, const ReadLimits& limits)
+TexelImage read_face(const GltfModel& model, std::size_t image, const LoadContext& context)
 {
+    const tinygltf::Image& source = model.structs.images[image];
     try {
-        return decode_texels(read_source(model, model.images[image], limits.file_bytes), limits);
+        return decode_texels(read_source(model.structs, source.uri, source.bufferView,
+                                         context.limits.file_bytes, context),
+                             context.limits);
     } catch (const Error& error) {
         if (error.code() == ErrorCode::not_found) {
             throw UnreadableCube(error.what());
@@ -103,7 +106,7 @@ TexelImage read_face(const GltfModel& model, std::size_t image, const ReadLimits
 }
 
 CubeMap read_cube(const GltfModel& model, const Json& images, const std::string& place,
-                  const ReadLimits& limits, Warnings& warnings)
+                  LoadContext& context)
 {
     CubeMap cube;
     std::uint64_t bytes = 0;
@@ -116,18 +119,19 @@ CubeMap read_cube(const GltfModel& model, const Json& images, const std::string&
             continue;
         }
         try {
-            const TexelImage texels = read_face(model, images[side].get<std::size_t>(), limits);
+            const TexelImage texels = read_face(model, images[side].get<std::size_t>(), context);
             Image& face = cube.faces[side];
             bytes += texel_count(texels) * sizeof(Rgb);
-            if (bytes > limits.texture_bytes) {
+            if (bytes > context.limits.texture_bytes) {
                 throw Error(
                     ErrorCode::invalid_input,
-                    fmt::format("all sides together need more than {}",
-                                human_bytes(static_cast<long double>(limits.texture_bytes))));
+                    fmt::format(
+                        "all sides together need more than {}",
+                        human_bytes(static_cast<long double>(context.limits.texture_bytes))));
             }
-            face = decode_rgbd(texels, face_place, warnings);
+            face = decode_rgbd(texels, face_place, context);
             if (face.width != face.height || face.width != cube.faces[0].width) {
-                warnings.add(
+                context.warn(
                     "the sides of an environment should be square and of one size",
                     fmt::format("{}: {} x {} pixels", face_place, face.width, face.height));
             }
@@ -150,18 +154,18 @@ int longest_side(const CubeMap& cube)
 }
 
 /// Four texels along a full circle for each of a side keep their detail, if the limits let them.
-Image flatten(CubeMap cube, const std::string& place, const ReadLimits& limits, Warnings& warnings)
+Image flatten(CubeMap cube, const std::string& place, LoadContext& context)
 {
     constexpr int least = 32;  // so that even sides of one texel have edges
     constexpr double most =
         2048;  // more takes seconds and gigabytes, which a small file may ask for
     const double affordable =
-        std::sqrt(static_cast<double>(limits.image_bytes / sizeof(Rgb)) / 2.0);
-    const int highest =
-        std::max(1, static_cast<int>(std::min({most, affordable, limits.image_side / 2.0})));
+        std::sqrt(static_cast<double>(context.limits.image_bytes / sizeof(Rgb)) / 2.0);
+    const int highest = std::max(
+        1, static_cast<int>(std::min({most, affordable, context.limits.image_side / 2.0})));
     const int wanted = std::max(2 * longest_side(cube), least);
     if (wanted > highest) {
-        warnings.add("an environment loses detail, as a picture of all of it would be too large",
+        context.warn("an environment loses detail, as a picture of all of it would be too large",
                      fmt::format("{}: {} x {} pixels", place, 2 * wanted, wanted));
     }
     while (longest_side(cube) > 1 && 2 * longest_side(cube) > highest) {
@@ -170,13 +174,13 @@ Image flatten(CubeMap cube, const std::string& place, const ReadLimits& limits, 
     return to_equirectangular(cube, std::min(std::max(2 * longest_side(cube), least), highest));
 }
 
-float read_intensity(const Json& light, const std::string& place, Warnings& warnings)
+float read_intensity(const Json& light, const std::string& place, LoadContext& context)
 {
     // What alpha divides is 255 at most.
     constexpr double most = std::numeric_limits<float>::max() / 256.0;
     const double intensity = light.value("intensity", 1.0);
     if (!(intensity >= 0.0 && intensity <= most)) {
-        warnings.add("the intensity of an environment is brought into its range",
+        context.warn("the intensity of an environment is brought into its range",
                      fmt::format("{}/intensity: {}", place, intensity));
     }
     return static_cast<float>(std::clamp(intensity, 0.0, most));
@@ -185,9 +189,7 @@ float read_intensity(const Json& light, const std::string& place, Warnings& warn
 }  // namespace
 
 std::optional<EnvironmentLightDesc> read_image_based_light(const GltfModel& model,
-                                                           std::size_t scene,
-                                                           const ReadLimits& limits,
-                                                           Warnings& warnings)
+                                                           std::size_t scene, LoadContext& context)
 {
     const auto& extensions = model.structs.scenes[scene].extensions;
     const auto found = extensions.find("EXT_lights_image_based");
@@ -205,20 +207,20 @@ std::optional<EnvironmentLightDesc> read_image_based_light(const GltfModel& mode
     }
     EnvironmentLightDesc desc;
     try {
-        CubeMap cube = read_cube(model, levels[0], place + "/specularImages/0", limits, warnings);
-        desc.radiance = flatten(std::move(cube), place, limits, warnings);
+        CubeMap cube = read_cube(model, levels[0], place + "/specularImages/0", context);
+        desc.radiance = flatten(std::move(cube), place, context);
     } catch (const UnreadableCube& error) {
-        warnings.add("a picture of the environment cannot be read; the scene does without it",
+        context.warn("a picture of the environment cannot be read; the scene does without it",
                      error.what());
         return std::nullopt;
     }
-    const float intensity = read_intensity(light, place, warnings);
+    const float intensity = read_intensity(light, place, context);
     for (Rgb& pixel : desc.radiance.pixels) {
         pixel *= intensity;
     }
     if (light.contains("rotation")) {
         const auto xyzw = light["rotation"].get<std::vector<double>>();
-        desc.world_from_environment = Mat3(glm::dmat3(rotation(xyzw, place, warnings)));
+        desc.world_from_environment = Mat3(glm::dmat3(rotation(xyzw, place, context)));
     }
     return desc;
 }

@@ -1,9 +1,8 @@
 #pragma once
 
-#include "file/warnings.h"
+#include "file/load_context.h"
 #include "gltf/document/model.h"
 
-#include <bdpt/io/read_limits.h>
 #include <bdpt/scene_desc.h>
 
 #include <cstddef>
@@ -16,7 +15,6 @@ namespace bdpt::io {
 /// that lacks a side, or is beyond the limits.
 [[nodiscard]] std::optional<EnvironmentLightDesc> read_image_based_light(const GltfModel& model,
                                                                          std::size_t scene,
-                                                                         const ReadLimits& limits,
-                                                                         Warnings& warnings);
+                                                                         LoadContext& context);
 
 }  // namespace bdpt::io

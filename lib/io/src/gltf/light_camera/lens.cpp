@@ -12,20 +12,20 @@ namespace {
 
 /// A number above 0 in the extras of a camera.
 std::optional<double> read_positive(const tinygltf::Camera& camera, const char* name,
-                                    const std::string& place, Warnings& warnings)
+                                    const std::string& place, LoadContext& context)
 {
     if (!camera.extras.IsObject() || !camera.extras.Has(name)) {
         return std::nullopt;
     }
     const tinygltf::Value& value = camera.extras.Get(name);
     if (!value.IsNumber()) {
-        warnings.add("a value of a lens that is not a number is ignored",
+        context.warn("a value of a lens that is not a number is ignored",
                      fmt::format("{}/extras/{}", place, name));
         return std::nullopt;
     }
     const double number = value.GetNumberAsDouble();
     if (!is_length(number)) {
-        warnings.add("a value of a lens that is not finite and above 0 is ignored",
+        context.warn("a value of a lens that is not finite and above 0 is ignored",
                      fmt::format("{}/extras/{}: {}", place, name, number));
         return std::nullopt;
     }
@@ -41,18 +41,16 @@ bool is_length(double value)
 }
 
 Lens read_lens(const tinygltf::Camera& camera, const CameraDesc& desc, const std::string& place,
-               Warnings& warnings)
+               LoadContext& context)
 {
-    const auto read = [&](const char* name) {
-        return read_positive(camera, name, place, warnings);
-    };
+    const auto read = [&](const char* name) { return read_positive(camera, name, place, context); };
     const std::optional<double> radius = read("lensRadius");
     const std::optional<double> f_stop = read("fStop");
     const std::optional<double> focus = read("focusDistance");
     Lens lens;
     if (desc.projection == Projection::orthographic) {
         if (radius || f_stop || focus) {
-            warnings.add("the lens of an orthographic camera is ignored", place + "/extras");
+            context.warn("the lens of an orthographic camera is ignored", place + "/extras");
         }
         return lens;
     }
@@ -60,7 +58,7 @@ Lens read_lens(const tinygltf::Camera& camera, const CameraDesc& desc, const std
         lens.focus_distance = static_cast<float>(*focus);
     }
     if (radius && f_stop) {
-        warnings.add("the f-stop of a camera that has a lens radius too is ignored",
+        context.warn("the f-stop of a camera that has a lens radius too is ignored",
                      place + "/extras/fStop");
     }
     if (radius) {
@@ -72,7 +70,7 @@ Lens read_lens(const tinygltf::Camera& camera, const CameraDesc& desc, const std
         if (is_length(from_stop)) {
             lens.radius = static_cast<float>(from_stop);
         } else {
-            warnings.add("a value of a lens that is not finite and above 0 is ignored",
+            context.warn("a value of a lens that is not finite and above 0 is ignored",
                          fmt::format("{}/extras/fStop: {}", place, *f_stop));
         }
     }

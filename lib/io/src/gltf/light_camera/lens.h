@@ -1,6 +1,6 @@
 #pragma once
 
-#include "file/warnings.h"
+#include "file/load_context.h"
 #include "gltf/document/tinygltf.h"
 
 #include <bdpt/scene_desc.h>
@@ -22,6 +22,6 @@ struct Lens {
 /// Extras belong to whoever writes them, so a value that makes no sense is no error: it is ignored
 /// with a warning.
 [[nodiscard]] Lens read_lens(const tinygltf::Camera& camera, const CameraDesc& desc,
-                             const std::string& place, Warnings& warnings);
+                             const std::string& place, LoadContext& context);
 
 }  // namespace bdpt::io

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "file/warnings.h"
+#include "file/load_context.h"
 #include "gltf/document/tinygltf.h"
 
 #include <bdpt/scene_desc.h>
@@ -17,6 +17,6 @@ namespace bdpt::io {
 /// Throws `Error` (unsupported) for an unknown type.
 [[nodiscard]] std::optional<LightDesc> read_light(const tinygltf::Model& model, std::size_t node,
                                                   const glm::dmat4& world_from_node,
-                                                  Warnings& warnings);
+                                                  LoadContext& context);
 
 }  // namespace bdpt::io

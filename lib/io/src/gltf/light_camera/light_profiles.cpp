@@ -18,27 +18,27 @@ namespace bdpt::io {
 namespace {
 
 /// Brought back into [0, most], with a warning.
-double in_range(double value, double most, const std::string& place, Warnings& warnings)
+double in_range(double value, double most, const std::string& place, LoadContext& context)
 {
     if (!(value >= 0.0 && value <= most)) {
-        warnings.add("a colour or multiplier of a light profile is brought into its range",
+        context.warn("a colour or multiplier of a light profile is brought into its range",
                      fmt::format("{}: {}", place, value));
     }
     return std::clamp(value, 0.0, most);
 }
 
-Rgb read_scale(const tinygltf::Value& light, const std::string& place, Warnings& warnings)
+Rgb read_scale(const tinygltf::Value& light, const std::string& place, LoadContext& context)
 {
     constexpr double most = std::numeric_limits<float>::max();
     const double multiplier =
         light.Has("multiplier") ? light.Get("multiplier").GetNumberAsDouble() : 1.0;
-    Rgb scale(static_cast<float>(in_range(multiplier, most, place + "/multiplier", warnings)));
+    Rgb scale(static_cast<float>(in_range(multiplier, most, place + "/multiplier", context)));
     if (light.Has("color")) {
         const auto& channels = light.Get("color").Get<tinygltf::Value::Array>();
         for (int c = 0; c < 3; ++c) {
             const double channel = channels[static_cast<std::size_t>(c)].GetNumberAsDouble();
             scale[c] *= static_cast<float>(
-                in_range(channel, 1.0, fmt::format("{}/color/{}", place, c), warnings));
+                in_range(channel, 1.0, fmt::format("{}/color/{}", place, c), context));
         }
     }
     return scale;
@@ -53,13 +53,16 @@ const LightProfiles::Known& LightProfiles::get(std::size_t index)
         return found->second;
     }
     const std::string place = fmt::format("/extensions/EXT_lights_ies/lights/{}", index);
+    const ProfileSource& source = model_.light_profiles[index];
     try {
-        const Bytes bytes = read_source(model_, model_.light_profiles[index],
-                                        std::min(limits_.file_bytes, most_ies_bytes));
-        IesProfile read = make_profile(read_ies(bytes, place, warnings_), place, warnings_);
+        const Bytes bytes =
+            read_source(model_.structs, source.uri, source.buffer_view,
+                        std::min(context_.limits.file_bytes, most_ies_bytes), context_);
+        IesProfile read =
+            make_profile(read_ies(bytes, place, context_.warnings), place, context_.warnings);
         // An intensity is there several times: in the scene, to look it up and to sample it.
         constexpr std::uint64_t bytes_each = 32;
-        budget_.spend("what it holds", read.profile.intensities.size(), bytes_each);
+        context_.budget.spend("what it holds", read.profile.intensities.size(), bytes_each);
         const Known known{static_cast<ProfileId>(profiles_.size()), read.node_from_profile};
         profiles_.push_back(std::move(read.profile));
         return known_.emplace(index, known).first->second;
@@ -82,7 +85,7 @@ std::optional<LightDesc> LightProfiles::read(std::size_t node, const glm::dmat4&
     desc.position = Vec3(world_from_node[3]);
     desc.world_from_light = axes_of(world_from_node) * known.node_from_profile;
     desc.scale =
-        read_scale(light, fmt::format("/nodes/{}/extensions/EXT_lights_ies", node), warnings_);
+        read_scale(light, fmt::format("/nodes/{}/extensions/EXT_lights_ies", node), context_);
     desc.profile = known.id;
     return desc;
 }

@@ -1,10 +1,8 @@
 #pragma once
 
-#include "file/data_budget.h"
-#include "file/warnings.h"
+#include "file/load_context.h"
 #include "gltf/document/model.h"
 
-#include <bdpt/io/read_limits.h>
 #include <bdpt/scene_desc.h>
 
 #include <glm/mat4x4.hpp>
@@ -20,9 +18,8 @@ namespace bdpt::io {
 class LightProfiles {
 public:
     /// The arguments must outlive this. Profiles are added to `profiles`.
-    LightProfiles(const GltfModel& model, const ReadLimits& limits, DataBudget& budget,
-                  std::vector<LightProfile>& profiles, Warnings& warnings)
-        : model_(model), limits_(limits), budget_(budget), profiles_(profiles), warnings_(warnings)
+    LightProfiles(const GltfModel& model, std::vector<LightProfile>& profiles, LoadContext& context)
+        : model_(model), profiles_(profiles), context_(context)
     {}
 
     /// The light that a node holds, if any. Throws `Error`: not_found for a file that is missing,
@@ -39,10 +36,8 @@ private:
     [[nodiscard]] const Known& get(std::size_t index);
 
     const GltfModel& model_;
-    const ReadLimits& limits_;
-    DataBudget& budget_;
     std::vector<LightProfile>& profiles_;
-    Warnings& warnings_;
+    LoadContext& context_;
     std::map<std::size_t, Known> known_;
 };
 

@@ -36,7 +36,7 @@ std::vector<Vec3> position_motion(std::span<const glm::dmat4> worlds)
 }
 
 std::vector<Vec3> direction_turn(std::span<const glm::dmat4> worlds, Vec3 first, std::size_t node,
-                                 Warnings& warnings)
+                                 LoadContext& context)
 {
     std::vector<glm::dvec3> directions;
     directions.reserve(worlds.size());
@@ -46,7 +46,7 @@ std::vector<Vec3> direction_turn(std::span<const glm::dmat4> worlds, Vec3 first,
     std::vector<Vec3> turn = later<Vec3>(thinned(std::span<const glm::dvec3>(directions)));
     for (const Vec3& direction : turn) {
         if (!can_turn(first, direction)) {
-            warnings.add("a light that turns in a jump keeps its direction",
+            context.warn("a light that turns in a jump keeps its direction",
                          fmt::format("/nodes/{}", node));
             return {};
         }
@@ -58,19 +58,19 @@ std::vector<Vec3> direction_turn(std::span<const glm::dmat4> worlds, Vec3 first,
 }  // namespace
 
 std::vector<Mat4> camera_motion(std::span<const glm::dmat4> worlds, std::size_t node,
-                                Warnings& warnings)
+                                LoadContext& context)
 {
     const std::vector<glm::dmat4> few = thinned(worlds);
     std::vector<Mat4> motion = later<Mat4>(few);
     if (!motion.empty() && !can_move(Mat4(few.front()), motion)) {
-        warnings.add("a camera that turns in a jump stands still", fmt::format("/nodes/{}", node));
+        context.warn("a camera that turns in a jump stands still", fmt::format("/nodes/{}", node));
         return {};
     }
     return motion;
 }
 
 void move_light(LightDesc& light, std::span<const glm::dmat4> worlds, std::size_t node,
-                Warnings& warnings)
+                LoadContext& context)
 {
     if (worlds.empty()) {
         return;
@@ -79,16 +79,16 @@ void move_light(LightDesc& light, std::span<const glm::dmat4> worlds, std::size_
         point->motion = position_motion(worlds);
     } else if (auto* spot = std::get_if<SpotLightDesc>(&light)) {
         spot->motion = position_motion(worlds);
-        spot->turn = direction_turn(worlds, spot->direction, node, warnings);
+        spot->turn = direction_turn(worlds, spot->direction, node, context);
     } else if (auto* sun = std::get_if<DirectionalLightDesc>(&light)) {
-        sun->turn = direction_turn(worlds, sun->direction, node, warnings);
+        sun->turn = direction_turn(worlds, sun->direction, node, context);
     } else if (auto* luminaire = std::get_if<ProfileLightDesc>(&light)) {
         luminaire->motion = position_motion(worlds);
         const auto turned = [first = glm::dmat3(worlds.front())](const glm::dmat4& world) {
             return glm::dmat3(world) != first;
         };
         if (std::any_of(worlds.begin(), worlds.end(), turned)) {
-            warnings.add("a light profile that turns keeps its orientation",
+            context.warn("a light profile that turns keeps its orientation",
                          fmt::format("/nodes/{}", node));
         }
     }

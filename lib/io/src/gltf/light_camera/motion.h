@@ -1,6 +1,6 @@
 #pragma once
 
-#include "file/warnings.h"
+#include "file/load_context.h"
 
 #include <bdpt/scene_desc.h>
 
@@ -18,10 +18,10 @@ namespace bdpt::io {
 
 /// As `CameraDesc::motion`.
 [[nodiscard]] std::vector<Mat4> camera_motion(std::span<const glm::dmat4> worlds, std::size_t node,
-                                              Warnings& warnings);
+                                              LoadContext& context);
 
 /// Lets a light that is read for the opening move with its node.
 void move_light(LightDesc& light, std::span<const glm::dmat4> worlds, std::size_t node,
-                Warnings& warnings);
+                LoadContext& context);
 
 }  // namespace bdpt::io

@@ -25,12 +25,11 @@ struct UnreadablePicture : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-Bytes read_picture_file(const std::filesystem::path& folder, const std::string& uri,
-                        const ReadLimits& limits)
+Bytes read_picture_file(const std::string& uri, const LoadContext& context)
 {
-    const std::filesystem::path file = resolve_uri(folder, uri);
+    const std::filesystem::path file = resolve_uri(context.folder, uri);
     try {
-        return read_file(file, limits.file_bytes);
+        return read_file(file, context.limits.file_bytes);
     } catch (const Error& error) {
         if (error.code() == ErrorCode::not_found) {
             throw UnreadablePicture(quote(uri) + ": " + error.what());
@@ -77,27 +76,29 @@ struct ImageTable::Job {
 /// broken, so that the verdict does not depend on the order in which pictures are decoded.
 void ImageTable::open(const OiioLibrary& library, Job& job)
 {
-    const ImageSource& source = model_.images[job.index];
-    if (source.buffer_view) {
-        const tinygltf::BufferView& view = model_.structs.bufferViews[*source.buffer_view];
+    const tinygltf::Image& source = model_.structs.images[job.index];
+    if (source.bufferView >= 0) {
+        const tinygltf::BufferView& view =
+            model_.structs.bufferViews[static_cast<std::size_t>(source.bufferView)];
         const auto& data = model_.structs.buffers[static_cast<std::size_t>(view.buffer)].data;
         job.bytes = ByteView(data).subspan(view.byteOffset, view.byteLength);
     } else if (source.uri.empty()) {
         throw UnreadablePicture("neither \"uri\" nor \"bufferView\"");
     } else {
         job.own_bytes = is_data_uri(source.uri)
-                            ? decode_data_uri(source.uri, limits_.file_bytes)
-                            : read_picture_file(model_.folder, source.uri, limits_);
+                            ? decode_data_uri(source.uri, context_.limits.file_bytes)
+                            : read_picture_file(source.uri, context_);
         job.bytes = job.own_bytes;
     }
-    job.encoded.emplace(library, job.bytes, limits_);
+    job.encoded.emplace(library, job.bytes, context_.limits);
     total_bytes_ += job.encoded->decoded_bytes();
-    if (total_bytes_ > limits_.texture_bytes) {
-        throw Error(ErrorCode::invalid_input,
-                    fmt::format("all pictures together need more than {}",
-                                human_bytes(static_cast<long double>(limits_.texture_bytes))));
+    if (total_bytes_ > context_.limits.texture_bytes) {
+        throw Error(
+            ErrorCode::invalid_input,
+            fmt::format("all pictures together need more than {}",
+                        human_bytes(static_cast<long double>(context_.limits.texture_bytes))));
     }
-    budget_.spend_memory(job.encoded->decoded_bytes());
+    context_.budget.spend_memory(job.encoded->decoded_bytes());
 }
 
 /// Decodes the pictures of a batch at once, and adds them in their order.
@@ -136,7 +137,7 @@ void ImageTable::add(Job& job)
     } catch (const Error& error) {
         throw Error(error.code(), place + ": " + error.what());
     } catch (const std::runtime_error& error) {
-        warnings_.add("the picture cannot be read; the texture does without it",
+        context_.warn("the picture cannot be read; the texture does without it",
                       place + ": " + error.what());
     }
 }
@@ -164,11 +165,11 @@ void ImageTable::decode(const std::vector<std::size_t>& indices,
     for (const std::size_t index : indices) {
         Job job{.index = index};
         job.attempt([&] { open(library, job); });
-        if (!batch.empty() && job.memory() > limits_.image_bytes - batch_memory) {
+        if (!batch.empty() && job.memory() > context_.limits.image_bytes - batch_memory) {
             finish(batch, tell);
             batch_memory = 0;
         }
-        batch_memory = std::min(limits_.image_bytes, batch_memory + job.memory());
+        batch_memory = std::min(context_.limits.image_bytes, batch_memory + job.memory());
         const bool last = job.fatal;
         batch.push_back(std::move(job));
         if (last) {

@@ -1,13 +1,11 @@
 #pragma once
 
 #include "file/bytes.h"
-#include "file/data_budget.h"
-#include "file/warnings.h"
+#include "file/load_context.h"
 #include "gltf/document/model.h"
 #include "image/texels.h"
 
 #include <bdpt/io/gltf.h>
-#include <bdpt/io/read_limits.h>
 #include <bdpt/scene_desc.h>
 
 #include <cstddef>
@@ -24,9 +22,8 @@ namespace bdpt::io {
 class ImageTable {
 public:
     /// The arguments must outlive the table. Pictures are added to `images`.
-    ImageTable(const GltfModel& model, const ReadLimits& limits, DataBudget& budget,
-               std::vector<TexelImage>& images, Warnings& warnings)
-        : model_(model), limits_(limits), budget_(budget), images_(images), warnings_(warnings)
+    ImageTable(const GltfModel& model, std::vector<TexelImage>& images, LoadContext& context)
+        : model_(model), images_(images), context_(context)
     {}
 
     /// Decodes these pictures of the document and adds them in that order; those that cannot be
@@ -46,10 +43,8 @@ private:
     void add(Job& job);
 
     const GltfModel& model_;
-    const ReadLimits& limits_;
-    DataBudget& budget_;
     std::vector<TexelImage>& images_;
-    Warnings& warnings_;
+    LoadContext& context_;
     std::map<std::size_t, std::optional<ImageId>> known_;
     std::uint64_t total_bytes_ = 0;
 };

@@ -16,12 +16,12 @@ namespace {
 class MaterialReader {
 public:
     MaterialReader(const tinygltf::Material& source, std::size_t index, TextureResolver& textures,
-                   Warnings& warnings)
+                   LoadContext& context)
         : source_(source),
           place_(fmt::format("/materials/{}", index)),
           textures_(textures),
-          warnings_(warnings),
-          values_(source, place_, textures, warnings)
+          context_(context),
+          values_(source, place_, textures, context)
     {}
 
     [[nodiscard]] MaterialDesc read()
@@ -75,7 +75,7 @@ private:
         } else if (mode == "BLEND") {
             desc_.alpha_mode = AlphaMode::blend;
         } else if (mode != "OPAQUE" && !mode.empty()) {
-            warnings_.add("an unknown alpha mode counts as OPAQUE", place_ + "/alphaMode: " + mode);
+            context_.warn("an unknown alpha mode counts as OPAQUE", place_ + "/alphaMode: " + mode);
         }
     }
 
@@ -180,7 +180,7 @@ private:
         if (static_cast<float>(distance) > 0.0f) {
             desc_.attenuation_distance = static_cast<float>(distance);
         } else {
-            warnings_.add("an attenuation distance must be above 0; nothing is attenuated",
+            context_.warn("an attenuation distance must be above 0; nothing is attenuated",
                           fmt::format("{}/extensions/KHR_materials_volume/attenuationDistance: {}",
                                       place_, distance));
         }
@@ -189,7 +189,7 @@ private:
     const tinygltf::Material& source_;
     std::string place_;
     TextureResolver& textures_;
-    Warnings& warnings_;
+    LoadContext& context_;
     MaterialValues values_;
     MaterialDesc desc_;
 };
@@ -197,9 +197,9 @@ private:
 }  // namespace
 
 MaterialDesc read_material(const tinygltf::Model& model, std::size_t index,
-                           TextureResolver& textures, Warnings& warnings)
+                           TextureResolver& textures, LoadContext& context)
 {
-    return MaterialReader(model.materials[index], index, textures, warnings).read();
+    return MaterialReader(model.materials[index], index, textures, context).read();
 }
 
 }  // namespace bdpt::io

@@ -12,25 +12,26 @@ namespace bdpt::io {
 namespace {
 
 std::vector<MaterialDesc> read_all(const tinygltf::Model& model, const std::vector<int>& indices,
-                                   TextureResolver& textures, Warnings& warnings)
+                                   TextureResolver& textures, LoadContext& context)
 {
     std::vector<MaterialDesc> materials;
     materials.reserve(indices.size());
     for (const int index : indices) {
         materials.push_back(
             index < 0 ? MaterialDesc{}
-                      : read_material(model, static_cast<std::size_t>(index), textures, warnings));
+                      : read_material(model, static_cast<std::size_t>(index), textures, context));
     }
     return materials;
 }
 
 /// Pictures that the materials ask for, in the order in which they do.
 std::vector<std::size_t> wanted_images(const tinygltf::Model& model,
-                                       const std::vector<int>& indices)
+                                       const std::vector<int>& indices, LoadContext& context)
 {
     std::vector<std::size_t> wanted;
     std::set<std::size_t> known;
-    Warnings unheard;  // they come again when the materials are read for good
+    const Silence silence(
+        context.warnings);  // They come again when the materials are read for good.
     TextureResolver textures(
         model,
         [&](std::size_t image) {
@@ -39,8 +40,8 @@ std::vector<std::size_t> wanted_images(const tinygltf::Model& model,
             }
             return std::optional(ImageId{});
         },
-        unheard);
-    static_cast<void>(read_all(model, indices, textures, unheard));
+        context);
+    static_cast<void>(read_all(model, indices, textures, context));
     return wanted;
 }
 
@@ -48,12 +49,12 @@ std::vector<std::size_t> wanted_images(const tinygltf::Model& model,
 
 std::vector<MaterialDesc> read_materials(
     const tinygltf::Model& model, const std::vector<int>& indices, ImageTable& images,
-    const std::function<void(const LoadProgress&)>& on_progress, Warnings& warnings)
+    const std::function<void(const LoadProgress&)>& on_progress, LoadContext& context)
 {
-    images.decode(wanted_images(model, indices), on_progress);
+    images.decode(wanted_images(model, indices, context), on_progress);
     TextureResolver textures(
-        model, [&images](std::size_t image) { return images.get(image); }, warnings);
-    return read_all(model, indices, textures, warnings);
+        model, [&images](std::size_t image) { return images.get(image); }, context);
+    return read_all(model, indices, textures, context);
 }
 
 }  // namespace bdpt::io

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "file/warnings.h"
+#include "file/load_context.h"
 #include "gltf/document/tinygltf.h"
 #include "gltf/material/image_table.h"
 
@@ -16,6 +16,6 @@ namespace bdpt::io {
 /// sec. 3.7.2.1]. All pictures that they need are decoded together.
 [[nodiscard]] std::vector<MaterialDesc> read_materials(
     const tinygltf::Model& model, const std::vector<int>& indices, ImageTable& images,
-    const std::function<void(const LoadProgress&)>& on_progress, Warnings& warnings);
+    const std::function<void(const LoadProgress&)>& on_progress, LoadContext& context);
 
 }  // namespace bdpt::io

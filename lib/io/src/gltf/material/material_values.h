@@ -1,6 +1,6 @@
 #pragma once
 
-#include "file/warnings.h"
+#include "file/load_context.h"
 #include "gltf/document/tinygltf.h"
 #include "gltf/material/texture.h"
 
@@ -21,8 +21,8 @@ class MaterialValues {
 public:
     /// `place` is the JSON pointer of the material. All arguments must outlive this.
     MaterialValues(const tinygltf::Material& source, const std::string& place,
-                   TextureResolver& textures, Warnings& warnings)
-        : source_(source), place_(place), textures_(textures), warnings_(warnings)
+                   TextureResolver& textures, LoadContext& context)
+        : source_(source), place_(place), textures_(textures), context_(context)
     {}
 
     /// `key` is the place of the value within the material, for the warning.
@@ -41,7 +41,7 @@ private:
     const tinygltf::Material& source_;
     const std::string& place_;
     TextureResolver& textures_;
-    Warnings& warnings_;
+    LoadContext& context_;
 };
 
 }  // namespace bdpt::io

@@ -76,7 +76,7 @@ Wrap TextureResolver::wrap(int value, int sampler, const char* name)
         case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
             return Wrap::clamp_to_edge;
         default:
-            warnings_.add("unknown wrap mode; the texture repeats",
+            context_.warn("unknown wrap mode; the texture repeats",
                           fmt::format("/samplers/{}/{}: {}", sampler, name, value));
             return Wrap::repeat;
     }
@@ -100,7 +100,7 @@ std::optional<TextureRef> TextureResolver::resolve(const TextureInfo& info,
         }
     }
     if (ref.uv_set > 1) {
-        warnings_.add(
+        context_.warn(
             "only TEXCOORD_0 and TEXCOORD_1 are read; the material does without the "
             "texture",
             fmt::format("{}: texCoord {}", place, ref.uv_set));
@@ -109,7 +109,7 @@ std::optional<TextureRef> TextureResolver::resolve(const TextureInfo& info,
     const auto& texture = model_.textures[static_cast<std::size_t>(info.index)];
     const std::vector<std::size_t> pictures = sources(texture);
     if (pictures.empty()) {
-        warnings_.add("the texture has no PNG, JPEG or WebP picture; the material does without it",
+        context_.warn("the texture has no PNG, JPEG or WebP picture; the material does without it",
                       fmt::format("/textures/{}{}", info.index, unread_pictures(texture)));
         return std::nullopt;
     }

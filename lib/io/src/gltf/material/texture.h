@@ -1,6 +1,6 @@
 #pragma once
 
-#include "file/warnings.h"
+#include "file/load_context.h"
 #include "gltf/document/tinygltf.h"
 
 #include <bdpt/scene_desc.h>
@@ -43,8 +43,8 @@ public:
     /// Gives the picture of an index; none if it cannot be read.
     using FindImage = std::function<std::optional<ImageId>(std::size_t)>;
 
-    TextureResolver(const tinygltf::Model& model, FindImage find_image, Warnings& warnings)
-        : model_(model), find_image_(std::move(find_image)), warnings_(warnings)
+    TextureResolver(const tinygltf::Model& model, FindImage find_image, LoadContext& context)
+        : model_(model), find_image_(std::move(find_image)), context_(context)
     {}
 
     /// None where there is no texture, or, with a warning, none that can be used. `place` is the
@@ -57,7 +57,7 @@ private:
 
     const tinygltf::Model& model_;
     FindImage find_image_;
-    Warnings& warnings_;
+    LoadContext& context_;
 };
 
 }  // namespace bdpt::io

@@ -1,6 +1,5 @@
 #include "gltf/scene/scene_builder.h"
 
-#include "file/data_budget.h"
 #include "gltf/animation/animation.h"
 #include "gltf/animation/instancing.h"
 #include "gltf/animation/node_motion.h"
@@ -50,18 +49,15 @@ bool is_visible(const tinygltf::Node& node)
 class SceneBuilder {
 public:
     SceneBuilder(const GltfModel& model, const NodeMotion& motion,
-                 std::optional<std::size_t> variant, const ReadLimits& limits, DataBudget& budget,
-                 Warnings& warnings)
+                 std::optional<std::size_t> variant, LoadContext& context)
         : model_(model.structs),
           motion_(motion),
           variant_(variant),
-          limits_(limits),
-          budget_(budget),
-          warnings_(warnings),
-          images_(model, limits, budget, result_.scene.images, warnings),
-          profiles_(model, limits, budget, result_.scene.profiles, warnings),
-          transforms_(model.structs, warnings),
-          meshes_(model, limits, transforms_, motion, budget, result_.scene.meshes, warnings),
+          context_(context),
+          images_(model, result_.scene.images, context),
+          profiles_(model, result_.scene.profiles, context),
+          transforms_(model.structs, context),
+          meshes_(model, transforms_, motion, result_.scene.meshes, context),
           visited_(model.structs.nodes.size(), false)
     {}
 
@@ -80,7 +76,7 @@ public:
             const Pending next = stack.back();
             stack.pop_back();
             if (visited_[next.node]) {
-                warnings_.add("the scene lists a node that it has already; it is shown once",
+                context_.warn("the scene lists a node that it has already; it is shown once",
                               fmt::format("/nodes/{}", next.node));
                 continue;
             }
@@ -97,7 +93,7 @@ public:
             }
         }
         result_.scene.materials =
-            read_materials(model_, wanted_materials_, images_, on_progress, warnings_);
+            read_materials(model_, wanted_materials_, images_, on_progress, context_);
         return std::move(result_);
     }
 
@@ -106,8 +102,8 @@ private:
     void add_camera(std::size_t node)
     {
         if (std::optional<CameraDesc> camera =
-                read_camera(model_, node, transforms_.world(node), warnings_)) {
-            camera->motion = camera_motion(motion_.world(node), node, warnings_);
+                read_camera(model_, node, transforms_.world(node), context_)) {
+            camera->motion = camera_motion(motion_.world(node), node, context_);
             result_.cameras.push_back(std::move(*camera));
         }
     }
@@ -115,12 +111,12 @@ private:
     void add_visible(std::size_t node)
     {
         const glm::dmat4& world = transforms_.world(node);
-        if (std::optional<LightDesc> light = read_light(model_, node, world, warnings_)) {
-            move_light(*light, motion_.world(node), node, warnings_);
+        if (std::optional<LightDesc> light = read_light(model_, node, world, context_)) {
+            move_light(*light, motion_.world(node), node, context_);
             result_.scene.lights.push_back(std::move(*light));
         }
         if (std::optional<LightDesc> light = profiles_.read(node, world)) {
-            move_light(*light, motion_.world(node), node, warnings_);
+            move_light(*light, motion_.world(node), node, context_);
             result_.scene.lights.push_back(std::move(*light));
         }
         const tinygltf::Node& source = model_.nodes[node];
@@ -128,7 +124,7 @@ private:
             return;
         }
         const std::vector<glm::dmat4> places = instance_transforms(
-            model_, node, limits_.instances - result_.scene.instances.size(), budget_);
+            model_, node, context_.limits.instances - result_.scene.instances.size(), context_);
         const auto mesh = static_cast<std::size_t>(source.mesh);
         for (std::size_t i = 0; i < model_.meshes[mesh].primitives.size(); ++i) {
             const std::optional<ShownMesh> shown = meshes_.get(node, i);
@@ -167,15 +163,16 @@ private:
     void add_instance(std::size_t node, PrimitiveId id, MeshId mesh,
                       const std::vector<glm::dmat4>& worlds)
     {
-        if (result_.scene.instances.size() >= limits_.instances) {
+        if (result_.scene.instances.size() >= context_.limits.instances) {
             throw Error(ErrorCode::invalid_input,
-                        fmt::format("/nodes: more than {} instances", limits_.instances));
+                        fmt::format("/nodes: more than {} instances", context_.limits.instances));
         }
         const tinygltf::Node& source = model_.nodes[node];
         InstanceDesc instance;
         instance.name = source.name.empty() ? model_.meshes[id.mesh].name : source.name;
         // Thousands of instances have one name, which may be of any length.
-        budget_.spend(fmt::format("/nodes/{}", node), 1, sizeof instance + instance.name.size());
+        context_.budget.spend(fmt::format("/nodes/{}", node), 1,
+                              sizeof instance + instance.name.size());
         instance.mesh = mesh;
         instance.material = get_material(id);
         for (const glm::dmat4& world : worlds) {
@@ -192,11 +189,11 @@ private:
             // A scale of zero flattens the mesh: its triangles may still be seen.
             const std::optional<MeshId> flat = meshes_.flatten(mesh, id, worlds);
             if (!flat) {
-                warnings_.add("a mesh that is scaled to nothing is left out",
+                context_.warn("a mesh that is scaled to nothing is left out",
                               fmt::format("/nodes/{}", node));
                 return;
             }
-            warnings_.add("a mesh that is scaled flat gets the normals of its faces",
+            context_.warn("a mesh that is scaled flat gets the normals of its faces",
                           fmt::format("/nodes/{}", node));
             instance.mesh = *flat;
             instance.world_from_object = Mat4(1.0f);
@@ -220,9 +217,7 @@ private:
     const tinygltf::Model& model_;
     const NodeMotion& motion_;
     std::optional<std::size_t> variant_;
-    const ReadLimits& limits_;
-    DataBudget& budget_;
-    Warnings& warnings_;
+    LoadContext& context_;
     LoadedScene result_;
     ImageTable images_;
     LightProfiles profiles_;
@@ -256,33 +251,31 @@ std::vector<std::size_t> find_roots(const tinygltf::Model& model, std::optional<
 
 }  // namespace
 
-LoadedScene build_scene(CheckedGltf checked, const SceneChoice& choice, const ReadLimits& limits,
+LoadedScene build_scene(CheckedGltf checked, const SceneChoice& choice,
                         const std::function<void(const LoadProgress&)>& on_progress,
-                        Warnings& warnings)
+                        LoadContext& context)
 {
-    std::uint64_t buffers = 0;
     for (const Bytes& buffer : checked.buffers) {
-        buffers += buffer.size();
+        context.budget.hold(buffer.size());
     }
-    DataBudget budget(limits, buffers);
     GltfModel model = build_model(std::move(checked));
     std::vector<AnimatedProperty> properties;
     for (const std::size_t animation : choice.animations) {
-        std::vector<AnimatedProperty> more = read_animation(model, animation, budget, warnings);
+        std::vector<AnimatedProperty> more = read_animation(model, animation, context);
         std::move(more.begin(), more.end(), std::back_inserter(properties));
     }
     const double open = choice.time + choice.shutter.open;
     const double close = choice.time + choice.shutter.close;
-    const NodeMotion motion(model.structs, properties, open, close, budget);
+    const NodeMotion motion(model.structs, properties, open, close, context);
     if (open < close && motion.steps() == 0 && !choice.animations.empty()) {
-        warnings.add("nothing moves while the shutter is open",
+        context.warn("nothing moves while the shutter is open",
                      fmt::format("/animations: from {} s to {} s", open, close));
     }
-    LoadedScene loaded = SceneBuilder(model, motion, choice.variant, limits, budget, warnings)
+    LoadedScene loaded = SceneBuilder(model, motion, choice.variant, context)
                              .build(find_roots(model.structs, choice.scene), on_progress);
     if (choice.scene) {
         if (std::optional<EnvironmentLightDesc> environment =
-                read_image_based_light(model, *choice.scene, limits, warnings)) {
+                read_image_based_light(model, *choice.scene, context)) {
             loaded.scene.lights.emplace_back(std::move(*environment));
         }
     }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "file/warnings.h"
+#include "file/load_context.h"
 #include "gltf/document/prepass.h"
 
 #include <bdpt/io/gltf.h>
@@ -30,8 +30,7 @@ struct SceneChoice {
 /// Turns one scene of a document into a description and cameras; meshes, materials and pictures
 /// that it does not use are left out. Throws `Error`.
 [[nodiscard]] LoadedScene build_scene(CheckedGltf checked, const SceneChoice& choice,
-                                      const ReadLimits& limits,
                                       const std::function<void(const LoadProgress&)>& on_progress,
-                                      Warnings& warnings);
+                                      LoadContext& context);
 
 }  // namespace bdpt::io

@@ -1,5 +1,8 @@
 # The target `docs`: an API reference of the libraries that are built, from their public headers, when Doxygen is
-# installed. A warning of Doxygen is an error.
+# installed. A warning of Doxygen is an error. A project that bdpt is a part of may have a target of that name.
+if(NOT PROJECT_IS_TOP_LEVEL)
+  return()
+endif()
 find_package(Doxygen 1.9 QUIET)
 if(NOT DOXYGEN_FOUND)
   return()

@@ -215,6 +215,41 @@ Scene glass_under(Rgb light, float ior, float dispersion)
     return Scene(std::move(builder.desc));
 }
 
+/// A ball of smooth glass in front of a sky of one colour that is bright on one side.
+Scene glass_before_sky(Rgb light, float ior, float dispersion)
+{
+    MaterialDesc material = glass(0.0f);
+    material.ior = ior;
+    material.dispersion = dispersion;
+    SceneBuilder builder;
+    builder.sphere({0.0f, 0.0f, 0.0f}, 0.8f, material);
+    EnvironmentLightDesc sky{.radiance = {.width = 16, .height = 2, .pixels = {}}};
+    for (int i = 0; i < 32; ++i) {
+        sky.radiance.pixels.push_back((i % 4 < 2 ? 1.0f : 0.05f) * light);
+    }
+    builder.light(std::move(sky));
+    return Scene(std::move(builder.desc));
+}
+
+TEST_CASE("each channel of a sky behind glass refracts as if there were no other",
+          "[equality][layers]")
+{
+    // Indices of 1.25 and 1.75.
+    const auto [light, ior] =
+        GENERATE(std::pair(Rgb(4.0f, 0.0f, 0.0f), 1.25f), std::pair(Rgb(0.0f, 0.0f, 4.0f), 1.75f));
+    const Scene alone = glass_before_sky(light, ior, 0.0f);
+    const Scene dispersing = glass_before_sky(light, 1.5f, 20.0f);
+    EqualityCase test;
+    test.name = "sky behind glass of index " + std::to_string(ior);
+    test.camera = room_camera();
+    test.detectable_bias = 0.04;
+    TileMeans expected(alone, test.camera, options(test, IntegratorKind::pt, 8011));
+    TileMeans pt(dispersing, test.camera, options(test, IntegratorKind::pt, 8012));
+    TileMeans bdpt(dispersing, test.camera, options(test, IntegratorKind::bdpt, 8013));
+    check_equal(test, "no dispersion = pt", expected, pt);
+    check_equal(test, "no dispersion = bdpt", expected, bdpt);
+}
+
 TEST_CASE("each channel refracts as if there were no other", "[equality][layers]")
 {
     // Indices of 1.25, 1.5 and 1.75.

@@ -37,9 +37,11 @@ void append_environment(const World& world, const Step& step, Subpath& path)
         return;
     }
     const auto& light = std::get<EnvironmentLight>(world.lights()[*id].model());
+    const bool dispersed = path.back().dispersed;
     PathVertex& vertex = path.append();
     vertex.kind = VertexKind::infinite;
     vertex.light = id;
+    vertex.dispersed = dispersed;
     vertex.end.p = step.direction;
     vertex.beta = step.beta * medium_transmittance(*step.origin, {}, step.direction,
                                                    std::numeric_limits<float>::max());

@@ -1,4 +1,4 @@
-#include "view.h"
+#include "options/view.h"
 
 #include <bdpt/error.h>
 
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "default_lights.h"
+#include "stage/default_lights.h"
 
 namespace bdpt::app {
 namespace {

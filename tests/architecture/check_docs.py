@@ -25,11 +25,11 @@ def broken_links(root):
 
 def extension_differences(root):
     """Rows of the table in docs/gltf.md against the table in the code."""
-    code = (root / "lib/io/src/gltf/extensions.cpp").read_text(encoding="utf-8")
+    code = (root / "lib/io/src/gltf/document/extensions.cpp").read_text(encoding="utf-8")
     known = set(re.findall(r'ExtensionSupport\{"(\w+)",\s*(\w+),\s*"([^"]*)"\}', code))
     text = (root / "docs/gltf.md").read_text(encoding="utf-8")
     stated = set(re.findall(r"^\| `(\w+)` \| (supported|ignored) \| (.*?) ?\|$", text, flags=re.M))
-    errors = ["lib/io/src/gltf/extensions.cpp: no table found"] if not known else []
+    errors = ["lib/io/src/gltf/document/extensions.cpp: no table found"] if not known else []
     errors += [f"docs/gltf.md: lacks the row {row}" for row in sorted(known - stated)]
     errors += [f"docs/gltf.md: the reader does not have the row {row}" for row in sorted(stated - known)]
     return errors, len(known)

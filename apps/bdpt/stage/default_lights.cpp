@@ -1,0 +1,83 @@
+#include "stage/default_lights.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <variant>
+
+namespace bdpt::app {
+
+bool has_light(const SceneDesc& desc)
+{
+    return !desc.lights.empty() ||
+           std::any_of(desc.instances.begin(), desc.instances.end(),
+                       [&desc](const InstanceDesc& instance) {
+                           const auto index = static_cast<std::size_t>(instance.material);
+                           return index < desc.materials.size() &&
+                                  desc.materials[index].emission != Rgb(0.0f);
+                       });
+}
+
+bool has_surface(const SceneDesc& desc)
+{
+    const auto has_triangles = [&desc](const InstanceDesc& instance) {
+        const auto index = static_cast<std::size_t>(instance.mesh);
+        return index < desc.meshes.size() && !desc.meshes[index].triangles.empty();
+    };
+    const auto is_ball = [](const LightDesc& light) {
+        const auto* point = std::get_if<PointLightDesc>(&light);
+        const auto* spot = std::get_if<SpotLightDesc>(&light);
+        return (point != nullptr && point->radius > 0.0f) ||
+               (spot != nullptr && spot->radius > 0.0f);
+    };
+    return std::any_of(desc.instances.begin(), desc.instances.end(), has_triangles) ||
+           std::any_of(desc.lights.begin(), desc.lights.end(), is_ball);
+}
+
+EnvironmentLightDesc default_environment()
+{
+    // Rows are 5.6 degrees high: the gradient shows no steps between interpolated texels.
+    constexpr int height = 32;
+    constexpr int width = 2;
+    constexpr float ground = 0.5f;
+    // The mean over the upper half of 1 + 2 sin(elevation) is 2, so that of all directions is 1
+    // when the sky starts at 0.75 over the horizon: (0.5 + 0.75 * 2) / 2.
+    constexpr float horizon = 0.75f;
+
+    // Sine and cosine of the elevation of the first row, and of the angle between two rows. Turning
+    // by them takes no sine of the C library, which may differ between machines.
+    double sine = 0.99879545620517239;
+    double cosine = 0.049067674327418015;
+    constexpr double step_sine = 0.098017140329560602;
+    constexpr double step_cosine = 0.99518472667219693;
+
+    EnvironmentLightDesc result;
+    result.radiance.width = width;
+    result.radiance.height = height;
+    for (int row = 0; row < height; ++row) {
+        const float radiance =
+            sine > 0.0 ? horizon * (1.0f + 2.0f * static_cast<float>(sine)) : ground;
+        result.radiance.pixels.insert(result.radiance.pixels.end(), width, Rgb(radiance));
+        const double before = sine;
+        sine = sine * step_cosine - cosine * step_sine;
+        cosine = cosine * step_cosine + before * step_sine;
+    }
+    return result;
+}
+
+PointLightDesc default_lamp(const FramedView& view)
+{
+    // Keeps the lamp lit when the camera stands in it.
+    constexpr float shortest = 1e-3f;
+    const Vec3 eye(view.camera.world_from_camera[3]);
+    const float distance = std::max(glm::distance(eye, view.lamp_position), shortest);
+    PointLightDesc result;
+    result.name = "default lamp";
+    result.position = view.lamp_position;
+    // A white diffuse surface has the radiance I / (pi d^2).
+    result.intensity = Rgb(std::numbers::pi_v<float> * distance * distance);
+    return result;
+}
+
+}  // namespace bdpt::app

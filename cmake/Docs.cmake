@@ -9,7 +9,7 @@ if(NOT DOXYGEN_FOUND)
 endif()
 
 set(headers "")
-foreach(library IN ITEMS bdpt bdpt_io bdpt_eval bdpt_harness)  # those that there are
+foreach(library IN ITEMS bdpt bdpt_io bdpt_eval)  # those that there are
   if(TARGET ${library})
     get_target_property(folders ${library} INTERFACE_INCLUDE_DIRECTORIES)
     string(REGEX REPLACE "\\$<BUILD_INTERFACE:([^>]*)>" "\\1" folders "${folders}")

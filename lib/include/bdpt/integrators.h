@@ -23,6 +23,7 @@ struct IntegratorInfo {
 /// a line in the table behind this function.
 [[nodiscard]] BDPT_EXPORT std::span<const IntegratorInfo> integrators();
 
+/// The entry of one of them.
 [[nodiscard]] BDPT_EXPORT const IntegratorInfo& info(IntegratorKind kind);
 
 }  // namespace bdpt

@@ -85,6 +85,7 @@ std::optional<EmissionSample> TriangleLight::sample_emission(Vec2 u_position, Ve
 }
 
 std::optional<IncidentSample> TriangleLight::sample_incident(Vec3 receiver, Vec2 u,
+                                                             EnvironmentSampling /*sampling*/,
                                                              float time) const
 {
     const Facing facing = this->facing(time);
@@ -118,9 +119,14 @@ AreaPdf TriangleLight::pdf_position(Vec2 barycentrics, const Facing& at) const
     return {spread / at.area};
 }
 
-AreaPdf TriangleLight::pdf_position(Vec2 barycentrics, float time) const
+AreaPdf TriangleLight::pdf_position(const LightPoint& x0) const
 {
-    return pdf_position(barycentrics, facing(time));
+    return pdf_position(x0.barycentrics, facing(x0.time));
+}
+
+SolidAnglePdf TriangleLight::pdf_direction(Vec3 ng, Vec3 direction, float /*time*/) const
+{
+    return pdf_direction(dot(ng, direction));
 }
 
 SolidAnglePdf TriangleLight::pdf_direction(float cosine) const

@@ -12,6 +12,10 @@
 
 namespace bdpt {
 
+/// The greatest luminous flux [lm] that a light may have, emissive triangles included, in each
+/// channel: what is computed from it stays in the range of floats. The sun has 4e28 lm.
+inline constexpr float greatest_light_power = 1e36f;
+
 /// Shines alike in all directions; intensity over distance squared [KHR_lights_punctual].
 struct PointLightDesc {
     static constexpr std::string_view kind = "point light";  ///< for people

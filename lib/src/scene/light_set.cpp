@@ -123,7 +123,8 @@ std::optional<LightSet::Choice> LightSet::choose_for_emission(Vec2 u) const
 
 float LightSet::emission_probability(LightId id) const
 {
-    return by_power_.probability(static_cast<std::uint32_t>(id));
+    // Triangles may shine so little that no light has any power in the range of floats.
+    return by_power_.empty() ? 0.0f : by_power_.probability(static_cast<std::uint32_t>(id));
 }
 
 std::optional<LightId> LightSet::of_triangle(std::uint32_t instance, std::uint32_t triangle) const

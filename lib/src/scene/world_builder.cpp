@@ -1,6 +1,7 @@
 #include "scene/world_builder.h"
 
 #include "material/specular_albedo.h"
+#include "scene/check_powers.h"
 #include "scene/validate.h"
 
 #include <glm/common.hpp>
@@ -138,6 +139,7 @@ void WorldBuilder::add_lights()
     }
     w.lights_ = std::make_unique<const LightSet>(desc.instances, w.placed_, w.materials_,
                                                  desc.lights, w.profiles_, w.sphere_);
+    check_powers(desc, w.materials_, *w.lights_);
     w.counts_ = count(desc);
     w.counts_.lights = w.lights_->size();
     w.counts_.emissive_triangles = w.lights_->size() - desc.lights.size();

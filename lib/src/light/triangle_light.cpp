@@ -1,5 +1,6 @@
 #include "light/triangle_light.h"
 
+#include "geometry/length.h"
 #include "math/elementary.h"
 #include "math/frame.h"
 #include "math/rgb.h"
@@ -14,7 +15,7 @@ namespace bdpt {
 
 TriangleLight::Facing TriangleLight::facing_of(Vec3 area_normal)
 {
-    const float area = 0.5f * std::sqrt(dot(area_normal, area_normal));
+    const float area = 0.5f * length_of(area_normal);
     return {.area = area, .ng = area_normal / (2.0f * area)};
 }
 

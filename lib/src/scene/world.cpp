@@ -1,5 +1,6 @@
 #include "scene/world.h"
 
+#include "geometry/length.h"
 #include "geometry/rounding.h"
 #include "scene/world_builder.h"
 
@@ -109,8 +110,8 @@ SurfacePoint World::surface_point(const RayHit& hit, Vec3 direction, SegmentKey 
     const PlacedMesh& mesh = placed_[hit.instance];
     const Material& material = material_of(hit.instance);
 
-    const float length_squared = dot(hit.at.normal, hit.at.normal);
-    const Vec3 ng = length_squared > 0.0f ? hit.at.normal / std::sqrt(length_squared) : -direction;
+    const float length = length_of(hit.at.normal);
+    const Vec3 ng = length > 0.0f ? hit.at.normal / length : -direction;
     Vec3 ns = mesh.shading_normal(hit.triangle, hit.at.barycentrics, segment.time);
     const float side = dot(ns, ng);
     ns = side > 0.0f ? ns : side < 0.0f ? -ns : ng;

@@ -85,6 +85,8 @@ public:
     [[nodiscard]] const Bounds& bounds() const { return bounds_; }
     [[nodiscard]] const SceneCounts& counts() const { return counts_; }
     [[nodiscard]] Isa isa() const noexcept { return embree_->isa(); }
+    /// As that of `EmbreeScene`.
+    [[nodiscard]] float farthest_origin() const noexcept { return embree_->farthest_origin(); }
     /// What absorbs around a point that lies on no surface; null if nothing does.
     [[nodiscard]] const SideMedia* medium_at(Vec3 p) const;
     /// What is likely not meant, one line each.

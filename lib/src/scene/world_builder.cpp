@@ -2,6 +2,7 @@
 
 #include "material/specular_albedo.h"
 #include "scene/check_powers.h"
+#include "scene/precision.h"
 #include "scene/validate.h"
 
 #include <glm/common.hpp>
@@ -77,6 +78,7 @@ void WorldBuilder::build(Isa isa)
     place_meshes();
     w.embree_ = std::make_unique<const EmbreeScene>(
         w.desc_.instances, w.placed_, w.desc_.meshes.size(), w.spheres_, w.pass_rule(), isa);
+    w.warnings_ = precision_warnings(w.desc_);
     find_bodies();
     add_lights();
 }

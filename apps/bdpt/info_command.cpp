@@ -1,5 +1,6 @@
 #include "info_command.h"
 
+#include <bdpt/default_lights.h>
 #include <bdpt/error.h>
 #include <bdpt/framing.h>
 #include <bdpt/io/gltf.h>
@@ -10,7 +11,6 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "default_lights.h"
 #include "limits_text.h"
 #include "scene_report.h"
 

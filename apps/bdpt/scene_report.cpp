@@ -1,5 +1,6 @@
 #include "scene_report.h"
 
+#include <bdpt/default_lights.h>
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -9,7 +10,6 @@
 #include <variant>
 
 #include "arguments.h"
-#include "default_lights.h"
 
 namespace bdpt::app {
 namespace {

@@ -1,5 +1,6 @@
 #include "stage.h"
 
+#include <bdpt/default_lights.h>
 #include <bdpt/error.h>
 #include <bdpt/framing.h>
 #include <bdpt/io/environment.h>
@@ -12,7 +13,6 @@
 #include <variant>
 #include <vector>
 
-#include "default_lights.h"
 #include "view.h"
 
 namespace bdpt::app {

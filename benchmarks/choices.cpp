@@ -39,7 +39,7 @@ struct Settings {
     std::string choice;
     std::vector<std::string> scenes;
     SubjectSettings subject{.size = 64, .max_depth = 6};
-    harness::ContestOptions contest;
+    eval::ContestOptions contest;
 };
 
 struct Kind {
@@ -51,18 +51,17 @@ void measure(const std::string& file, const Choice& choice, const Settings& sett
 {
     Subject subject = load_subject(file, settings.subject);
     choice.set(subject.options, true);
-    const harness::Reference reference =
-        make_reference(subject, settings.subject.reference_samples);
+    const eval::Reference reference = make_reference(subject, settings.subject.reference_samples);
     std::printf("  %zu lights; relMSE %s, %s, its factor, that of the time of a sample\n",
                 subject.scene.counts().lights, choice.plain, choice.better);
     for (const Kind& integrator : {Kind{IntegratorKind::pt, "pt"}, Kind{IntegratorKind::mis, "mis"},
                                    Kind{IntegratorKind::bdpt, "bdpt"}}) {
         subject.options.integrator = integrator.kind;
-        std::array variants{harness::Variant{choice.plain, subject.options},
-                            harness::Variant{choice.better, subject.options}};
+        std::array variants{eval::Variant{choice.plain, subject.options},
+                            eval::Variant{choice.better, subject.options}};
         choice.set(variants[0].options, false);
         const auto scores =
-            harness::compete(subject.bench_scene(), reference, variants, settings.contest);
+            eval::compete(subject.bench_scene(), reference, variants, settings.contest);
         std::printf("  %-4s %.2e %.2e %5.2f %5.2f\n", integrator.name, scores[0].error.median,
                     scores[1].error.median, scores[1].error.median / scores[0].error.median,
                     scores[1].sample_seconds / scores[0].sample_seconds);

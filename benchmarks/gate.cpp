@@ -25,17 +25,16 @@ constexpr std::array demands{Demand{"cornell-box-hidden.gltf", 4.0}, Demand{"lam
 struct Settings {
     std::string folder;
     SubjectSettings subject;
-    harness::ContestOptions contest;
+    eval::ContestOptions contest;
 };
 
 /// Does the scene meet the demand?
 bool measure(const Demand& demand, const Settings& settings)
 {
     const Subject subject = load_subject(settings.folder + "/" + demand.file, settings.subject);
-    const harness::Reference reference =
-        make_reference(subject, settings.subject.reference_samples);
-    std::array variants{harness::Variant{"bdpt", subject.options},
-                        harness::Variant{"mis", subject.options}};
+    const eval::Reference reference = make_reference(subject, settings.subject.reference_samples);
+    std::array variants{eval::Variant{"bdpt", subject.options},
+                        eval::Variant{"mis", subject.options}};
     variants[1].options.integrator = IntegratorKind::mis;
     const auto scores = compete(subject.bench_scene(), reference, variants, settings.contest);
     const double ratio = scores[1].error.median / scores[0].error.median;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <bdpt/harness/statistics/spread.h>
+#include <bdpt/eval/statistics/spread.h>
 
 #include <cstddef>
 #include <type_traits>
@@ -12,7 +12,7 @@ namespace bdpt {
 /// Of at least one number.
 [[nodiscard]] inline double median(std::vector<double> values)
 {
-    return harness::spread(std::move(values)).median;
+    return eval::spread(std::move(values)).median;
 }
 
 /// Results of `run(variant, round)` for each variant, by round. The variants take turns, A B C A B

@@ -2,7 +2,7 @@
 
 #include "geometry/embree.h"
 
-#include <bdpt/harness/bench/cpu_seconds.h>
+#include <bdpt/eval/bench/cpu_seconds.h>
 
 #include <algorithm>
 
@@ -91,14 +91,14 @@ RayThroughput measure_throughput(const Subject& subject, const RenderOptions& op
 {
     RayThroughput result{.totals = totals_of(logs)};
     const auto seconds = in_turn(2, rounds, [&](std::size_t variant, int) {
-        const double begin = harness::cpu_seconds();
+        const double begin = eval::cpu_seconds();
         if (variant == 0) {
             const RenderStats stats = render(subject.scene, subject.camera, options).stats;
             result.equal = result.equal && stats.rays.total() == result.totals.rays;
         } else {
             result.equal = result.equal && replay(logs) == result.totals.hits;
         }
-        return harness::cpu_seconds() - begin;
+        return eval::cpu_seconds() - begin;
     });
     const auto rays = static_cast<double>(result.totals.rays);
     result.bdpt = rays / median(seconds[0]);
@@ -124,11 +124,11 @@ LoopThroughput measure_loop(const AllTriangles& triangles, const RayLogs& logs)
         }
     }
     std::vector<bool> found;
-    const double begin = harness::cpu_seconds();
+    const double begin = eval::cpu_seconds();
     for (const RecordedRay* ray : rays) {
         found.push_back(triangles.is_hit_by(*ray));
     }
-    const double seconds = harness::cpu_seconds() - begin;
+    const double seconds = eval::cpu_seconds() - begin;
     std::size_t different = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         different += found[i] != expected[i] ? 1U : 0U;

@@ -27,13 +27,13 @@ void add_reference_option(CLI::App& app, SubjectSettings& settings)
         ->capture_default_str();
 }
 
-void add_options(CLI::App& app, harness::ContestOptions& contest)
+void add_options(CLI::App& app, eval::ContestOptions& contest)
 {
     app.add_option("--time", contest.seconds, "CPU seconds a render")->capture_default_str();
     app.add_option("--rounds", contest.rounds, "Renders of each variant")->capture_default_str();
 }
 
-void add_sample_options(CLI::App& app, harness::ContestOptions& contest)
+void add_sample_options(CLI::App& app, eval::ContestOptions& contest)
 {
     contest.samples = 16;
     app.add_option("--spp", contest.samples, "Samples per pixel (16 if not given)");
@@ -59,7 +59,7 @@ Subject load_subject(const std::string& file, const SubjectSettings& settings)
     return {std::move(name), std::move(scene), camera, options};
 }
 
-harness::BenchScene Subject::bench_scene() const
+eval::BenchScene Subject::bench_scene() const
 {
     return {.name = name,
             .file = name,
@@ -69,12 +69,11 @@ harness::BenchScene Subject::bench_scene() const
             .height = options.height};
 }
 
-harness::Reference make_reference(const Subject& subject, std::int64_t samples)
+eval::Reference make_reference(const Subject& subject, std::int64_t samples)
 {
     RenderOptions options = subject.options;
     options.threads = 0;
-    harness::Reference reference =
-        harness::render_reference(subject.bench_scene(), options, samples);
+    eval::Reference reference = eval::render_reference(subject.bench_scene(), options, samples);
     std::printf("%s: reference by %s: relMSE about %.1e\n", subject.name.c_str(),
                 reference.origin.c_str(), reference.noise);
     std::fflush(stdout);

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <bdpt/harness/bench/bench_scene.h>
-#include <bdpt/harness/bench/contest.h>
-#include <bdpt/harness/bench/reference.h>
+#include <bdpt/eval/bench/bench_scene.h>
+#include <bdpt/eval/bench/contest.h>
+#include <bdpt/eval/bench/reference.h>
 #include <bdpt/render.h>
 
 #include <cstdint>
@@ -29,9 +29,9 @@ void add_options(CLI::App& app, SubjectSettings& settings);
 /// Adds --reference.
 void add_reference_option(CLI::App& app, SubjectSettings& settings);
 /// Adds --time and --rounds.
-void add_options(CLI::App& app, harness::ContestOptions& contest);
+void add_options(CLI::App& app, eval::ContestOptions& contest);
 /// Adds --spp and --rounds, of contests at equal samples.
-void add_sample_options(CLI::App& app, harness::ContestOptions& contest);
+void add_sample_options(CLI::App& app, eval::ContestOptions& contest);
 
 /// A scene and the camera that it is seen by.
 struct Subject {
@@ -40,15 +40,15 @@ struct Subject {
     CameraDesc camera;
     RenderOptions options;  ///< of bdpt
 
-    /// The same for the harness, as long as this object lives.
-    [[nodiscard]] harness::BenchScene bench_scene() const;
+    /// The same for the library, as long as this object lives.
+    [[nodiscard]] eval::BenchScene bench_scene() const;
 };
 
 /// The scene of a glTF file as its first camera sees it, or framed if it has none. Throws `Error`.
 [[nodiscard]] Subject load_subject(const std::string& file, const SubjectSettings& settings);
 
-/// Renders it by `harness::render_reference`, and says so on stdout.
-[[nodiscard]] harness::Reference make_reference(const Subject& subject, std::int64_t samples);
+/// Renders it by `eval::render_reference`, and says so on stdout.
+[[nodiscard]] eval::Reference make_reference(const Subject& subject, std::int64_t samples);
 
 /// On stderr.
 void print_error(const std::exception& error);

@@ -16,7 +16,7 @@ using namespace bdpt;
 struct Settings {
     std::vector<std::string> scenes;
     SubjectSettings subject;
-    harness::ContestOptions contest;
+    eval::ContestOptions contest;
 };
 
 /// All strategies with t <= 1: light paths that are seen through the lens.
@@ -30,9 +30,9 @@ std::vector<Strategy> splats(const RenderOptions& options)
     return result;
 }
 
-std::vector<harness::Variant> variants_of(const RenderOptions& defaults)
+std::vector<eval::Variant> variants_of(const RenderOptions& defaults)
 {
-    std::vector<harness::Variant> variants{{"default", defaults}};
+    std::vector<eval::Variant> variants{{"default", defaults}};
     const auto add = [&](const std::string& name) -> RenderOptions& {
         variants.push_back({name, defaults});
         return variants.back().options;
@@ -50,7 +50,7 @@ std::vector<harness::Variant> variants_of(const RenderOptions& defaults)
 }
 
 /// In proportion to the relMSE of a single sample, if it falls with the inverse of their number.
-double sample_error(const harness::Score& score)
+double sample_error(const eval::Score& score)
 {
     return score.error.median / score.sample_seconds;
 }
@@ -58,12 +58,11 @@ double sample_error(const harness::Score& score)
 void measure(const std::string& file, const Settings& settings)
 {
     const Subject subject = load_subject(file, settings.subject);
-    const harness::Reference reference =
-        make_reference(subject, settings.subject.reference_samples);
-    const std::vector<harness::Variant> variants = variants_of(subject.options);
-    const std::vector<harness::Score> scores =
+    const eval::Reference reference = make_reference(subject, settings.subject.reference_samples);
+    const std::vector<eval::Variant> variants = variants_of(subject.options);
+    const std::vector<eval::Score> scores =
         compete(subject.bench_scene(), reference, variants, settings.contest);
-    const harness::Score& base = scores.front();
+    const eval::Score& base = scores.front();
     std::printf("  default: %.2e s of CPU time a sample of all pixels, relMSE %.2e after %.1f s\n",
                 base.sample_seconds, base.error.median, settings.contest.seconds);
     std::printf("  %-24s %12s %16s %14s\n", "times the default's", "time/sample", "relMSE/sample",

@@ -25,7 +25,7 @@ struct Settings {
     std::vector<std::string> scenes;
     std::vector<int> sizes{512, 4096, 8192};
     SubjectSettings subject{.size = 96, .max_depth = 6, .reference_samples = 1024};
-    harness::ContestOptions contest;
+    eval::ContestOptions contest;
 };
 
 /// Noise over stripes, as of plaster over bricks.
@@ -132,18 +132,18 @@ void measure(const std::string& name, const SceneDesc& desc, const CameraDesc& c
     mipped_desc.texture_filter = TextureFilter::mip_mapped;
     const Subject mipped = make_subject(name, std::move(mipped_desc), camera, settings);
     const double with_mipped = memory();
-    const harness::Reference reference = make_reference(plain, settings.subject.reference_samples);
+    const eval::Reference reference = make_reference(plain, settings.subject.reference_samples);
     std::printf("  scene: %.0f MB as it is, %.0f MB with copies\n", with_plain - before,
                 with_mipped - with_plain);
     for (const auto& [kind, kind_name] :
          {std::pair(IntegratorKind::mis, "mis"), std::pair(IntegratorKind::bdpt, "bdpt")}) {
-        std::array<harness::Score, 2> scores;
+        std::array<eval::Score, 2> scores;
         std::size_t i = 0;
         for (const Subject* subject : {&plain, &mipped}) {
-            harness::Variant variant{.name = kind_name, .options = subject->options};
+            eval::Variant variant{.name = kind_name, .options = subject->options};
             variant.options.integrator = kind;
-            scores[i++] = harness::compete(subject->bench_scene(), reference,
-                                           std::span(&variant, 1), settings.contest)
+            scores[i++] = eval::compete(subject->bench_scene(), reference, std::span(&variant, 1),
+                                        settings.contest)
                               .front();
         }
         const auto& [as_it_is, copies] = scores;

@@ -7,8 +7,8 @@ set(libraries bdpt)
 if(BDPT_BUILD_IO)
   list(APPEND libraries bdpt_io)
 endif()
-if(BDPT_BUILD_HARNESS)
-  list(APPEND libraries bdpt_harness)
+if(BDPT_BUILD_EVAL)
+  list(APPEND libraries bdpt_eval)
 endif()
 
 # Before 1.0 every minor version may break what was compiled with another.
@@ -42,10 +42,10 @@ if(BDPT_BUILD_IO)
           COMPONENT bdpt_runtime)
 endif()
 
-if(BDPT_BUILD_HARNESS)
-  bdpt_install_library(bdpt_harness harness bdptHarnessTargets)
-  set_property(TARGET bdpt_harness APPEND PROPERTY INSTALL_RPATH "$ORIGIN")
-  install(DIRECTORY benchmarks/harness/include/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
+if(BDPT_BUILD_EVAL)
+  bdpt_install_library(bdpt_eval eval bdptEvalTargets)
+  set_property(TARGET bdpt_eval APPEND PROPERTY INSTALL_RPATH "$ORIGIN")
+  install(DIRECTORY lib/eval/include/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
           COMPONENT bdpt_development FILES_MATCHING PATTERN "*.h")
 endif()
 

@@ -1,4 +1,4 @@
-# Packages for pkg-config: bdpt, bdpt_io and bdpt_harness. With static libraries ask with --static.
+# Packages for pkg-config: bdpt, bdpt_io and bdpt_eval. With static libraries ask with --static.
 file(RELATIVE_PATH pc_to_prefix "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig" "${CMAKE_INSTALL_PREFIX}")
 file(RELATIVE_PATH pc_libdir "${CMAKE_INSTALL_PREFIX}" "${CMAKE_INSTALL_FULL_LIBDIR}")
 file(RELATIVE_PATH pc_includedir "${CMAKE_INSTALL_PREFIX}" "${CMAKE_INSTALL_FULL_INCLUDEDIR}")
@@ -24,13 +24,13 @@ endif()
 set(pc_core_requires "")
 set(pc_core_libs "")
 set(pc_io_requires "")
-set(pc_harness_requires "")
+set(pc_eval_requires "")
 set(pc_io_libs "")
 if(NOT BUILD_SHARED_LIBS)
   set(pc_core_requires "tbb")
   set(pc_core_libs "-lembree${EMBREE_VERSION_MAJOR} -pthread")
   set(pc_io_requires "OpenEXR, Imath, libpng, fmt")
-  set(pc_harness_requires "tbb, zlib")
+  set(pc_eval_requires "tbb, zlib")
   set(pc_io_libs "${CMAKE_DL_LIBS}")
   if(pc_io_libs)
     string(PREPEND pc_io_libs "-l")
@@ -51,8 +51,10 @@ if(BDPT_BUILD_IO)
   install(FILES "${CMAKE_CURRENT_BINARY_DIR}/cmake/bdpt_io.pc"
           DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT bdpt_development)
 endif()
-if(BDPT_BUILD_HARNESS)
+if(BDPT_BUILD_EVAL)
+  configure_file(cmake/bdpt_eval.pc.in cmake/bdpt_eval.pc @ONLY)
   configure_file(cmake/bdpt_harness.pc.in cmake/bdpt_harness.pc @ONLY)
-  install(FILES "${CMAKE_CURRENT_BINARY_DIR}/cmake/bdpt_harness.pc"
+  install(FILES "${CMAKE_CURRENT_BINARY_DIR}/cmake/bdpt_eval.pc"
+                "${CMAKE_CURRENT_BINARY_DIR}/cmake/bdpt_harness.pc"
           DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT bdpt_development)
 endif()

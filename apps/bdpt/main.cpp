@@ -13,18 +13,18 @@
 #include <string_view>
 #include <vector>
 
-#include "arguments.h"
-#include "bench_arguments.h"
-#include "bench_command.h"
-#include "compare_arguments.h"
-#include "compare_command.h"
-#include "console.h"
-#include "help_formatter.h"
-#include "info_command.h"
-#include "render_arguments.h"
-#include "render_command.h"
-#include "verify_arguments.h"
-#include "verify_command.h"
+#include "commands/bench_command.h"
+#include "commands/compare_command.h"
+#include "commands/info_command.h"
+#include "commands/render_command.h"
+#include "commands/verify_command.h"
+#include "options/arguments.h"
+#include "options/bench_arguments.h"
+#include "options/compare_arguments.h"
+#include "options/render_arguments.h"
+#include "options/verify_arguments.h"
+#include "terminal/console.h"
+#include "terminal/help_formatter.h"
 
 namespace bdpt::app {
 namespace {

@@ -1,9 +1,10 @@
-#include "arguments.h"
+#include "options/arguments.h"
 
 #include <string>
 #include <vector>
 
 #include "catch.hpp"
+#include "terminal/text.h"
 
 namespace bdpt::app {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "bench_arguments.h"
 #include "catch.hpp"
+#include "options/bench_arguments.h"
 #include "scratch_folder.h"
 #include "subprocess.h"
 

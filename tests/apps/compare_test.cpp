@@ -1,4 +1,4 @@
-#include <bdpt/harness/metrics/metric.h>
+#include <bdpt/eval/metrics/metric.h>
 #include <bdpt/io/exr.h>
 
 #include <algorithm>
@@ -89,7 +89,7 @@ TEST_CASE("compare --json tells programs the same, in stable keys")
     CHECK(report["image"] == a);
     CHECK(report["seeds"] == 1);
     CHECK(report["region"] == json::array({0, 0, 40, 20}));
-    CHECK(report["metrics"].size() == harness::all_metrics.size());
+    CHECK(report["metrics"].size() == eval::all_metrics.size());
     CHECK(report["metrics"]["mse"]["mean"].get<double>() == Approx(0.0625 / 3));
     CHECK(report["metrics"]["mse"]["standard_deviation"].is_null());
     CHECK(report["bias"]["from"] == "blocks");

@@ -1,4 +1,4 @@
-#include "console.h"
+#include "terminal/console.h"
 
 #include <limits>
 

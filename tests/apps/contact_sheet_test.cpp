@@ -1,4 +1,4 @@
-#include "contact_sheet.h"
+#include "report/contact_sheet.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "pixel_font.h"
+#include "report/pixel_font.h"
 
 namespace bdpt::app {
 namespace {

@@ -1,4 +1,4 @@
-#include "film_arguments.h"
+#include "options/film_arguments.h"
 
 #include "catch.hpp"
 

@@ -11,9 +11,9 @@
 
 #include "catch.hpp"
 #include "picture_files.h"
+#include "report/strategy_files.h"
 #include "scene_files.h"
 #include "scratch_folder.h"
-#include "strategy_files.h"
 #include "subprocess.h"
 
 namespace bdpt::test {

@@ -1,4 +1,4 @@
-#include "transport_arguments.h"
+#include "options/transport_arguments.h"
 
 #include <bdpt/error.h>
 

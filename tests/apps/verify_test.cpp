@@ -1,17 +1,17 @@
-#include "verify_command.h"
+#include "commands/verify_command.h"
 
-#include <bdpt/harness/verify/verify_options.h>
-#include <bdpt/harness/verify/verify_report.h>
+#include <bdpt/eval/verify/verify_options.h>
+#include <bdpt/eval/verify/verify_report.h>
 
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "catch.hpp"
+#include "report/verify_text.h"
 #include "scene_files.h"
 #include "scratch_folder.h"
 #include "subprocess.h"
-#include "verify_text.h"
 
 namespace bdpt::test {
 namespace {
@@ -107,21 +107,21 @@ TEST_CASE("verify: what makes no sense is refused")
 
 TEST_CASE("verify: each verdict has its exit code")
 {
-    CHECK(app::exit_code(harness::Verdict::pass) == 0);
-    CHECK(app::exit_code(harness::Verdict::fail) == 10);
-    CHECK(app::exit_code(harness::Verdict::inconclusive) == 11);
+    CHECK(app::exit_code(eval::Verdict::pass) == 0);
+    CHECK(app::exit_code(eval::Verdict::fail) == 10);
+    CHECK(app::exit_code(eval::Verdict::inconclusive) == 11);
 }
 
 TEST_CASE("verify: the text says what has failed, and where")
 {
-    harness::VerifyReport report;
-    report.verdict = harness::Verdict::fail;
+    eval::VerifyReport report;
+    report.verdict = eval::Verdict::fail;
     report.radiance = 1.0;
     report.false_alarm = 1e-3;
     report.tiles = {{.x0 = 0, .y0 = 0, .x1 = 8, .y1 = 4}, {.x0 = 0, .y0 = 4, .x1 = 8, .y1 = 8}};
     report.lengths = {{.edges = 1, .radiance = 1.0}};
-    const harness::MeanComparison sound{.found = 1.0, .expected = 1.0};
-    const harness::MeanComparison wrong{
+    const eval::MeanComparison sound{.found = 1.0, .expected = 1.0};
+    const eval::MeanComparison wrong{
         .found = 1.5, .expected = 1.0, .error = 0.05, .z = 10.0, .p = 1e-20, .p_adjusted = 1e-18};
     report.strategies = {{.strategy = {.s = 0, .t = 2}, .whole = sound, .tiles = {sound, wrong}}};
     report.integrators = {

@@ -1,4 +1,4 @@
-#include "view.h"
+#include "options/view.h"
 
 #include <bdpt/error.h>
 

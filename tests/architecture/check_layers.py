@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Fails when the source tree breaks the rules of docs/architecture.md: check_layers.py ROOT.
 
-A folder of lib/src includes only folders of a lower layer, public headers need nothing but GLM and the standard
+A folder of lib/src, lib/io/src or apps/bdpt includes only folders of a lower layer, public headers need nothing but GLM and the standard
 library, each third-party library stays where it belongs, no file is longer than 400 lines, and every source file is
 listed in a CMakeLists.txt or in a .cmake file beside one.
 """
@@ -10,8 +10,13 @@ import pathlib
 import re
 import sys
 
-LAYERS = {"math": 1, "geometry": 2, "material": 2, "light": 3, "camera": 3, "scene": 4, "path": 5, "integrator": 6,
-          "render": 7}
+LAYERS = {"math": 1, "film": 2, "profile": 2, "texture": 2, "geometry": 3, "material": 3, "light": 4, "camera": 4,
+          "scene": 5, "path": 6, "integrator": 7, "render": 8}
+COMMAND_LAYERS = {"terminal": 1, "options": 2, "stage": 3, "report": 4, "commands": 5}
+# The same of lib/io/src. Headers are named by their folder there too.
+IO_LAYERS = {"file": 1, "image": 2, "ies": 2, "output": 2, "oiio_module": 3, "gltf/checks": 3, "gltf/compression": 4,
+             "gltf/document": 5, "gltf/animation": 6, "gltf/geometry": 7, "gltf/material": 7, "gltf/light_camera": 7,
+             "gltf/scene": 8}
 MAX_LINES = 400
 AREAS = ("lib", "apps", "tests", "benchmarks")
 
@@ -24,16 +29,17 @@ ALLOWED = {
     "lib/src": [r"glm/"],
     "lib/src/geometry": [r"glm/", r"embree[34]/", INTRINSICS],
     "lib/src/scene": [r"glm/", r"(oneapi/)?tbb/"],
+    "lib/src/profile": [r"glm/", r"(oneapi/)?tbb/"],
     "lib/src/render": [r"glm/", r"(oneapi/)?tbb/", INTRINSICS],
     "lib/io/include": [r"glm/"],
     "lib/io/src": [r"glm/", FILE_LIBRARIES, POSIX],
     "lib/io/src/gltf": [r"glm/", FILE_LIBRARIES, r"draco/", r"meshoptimizer\.h", r"(oneapi/)?tbb/"],
     "lib/io/src/oiio_module": [r"OpenImageIO/"],
+    "lib/eval/include": [],
+    "lib/eval/src": [r"glm/", r"nlohmann/", r"(oneapi/)?tbb/", r"zlib\.h"],
     "apps": [r"glm/", r"CLI/", r"nlohmann/", r"fmt/", POSIX],
     "tests": [r"glm/", r"catch2/", r"embree[34]/", r"(oneapi/)?tbb/", FILE_LIBRARIES, POSIX, r"pthread\.h",
               INTRINSICS],
-    "benchmarks/harness/include": [],
-    "benchmarks/harness/src": [r"glm/", r"nlohmann/", r"(oneapi/)?tbb/", r"zlib\.h"],
     "benchmarks": [r"glm/", r"CLI/", r"OpenImageIO/", r"benchmark/", r"nlohmann/", r"embree[34]/", r"(oneapi/)?tbb/", POSIX, INTRINSICS],
 }
 # Area -> what it may include of our own by <bdpt/...>.
@@ -41,9 +47,10 @@ OWN = {
     "lib/include": r"bdpt/[a-z0-9_]+\.h",
     "lib/src": r"bdpt/[a-z0-9_]+\.h",
     "lib/io": r"bdpt/(io/)?[a-z0-9_]+\.h",
-    "apps": r"bdpt/(io/|harness/[a-z_]+/)?[a-z0-9_]+\.h",
-    "tests": r"bdpt/(io/|harness/[a-z_]+/)?[a-z0-9_]+\.h",
-    "benchmarks": r"bdpt/(io/|harness/[a-z_]+/)?[a-z0-9_]+\.h",
+    "lib/eval": r"bdpt/(io/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
+    "apps": r"bdpt/(io/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
+    "tests": r"bdpt/(io/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
+    "benchmarks": r"bdpt/(io/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
 }
 STANDARD = re.compile(r"[a-z_]+")  # <vector>; the C headers with .h are not ours to use
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"]+)"|<([^>]+)>)', re.MULTILINE)
@@ -67,23 +74,34 @@ def angle_error(path, header):
     return f"may not include <{header}>"
 
 
+def layer_error(layers, layer, header):
+    """What is wrong with `#include "header"` in a file of `layer`, or None."""
+    folder = header.rpartition("/")[0] if layers is IO_LAYERS else header.split("/")[0]
+    if layer not in layers:
+        return f"is in the unknown layer {layer}"
+    if folder not in layers or "/" not in header:
+        return f'"{header}" does not name its layer'
+    if folder != layer and layers[folder] >= layers[layer]:
+        return f'{layer} (layer {layers[layer]}) may not include "{header}" (layer {layers[folder]})'
+    return None
+
+
 def quoted_error(path, header):
     """What is wrong with `#include "header"` in the file `path`, or None."""
-    if path.startswith(("lib/include/", "lib/io/include/", "benchmarks/harness/include/")):
+    if path.startswith(("lib/include/", "lib/io/include/", "lib/eval/include/")):
         return f'is public: "{header}" must be a <bdpt/...> header'
     folder = header.split("/")[0]
+    if path.startswith("apps/bdpt/") and folder not in LAYERS:
+        return layer_error(COMMAND_LAYERS, path.split("/")[2], header) if path.count("/") > 2 else None
     if not path.startswith("lib/src/"):
-        may_look_inside = path.startswith(("tests/", "benchmarks/")) and not path.startswith("benchmarks/harness/")
+        may_look_inside = path.startswith(("tests/", "benchmarks/"))
         internal = folder in LAYERS and "/" in header and not may_look_inside
-        return f'reaches into lib/src: "{header}"' if internal else None
-    layer = path.split("/")[2]
-    if layer not in LAYERS:
-        return f"is in the unknown layer {layer}"
-    if folder not in LAYERS or "/" not in header:
-        return f'"{header}" does not name its layer'
-    if folder != layer and LAYERS[folder] >= LAYERS[layer]:
-        return f'{layer} (layer {LAYERS[layer]}) may not include "{header}" (layer {LAYERS[folder]})'
-    return None
+        if internal:
+            return f'reaches into lib/src: "{header}"'
+        if path.startswith("lib/io/src/"):
+            return layer_error(IO_LAYERS, path.removeprefix("lib/io/src/").rpartition("/")[0], header)
+        return None
+    return layer_error(LAYERS, path.split("/")[2], header)
 
 
 def listed_sources(root):

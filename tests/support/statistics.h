@@ -1,6 +1,6 @@
 #pragma once
 
-#include <bdpt/harness/statistics/moments.h>
+#include <bdpt/eval/statistics/moments.h>
 #include <bdpt/types.h>
 
 #include <cmath>
@@ -36,7 +36,7 @@ private:
     std::mt19937_64 engine_;
 };
 
-using harness::Moments;
+using eval::Moments;
 
 /// The significance of one of `tests` independent tests that together have `significance` [Sidak
 /// 1967].

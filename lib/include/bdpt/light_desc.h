@@ -86,6 +86,7 @@ struct EnvironmentLightDesc {
     Mat3 world_from_environment{1.0f};  ///< rotation
 };
 
+/// A light that is no surface.
 using LightDesc = std::variant<PointLightDesc, SpotLightDesc, DirectionalLightDesc,
                                EnvironmentLightDesc, ProfileLightDesc>;
 

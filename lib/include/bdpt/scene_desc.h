@@ -70,6 +70,7 @@ struct SceneDesc {
     TextureFilter texture_filter = TextureFilter::bilinear;
 };
 
+/// How a camera maps directions or points to the film.
 enum class Projection : std::uint8_t { perspective, orthographic };
 
 /// A camera with the glTF axes: it looks down -z, +y is up.

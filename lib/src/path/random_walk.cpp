@@ -1,8 +1,6 @@
 #include "path/random_walk.h"
 
-#include "camera/camera.h"
 #include "math/rgb.h"
-#include "math/sampler.h"
 #include "path/densities.h"
 
 #include <glm/geometric.hpp>
@@ -51,15 +49,14 @@ void append_environment(const World& world, const Step& step, Subpath& path)
 void append_surface(const SurfacePoint& point, float distance_squared, const Step& step,
                     Subpath& path)
 {
-    PathVertex& previous = path[path.size() - 1];
-    PathVertex& vertex = path.append();
+    PathVertex& previous = path.back();
+    PathVertex& vertex = path.append(point.bsdf);
     vertex.end = point.end;
     vertex.beta = step.beta * medium_transmittance(step.origin, point.end, step.direction,
                                                    std::sqrt(distance_squared));
     vertex.emission = point.emission;
     vertex.light = point.light;
     vertex.barycentrics = point.barycentrics;
-    vertex.bsdf = point.bsdf;
     vertex.connectible = point.bsdf.connectible();
     vertex.dispersed = previous.dispersed || point.disperses;
     const float cosine = std::abs(dot(point.end.ng, step.direction));
@@ -73,12 +70,12 @@ void append_surface(const SurfacePoint& point, float distance_squared, const Ste
 
 /// Everything of a walk that does not change on its way.
 struct Walk {
-    const World& world;
-    const Camera* lens;  ///< of light walks: where they may cross it
-    const PixelCone& pixel;
     TransportMode mode;
     SampleUse use;
     WalkLimits limits;
+    std::uint64_t& rays;  ///< counts those of this walk
+
+    [[nodiscard]] bool from_camera() const { return mode == TransportMode::radiance; }
 };
 
 /// Records that `step` crosses the lens before it ends, after `free_distance`.
@@ -90,7 +87,7 @@ void look_for_lens(const Camera& camera, const Step& step, float free_distance, 
     }
     const float distance_squared = hit->distance * hit->distance;
     const float cosine = std::abs(dot(hit->lens.ng, step.direction));
-    const PathVertex& last = path[path.size() - 1];
+    const PathVertex& last = path.back();
     LensCrossing crossing;
     crossing.light_vertices = path.size();
     crossing.raster = hit->raster;
@@ -114,34 +111,46 @@ void look_for_lens(const Camera& camera, const Step& step, float free_distance, 
 
 /// Ends a walk by chance in proportion to what it has lost since `full`. The survivors are worth
 /// more in return; no density knows of it, so that all strategies are treated alike.
-bool survives(Rgb& beta, Rgb full, float u)
+bool survives(Rgb& beta, Rgb full, Sampler& sampler)
 {
-    const float survival = std::min(1.0f, max_component(beta) / max_component(full));
-    if (u >= survival) {
+    const float survival = max_component(beta) / max_component(full);
+    if (survival >= 1.0f) {
+        return true;
+    }
+    if (sampler.next_1d() >= survival) {
         return false;
     }
     beta /= survival;
     return true;
 }
 
+/// The first surface on the way of `step`.
+std::optional<SurfacePoint> find_surface(const SampleContext& sample, const Step& step,
+                                         SegmentKey segment)
+{
+    const auto hit = sample.world.first_hit(step.origin, step.direction, segment);
+    if (!hit) {
+        return std::nullopt;
+    }
+    const PhaseScope scope(sample.clock, Phase::shade);
+    return sample.world.surface_at(*hit, step.direction, segment, sample.camera.pixel_cone());
+}
+
 /// Goes on from the first vertex until the path is full, leaves the scene or is absorbed.
-template <typename Probe>
-void walk(const Walk& rules, Step step, Sampler& sampler, Subpath& path, Probe& probe)
+void walk(SampleContext& sample, const Walk& rules, Step step, Subpath& path)
 {
     const Rgb full = step.beta;
-    const bool watches_lens = rules.lens != nullptr && rules.lens->has_finite_lens();
+    const Camera& camera = sample.camera;
+    const bool watches_lens = !rules.from_camera() && camera.has_finite_lens();
     const int max_vertices = rules.limits.max_vertices;
-    const World& world = rules.world;
-    const TransportMode mode = rules.mode;
     // A walk whose vertices are full may still cross the lens.
     while (path.size() < max_vertices || (watches_lens && path.size() == max_vertices)) {
-        path.count_ray();
-        const bool from_camera = mode == TransportMode::radiance;
+        ++rules.rays;
         const SegmentKey segment =
-            sampler.segment_key(from_camera ? 0 : path.size(), from_camera ? path.size() : 0);
-        const auto hit = world.intersect(step.origin, step.direction, segment, rules.pixel, probe);
+            rules.from_camera() ? sample.segment(0, path.size()) : sample.segment(path.size(), 0);
+        const auto hit = find_surface(sample, step, segment);
         if (watches_lens) {
-            look_for_lens(*rules.lens, step,
+            look_for_lens(camera, step,
                           hit ? glm::distance(hit->end.p, step.origin.p)
                               : std::numeric_limits<float>::infinity(),
                           path);
@@ -150,8 +159,8 @@ void walk(const Walk& rules, Step step, Sampler& sampler, Subpath& path, Probe& 
             return;
         }
         if (!hit) {
-            if (mode == TransportMode::radiance) {
-                append_environment(world, step, path);
+            if (rules.from_camera()) {
+                append_environment(sample.world, step, path);
             }
             return;
         }
@@ -164,10 +173,17 @@ void walk(const Walk& rules, Step step, Sampler& sampler, Subpath& path, Probe& 
         if (path.size() == max_vertices && !watches_lens) {
             return;
         }
-        PathVertex& vertex = path[path.size() - 1];
-        sampler.start(rules.use, static_cast<std::uint32_t>(path.size()));
+        PathVertex& vertex = path.back();
+        Sampler& sampler = sample.sampler;
+        const auto number = static_cast<std::uint32_t>(path.size());
+        sampler.start(rules.use, number);
         const Vec2 u_direction = sampler.next_2d();
-        const auto scattered = vertex.bsdf.sample(sampler.next_1d(), u_direction, mode);
+        if (rules.from_camera()) {
+            vertex.u_light = sampler.next_2d();
+            sampler.start(SampleUse::camera_choice, number);
+        }
+        const float u_lobe = vertex.bsdf->has_one_lobe() ? 0.0f : sampler.next_1d();
+        const auto scattered = vertex.bsdf->sample(u_lobe, u_direction, rules.mode);
         if (!scattered || is_black(scattered->weight)) {
             return;
         }
@@ -179,7 +195,7 @@ void walk(const Walk& rules, Step step, Sampler& sampler, Subpath& path, Probe& 
                 .pdf = scattered->pdf_fwd,
                 .pdf_plane = std::nullopt,
                 .origin = vertex.end};
-        if (path.size() > rules.limits.rr_start && !survives(step.beta, full, sampler.next_1d())) {
+        if (path.size() > rules.limits.rr_start && !survives(step.beta, full, sampler)) {
             return;
         }
     }
@@ -187,45 +203,46 @@ void walk(const Walk& rules, Step step, Sampler& sampler, Subpath& path, Probe& 
 
 }  // namespace
 
-template <typename Probe>
-void trace_camera_subpath(const World& world, const Camera& camera, Vec2 raster,
-                          const WalkLimits& limits, Sampler& sampler, Subpath& path, Probe& probe)
+void trace_camera_subpath(SampleContext& sample, Vec2 raster, const WalkLimits& limits,
+                          Subpath& path)
 {
     path.clear();
-    sampler.start(SampleUse::lens);
-    const Vec2 u_lens = camera.has_finite_lens() ? sampler.next_2d() : Vec2(0.0f);
-    const CameraRay ray = camera.generate_ray(raster, u_lens);
+    sample.sampler.start(SampleUse::lens);
+    const Vec2 u_lens = sample.camera.has_finite_lens() ? sample.sampler.next_2d() : Vec2(0.0f);
+    const CameraRay ray = sample.camera.generate_ray(raster, u_lens);
     PathVertex& lens = path.append();
     lens.kind = VertexKind::camera;
     lens.end = ray.lens;
     lens.pdf_fwd = ray.pdf_lens;
-    walk({.world = world,
-          .lens = nullptr,
-          .pixel = camera.pixel_cone(),
-          .mode = TransportMode::radiance,
+    walk(sample,
+         {.mode = TransportMode::radiance,
           .use = SampleUse::camera_walk,
-          .limits = limits},
+          .limits = limits,
+          .rays = sample.rays.camera},
          {.direction = ray.direction,
           .beta = Rgb(1.0f),
           .pdf = ray.pdf_direction,
           .pdf_plane = ray.pdf_plane,
           .origin = ray.lens},
-         sampler, path, probe);
+         path);
 }
 
-template <typename Probe>
-void trace_light_subpath(const World& world, const Camera& camera, const WalkLimits& limits,
-                         NextEventSampling sampling, Sampler& sampler, Subpath& path, Probe& probe)
+void trace_light_subpath(SampleContext& sample, const WalkLimits& limits,
+                         NextEventSampling sampling, Subpath& path)
 {
     path.clear();
+    const World& world = sample.world;
+    Sampler& sampler = sample.sampler;
     sampler.start(SampleUse::light_start);
     const Vec2 u_position = sampler.next_2d();
-    const auto choice = world.lights().choose_for_emission(sampler.next_fine());
+    const Vec2 u_direction = sampler.next_2d();
+    const auto choice =
+        world.lights().choose_for_emission(u_position, [&sampler] { return sampler.next_fine(); });
     if (!choice || limits.max_vertices < 1) {
         return;
     }
     const Light& light = world.lights()[choice->id];
-    const auto emitted = light.sample_emission(u_position, sampler.next_2d(), sampler.time());
+    const auto emitted = light.sample_emission(choice->u, u_direction, sample.time);
     if (!emitted || is_black(emitted->weight)) {
         return;
     }
@@ -248,25 +265,15 @@ void trace_light_subpath(const World& world, const Camera& camera, const WalkLim
     if (infinite) {
         step.pdf_plane = world.bounding_sphere().pdf_disk();
     }
-    walk({.world = world,
-          .lens = &camera,
-          .pixel = camera.pixel_cone(),
-          .mode = TransportMode::importance,
+    walk(sample,
+         {.mode = TransportMode::importance,
           .use = SampleUse::light_walk,
-          .limits = limits},
-         step, sampler, path, probe);
+          .limits = limits,
+          .rays = sample.rays.light},
+         step, path);
     if (path.size() > 1) {
-        start.pdf_next_event = next_event_density(world, start, path[1], sampling, sampler.time());
+        start.pdf_next_event = next_event_density(sample, start, path[1], sampling);
     }
 }
-
-template void trace_camera_subpath(const World&, const Camera&, Vec2, const WalkLimits&, Sampler&,
-                                   Subpath&, NoProbe&);
-template void trace_camera_subpath(const World&, const Camera&, Vec2, const WalkLimits&, Sampler&,
-                                   Subpath&, PhaseClock&);
-template void trace_light_subpath(const World&, const Camera&, const WalkLimits&, NextEventSampling,
-                                  Sampler&, Subpath&, NoProbe&);
-template void trace_light_subpath(const World&, const Camera&, const WalkLimits&, NextEventSampling,
-                                  Sampler&, Subpath&, PhaseClock&);
 
 }  // namespace bdpt

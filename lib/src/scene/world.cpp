@@ -83,13 +83,13 @@ std::optional<RayHit> World::first_hit(const SegmentEnd& from, Vec3 direction,
                                .segment = segment});
 }
 
-SurfacePoint World::point_of(const RayHit& hit, Vec3 direction, SegmentKey segment,
-                             const PixelCone& pixel) const noexcept
+SurfacePoint World::surface_at(const RayHit& hit, Vec3 direction, SegmentKey segment,
+                               const PixelCone& pixel) const noexcept
 {
     if (hit.sphere != no_sphere) [[unlikely]] {
         return sphere_point(hit, direction, segment.time);
     }
-    return surface_point(hit, direction, segment, pixel);
+    return mesh_point(hit, direction, segment, pixel);
 }
 
 /// Spheres are lights: they emit from their outside and reflect nothing.
@@ -104,8 +104,8 @@ SurfacePoint World::sphere_point(const RayHit& hit, Vec3 direction, float time) 
             .light = id};
 }
 
-SurfacePoint World::surface_point(const RayHit& hit, Vec3 direction, SegmentKey segment,
-                                  const PixelCone& pixel) const noexcept
+SurfacePoint World::mesh_point(const RayHit& hit, Vec3 direction, SegmentKey segment,
+                               const PixelCone& pixel) const noexcept
 {
     const PlacedMesh& mesh = placed_[hit.instance];
     const Material& material = material_of(hit.instance);

@@ -1,5 +1,5 @@
 // Holds a flat picture against another.
-#include <bdpt/harness/metrics/metric.h>
+#include <bdpt/eval/metrics/metric.h>
 #include <bdpt/image.h>
 
 #include <cmath>
@@ -10,9 +10,9 @@ int main()
 {
     const bdpt::Image reference{4, 4, std::vector<bdpt::Rgb>(16, bdpt::Rgb(1.0f))};
     const bdpt::Image image{4, 4, std::vector<bdpt::Rgb>(16, bdpt::Rgb(1.5f))};
-    using bdpt::harness::Metric;
-    const double error = bdpt::harness::evaluate(Metric::relmse, image, reference);
-    const double flip = bdpt::harness::evaluate(Metric::flip, image, reference);
+    using bdpt::eval::Metric;
+    const double error = bdpt::eval::evaluate(Metric::relmse, image, reference);
+    const double flip = bdpt::eval::evaluate(Metric::flip, image, reference);
     std::printf("relMSE %g, FLIP %g\n", error, flip);
     return std::abs(error - 0.25 / 1.01) < 1e-12 && flip > 0.0 ? 0 : 1;
 }

@@ -1,0 +1,110 @@
+#include "commands/compare_command.h"
+
+#include <bdpt/eval/compare/compare_files.h>
+#include <bdpt/eval/compare/comparison_json.h>
+#include <bdpt/eval/compare/seed_files.h>
+#include <bdpt/eval/image/false_color.h>
+#include <bdpt/io/png.h>
+#include <bdpt/version.h>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "options/output_files.h"
+#include "report/compare_text.h"
+
+namespace bdpt::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Refuses what could not be written in the end, before anything is read.
+void check_error_image(const CompareArguments& arguments, std::span<const fs::path> files)
+{
+    if (!arguments.error_image) {
+        return;
+    }
+    const std::vector<fs::path> outputs{*arguments.error_image};
+    if (writes_exr(outputs)) {
+        throw Error(ErrorCode::usage, fmt::format("--error-image \"{}\": name it .png",
+                                                  arguments.error_image->string()));
+    }
+    std::vector<fs::path> inputs(files.begin(), files.end());
+    inputs.push_back(arguments.reference);
+    check_outputs(outputs, inputs);
+}
+
+void write_error_image(const CompareArguments& arguments, const eval::ComparisonReport& report)
+{
+    io::PngOptions options;
+    options.metadata.version = BDPT_VERSION;
+    options.metadata.created = std::chrono::system_clock::now();
+    io::write_png(
+        *arguments.error_image,
+        eval::false_color(report.map, {.scale = arguments.scale,
+                                       .title = std::string(to_string(report.map_metric))}),
+        options);
+}
+
+void print(const std::string& text)
+{
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() ||
+        std::fflush(stdout) != 0) {
+        throw Error(ErrorCode::output, "stdout: cannot write the report");
+    }
+}
+
+}  // namespace
+
+int run_compare(const CompareArguments& arguments)
+{
+    std::error_code missing;
+    if (fs::is_directory(arguments.reference, missing)) {
+        throw Error(ErrorCode::usage,
+                    fmt::format("{}: the reference is a folder; it comes second and is one file",
+                                arguments.reference.string()));
+    }
+    const std::vector<fs::path> files = eval::seed_files(arguments.image, arguments.reference);
+    check_error_image(arguments, files);
+    const eval::FileComparison comparison =
+        eval::compare_files(files, arguments.reference, arguments.layer, arguments.options);
+    const eval::ComparisonReport& report = comparison.report;
+    std::vector<eval::ThresholdResult> results;
+    for (const eval::Threshold& threshold : arguments.thresholds) {
+        results.push_back(eval::check_threshold(report, threshold));
+    }
+    const bool passed = std::all_of(results.begin(), results.end(),
+                                    [](const auto& result) { return result.passed; });
+
+    // stdout has the report alone, so warnings go to stderr in both formats.
+    Console console(Format::text, arguments.verbosity);
+    for (const std::string& warning : comparison.warnings) {
+        console.warning(warning);
+    }
+    std::exception_ptr failure;  // of the picture, which must not take the report along
+    if (arguments.error_image) {
+        try {
+            write_error_image(arguments, report);
+        } catch (const Error&) {
+            failure = std::current_exception();
+        }
+    }
+    if (arguments.format == Format::json) {
+        print(eval::comparison_json(report, results, arguments.image.string(),
+                                    arguments.reference.string()));
+    } else if (arguments.verbosity == Verbosity::normal) {
+        print(compare_text(report, results));
+    }
+    if (failure) {
+        std::rethrow_exception(failure);
+    }
+    return passed ? 0 : compare_failed;
+}
+
+}  // namespace bdpt::app

@@ -1,0 +1,368 @@
+#include "commands/render_command.h"
+
+#include <bdpt/eval/bench/option_names.h>
+#include <bdpt/io/tone_map.h>
+#include <bdpt/render.h>
+#include <bdpt/version.h>
+#include <fmt/core.h>
+
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "options/film_arguments.h"
+#include "options/output_files.h"
+#include "options/strategy_arguments.h"
+#include "options/transport_arguments.h"
+#include "report/pictures.h"
+#include "report/stats_file.h"
+#include "report/strategy_files.h"
+#include "stage/stage.h"
+#include "terminal/console.h"
+#include "terminal/interrupt.h"
+#include "terminal/text.h"
+
+namespace bdpt::app {
+namespace {
+
+using nlohmann::ordered_json;
+
+const char* name_of(SamplerKind sampler)
+{
+    return sampler == SamplerKind::independent ? "independent" : "sobol";
+}
+
+ordered_json view_json(const CameraDesc& camera)
+{
+    ordered_json view{{"camera", camera.name}};
+    if (camera.projection == Projection::orthographic) {
+        view["projection"] = "orthographic";
+        view["vertical_extent"] = camera.vertical_extent;
+        return view;
+    }
+    view["projection"] = "perspective";
+    view["vertical_fov_degrees"] =
+        static_cast<double>(camera.vertical_fov) * 180.0 / std::numbers::pi;
+    if (camera.lens_radius > 0.0f) {
+        view["lens_radius"] = camera.lens_radius;
+        view["focus_distance"] = camera.focus_distance;
+    }
+    return view;
+}
+
+/// All that the picture depends on.
+ordered_json settings_of(const RenderArguments& arguments, const Stage& stage)
+{
+    const RenderOptions& options = arguments.options;
+    ordered_json settings{{"width", stage.size.width}, {"height", stage.size.height}};
+    settings.update(transport_json(options));
+    settings["sampler"] = name_of(options.sampler);
+    settings["seed"] = options.seed;
+    settings["isa"] = isa_name(stage.scene.isa());
+    settings.update(view_json(stage.camera));
+    settings["environment"] = stage.environment_name;
+    if (arguments.texture_filter == TextureFilter::mip_mapped) {
+        settings["texture_filter"] = "mip";
+    }
+    const FilterOptions& filter = options.filter;
+    settings["filter"] = filter_name(filter.kind);
+    settings["filter_radius"] = filter.radius.value_or(default_radius(filter.kind));
+    if (options.crop) {
+        const PixelRect& crop = *options.crop;
+        settings["crop"] = {crop.x0, crop.y0, crop.x1, crop.y1};
+    }
+    if (std::isfinite(options.clamp)) {
+        settings["clamp"] = options.clamp;
+    }
+    const auto add_word = [&settings](const char* name, const std::optional<std::string>& word) {
+        if (word) {
+            settings[name] = *word;
+        }
+    };
+    add_word("scene", arguments.scene.scene);
+    add_word("variant", arguments.scene.variant);
+    add_word("animation", arguments.scene.animation);
+    if (arguments.scene.time) {
+        settings["frame_time"] = *arguments.scene.time;
+    }
+    if (arguments.scene.shutter) {
+        settings["shutter"] = {arguments.scene.shutter->open, arguments.scene.shutter->close};
+    }
+    if (arguments.goal.samples) {
+        settings["spp"] = *arguments.goal.samples;
+    }
+    if (std::isfinite(arguments.goal.seconds)) {
+        settings["time_limit_seconds"] = arguments.goal.seconds;
+    }
+    return settings;
+}
+
+void announce(Console& console, const RenderArguments& arguments, const Stage& stage,
+              const ordered_json& settings)
+{
+    const SceneCounts counts = stage.scene.counts();
+    console.event("start", {{"version", BDPT_VERSION},
+                            {"file", arguments.file.string()},
+                            {"triangles", counts.instanced_triangles},
+                            {"lights", counts.lights},
+                            {"settings", settings}});
+    console.note(fmt::format("{}: {} triangles, {} lights; {}x{}, {}, camera {}",
+                             arguments.file.string(), counts.instanced_triangles, counts.lights,
+                             stage.size.width, stage.size.height,
+                             eval::to_string(arguments.options.integrator), stage.camera.name));
+}
+
+RenderOptions options_for(const RenderArguments& arguments, const Stage& stage, Console& console)
+{
+    // With --time alone, more samples than anyone has time for.
+    constexpr std::int64_t no_limit = std::int64_t{1} << 31;
+    RenderOptions options = arguments.options;
+    options.width = stage.size.width;
+    options.height = stage.size.height;
+    options.samples = {0, arguments.goal.samples.value_or(no_limit)};
+    if (arguments.strategies) {
+        const StrategyDepth depth = strategy_depth(*arguments.strategies, options, stage.camera);
+        options.strategy_depth = depth.edges;
+        if (depth.warning) {
+            console.warning(*depth.warning);
+        }
+    }
+    return options;
+}
+
+RenderResult render_stage(const RenderArguments& arguments, const Stage& stage, Console& console,
+                          const std::stop_token& stop)
+{
+    const RenderOptions options = options_for(arguments, stage, console);
+
+    RenderControl control;
+    control.stop = stop;
+    control.time_limit = arguments.goal.seconds;
+    control.profiling = arguments.profiling;
+    control.on_progress = [&](const Progress& progress) {
+        console.progress(progress, arguments.goal);
+    };
+    RenderResult result = render(stage.scene, stage.camera, options, control);
+    console.end_progress();
+    return result;
+}
+
+/// The same; the console shows how far loading is.
+RenderArguments with_progress(RenderArguments arguments, Console& console)
+{
+    const auto start = std::chrono::steady_clock::now();
+    arguments.scene.on_progress = [&console, start](const io::LoadProgress& progress) {
+        const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
+        constexpr double worth_telling = 1.0;  // [s]
+        if (passed.count() < worth_telling) {
+            return;
+        }
+        const double done = static_cast<double>(progress.pictures_done) /
+                            static_cast<double>(progress.pictures_total);
+        console.task({.fraction = done,
+                      .seconds = passed.count(),
+                      .seconds_left = passed.count() * (1.0 - done) / done,
+                      .activity = fmt::format("loading textures, {}/{}", progress.pictures_done,
+                                              progress.pictures_total)});
+    };
+    return arguments;
+}
+
+void warn_of_defects(Console& console, const FilmDefects& defects)
+{
+    if (defects.invalid > 0) {
+        const FilmDefects::Place place = defects.first_invalid.value_or(FilmDefects::Place{});
+        console.warning(
+            fmt::format("{} contributions were NaN, infinite or negative and were dropped; the "
+                        "first at pixel ({}, {}), sample {}",
+                        defects.invalid, place.x, place.y, place.sample_index));
+    }
+    if (defects.saturated > 0) {
+        console.warning(fmt::format("{} contributions were above {:.3g} nit and count as that",
+                                    defects.saturated, ExactSum::max_value));
+    }
+}
+
+void tell_of_clamp(Console& console, const Film& film, const Image& image)
+{
+    const ClampLoss loss = film.clamp_loss();
+    if (loss.contributions == 0) {
+        return;
+    }
+    const auto sum = [](Rgb c) { return static_cast<double>(c.r + c.g + c.b); };
+    double left = 0.0;
+    for (const Rgb& pixel : image.pixels) {
+        left += sum(pixel) / static_cast<double>(image.pixels.size());
+    }
+    const double taken = sum(loss.radiance);
+    console.note(fmt::format("clamping at {:g} nit took {:.2f} % of the light: {} contributions",
+                             film.layout().clamp, 100.0 * taken / (left + taken),
+                             loss.contributions));
+}
+
+/// Microseconds of a sample: seconds would be too small for files of 16 bits.
+Layer time_layer(const TimeProfile& profile)
+{
+    Layer layer{.name = "time",
+                .channels = "Y",
+                .width = profile.region.width(),
+                .height = profile.region.height(),
+                .values = profile.pixel_seconds};
+    for (float& value : layer.values) {
+        value *= 1e6f;
+    }
+    return layer;
+}
+
+PictureOptions picture_options(const RenderArguments& arguments, const Stage& stage,
+                               const RenderResult& result, const ordered_json& settings)
+{
+    io::PictureMetadata metadata;
+    metadata.version = BDPT_VERSION;
+    metadata.scene = one_line(arguments.file.string());
+    metadata.settings = settings.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+    metadata.integrator = eval::to_string(arguments.options.integrator);
+    metadata.seed = arguments.options.seed;
+    metadata.samples_per_pixel = result.film.sample_count();
+    metadata.render_seconds = result.seconds;
+    metadata.camera = stage.camera;
+    metadata.created = std::chrono::system_clock::now();
+    metadata.xmp = stage.xmp;
+    const PixelRect& region = result.film.region();
+    const io::ExrPlacement placement{.x = region.x0,
+                                     .y = region.y0,
+                                     .full_width = stage.size.width,
+                                     .full_height = stage.size.height};
+    std::vector<Layer> layers = result.aovs.develop(result.film);
+    if (result.profile) {
+        layers.push_back(time_layer(*result.profile));
+    }
+    return {.exr = {arguments.channel_type, std::move(metadata), arguments.storage, placement},
+            .layers = std::move(layers),
+            .exposure = arguments.exposure};
+}
+
+ordered_json head_of_stats(const RenderArguments& arguments, const ordered_json& settings,
+                           const std::optional<int>& signal)
+{
+    ordered_json stats{
+        {"version", BDPT_VERSION}, {"file", arguments.file.string()}, {"settings", settings}};
+    stats["stopped_by"] = signal ? ordered_json(signal_name(*signal)) : ordered_json();
+    return stats;
+}
+
+/// Where pictures go, images of strategies too.
+std::vector<std::filesystem::path> all_pictures(const RenderArguments& arguments)
+{
+    std::vector<std::filesystem::path> files = arguments.outputs;
+    if (arguments.strategies) {
+        const auto more = arguments.strategies->both();
+        files.insert(files.end(), more.begin(), more.end());
+    }
+    return files;
+}
+
+/// Refuses, before anything is rendered, what could not be written. Returns all that will be.
+std::vector<std::filesystem::path> check_files(const RenderArguments& arguments)
+{
+    std::vector<std::filesystem::path> taken{arguments.file};
+    if (arguments.environment) {
+        taken.emplace_back(*arguments.environment);
+    }
+    check_outputs(arguments.outputs, taken);
+    taken.insert(taken.end(), arguments.outputs.begin(), arguments.outputs.end());
+    std::vector<std::filesystem::path> written = all_pictures(arguments);
+    if (arguments.strategies) {
+        check_strategy_files(*arguments.strategies, taken);
+        const auto more = arguments.strategies->both();
+        taken.insert(taken.end(), more.begin(), more.end());
+    }
+    if (arguments.stats) {
+        check_stats_file(*arguments.stats, taken);
+        written.push_back(*arguments.stats);
+    }
+    return written;
+}
+
+void report_done(Console& console, const RenderArguments& arguments, const RenderResult& result,
+                 const PictureReport& pictures, std::optional<int> signal)
+{
+    ordered_json outputs = ordered_json::array();
+    for (const std::filesystem::path& output : all_pictures(arguments)) {
+        outputs.push_back(output.string());
+        console.note(fmt::format("wrote {}: {} spp in {:.1f} s", output.string(),
+                                 result.film.sample_count(), result.seconds));
+    }
+    ordered_json fields{{"samples", result.film.sample_count()},
+                        {"seconds", result.seconds},
+                        {"outputs", std::move(outputs)}};
+    fields["exposure"] = pictures.exposure ? ordered_json(*pictures.exposure) : ordered_json();
+    fields["stopped_by"] = signal ? ordered_json(signal_name(*signal)) : ordered_json();
+    console.event("done", fields);
+}
+
+}  // namespace
+
+int run_render(const RenderArguments& arguments)
+{
+    const std::vector<std::filesystem::path> written = check_files(arguments);
+    Console console(arguments.format, arguments.verbosity);
+    Interrupt interrupt(temporary_paths(written), [&console] {
+        console.note("stopping after the pass in flight; interrupt again to end at once");
+    });
+
+    const Stage stage = prepare_stage(with_progress(arguments, console));
+    console.end_progress();
+    const ordered_json settings = settings_of(arguments, stage);
+    interrupt.allow_stop();
+    announce(console, arguments, stage, settings);
+    for (const std::string& warning : stage.warnings) {
+        console.warning(warning);
+    }
+    const RenderResult result = render_stage(arguments, stage, console, interrupt.stop_token());
+    warn_of_defects(console, result.film.defects());
+    if (result.profile) {
+        console.event("profile", profile_json(*result.profile));
+        console.note(profile_text(*result.profile));
+    }
+
+    const auto writing_start = std::chrono::steady_clock::now();
+    const Image image = result.film.develop();
+    tell_of_clamp(console, result.film, image);
+    const PictureOptions options = picture_options(arguments, stage, result, settings);
+    const PictureReport pictures = write_pictures(arguments.outputs, image, options);
+    if (arguments.strategies) {
+        write_strategy_files(*arguments.strategies, image, result.strategies, options.exr,
+                             arguments.exposure.value_or(io::automatic_exposure(image)));
+    }
+    const std::chrono::duration<double> writing = std::chrono::steady_clock::now() - writing_start;
+    if (pictures.clamped_pixels > 0) {
+        console.warning(
+            fmt::format("{} pixels were beyond 65504 and are stored as that; --float "
+                        "keeps them",
+                        pictures.clamped_pixels));
+    }
+    const std::optional<int> signal = interrupt.signal();
+    if (arguments.stats) {
+        ordered_json stats = head_of_stats(arguments, settings, signal);
+        stats.update(stats_json(result, {.load = stage.load_seconds,
+                                         .build = stage.build_seconds,
+                                         .render = result.seconds,
+                                         .write = writing.count()}));
+        write_stats_file(*arguments.stats, stats);
+    }
+    if (signal) {
+        console.note(fmt::format("stopped by {} after {} samples per pixel", signal_name(*signal),
+                                 result.film.sample_count()));
+    }
+    report_done(console, arguments, result, pictures, signal);
+    return signal ? 128 + *signal : 0;
+}
+
+}  // namespace bdpt::app

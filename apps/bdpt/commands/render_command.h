@@ -1,0 +1,11 @@
+#pragma once
+
+#include "options/render_arguments.h"
+
+namespace bdpt::app {
+
+/// `bdpt render`. The result is the exit code: 0, or 128 + a signal's number when that ended the
+/// render early. Throws `Error` before anything is written, or when that fails.
+[[nodiscard]] int run_render(const RenderArguments& arguments);
+
+}  // namespace bdpt::app

@@ -1,0 +1,154 @@
+#include "options/arguments.h"
+
+#include <bdpt/error.h>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+namespace bdpt::app {
+namespace {
+
+/// All of `text` as one number.
+template <typename Number>
+std::optional<Number> parse_number(std::string_view text)
+{
+    Number value{};
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    if (error != std::errc{} || stop != end || text.empty()) {
+        return std::nullopt;
+    }
+    return value;
+}
+
+/// Insertions, deletions and replacements that turn `a` into `b` [Levenshtein 1966].
+std::size_t edit_distance(std::string_view a, std::string_view b)
+{
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0u : 1u);
+            diagonal = row[j];
+            row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
+        }
+    }
+    return row.back();
+}
+
+}  // namespace
+
+std::optional<Size> parse_size(std::string_view text)
+{
+    constexpr int largest = 65535;
+    const std::size_t cross = text.find('x');
+    if (cross == std::string_view::npos) {
+        return std::nullopt;
+    }
+    const auto width = parse_number<int>(text.substr(0, cross));
+    const auto height = parse_number<int>(text.substr(cross + 1));
+    if (!width || !height || *width < 1 || *height < 1 || *width > largest || *height > largest) {
+        return std::nullopt;
+    }
+    return Size{*width, *height};
+}
+
+std::optional<double> parse_duration(std::string_view text)
+{
+    double unit = 1.0;
+    if (!text.empty()) {
+        const char last = text.back();
+        unit = last == 'm' ? 60.0 : last == 'h' ? 3600.0 : 1.0;
+        text.remove_suffix(last == 's' || last == 'm' || last == 'h' ? 1 : 0);
+    }
+    const auto count = parse_number<double>(text);
+    if (!count || !std::isfinite(*count) || *count <= 0.0) {
+        return std::nullopt;
+    }
+    return *count * unit;
+}
+
+std::optional<std::uint64_t> parse_bytes(std::string_view text)
+{
+    constexpr std::string_view units = "KMGT";
+    double unit = 1.0;
+    if (!text.empty()) {
+        const std::size_t power = units.find(text.back());
+        if (power != std::string_view::npos) {
+            unit = std::ldexp(1.0, 10 * (static_cast<int>(power) + 1));
+            text.remove_suffix(1);
+        }
+    }
+    const auto count = parse_number<double>(text);
+    constexpr double too_many = 0x1p63;
+    if (!count || !(*count * unit >= 1.0 && *count * unit < too_many)) {
+        return std::nullopt;
+    }
+    return static_cast<std::uint64_t>(*count * unit);
+}
+
+std::optional<Vec3> parse_vec3(std::string_view text)
+{
+    Vec3 result(0.0f);
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::size_t comma = text.find(',');
+        if ((comma == std::string_view::npos) != (axis == 2)) {
+            return std::nullopt;
+        }
+        const auto value = parse_float(text.substr(0, comma));
+        if (!value) {
+            return std::nullopt;
+        }
+        result[axis] = *value;
+        text.remove_prefix(axis == 2 ? text.size() : comma + 1);
+    }
+    return result;
+}
+
+std::optional<double> parse_double(std::string_view text)
+{
+    const auto value = parse_number<double>(text);
+    return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+std::optional<float> parse_float(std::string_view text)
+{
+    const auto value = parse_number<float>(text);
+    return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+std::optional<std::size_t> parse_index(std::string_view text)
+{
+    return parse_number<std::size_t>(text);
+}
+
+void reject(const char* option, const std::string& value, const char* expected)
+{
+    throw Error(ErrorCode::usage, fmt::format("{} \"{}\": expected {}; see \"bdpt render --help\"",
+                                              option, value, expected));
+}
+
+std::optional<std::string> closest(std::string_view text, std::span<const std::string> words)
+{
+    // Half a word of typing errors is another word.
+    std::size_t best = text.size() / 2;
+    std::optional<std::string> result;
+    for (const std::string& word : words) {
+        const std::size_t distance = edit_distance(text, word);
+        if (distance < best) {
+            best = distance;
+            result = word;
+        }
+    }
+    return result;
+}
+
+}  // namespace bdpt::app

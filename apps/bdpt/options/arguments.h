@@ -1,0 +1,48 @@
+#pragma once
+
+#include <bdpt/types.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace bdpt::app {
+
+/// A picture's size [pixels].
+struct Size {
+    int width = 0;
+    int height = 0;
+};
+
+/// "1280x720"; both at least 1 and at most 65535.
+[[nodiscard]] std::optional<Size> parse_size(std::string_view text);
+
+/// "90", "90s", "2m" or "1.5h", as seconds; more than 0.
+[[nodiscard]] std::optional<double> parse_duration(std::string_view text);
+
+/// "1500000", "800K", "500M" or "2.5G", as bytes, by powers of 1024; at least 1 and below 2^63.
+[[nodiscard]] std::optional<std::uint64_t> parse_bytes(std::string_view text);
+
+/// "x,y,z", all finite.
+[[nodiscard]] std::optional<Vec3> parse_vec3(std::string_view text);
+
+/// A finite number.
+[[nodiscard]] std::optional<float> parse_float(std::string_view text);
+
+/// The same with more digits.
+[[nodiscard]] std::optional<double> parse_double(std::string_view text);
+
+/// Only digits: an index.
+[[nodiscard]] std::optional<std::size_t> parse_index(std::string_view text);
+
+/// Throws the `Error` (usage) for an option whose value makes no sense.
+[[noreturn]] void reject(const char* option, const std::string& value, const char* expected);
+
+/// The word that `text` was probably meant to be; none when all are far from it.
+[[nodiscard]] std::optional<std::string> closest(std::string_view text,
+                                                 std::span<const std::string> words);
+
+}  // namespace bdpt::app

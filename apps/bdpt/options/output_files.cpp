@@ -1,0 +1,79 @@
+#include "options/output_files.h"
+
+#include <bdpt/error.h>
+#include <bdpt/io/output_file.h>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cctype>
+#include <optional>
+#include <string>
+#include <system_error>
+
+namespace bdpt::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+enum class FileType { exr, png };
+
+std::optional<FileType> type_of(const fs::path& file)
+{
+    if (has_extension(file, ".exr")) {
+        return FileType::exr;
+    }
+    return has_extension(file, ".png") ? std::optional(FileType::png) : std::nullopt;
+}
+
+}  // namespace
+
+bool same_file(const fs::path& a, const fs::path& b)
+{
+    std::error_code missing;
+    return fs::weakly_canonical(a, missing) == fs::weakly_canonical(b, missing);
+}
+
+bool has_extension(const fs::path& file, std::string_view extension)
+{
+    std::string own = file.extension().string();
+    std::transform(own.begin(), own.end(), own.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return own == extension;
+}
+
+void check_outputs(std::span<const fs::path> outputs, std::span<const fs::path> inputs)
+{
+    for (const fs::path& output : outputs) {
+        if (!type_of(output)) {
+            throw Error(ErrorCode::usage,
+                        fmt::format("{}: unknown type of output file: name it .exr or .png",
+                                    output.string()));
+        }
+        for (const fs::path& input : inputs) {
+            std::error_code missing;
+            if (fs::equivalent(input, output, missing)) {
+                throw Error(
+                    ErrorCode::usage,
+                    fmt::format("{}: is an input and cannot be the output too", output.string()));
+            }
+        }
+        io::check_writable(output);
+    }
+}
+
+bool writes_exr(std::span<const fs::path> outputs)
+{
+    return std::any_of(outputs.begin(), outputs.end(),
+                       [](const fs::path& output) { return type_of(output) == FileType::exr; });
+}
+
+std::vector<fs::path> temporary_paths(std::span<const fs::path> outputs)
+{
+    std::vector<fs::path> result;
+    for (const fs::path& output : outputs) {
+        result.push_back(io::OutputFile::temporary_path(output));
+    }
+    return result;
+}
+
+}  // namespace bdpt::app

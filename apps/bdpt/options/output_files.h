@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace bdpt::app {
+
+/// Are they one file, be it there or not?
+[[nodiscard]] bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
+
+/// Does the name of `file` end with `extension`, like ".exr", in small or capital letters?
+[[nodiscard]] bool has_extension(const std::filesystem::path& file, std::string_view extension);
+
+/// Refuses, before anything is rendered, what could not be written afterwards: throws `Error`
+/// (usage) for a file type that we do not write and for a file that is also in `inputs`, (output)
+/// for a place where nothing can be written.
+void check_outputs(std::span<const std::filesystem::path> outputs,
+                   std::span<const std::filesystem::path> inputs);
+
+/// Is one of `outputs` an EXR file?
+[[nodiscard]] bool writes_exr(std::span<const std::filesystem::path> outputs);
+
+/// Where the outputs grow; to be removed when the process ends in the middle.
+[[nodiscard]] std::vector<std::filesystem::path> temporary_paths(
+    std::span<const std::filesystem::path> outputs);
+
+}  // namespace bdpt::app

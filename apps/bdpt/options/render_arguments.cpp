@@ -1,0 +1,296 @@
+#include "options/render_arguments.h"
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "options/output_files.h"
+
+namespace bdpt::app {
+namespace {
+
+constexpr const char* footer = R"(Examples:
+  bdpt render scene.gltf -o out.exr
+  bdpt render scene.glb -o out.exr -o out.png --spp 256 --size 1920x1080
+  bdpt render room.glb -o out.exr --time 90s --camera "Camera 2"
+  bdpt render walk.glb -o out.png --animation run --frame-time 0.25
+  bdpt render model.glb -o out.png --env sky.hdr --from 3,2,4 --look-at 0,1,0 --fov 40
+
+A file without a camera is framed as a whole, one without light gets a soft sky (and a lamp, if it
+is a closed room); a warning says so. Ctrl-C ends the render after the pass in flight and writes
+what is there; a second one ends at once.
+
+Exit codes: 0 done, 1 internal error, 2 wrong usage, 3 input not found, 4 invalid input,
+5 unsupported feature, 6 output cannot be written, 7 out of memory, 130 stopped by SIGINT,
+143 stopped by SIGTERM.)";
+
+std::uint64_t to_seed(const std::string& word)
+{
+    std::uint64_t seed = 0;
+    const char* end = word.data() + word.size();
+    const auto [stop, error] = std::from_chars(word.data(), end, seed);
+    if (error != std::errc{} || stop != end) {
+        reject("--seed", word, "a whole number from 0 to 2^64 - 1");
+    }
+    return seed;
+}
+
+Goal to_goal(const RenderWords& words)
+{
+    Goal goal;
+    if (words.time) {
+        const std::optional<double> seconds = parse_duration(*words.time);
+        if (!seconds) {
+            reject("--time", *words.time, "a time like 60s, 2m or 1.5h");
+        }
+        goal.seconds = *seconds;
+    }
+    if (words.samples || !words.time) {
+        goal.samples = words.samples.value_or(SampleRange{}.end);
+    }
+    return goal;
+}
+
+std::optional<Vec3> to_point(const char* option, const std::optional<std::string>& word)
+{
+    if (!word) {
+        return std::nullopt;
+    }
+    const std::optional<Vec3> point = parse_vec3(*word);
+    if (!point) {
+        reject(option, *word, "three numbers x,y,z");
+    }
+    return point;
+}
+
+ViewOverrides to_view(const RenderWords& words)
+{
+    ViewOverrides view;
+    view.from = to_point("--from", words.from);
+    view.look_at = to_point("--look-at", words.look_at);
+    if (words.fov) {
+        if (!(*words.fov > 0.0 && *words.fov < 180.0)) {
+            reject("--fov", fmt::format("{}", *words.fov), "degrees between 0 and 180");
+        }
+        view.vertical_fov = static_cast<float>(*words.fov * std::numbers::pi / 180.0);
+    }
+    return view;
+}
+
+std::optional<float> to_exposure(const std::optional<double>& word)
+{
+    // 2^100 is far beyond any ratio of a scene to a screen.
+    constexpr double most = 100.0;
+    if (word && !(std::abs(*word) <= most)) {
+        reject("--exposure", fmt::format("{}", *word), "EV from -100 to 100");
+    }
+    return word ? std::optional(static_cast<float>(*word)) : std::nullopt;
+}
+
+std::vector<std::string> isa_names()
+{
+    std::vector<std::string> names;
+    for (const Isa isa : all_isas) {
+        names.emplace_back(isa_name(isa));
+    }
+    return names;
+}
+
+/// The one of that name, which the parser has found.
+Isa to_isa(const std::string& name)
+{
+    return *std::find_if(all_isas.begin(), all_isas.end(),
+                         [&](Isa isa) { return isa_name(isa) == name; });
+}
+
+void add_how(CLI::App& command, RenderWords& words)
+{
+    const auto group = "How to render";
+    constexpr std::int64_t most_samples = std::int64_t{1} << 31;
+    command
+        .add_option("--spp", words.samples,
+                    "Samples per pixel. 64 if not given, or no limit with --time")
+        ->check(CLI::Range(std::int64_t{1}, most_samples))
+        ->type_name("N")
+        ->group(group);
+    command.add_option("--time", words.time, "Time to render for, like 90s, 2m or 1.5h")
+        ->type_name("TIME")
+        ->group(group);
+    command
+        .add_option("--size", words.size,
+                    "Picture size; if not given, 1280x720 or what fits in it with the camera's "
+                    "aspect ratio")
+        ->type_name("WxH")
+        ->group(group);
+    command
+        .add_option("--sampler", words.sampler,
+                    "Where random numbers come from: sobol (the default), Owen-scrambled, less "
+                    "noise; or independent. Best with a power of two as --spp")
+        ->check(CLI::IsMember({"sobol", "independent"}))
+        ->type_name("sobol|independent")
+        ->group(group);
+    add_seed_and_threads(command, words, group);
+    command
+        .add_option("--isa", words.isa,
+                    "Instruction set to trace rays with. Pictures are equal to the bit for the "
+                    "same one only, so choose one that all machines of a farm have. The best one "
+                    "of this CPU if not given")
+        ->check(CLI::IsMember(isa_names()))
+        ->type_name("sse2|sse4.2|avx|avx2|avx512|native")
+        ->group(group);
+}
+
+void add_output(CLI::App& command, RenderWords& words)
+{
+    const auto group = "Output";
+    command
+        .add_option("-o,--output", words.outputs,
+                    "Required: .exr (linear radiance) or .png (tone-mapped); may be given again")
+        ->required()
+        ->allow_extra_args(false)
+        ->type_name("FILE")
+        ->group(group);
+    command
+        .add_option("--exposure", words.exposure,
+                    "Exposure of .png: pixels times 2^EV. Automatic if not given")
+        ->type_name("EV")
+        ->group(group);
+    CLI::Option* half =
+        command.add_flag("--half", words.half, "Store .exr in 16 bits")->group(group);
+    command.add_flag("--float", words.single, "Store .exr in 32 bits (the default)")
+        ->excludes(half)
+        ->group(group);
+    command
+        .add_flag("--tiled", words.tiled, "Store .exr in tiles, for programs that read parts of it")
+        ->group(group);
+    command
+        .add_option("--stats", words.stats,
+                    "Write rays, paths and where the time went to this .json file")
+        ->type_name("FILE")
+        ->group(group);
+    command
+        .add_flag(
+            "--profile", words.profile,
+            "Measure where the time of samples goes, and tell it, in --stats too; .exr files "
+            "get a layer time.Y, microseconds of a sample in each pixel. The picture is the same")
+        ->group(group);
+    add_strategy_options(command, words.strategies);
+    command.add_flag("-q,--quiet", words.quiet, "Print nothing but errors")->group(group);
+    command
+        .add_flag("--json", words.json,
+                  "One JSON object a line on stdout: start, progress, warning, done, error")
+        ->group(group);
+}
+
+}  // namespace
+
+void add_view_options(CLI::App& command, RenderWords& words)
+{
+    const auto group = "What to render";
+    add_scene_options(command, words.scene, group);
+    command
+        .add_option("--camera", words.camera,
+                    "Camera of the scene, or auto to frame it all. The first one if not given")
+        ->type_name("NAME|INDEX|auto")
+        ->group(group);
+    command.add_option("--from", words.from, "Move the camera here [m]")
+        ->type_name("X,Y,Z")
+        ->group(group);
+    command.add_option("--look-at", words.look_at, "Turn the camera to this point [m]")
+        ->type_name("X,Y,Z")
+        ->group(group);
+    command.add_option("--fov", words.fov, "Vertical field of view [degrees]")
+        ->type_name("DEG")
+        ->group(group);
+    command
+        .add_option("--env", words.environment,
+                    "Light from all around: an equirectangular .exr or .hdr, none, or the default "
+                    "sky, which scenes without light get by themselves. It takes the place of the "
+                    "environment that a file brings")
+        ->type_name("FILE|none|default")
+        ->group(group);
+    command
+        .add_option("--texture-filter", words.texture_filter,
+                    "How textures that are finer than the picture are looked up: bilinear (the "
+                    "default), as they are; or mip, in smaller copies, which is faster where they "
+                    "are large and blurs what mirrors and lenses magnify")
+        ->check(CLI::IsMember({"bilinear", "mip"}))
+        ->type_name("bilinear|mip")
+        ->group(group);
+    add_lens_options(command, words.lens);
+}
+
+void add_seed_and_threads(CLI::App& command, RenderWords& words, const char* group)
+{
+    command.add_option("--seed", words.seed, "Another number gives other noise. 0 if not given")
+        ->type_name("N")
+        ->group(group);
+    command
+        .add_option("--threads", words.threads,
+                    "Threads to use; the picture does not depend on it. All if not given")
+        ->check(CLI::Range(0, 4096))
+        ->type_name("N")
+        ->group(group);
+}
+
+void add_render_options(CLI::App& command, RenderWords& words)
+{
+    command.add_option("file", words.file, "The scene: .gltf or .glb")
+        ->required()
+        ->type_name("FILE");
+    add_output(command, words);
+    add_how(command, words);
+    add_transport_options(command, words.transport);
+    add_film_options(command, words.film);
+    add_view_options(command, words);
+    command.footer(footer);
+}
+
+RenderArguments understand(const RenderWords& words)
+{
+    RenderArguments result;
+    result.file = words.file;
+    result.outputs.assign(words.outputs.begin(), words.outputs.end());
+    result.goal = to_goal(words);
+    if (words.size) {
+        result.size = parse_size(*words.size);
+        if (!result.size) {
+            reject("--size", *words.size, "WIDTHxHEIGHT from 1x1 to 65535x65535");
+        }
+    }
+    result.options.sampler =
+        words.sampler == "independent" ? SamplerKind::independent : SamplerKind::sobol;
+    result.options.threads = words.threads;
+    result.isa = to_isa(words.isa);
+    result.options.seed = to_seed(words.seed);
+    result.options = with_transport(words.transport, result.options);
+    result.options = with_film(words.film, result.options);
+    if (!result.options.aovs.empty() && !writes_exr(result.outputs)) {
+        reject("--aov", *words.film.aovs, "an .exr file among the outputs to hold the layers");
+    }
+    result.camera = words.camera;
+    result.view = to_view(words);
+    check_lens(words.lens);
+    result.lens = words.lens;
+    result.scene = to_gltf_options(words.scene);
+    result.environment = words.environment;
+    result.texture_filter =
+        words.texture_filter == "mip" ? TextureFilter::mip_mapped : TextureFilter::bilinear;
+    result.exposure = to_exposure(words.exposure);
+    result.channel_type =
+        words.half ? io::ExrChannelType::half_float : io::ExrChannelType::single_float;
+    result.storage = words.tiled ? io::ExrStorage::tiles : io::ExrStorage::scanlines;
+    result.stats = words.stats;
+    result.profiling = words.profile ? Profiling::on : Profiling::off;
+    result.strategies = strategy_files(words.strategies, result.options);
+    result.format = words.json ? Format::json : Format::text;
+    result.verbosity = words.quiet ? Verbosity::quiet : Verbosity::normal;
+    return result;
+}
+
+}  // namespace bdpt::app

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <bdpt/io/exr.h>
+#include <bdpt/io/gltf.h>
+#include <bdpt/isa.h>
+#include <bdpt/render.h>
+#include <bdpt/render_options.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "options/arguments.h"
+#include "options/film_arguments.h"
+#include "options/lens_arguments.h"
+#include "options/scene_arguments.h"
+#include "options/strategy_arguments.h"
+#include "options/transport_arguments.h"
+#include "options/view.h"
+#include "terminal/console.h"
+
+namespace CLI {
+class App;
+}
+
+namespace bdpt::app {
+
+/// What the words after `bdpt render` say, as they were given.
+struct RenderWords {
+    std::string file;
+    std::vector<std::string> outputs;
+    std::optional<std::int64_t> samples;
+    std::optional<std::string> time;
+    std::optional<std::string> size;
+    TransportWords transport;
+    std::string sampler = "sobol";
+    std::optional<std::string> camera;
+    std::optional<std::string> look_at;
+    std::optional<std::string> from;
+    std::optional<double> fov;  // [deg]
+    LensWords lens;
+    SceneWords scene;
+    std::optional<std::string> environment;
+    std::string texture_filter = "bilinear";
+    std::optional<double> exposure;  // [EV]
+    int threads = 0;
+    std::string isa = "native";
+    FilmWords film;
+    std::optional<std::string> stats;
+    bool profile = false;
+    StrategyWords strategies;
+    bool tiled = false;
+    std::string seed = "0";
+    bool half = false;
+    bool single = false;
+    bool quiet = false;
+    bool json = false;
+};
+
+/// The same, understood and checked.
+struct RenderArguments {
+    std::filesystem::path file;
+    std::vector<std::filesystem::path> outputs;
+    Goal goal;
+    std::optional<Size> size;
+    RenderOptions options;              ///< without size and sample range
+    std::optional<std::string> camera;  ///< name, index or "auto"
+    ViewOverrides view;
+    LensWords lens;  ///< checked
+    Isa isa = Isa::native;
+    io::GltfOptions scene;                   ///< what of the file is rendered
+    std::optional<std::string> environment;  ///< file, "none" or "default"
+    TextureFilter texture_filter = TextureFilter::bilinear;
+    std::optional<float> exposure;  ///< [EV]
+    io::ExrChannelType channel_type = io::ExrChannelType::single_float;
+    io::ExrStorage storage = io::ExrStorage::scanlines;
+    std::optional<std::filesystem::path> stats;  ///< where numbers about the render go
+    Profiling profiling = Profiling::off;
+    std::optional<StrategyFiles> strategies;  ///< where images of strategies go
+    Format format = Format::text;
+    Verbosity verbosity = Verbosity::normal;
+};
+
+/// Describes the options of `bdpt render` to the parser, which will store into `words`.
+void add_render_options(CLI::App& command, RenderWords& words);
+
+/// Of these, those that say what to render and through which lens: for other commands, too.
+void add_view_options(CLI::App& command, RenderWords& words);
+/// --seed and --threads.
+void add_seed_and_threads(CLI::App& command, RenderWords& words, const char* group);
+
+/// Throws `Error` (usage) that names the option and the value.
+[[nodiscard]] RenderArguments understand(const RenderWords& words);
+
+}  // namespace bdpt::app

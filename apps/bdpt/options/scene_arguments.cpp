@@ -1,0 +1,92 @@
+#include "options/scene_arguments.h"
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdint>
+#include <string_view>
+
+#include "options/arguments.h"
+
+namespace bdpt::app {
+namespace {
+
+std::optional<io::Shutter> parse_shutter(std::string_view text)
+{
+    const std::size_t comma = text.find(',');
+    const bool pair = comma != std::string_view::npos;
+    const std::optional<double> open = pair ? parse_double(text.substr(0, comma)) : 0.0;
+    const std::optional<double> close = parse_double(pair ? text.substr(comma + 1) : text);
+    if (!open || !close || *close < *open) {
+        return std::nullopt;
+    }
+    return io::Shutter{*open, *close};
+}
+
+}  // namespace
+
+void add_scene_options(CLI::App& command, SceneWords& words, const std::string& group)
+{
+    command.add_option("--scene", words.scene, "Scene of the file; the default one if not given")
+        ->type_name("NAME|INDEX")
+        ->group(group);
+    command
+        .add_option("--variant", words.variant,
+                    "Variant of the materials; those of the meshes if not given")
+        ->type_name("NAME|INDEX")
+        ->group(group);
+    command
+        .add_option("--frame-time", words.frame_time,
+                    "Moment of the animation to show, in its seconds. Nothing is animated if "
+                    "neither this nor --animation is given")
+        ->type_name("SECONDS")
+        ->group(group);
+    command
+        .add_option("--animation", words.animation,
+                    "Animation that --frame-time is about, or all. The first one if not given")
+        ->type_name("NAME|INDEX|all")
+        ->group(group);
+    command
+        .add_option("--shutter", words.shutter,
+                    "How long the shutter is open from the --frame-time on, in seconds, for motion "
+                    "blur; or from when to when, counted from that time. A pixel is the mean over "
+                    "it")
+        ->type_name("SECONDS|OPEN,CLOSE")
+        ->group(group);
+    command
+        .add_option("--max-memory", words.max_memory,
+                    "Refuse scenes that need more memory, like 500M or 2G, before they take it; "
+                    "bdpt info --limits tells the limits if not given")
+        ->type_name("SIZE")
+        ->group(group);
+}
+
+io::GltfOptions to_gltf_options(const SceneWords& words)
+{
+    if (words.frame_time && !std::isfinite(*words.frame_time)) {
+        reject("--frame-time", fmt::format("{}", *words.frame_time), "a finite number of seconds");
+    }
+    io::GltfOptions options;
+    options.scene = words.scene;
+    options.variant = words.variant;
+    options.animation = words.animation;
+    options.time = words.frame_time;
+    if (words.shutter) {
+        options.shutter = parse_shutter(*words.shutter);
+        if (!options.shutter) {
+            reject("--shutter", *words.shutter,
+                   "seconds that are not negative, or OPEN,CLOSE with OPEN not after CLOSE");
+        }
+    }
+    if (words.max_memory) {
+        const std::optional<std::uint64_t> bytes = parse_bytes(*words.max_memory);
+        if (!bytes) {
+            reject("--max-memory", *words.max_memory, "a size like 500M or 2G");
+        }
+        options.limits = io::limits_within(*bytes);
+    }
+    return options;
+}
+
+}  // namespace bdpt::app

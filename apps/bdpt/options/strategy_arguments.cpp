@@ -1,0 +1,64 @@
+#include "options/strategy_arguments.h"
+
+#include <bdpt/eval/bench/option_names.h>
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+
+#include "options/arguments.h"
+#include "options/output_files.h"
+
+namespace bdpt::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int greatest_depth = 100;  // beyond, nobody could look at the sheet
+
+}  // namespace
+
+void add_strategy_options(CLI::App& command, StrategyWords& words)
+{
+    const auto group = "Output";
+    command
+        .add_option("--strategies", words.file,
+                    "Write images of all strategies (bdpt, lt) to this .exr: layers like s02t03, "
+                    "the share that it has in the picture, and s02t03.unweighted, what it finds by "
+                    "itself; and beside it a .png with all of them")
+        ->type_name("FILE")
+        ->group(group);
+    command
+        .add_option("--strategy-depth", words.depth,
+                    fmt::format("Longest paths in edges that --strategies shows. {} if not given, "
+                                "or what 4 GB of memory are enough for",
+                                default_strategy_depth))
+        ->check(CLI::Range(1, greatest_depth))
+        ->type_name("N")
+        ->group(group);
+}
+
+std::optional<StrategyFiles> strategy_files(const StrategyWords& words,
+                                            const RenderOptions& options)
+{
+    if (!words.file) {
+        if (words.depth) {
+            reject("--strategy-depth", fmt::format("{}", *words.depth),
+                   "--strategies FILE.exr with it");
+        }
+        return std::nullopt;
+    }
+    const fs::path file = *words.file;
+    if (!has_extension(file, ".exr")) {
+        reject("--strategies", *words.file, "a file that is named .exr");
+    }
+    if (options.integrator != IntegratorKind::bdpt && options.integrator != IntegratorKind::lt) {
+        reject("--strategies", *words.file,
+               fmt::format("--integrator bdpt or lt with it, not {}",
+                           eval::to_string(options.integrator))
+                   .c_str());
+    }
+    return StrategyFiles{
+        .layers = file, .sheet = fs::path(file).replace_extension(".png"), .depth = words.depth};
+}
+
+}  // namespace bdpt::app

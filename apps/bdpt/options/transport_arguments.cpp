@@ -1,0 +1,267 @@
+#include "options/transport_arguments.h"
+
+#include <bdpt/eval/bench/option_names.h>
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "options/arguments.h"
+
+namespace bdpt::app {
+namespace {
+
+constexpr int longest_path = 1000;  // [edges]
+
+constexpr std::array<std::pair<const char*, EnvironmentSampling>, 2> environment_samplings{
+    {{"plain", EnvironmentSampling::plain}, {"compensated", EnvironmentSampling::compensated}}};
+
+constexpr std::array<std::pair<const char*, LightSampling>, 3> light_samplings{
+    {{"auto", LightSampling::automatic},
+     {"power", LightSampling::power},
+     {"tree", LightSampling::tree}}};
+
+/// The value beside `name`, which the parser has found in the table.
+template <typename Table>
+auto value_of(const Table& table, const std::string& name)
+{
+    return std::find_if(table.begin(), table.end(),
+                        [&](const auto& entry) { return entry.first == name; })
+        ->second;
+}
+
+template <typename Table, typename Value>
+const char* name_of(const Table& table, Value value)
+{
+    return std::find_if(table.begin(), table.end(),
+                        [&](const auto& entry) { return entry.second == value; })
+        ->first;
+}
+
+template <typename Values>
+std::vector<std::string> all_names(const Values& values)
+{
+    std::vector<std::string> names;
+    for (const auto value : values) {
+        names.emplace_back(eval::to_string(value));
+    }
+    return names;
+}
+
+template <typename Table>
+std::vector<std::string> names_of(const Table& table)
+{
+    std::vector<std::string> names;
+    for (const auto& entry : table) {
+        names.emplace_back(entry.first);
+    }
+    return names;
+}
+
+/// "s2t1".
+std::optional<Strategy> parse_strategy(std::string_view text)
+{
+    constexpr std::size_t most_vertices = longest_path + 1;
+    const std::size_t middle = text.find('t');
+    if (!text.starts_with('s') || middle == std::string_view::npos) {
+        return std::nullopt;
+    }
+    const auto s = parse_index(text.substr(1, middle - 1));
+    const auto t = parse_index(text.substr(middle + 1));
+    if (!s || !t || *s > most_vertices || *t > most_vertices || *s + *t < 2) {
+        return std::nullopt;
+    }
+    return Strategy{static_cast<int>(*s), static_cast<int>(*t)};
+}
+
+/// Options that only subpaths from both sides can heed.
+void check_bidirectional(const TransportWords& words)
+{
+    if (words.integrator == "bdpt" || words.integrator == "lt") {
+        return;
+    }
+    const auto check = [&](const char* option, const std::optional<std::string>& value) {
+        if (value) {
+            reject(
+                option, *value,
+                fmt::format("--integrator bdpt or lt with it, not {}", words.integrator).c_str());
+        }
+    };
+    const auto text = [](const std::optional<int>& value) {
+        return value ? std::optional(fmt::format("{}", *value)) : std::nullopt;
+    };
+    check("--max-camera-depth", text(words.max_camera_depth));
+    check("--max-light-depth", text(words.max_light_depth));
+    check("--light-paths", text(words.light_paths));
+    check("--disable", words.disabled);
+}
+
+/// Paths with one bounce and less are direct light, all others indirect.
+void choose_light(const std::string& which, RenderOptions& options)
+{
+    constexpr int longest_direct = 2;
+    if (which == "direct") {
+        options.max_depth = std::min(options.max_depth, longest_direct);
+        return;
+    }
+    if (options.max_depth <= longest_direct) {
+        reject("--only", which, "--max-depth 3 or more, where indirect light begins");
+    }
+    options.min_depth = longest_direct + 1;
+}
+
+void add_limits(CLI::App& command, TransportWords& words, const char* group)
+{
+    command
+        .add_option(
+            "--max-depth", words.max_depth,
+            fmt::format(
+                "Longest path in edges: 1 sees lights only, 2 adds direct light. {} if not given",
+                words.max_depth))
+        ->check(CLI::Range(1, longest_path))
+        ->type_name("N")
+        ->group(group);
+    command
+        .add_option("--only", words.only,
+                    "direct: lights and what they light, paths of one or two edges; indirect: the "
+                    "rest, up to --max-depth. Their sum is the whole picture")
+        ->check(CLI::IsMember({"direct", "indirect"}))
+        ->type_name("direct|indirect")
+        ->group(group);
+    command
+        .add_option("--max-camera-depth", words.max_camera_depth,
+                    "Longest part of a path that starts at the camera, in edges (bdpt, lt)")
+        ->check(CLI::Range(0, longest_path))
+        ->type_name("N")
+        ->group(group);
+    command
+        .add_option("--max-light-depth", words.max_light_depth,
+                    "Longest part of a path that starts at a light, in edges (bdpt, lt)")
+        ->check(CLI::Range(0, longest_path))
+        ->type_name("N")
+        ->group(group);
+    command
+        .add_option("--rr-start", words.rr_start,
+                    "Russian roulette may end subpaths after this many edges; 3 if not given")
+        ->check(CLI::Range(1, longest_path))
+        ->type_name("N")
+        ->group(group);
+}
+
+}  // namespace
+
+std::optional<std::vector<Strategy>> parse_strategies(std::string_view text)
+{
+    std::vector<Strategy> result;
+    for (;;) {
+        const std::size_t comma = text.find(',');
+        const std::optional<Strategy> strategy = parse_strategy(text.substr(0, comma));
+        if (!strategy) {
+            return std::nullopt;
+        }
+        result.push_back(*strategy);
+        if (comma == std::string_view::npos) {
+            return result;
+        }
+        text.remove_prefix(comma + 1);
+    }
+}
+
+void add_transport_options(CLI::App& command, TransportWords& words)
+{
+    const auto group = "How to render";
+    constexpr int most_light_paths = 4096;
+    const auto add_choice = [&](const char* name, std::string& value,
+                                const std::vector<std::string>& values, const char* help) {
+        command.add_option(name, value, help)
+            ->check(CLI::IsMember(values))
+            ->type_name(fmt::format("{}", fmt::join(values, "|")))
+            ->group(group);
+    };
+    add_choice("--integrator", words.integrator, all_names(eval::all_integrators),
+               "bdpt (the default): bidirectional path tracing; mis: path tracing with light and "
+               "BSDF sampling; pt: with BSDF sampling only; nee: with light sampling only; lt: "
+               "light tracing");
+    add_choice("--heuristic", words.heuristic, all_names(eval::all_heuristics),
+               "How strategies share a path: power (the default), balance, cutoff, maximum, or "
+               "uniform, for tests");
+    add_choice("--env-sampling", words.environment_sampling, names_of(environment_samplings),
+               "How light sampling chooses where an environment is: compensated (the default) "
+               "leaves even light to BSDF sampling, plain does not");
+    add_choice(
+        "--light-sampling", words.light_sampling, names_of(light_samplings),
+        "How light sampling chooses one of many lights: by their power; with a tree, by what "
+        "each may bring to a point; or auto (the default): with a tree where there are many "
+        "lights");
+    add_limits(command, words, group);
+    command
+        .add_option("--light-paths", words.light_paths,
+                    "Light paths for each camera path (bdpt, lt). 1 if not given")
+        ->check(CLI::Range(1, most_light_paths))
+        ->type_name("N")
+        ->group(group);
+    command
+        .add_option("--disable", words.disabled,
+                    "Leave these strategies out (bdpt, lt): s vertices from the light and t from "
+                    "the camera, like s2t1,s0t3. What no other strategy can make gets lost")
+        ->type_name("LIST")
+        ->group(group);
+}
+
+RenderOptions with_transport(const TransportWords& words, RenderOptions options)
+{
+    check_bidirectional(words);
+    options.integrator = eval::parse_integrator(words.integrator).value();
+    options.heuristic = eval::parse_heuristic(words.heuristic).value();
+    options.environment_sampling = value_of(environment_samplings, words.environment_sampling);
+    options.light_sampling = value_of(light_samplings, words.light_sampling);
+    options.max_depth = words.max_depth;
+    if (words.only) {
+        choose_light(*words.only, options);
+    }
+    options.max_camera_depth = words.max_camera_depth.value_or(options.max_camera_depth);
+    options.max_light_depth = words.max_light_depth.value_or(options.max_light_depth);
+    options.light_paths = words.light_paths.value_or(options.light_paths);
+    options.rr_start = words.rr_start.value_or(options.rr_start);
+    if (words.disabled) {
+        std::optional<std::vector<Strategy>> strategies = parse_strategies(*words.disabled);
+        if (!strategies) {
+            reject("--disable", *words.disabled,
+                   "strategies sStT of at least two vertices, with commas between, like s2t1,s0t3");
+        }
+        options.disabled = std::move(*strategies);
+    }
+    return options;
+}
+
+nlohmann::ordered_json transport_json(const RenderOptions& options)
+{
+    constexpr int unlimited = std::numeric_limits<int>::max();
+    nlohmann::ordered_json result{
+        {"integrator", eval::to_string(options.integrator)},
+        {"heuristic", eval::to_string(options.heuristic)},
+        {"environment_sampling", name_of(environment_samplings, options.environment_sampling)},
+        {"light_sampling", name_of(light_samplings, options.light_sampling)},
+        {"max_depth", options.max_depth},
+        {"min_depth", options.min_depth},
+        {"light_paths", options.light_paths},
+        {"rr_start", options.rr_start}};
+    const auto add = [&](const char* name, int limit) {
+        if (limit != unlimited) {
+            result[name] = limit;
+        }
+    };
+    add("max_camera_depth", options.max_camera_depth);
+    add("max_light_depth", options.max_light_depth);
+    for (const Strategy& strategy : options.disabled) {
+        result["disabled"].push_back(fmt::format("s{}t{}", strategy.s, strategy.t));
+    }
+    return result;
+}
+
+}  // namespace bdpt::app

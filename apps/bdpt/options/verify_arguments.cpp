@@ -1,0 +1,122 @@
+#include "options/verify_arguments.h"
+
+#include <bdpt/error.h>
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "options/arguments.h"
+
+namespace bdpt::app {
+namespace {
+
+constexpr const char* footer = R"(Examples:
+  bdpt verify scene.gltf
+  bdpt verify room.glb --from 0,1.6,2 --look-at 0,1,0 --time 10m
+  bdpt verify scene.gltf --size 64x64 --max-depth 8 --json
+
+Renders the scene by pt, nee, mis, lt, bdpt and every strategy of bdpt, at low resolution with many
+independent samples, and tests whether they agree: for each length of paths, in the whole picture and
+in tiles. docs/verify.md tells how, and what the numbers mean.
+
+Exit codes: 0 pass, 10 fail: something disagrees, 11 inconclusive: nothing disagrees, but the noise
+could hide it (give it more --time); 1 internal error, 2 wrong usage, 3 input not found, 4 invalid
+input, 5 unsupported feature, 6 output cannot be written, 7 out of memory, 130 stopped by SIGINT, 143
+stopped by SIGTERM.)";
+
+[[noreturn]] void refuse(const char* option, const std::string& value, const char* expected)
+{
+    throw Error(ErrorCode::usage, fmt::format("{} \"{}\": expected {}; see \"bdpt verify --help\"",
+                                              option, value, expected));
+}
+
+/// Percent to a fraction.
+double to_fraction(const char* option, double percent, double most)
+{
+    if (!(percent > 0.0 && percent <= most)) {
+        refuse(option, fmt::format("{}", percent),
+               fmt::format("more than 0 and at most {:g} percent", most).c_str());
+    }
+    return percent / 100.0;
+}
+
+void add_how(CLI::App& command, VerifyWords& words)
+{
+    const auto group = "How to verify";
+    command
+        .add_option("--time", words.render.time,
+                    "Render for at most this long, like 90s, 2m or 1.5h; less if that suffices. 2m "
+                    "if not given")
+        ->type_name("TIME")
+        ->group(group);
+    command.add_option("--size", words.render.size, "Size of the renders. 32x32 if not given")
+        ->type_name("WxH")
+        ->group(group);
+    command
+        .add_option("--max-depth", words.max_depth,
+                    "Longest paths that are tested, in edges. 5 if not given")
+        ->check(CLI::Range(1, 64))
+        ->type_name("N")
+        ->group(group);
+    command
+        .add_option("--grid", words.grid, "Tiles along each side of the picture. 4 if not given")
+        ->check(CLI::Range(1, 64))
+        ->type_name("N")
+        ->group(group);
+    command
+        .add_option("--bias", words.bias,
+                    "Change of the picture's mean by the error of a strategy that must not escape "
+                    "[%]. 1 if not given")
+        ->type_name("PERCENT")
+        ->group(group);
+    command
+        .add_option("--false-alarm", words.false_alarm,
+                    "Chance that a renderer without fault fails [%]. 0.1 if not given")
+        ->type_name("PERCENT")
+        ->group(group);
+    add_seed_and_threads(command, words.render, group);
+}
+
+}  // namespace
+
+void add_verify_options(CLI::App& command, VerifyWords& words)
+{
+    command.add_option("file", words.render.file, "The scene: .gltf or .glb")
+        ->required()
+        ->type_name("FILE");
+    add_how(command, words);
+    add_view_options(command, words.render);
+    const auto group = "Output";
+    command.add_flag("--json", words.render.json, "One JSON object on stdout instead of text")
+        ->group(group);
+    command.add_flag("-q,--quiet", words.render.quiet, "Print nothing but errors")->group(group);
+    command.footer(footer);
+}
+
+VerifyArguments understand(const VerifyWords& words)
+{
+    constexpr int widest = 4096;
+    VerifyArguments result{.stage = understand(words.render), .options = {}};
+    eval::VerifyOptions& options = result.options;
+    if (const std::optional<Size>& size = result.stage.size) {
+        if (std::max(size->width, size->height) > widest) {
+            refuse("--size", *words.render.size, "WIDTHxHEIGHT from 1x1 to 4096x4096");
+        }
+        options.width = size->width;
+        options.height = size->height;
+    }
+    result.stage.size = Size{.width = options.width, .height = options.height};
+    options.grid = std::min({words.grid, options.width, options.height});
+    options.max_depth = words.max_depth;
+    options.detectable_bias = to_fraction("--bias", words.bias, 100.0);
+    options.false_alarm = to_fraction("--false-alarm", words.false_alarm, 50.0);
+    if (words.render.time) {
+        options.seconds = result.stage.goal.seconds;
+    }
+    options.seed = result.stage.options.seed;
+    options.threads = result.stage.options.threads;
+    return result;
+}
+
+}  // namespace bdpt::app

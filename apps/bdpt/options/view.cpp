@@ -1,0 +1,107 @@
+#include "options/view.h"
+
+#include <bdpt/error.h>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace bdpt::app {
+namespace {
+
+std::string list_cameras(std::span<const CameraDesc> cameras)
+{
+    constexpr std::size_t longest_list = 8;
+    std::string result;
+    for (std::size_t i = 0; i < std::min(cameras.size(), longest_list); ++i) {
+        result += fmt::format("{}{} \"{}\"", i == 0 ? "" : ", ", i, cameras[i].name);
+    }
+    return result + (cameras.size() > longest_list ? ", ..." : "");
+}
+
+/// Camera axes that look from `eye` to `target`, upright where that is defined.
+Mat4 look_at(Vec3 eye, Vec3 target)
+{
+    // Nearer to the vertical than this, +y is no longer up in the picture; -z is then.
+    constexpr float vertical = 0.9999f;
+    const Vec3 forward = glm::normalize(target - eye);
+    const Vec3 up =
+        std::abs(forward.y) < vertical ? Vec3(0.0f, 1.0f, 0.0f) : Vec3(0.0f, 0.0f, -1.0f);
+    const Vec3 right = glm::normalize(glm::cross(forward, up));
+    return Mat4(Vec4(right, 0.0f), Vec4(glm::cross(right, forward), 0.0f), Vec4(-forward, 0.0f),
+                Vec4(eye, 1.0f));
+}
+
+}  // namespace
+
+const CameraDesc& select_camera(std::span<const CameraDesc> cameras,
+                                const std::string& name_or_index, const std::string& file)
+{
+    const auto named = std::find_if(cameras.begin(), cameras.end(), [&](const CameraDesc& camera) {
+        return camera.name == name_or_index;
+    });
+    if (named != cameras.end()) {
+        return *named;
+    }
+    const std::optional<std::size_t> index = parse_index(name_or_index);
+    if (index && *index < cameras.size()) {
+        return cameras[*index];
+    }
+    const std::string what = fmt::format("{}: no camera \"{}\"", file, name_or_index);
+    throw Error(ErrorCode::not_found,
+                cameras.empty()
+                    ? fmt::format("{}; the scene has none (--camera auto frames it)", what)
+                    : fmt::format("{}; there are {}", what, list_cameras(cameras)));
+}
+
+CameraDesc apply(const ViewOverrides& overrides, const CameraDesc& camera,
+                 const std::optional<Vec3>& target)
+{
+    if (overrides.vertical_fov && camera.projection == Projection::orthographic) {
+        throw Error(ErrorCode::usage,
+                    fmt::format("camera {} is orthographic and has no field of view: --fov needs "
+                                "another",
+                                camera.name));
+    }
+    CameraDesc result = camera;
+    result.vertical_fov = overrides.vertical_fov.value_or(camera.vertical_fov);
+    if (!overrides.from && !overrides.look_at) {
+        return result;
+    }
+    result.motion.clear();  // The user says where it is.
+    const Vec3 eye = overrides.from.value_or(Vec3(camera.world_from_camera[3]));
+    const std::optional<Vec3> goal = overrides.look_at ? overrides.look_at : target;
+    if (!goal) {
+        result.world_from_camera[3] = Vec4(eye, 1.0f);
+        return result;
+    }
+    const Vec3 forward = *goal - eye;
+    if (!(glm::dot(forward, forward) > 0.0f)) {
+        throw Error(ErrorCode::usage,
+                    fmt::format("the camera at {},{},{} cannot look at where it stands; give other "
+                                "values to --from and --look-at",
+                                eye.x, eye.y, eye.z));
+    }
+    result.world_from_camera = look_at(eye, *goal);
+    return result;
+}
+
+Size default_size(const std::optional<float>& aspect_ratio)
+{
+    constexpr Size box{1280, 720};
+    constexpr float box_aspect = 1280.0f / 720.0f;
+    const float aspect = aspect_ratio.value_or(box_aspect);
+    if (!(aspect > 0.0f) || !std::isfinite(aspect)) {
+        return box;
+    }
+    // Clamped before the conversion: a ratio of 1e30 has no int.
+    if (aspect >= box_aspect) {
+        const float height = std::max(1.0f, std::round(static_cast<float>(box.width) / aspect));
+        return {box.width, static_cast<int>(height)};
+    }
+    const float width = std::max(1.0f, std::round(static_cast<float>(box.height) * aspect));
+    return {static_cast<int>(width), box.height};
+}
+
+}  // namespace bdpt::app

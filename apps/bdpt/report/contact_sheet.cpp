@@ -1,0 +1,144 @@
+#include "report/contact_sheet.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "report/pixel_font.h"
+
+namespace bdpt::app {
+namespace {
+
+constexpr int longest_side = 160;  // of a picture on the sheet [pixels]
+constexpr int gap = 4;             // between cells [pixels]
+constexpr std::uint8_t background = 40;
+
+/// Measures of all cells.
+struct CellShape {
+    int shrink_factor;
+    int dot;  // of labels
+    Size cell;
+    [[nodiscard]] int label_height() const { return (glyph_height + 4) * dot; }
+};
+
+std::string label(Strategy strategy)
+{
+    return fmt::format("s{} t{}", strategy.s, strategy.t);
+}
+
+CellShape shape_of(const StrategyFilm& film)
+{
+    const int width = film.region().width();
+    const int height = film.region().height();
+    const int factor = (std::max(width, height) + longest_side - 1) / longest_side;
+    const int shown_width = (width + factor - 1) / factor;
+    const int shown_height = (height + factor - 1) / factor;
+    std::size_t letters = 0;
+    for (const Strategy& strategy : film.strategies()) {
+        letters = std::max(letters, label(strategy).size());
+    }
+    const int label_width = glyph_advance * static_cast<int>(letters);
+    CellShape shape{factor, shown_width >= 2 * label_width ? 2 : 1, {}};
+    shape.cell = {.width = std::max(shown_width, label_width * shape.dot) + gap,
+                  .height = shown_height + shape.label_height() + gap};
+    return shape;
+}
+
+void paste(io::DisplayImage& sheet, const io::DisplayImage& picture, SheetPlace place)
+{
+    for (int y = 0; y < picture.height; ++y) {
+        const auto from = picture.rgb.begin() + std::ptrdiff_t{3} * picture.width * y;
+        std::copy_n(
+            from, std::ptrdiff_t{3} * picture.width,
+            sheet.rgb.begin() + 3 * (std::ptrdiff_t{sheet.width} * (place.y + y) + place.x));
+    }
+}
+
+}  // namespace
+
+PyramidLayout::PyramidLayout(std::span<const Strategy> strategies, Size cell)
+    : cell_(cell),
+      leftmost_(strategies.front().s - strategies.front().t),
+      shortest_(strategies.front().s + strategies.front().t)
+{
+    int rightmost = leftmost_;
+    int longest = shortest_;
+    for (const auto [s, t] : strategies) {
+        leftmost_ = std::min(leftmost_, s - t);
+        rightmost = std::max(rightmost, s - t);
+        shortest_ = std::min(shortest_, s + t);
+        longest = std::max(longest, s + t);
+    }
+    size_ = {.width = (rightmost - leftmost_) * cell.width / 2 + cell.width,
+             .height = (longest - shortest_ + 1) * cell.height};
+}
+
+SheetPlace PyramidLayout::place(Strategy strategy) const
+{
+    return {.x = (strategy.s - strategy.t - leftmost_) * cell_.width / 2,
+            .y = (strategy.s + strategy.t - shortest_) * cell_.height};
+}
+
+float extra_exposure(Strategy strategy)
+{
+    return static_cast<float>(strategy.s + strategy.t - 2);
+}
+
+Image shrink(const Image& image, int factor)
+{
+    Image result{(image.width + factor - 1) / factor, (image.height + factor - 1) / factor, {}};
+    for (int y = 0; y < image.height; y += factor) {
+        for (int x = 0; x < image.width; x += factor) {
+            const int x_end = std::min(x + factor, image.width);
+            const int y_end = std::min(y + factor, image.height);
+            Rgb sum(0.0f);
+            for (int row = y; row < y_end; ++row) {
+                for (int column = x; column < x_end; ++column) {
+                    sum += image.at(column, row);
+                }
+            }
+            result.pixels.push_back(sum / static_cast<float>((x_end - x) * (y_end - y)));
+        }
+    }
+    return result;
+}
+
+io::DisplayImage contact_sheet(const StrategyFilm& film, float exposure)
+{
+    const CellShape shape = shape_of(film);
+    const PyramidLayout layout(film.strategies(), shape.cell);
+    constexpr std::string_view titles[]{"weighted, +1 stop a row", "unweighted, +1 stop a row"};
+    const int title_width = glyph_advance * shape.dot * static_cast<int>(titles[1].size());
+    const int title_height = shape.label_height() + gap;
+    const int group_height = title_height + layout.size().height;
+    io::DisplayImage sheet{
+        std::max(layout.size().width, title_width) + gap, 2 * group_height + gap, {}};
+    sheet.rgb.assign(std::size_t{3} * static_cast<std::size_t>(sheet.width) *
+                         static_cast<std::size_t>(sheet.height),
+                     background);
+    for (int group = 0; group < 2; ++group) {
+        const int top = gap + group * group_height;
+        sheet = with_text(std::move(sheet), titles[group],
+                          {.x = gap, .y = top + 2 * shape.dot, .dot = shape.dot});
+        for (const Strategy& strategy : film.strategies()) {
+            const SheetPlace place = layout.place(strategy);
+            const int x = gap + place.x;
+            const int y = top + title_height + place.y;
+            sheet = with_text(std::move(sheet), label(strategy),
+                              {.x = x, .y = y + 2 * shape.dot, .dot = shape.dot});
+            const Image image = group == 0 ? film.weighted(strategy) : film.unweighted(strategy);
+            paste(sheet,
+                  io::tone_map(shrink(image, shape.shrink_factor),
+                               exposure + extra_exposure(strategy)),
+                  {.x = x, .y = y + shape.label_height()});
+        }
+    }
+    return sheet;
+}
+
+}  // namespace bdpt::app

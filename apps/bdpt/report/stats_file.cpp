@@ -1,0 +1,126 @@
+#include "report/stats_file.h"
+
+#include <bdpt/error.h>
+#include <bdpt/io/output_file.h>
+#include <fmt/core.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+
+#include "options/output_files.h"
+
+namespace bdpt::app {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+ordered_json rays_json(const RayCounts& rays, double seconds)
+{
+    ordered_json result{{"camera", rays.camera},
+                        {"light", rays.light},
+                        {"shadow", rays.shadow},
+                        {"aov", rays.aov},
+                        {"total", rays.total()}};
+    result["per_second"] =
+        seconds > 0.0 ? ordered_json(static_cast<double>(rays.total()) / seconds) : ordered_json();
+    return result;
+}
+
+ordered_json defects_json(const FilmDefects& defects)
+{
+    ordered_json result{{"invalid", defects.invalid}, {"saturated", defects.saturated}};
+    result["first_invalid"] = nullptr;
+    if (const auto& place = defects.first_invalid) {
+        result["first_invalid"] = {
+            {"x", place->x}, {"y", place->y}, {"sample", place->sample_index}};
+    }
+    return result;
+}
+
+ordered_json clamp_json(const Film& film)
+{
+    if (film.layout().clamp == std::numeric_limits<float>::infinity()) {
+        return nullptr;
+    }
+    const ClampLoss loss = film.clamp_loss();
+    return {{"limit", film.layout().clamp},
+            {"contributions", loss.contributions},
+            {"radiance_taken", {loss.radiance.r, loss.radiance.g, loss.radiance.b}}};
+}
+
+}  // namespace
+
+void check_stats_file(const fs::path& file, std::span<const fs::path> others)
+{
+    for (const fs::path& other : others) {
+        if (same_file(file, other)) {
+            throw Error(ErrorCode::usage,
+                        fmt::format("--stats \"{}\": the same file is an input or another output",
+                                    file.string()));
+        }
+    }
+    io::check_writable(file);
+}
+
+ordered_json profile_json(const TimeProfile& profile)
+{
+    ordered_json shares = ordered_json::object();
+    for (const Phase phase : all_phases) {
+        shares[to_string(phase)] = profile.share(phase);
+    }
+    return {{"seconds", profile.total()},
+            {"shares", std::move(shares)},
+            {"samples", profile.samples},
+            {"clocked_samples", profile.clocked_samples},
+            {"clock_seconds", profile.clock_seconds},
+            {"distortion", profile.distortion}};
+}
+
+std::string profile_text(const TimeProfile& profile)
+{
+    if (profile.clocked_samples == 0) {
+        return "time of samples: too few to tell where it goes";
+    }
+    std::string text = fmt::format("time of a sample: {:.3g} us;",
+                                   1e6 * profile.total() / static_cast<double>(profile.samples));
+    const char* separator = " ";
+    for (const Phase phase : all_phases) {
+        text +=
+            fmt::format("{}{} {:.1f} %", separator, to_string(phase), 100.0 * profile.share(phase));
+        separator = ", ";
+    }
+    return text;
+}
+
+ordered_json stats_json(const RenderResult& result, const TimeSplit& time)
+{
+    const RenderStats& stats = result.stats;
+    ordered_json json{{"samples", result.film.sample_count()},
+                      {"seconds",
+                       {{"load", time.load},
+                        {"build", time.build},
+                        {"render", time.render},
+                        {"write", time.write}}},
+                      {"paths", {{"camera", stats.paths.camera}, {"light", stats.paths.light}}},
+                      {"rays", rays_json(stats.rays, time.render)},
+                      {"defects", defects_json(result.film.defects())},
+                      {"clamp", clamp_json(result.film)}};
+    if (result.profile) {
+        json["profile"] = profile_json(*result.profile);
+    }
+    return json;
+}
+
+void write_stats_file(const fs::path& file, const ordered_json& stats)
+{
+    const std::string text =
+        stats.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+    io::OutputFile output(file);
+    output.write(text);
+    output.commit();
+}
+
+}  // namespace bdpt::app

@@ -1,0 +1,221 @@
+#include "report/verify_text.h"
+
+#include <bdpt/eval/bench/option_names.h>
+#include <bdpt/eval/verify/verify_json.h>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace bdpt::app {
+namespace {
+
+using eval::IntegratorFinding;
+using eval::MeanComparison;
+using eval::StrategyFinding;
+using eval::VerifyReport;
+
+std::string percent(double fraction)
+{
+    return std::isfinite(fraction) ? fmt::format("{:.3g} %", 100.0 * fraction) : "-";
+}
+
+/// `part` of `all`.
+std::string percent(double part, double all)
+{
+    return all > 0.0 ? percent(part / all) : "-";
+}
+
+std::string rect_text(const PixelRect& rect)
+{
+    return fmt::format("{},{},{},{}", rect.x0, rect.y0, rect.x1, rect.y1);
+}
+
+std::string pictures_text(const VerifyReport& report)
+{
+    std::string result = fmt::format("{:<11}{:>12}{:>16}{:>10}\n", "integrator", "mean [nit]",
+                                     "standard error", "defects");
+    for (const eval::PictureFinding& picture : report.pictures) {
+        result += fmt::format("{:<11}{:>12.6g}{:>16.2g}{:>10}\n",
+                              eval::to_string(picture.integrator), picture.radiance, picture.error,
+                              picture.defects.invalid + picture.defects.saturated);
+    }
+    return result;
+}
+
+std::string lengths_text(const VerifyReport& report)
+{
+    std::string result = fmt::format("\n{:<8}{:>12}{:>12}{:>18}{:>16}\n", "edges", "of the light",
+                                     "error", "pt, nee, mis see", "lt sees");
+    for (const eval::LengthFinding& length : report.lengths) {
+        result += fmt::format("{:<8}{:>12}{:>12}{:>18}{:>16}\n", length.edges,
+                              percent(length.radiance, report.radiance),
+                              percent(length.error, length.radiance),
+                              percent(length.seen_from_camera), percent(length.seen_from_light));
+    }
+    return result;
+}
+
+std::string comparison_text(const MeanComparison& test)
+{
+    return fmt::format("{:>12}{:>12}{:>8.2f}{:>10.2g}",
+                       percent(test.found - test.expected, test.expected),
+                       percent(test.error, test.expected), test.z, test.p_adjusted);
+}
+
+constexpr const char* comparison_head = "  difference       error       z  p (Holm)";
+
+std::string strategies_text(const VerifyReport& report)
+{
+    std::string result = fmt::format("\n{:<10}{:>10}{:>12}{:>12}{}\n", "strategy", "brings",
+                                     "alone finds", "cannot see", comparison_head);
+    for (const StrategyFinding& finding : report.strategies) {
+        const auto [s, t] = finding.strategy;
+        if (finding.unweighted == 0.0 && finding.whole.expected == 0.0) {
+            continue;  // makes no paths here
+        }
+        const double all = report.lengths[static_cast<std::size_t>(s + t - 2)].radiance;
+        result += fmt::format("{:<10}{:>10}{:>12}{:>12}{}\n", fmt::format("s={} t={}", s, t),
+                              percent(finding.weighted, report.radiance),
+                              percent(finding.unweighted, all), percent(finding.blind),
+                              comparison_text(finding.whole));
+    }
+    return result;
+}
+
+std::string integrators_text(const VerifyReport& report)
+{
+    std::string result = fmt::format("\n{:<12}{:<8}{}\n", "against bdpt", "edges", comparison_head);
+    for (const IntegratorFinding& finding : report.integrators) {
+        if (finding.whole.found == 0.0 && finding.whole.expected == 0.0) {
+            continue;
+        }
+        result += fmt::format("{:<12}{:<8}{}\n", eval::to_string(finding.integrator), finding.edges,
+                              comparison_text(finding.whole));
+    }
+    return result;
+}
+
+void add_failures(const std::string& name, const MeanComparison& whole,
+                  const std::vector<MeanComparison>& tiles, const VerifyReport& report,
+                  std::vector<std::string>& lines)
+{
+    const auto line = [&](const std::string& where, const MeanComparison& test) {
+        return fmt::format("{}, {}: {:.6g} nit, but {:.6g} expected (z = {:.2f}, p = {:.2g})", name,
+                           where, test.found, test.expected, test.z, test.p_adjusted);
+    };
+    if (fails(whole, report)) {
+        lines.push_back(line("whole picture", whole));
+    }
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+        if (fails(tiles[i], report)) {
+            lines.push_back(line("tile " + rect_text(report.tiles[i]), tiles[i]));
+        }
+    }
+}
+
+std::vector<std::string> failures(const VerifyReport& report)
+{
+    std::vector<std::string> lines;
+    for (const eval::PictureFinding& picture : report.pictures) {
+        if (const auto& place = picture.defects.first_invalid) {
+            lines.push_back(fmt::format(
+                "{}: {} contributions were NaN, infinite or negative; the first at pixel ({}, {}), "
+                "sample {}",
+                eval::to_string(picture.integrator), picture.defects.invalid, place->x, place->y,
+                place->sample_index));
+        }
+        if (picture.defects.saturated > 0) {
+            lines.push_back(fmt::format("{}: {} contributions were too great for the film",
+                                        eval::to_string(picture.integrator),
+                                        picture.defects.saturated));
+        }
+        if (loses_light(picture)) {
+            lines.push_back(fmt::format("{}: the paths and the picture of a tile differ by {}",
+                                        eval::to_string(picture.integrator),
+                                        percent(picture.lost)));
+        }
+    }
+    if (report.weights.wrong > 0) {
+        lines.push_back(fmt::format(
+            "weights: {} of {} paths have one that differs from its definition, by up to {:.3g}: "
+            "those of all strategies do not sum to one",
+            report.weights.wrong, report.weights.paths, report.weights.worst));
+    }
+    for (const StrategyFinding& finding : report.strategies) {
+        add_failures(fmt::format("strategy s={} t={}", finding.strategy.s, finding.strategy.t),
+                     finding.whole, finding.tiles, report, lines);
+    }
+    for (const IntegratorFinding& finding : report.integrators) {
+        add_failures(fmt::format("{} against bdpt, {} edges", eval::to_string(finding.integrator),
+                                 finding.edges),
+                     finding.whole, finding.tiles, report, lines);
+    }
+    return lines;
+}
+
+/// The strategies whose noise could hide the most.
+std::string noisiest(const VerifyReport& report)
+{
+    const auto worst = std::max_element(
+        report.strategies.begin(), report.strategies.end(),
+        [](const auto& a, const auto& b) { return a.whole.detectable < b.whole.detectable; });
+    return fmt::format("s={} t={}", worst->strategy.s, worst->strategy.t);
+}
+
+std::string verdict_text(const VerifyReport& report, const eval::VerifyOptions& options)
+{
+    if (report.verdict == eval::Verdict::fail) {
+        constexpr std::size_t most_lines = 20;
+        const std::vector<std::string> lines = failures(report);
+        std::string result = "\n";
+        for (std::size_t i = 0; i < std::min(lines.size(), most_lines); ++i) {
+            result += lines[i] + "\n";
+        }
+        if (lines.size() > most_lines) {
+            result += fmt::format("and {} more\n", lines.size() - most_lines);
+        }
+        return result + "FAIL: the estimators disagree\n";
+    }
+    if (!(report.radiance > 0.0)) {
+        return "\nINCONCLUSIVE: no light reaches the camera\n";
+    }
+    if (report.verdict == eval::Verdict::inconclusive && !std::isfinite(report.detectable)) {
+        return "\nINCONCLUSIVE: nothing disagrees, but there are too few samples to tell what "
+               "would "
+               "have been found. Give it more --time\n";
+    }
+    const std::string found = fmt::format(
+        "errors of a strategy that change the picture by {} would have been found, by 90 %",
+        percent(report.detectable));
+    if (report.verdict == eval::Verdict::inconclusive) {
+        return fmt::format(
+            "\nINCONCLUSIVE: nothing disagrees, but only {}; {} was asked for. The "
+            "noisiest is {}. Give it more --time\n",
+            found, percent(options.detectable_bias), noisiest(report));
+    }
+    return fmt::format("\nPASS: all agree; {}\n", found);
+}
+
+}  // namespace
+
+std::string verify_text(const VerifyReport& report, const eval::VerifyOptions& options)
+{
+    std::string result = fmt::format(
+        "{} batches in {:.1f} s, paths of up to {} edges; weights of {} paths checked, worst "
+        "difference {:.2g}\n\n",
+        report.batches, report.seconds, options.max_depth, report.weights.paths,
+        report.weights.worst);
+    result += pictures_text(report) + lengths_text(report) + strategies_text(report) +
+              integrators_text(report);
+    if (report.unchecked > 1e-6) {
+        result += fmt::format(
+            "\n{} of the light can be made by one strategy of bdpt only, and not by pt, nee or "
+            "mis: nothing checks it\n",
+            percent(report.unchecked));
+    }
+    return result + verdict_text(report, options);
+}
+
+}  // namespace bdpt::app

@@ -1,0 +1,193 @@
+#include "stage/stage.h"
+
+#include <bdpt/default_lights.h>
+#include <bdpt/error.h>
+#include <bdpt/framing.h>
+#include <bdpt/io/environment.h>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "options/view.h"
+
+namespace bdpt::app {
+namespace {
+
+/// Where light from infinity comes from, once all is decided.
+enum class Sky { none, fallback, chosen };
+
+struct LitScene {
+    SceneDesc desc;
+    Sky sky = Sky::none;
+    std::string environment_name = "none";
+    std::vector<std::string> warnings;
+};
+
+bool is_environment(const LightDesc& light)
+{
+    return std::holds_alternative<EnvironmentLightDesc>(light);
+}
+
+/// Adds the environment that was asked for or, where all is dark, the default one. What is asked
+/// for takes the place of the file's own.
+LitScene add_environment(SceneDesc desc, const RenderArguments& arguments)
+{
+    LitScene lit{std::move(desc), Sky::none, "none", {}};
+    const std::string file = arguments.file.string();
+    const std::string choice = arguments.environment.value_or("");
+    if (!choice.empty()) {
+        std::erase_if(lit.desc.lights, is_environment);
+    }
+    if (choice == "none") {
+        if (!has_light(lit.desc)) {
+            lit.warnings.push_back(fmt::format("{}: no light: the picture will be black", file));
+        }
+    } else if (choice == "default") {
+        lit.sky = has_light(lit.desc) ? Sky::chosen : Sky::fallback;
+        lit.environment_name = choice;
+        lit.desc.lights.push_back(default_environment());
+    } else if (!choice.empty()) {
+        io::LoadedEnvironment loaded = io::load_environment(choice);
+        for (const std::string& warning : loaded.warnings) {
+            lit.warnings.push_back(fmt::format("{}: {}", choice, warning));
+        }
+        lit.sky = Sky::chosen;
+        lit.environment_name = choice;
+        lit.desc.lights.push_back(std::move(loaded.light));
+    } else if (std::any_of(lit.desc.lights.begin(), lit.desc.lights.end(), is_environment)) {
+        lit.sky = Sky::chosen;
+        lit.environment_name = "scene";
+    } else if (!has_light(lit.desc)) {
+        lit.warnings.push_back(fmt::format(
+            "{}: no light: lit by the default environment, a soft sky (--env chooses another)",
+            file));
+        lit.sky = Sky::fallback;
+        lit.environment_name = "default";
+        lit.desc.lights.push_back(default_environment());
+    }
+    return lit;
+}
+
+struct BuiltScene {
+    Scene scene;
+    std::optional<FramedView> framed;  ///< if it was needed to build the scene
+};
+
+/// Builds the scene; a second time, with a lamp, when only the default sky lights a closed room.
+BuiltScene build(LitScene& lit, const RenderArguments& arguments, float aspect,
+                 const std::function<void(const SceneDesc&)>& look)
+{
+    const auto show = [&] {
+        if (look) {
+            look(lit.desc);
+        }
+    };
+    if (lit.sky != Sky::fallback) {
+        show();
+        return {Scene(std::move(lit.desc), arguments.isa), std::nullopt};
+    }
+    Scene scene(lit.desc, arguments.isa);
+    const FramedView framed = frame_scene(scene, aspect);
+    if (!framed.enclosed) {
+        show();
+        return {std::move(scene), framed};
+    }
+    lit.warnings.push_back(fmt::format(
+        "{}: a closed room without light: a lamp was added at {:.3g},{:.3g},{:.3g} (--env none "
+        "takes it away)",
+        arguments.file.string(), framed.lamp_position.x, framed.lamp_position.y,
+        framed.lamp_position.z));
+    lit.desc.lights.emplace_back(default_lamp(framed));
+    show();
+    return {Scene(std::move(lit.desc), arguments.isa), framed};
+}
+
+CameraDesc frame(const BuiltScene& built, float aspect)
+{
+    CameraDesc camera =
+        built.framed ? built.framed->camera : frame_scene(built.scene, aspect).camera;
+    camera.name = "auto";
+    return camera;
+}
+
+Vec3 center(const Bounds& bounds)
+{
+    return 0.5f * (bounds.min + bounds.max);
+}
+
+/// The camera of the file to look through; none: the scene is framed.
+std::optional<CameraDesc> camera_in_file(const std::vector<CameraDesc>& cameras,
+                                         const RenderArguments& arguments)
+{
+    const bool chosen = arguments.camera.has_value();
+    if (arguments.camera == "auto" || (!chosen && cameras.empty())) {
+        return std::nullopt;
+    }
+    const std::string choice = arguments.camera.value_or("0");
+    CameraDesc camera = select_camera(cameras, choice, arguments.file.string());
+    camera.name = camera.name.empty() ? choice : camera.name;
+    return camera;
+}
+
+}  // namespace
+
+Stage prepare_stage(const RenderArguments& arguments,
+                    const std::function<void(const SceneDesc&)>& look)
+{
+    const auto start = std::chrono::steady_clock::now();
+    const std::string file = arguments.file.string();
+    io::LoadedScene loaded = io::load_gltf(arguments.file, arguments.scene);
+
+    std::vector<std::string> warnings;
+    for (const std::string& warning : loaded.warnings) {
+        warnings.push_back(fmt::format("{}: {}", file, warning));
+    }
+    if (!has_surface(loaded.scene)) {
+        throw Error(
+            ErrorCode::invalid_input,
+            fmt::format("{}: the scene is empty: it has no triangles and no light with a radius",
+                        file));
+    }
+    const std::optional<CameraDesc> from_file = camera_in_file(loaded.cameras, arguments);
+    const Size size =
+        arguments.size.value_or(default_size(from_file ? from_file->aspect_ratio : std::nullopt));
+    const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
+
+    loaded.scene.texture_filter = arguments.texture_filter;
+    LitScene lit = add_environment(std::move(loaded.scene), arguments);
+    const auto loading_end = std::chrono::steady_clock::now();
+    BuiltScene built = build(lit, arguments, aspect, look);
+    const auto building_end = std::chrono::steady_clock::now();
+    for (const std::string& warning : built.scene.warnings()) {
+        warnings.push_back(fmt::format("{}: {}", file, warning));
+    }
+    warnings.insert(warnings.end(), lit.warnings.begin(), lit.warnings.end());
+    if (!from_file && !arguments.camera && !arguments.view.from) {
+        warnings.push_back(
+            fmt::format("{}: no camera: the whole scene is framed (--from, --look-at and --fov "
+                        "choose another view)",
+                        file));
+    }
+    CameraDesc camera =
+        from_file ? apply(arguments.view, *from_file, std::nullopt)
+                  : apply(arguments.view, frame(built, aspect), center(built.scene.bounds()));
+    camera = with_lens(arguments.lens, std::move(camera), built.scene);
+    const auto seconds = [](std::chrono::steady_clock::duration time) {
+        return std::chrono::duration<double>(time).count();
+    };
+    return {std::move(built.scene),
+            std::move(camera),
+            lit.environment_name,
+            size,
+            std::move(warnings),
+            seconds(loading_end - start),
+            seconds(building_end - loading_end),
+            std::move(loaded.facts.xmp)};
+}
+
+}  // namespace bdpt::app

@@ -1,0 +1,224 @@
+#include "terminal/console.h"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "terminal/text.h"
+
+namespace bdpt::app {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// A full disk or a reader that left must not end a render, so results are not looked at.
+void put(std::FILE* stream, const std::string& text)
+{
+    std::fwrite(text.data(), 1, text.size(), stream);
+    std::fflush(stream);
+}
+
+void put_event(std::string_view name, const ordered_json& fields)
+{
+    ordered_json object{{"event", name}};
+    object.update(fields);
+    put(stdout, object.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n");
+}
+
+bool is_set(const char* variable)
+{
+    const char* value = std::getenv(variable);
+    return value != nullptr && *value != '\0';
+}
+
+bool stderr_redraws()
+{
+    const char* terminal = std::getenv("TERM");
+    return ::isatty(STDERR_FILENO) == 1 && terminal != nullptr &&
+           std::string_view(terminal) != "dumb";
+}
+
+double fraction_done(const Progress& progress, const Goal& goal)
+{
+    const double by_time = progress.seconds / goal.seconds;
+    const double by_samples = goal.samples ? static_cast<double>(progress.samples_done) /
+                                                 static_cast<double>(*goal.samples)
+                                           : 0.0;
+    return std::clamp(std::max(by_time, by_samples), 0.0, 1.0);
+}
+
+std::string samples_text(const Progress& progress, const Goal& goal)
+{
+    return goal.samples ? fmt::format("{}/{} spp", progress.samples_done, *goal.samples)
+                        : fmt::format("{} spp", progress.samples_done);
+}
+
+std::string bar(double fraction)
+{
+    constexpr int width = 24;
+    const int done = static_cast<int>(fraction * width);
+    std::string result(static_cast<std::size_t>(done), '=');
+    result += done < width ? ">" : "";
+    result.resize(width, ' ');
+    return "[" + result + "]";
+}
+
+}  // namespace
+
+std::optional<double> time_left(const Progress& progress, const Goal& goal)
+{
+    if (progress.samples_done <= 0) {
+        return std::nullopt;
+    }
+    double left = goal.seconds - progress.seconds;
+    if (goal.samples) {
+        const double per_sample = progress.seconds / static_cast<double>(progress.samples_done);
+        left =
+            std::min(left, per_sample * static_cast<double>(*goal.samples - progress.samples_done));
+    }
+    return std::max(left, 0.0);
+}
+
+Console::Console(Format format, Verbosity verbosity)
+    : format_(format),
+      verbosity_(verbosity),
+      terminal_(stderr_redraws()),
+      color_(terminal_ && !is_set("NO_COLOR"))
+{}
+
+Console::~Console()
+{
+    erase_progress();
+}
+
+void Console::event(std::string_view name, const ordered_json& fields)
+{
+    const std::lock_guard lock(mutex_);
+    if (format_ == Format::json) {
+        put_event(name, fields);
+    }
+}
+
+void Console::note(std::string_view message)
+{
+    const std::lock_guard lock(mutex_);
+    if (format_ == Format::text && verbosity_ == Verbosity::normal) {
+        print_line("bdpt: ", message);
+    }
+}
+
+void Console::warning(std::string_view message)
+{
+    const std::lock_guard lock(mutex_);
+    if (format_ == Format::json) {
+        put_event("warning", {{"message", one_line(message)}});
+    } else if (verbosity_ == Verbosity::normal) {
+        print_line(color_ ? "bdpt: \x1b[33mwarning:\x1b[0m " : "bdpt: warning: ", message);
+    }
+}
+
+void Console::progress(const Progress& progress, const Goal& goal)
+{
+    const std::lock_guard lock(mutex_);
+    const std::optional<double> left = time_left(progress, goal);
+    if (verbosity_ == Verbosity::quiet || !left || !is_due(progress.seconds)) {
+        return;
+    }
+    const double fraction = fraction_done(progress, goal);
+    if (format_ == Format::json) {
+        ordered_json fields{{"samples", progress.samples_done}};
+        fields["samples_total"] = goal.samples ? ordered_json(*goal.samples) : ordered_json();
+        fields.update(
+            {{"fraction", fraction}, {"seconds", progress.seconds}, {"eta_seconds", *left}});
+        put_event("progress", fields);
+        return;
+    }
+    draw_progress(fraction, fmt::format("{:3.0f}%  {}  {}  ETA {}", 100.0 * fraction,
+                                        samples_text(progress, goal), clock_time(progress.seconds),
+                                        clock_time(*left)));
+}
+
+void Console::task(const TaskProgress& progress)
+{
+    const std::lock_guard lock(mutex_);
+    if (verbosity_ == Verbosity::quiet || !is_due(progress.seconds)) {
+        return;
+    }
+    const double fraction = std::clamp(progress.fraction, 0.0, 1.0);
+    if (format_ == Format::json) {
+        ordered_json fields{{"fraction", fraction}, {"seconds", progress.seconds}};
+        fields["eta_seconds"] =
+            progress.seconds_left ? ordered_json(*progress.seconds_left) : ordered_json();
+        fields["activity"] = one_line(progress.activity);
+        put_event("progress", fields);
+        return;
+    }
+    const std::string left = progress.seconds_left ? clock_time(*progress.seconds_left) : "-";
+    draw_progress(fraction,
+                  fmt::format("{:3.0f}%  {}  ETA {}  {}", 100.0 * fraction,
+                              clock_time(progress.seconds), left, one_line(progress.activity)));
+}
+
+void Console::draw_progress(double fraction, const std::string& text)
+{
+    if (!terminal_) {
+        put(stderr, fmt::format("bdpt: {}\n", text));
+        return;
+    }
+    const std::string line = fmt::format("{} {}", bar(fraction), text);
+    put(stderr, fmt::format("\r{:<{}}", line, std::max(drawn_, line.size())));
+    drawn_ = line.size();
+}
+
+void Console::end_progress()
+{
+    const std::lock_guard lock(mutex_);
+    erase_progress();
+    last_shown_ = -std::numeric_limits<double>::infinity();
+}
+
+void Console::print_line(std::string_view prefix, std::string_view message)
+{
+    erase_progress();
+    put(stderr, fmt::format("{}{}\n", prefix, one_line(message)));
+}
+
+void Console::erase_progress()
+{
+    if (drawn_ > 0) {
+        put(stderr, fmt::format("\r{:{}}\r", "", drawn_));
+        drawn_ = 0;
+    }
+}
+
+bool Console::is_due(double seconds)
+{
+    const double interval = format_ == Format::json ? 0.5 : terminal_ ? 0.1 : 5.0;
+    const bool due = seconds - last_shown_ >= interval;
+    // A log that nobody watches starts after the first interval: short renders leave no line.
+    const bool too_early = format_ == Format::text && !terminal_ && seconds < interval;
+    if (!due || too_early) {
+        return false;
+    }
+    last_shown_ = seconds;
+    return true;
+}
+
+void report_error(Format format, int exit_code, std::string_view message) noexcept
+{
+    try {
+        const std::string text = one_line(message);
+        if (format == Format::json) {
+            put_event("error", {{"code", exit_code}, {"message", text}});
+        }
+        put(stderr, fmt::format("bdpt: error: {}\n", text));
+    } catch (...) {
+        std::fputs("bdpt: error: out of memory\n", stderr);
+    }
+}
+
+}  // namespace bdpt::app

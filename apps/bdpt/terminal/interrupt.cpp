@@ -1,0 +1,81 @@
+#include "terminal/interrupt.h"
+
+#include <unistd.h>
+
+#include <ctime>
+#include <utility>
+
+namespace bdpt::app {
+namespace {
+
+/// SIGINT and SIGTERM, unless who started us had them ignored (as nohup and background jobs do).
+sigset_t signals_to_watch()
+{
+    sigset_t result;
+    sigemptyset(&result);
+    for (const int signal_number : {SIGINT, SIGTERM}) {
+        struct sigaction action {};
+        sigaction(signal_number, nullptr, &action);
+        if (action.sa_handler != SIG_IGN) {
+            sigaddset(&result, signal_number);
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+Interrupt::Interrupt(std::vector<std::filesystem::path> temporaries, std::function<void()> on_stop)
+    : temporaries_(std::move(temporaries)),
+      on_stop_(std::move(on_stop)),
+      signals_(signals_to_watch())
+{
+    pthread_sigmask(SIG_BLOCK, &signals_, &previous_);
+    watcher_ = std::jthread([this](const std::stop_token& finished) { watch(finished); });
+}
+
+Interrupt::~Interrupt()
+{
+    watcher_.request_stop();
+    watcher_.join();
+    pthread_sigmask(SIG_SETMASK, &previous_, nullptr);
+}
+
+std::optional<int> Interrupt::signal() const
+{
+    const int signal_number = signal_;
+    return signal_number != 0 ? std::optional(signal_number) : std::nullopt;
+}
+
+void Interrupt::watch(const std::stop_token& finished)
+{
+    // Long enough to cost nothing, short enough that nobody waits for the thread to end.
+    constexpr timespec interval{0, 20'000'000};
+    while (!finished.stop_requested()) {
+        const int signal_number = sigtimedwait(&signals_, nullptr, &interval);
+        if (signal_number > 0) {
+            handle(signal_number);
+        }
+    }
+}
+
+void Interrupt::handle(int signal_number)
+{
+    if (stop_allowed_ && signal_ == 0) {
+        signal_ = signal_number;
+        stop_.request_stop();
+        on_stop_();
+        return;
+    }
+    for (const std::filesystem::path& temporary : temporaries_) {
+        ::unlink(temporary.c_str());
+    }
+    ::_exit(128 + signal_number);
+}
+
+const char* signal_name(int signal_number)
+{
+    return signal_number == SIGTERM ? "SIGTERM" : "SIGINT";
+}
+
+}  // namespace bdpt::app

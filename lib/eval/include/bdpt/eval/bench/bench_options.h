@@ -1,0 +1,30 @@
+#pragma once
+
+#include <bdpt/eval/bench/option_names.h>
+#include <bdpt/render_options.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+namespace bdpt::eval {
+
+/// What a benchmark does with each scene. Times are CPU time of all threads [s]: other programs on
+/// the machine count less in it than in the time on the wall.
+struct BenchOptions {
+    std::vector<IntegratorKind> integrators{all_integrators.begin(), all_integrators.end()};
+    /// How to render. Integrator, size, samples and seed do not count.
+    RenderOptions render{};
+    double seconds = 5.0;  ///< of each run at equal time, > 0
+    /// Of each run at equal samples, [1, 2^20]; none: the greatest power of two that every
+    /// integrator manages in `seconds`.
+    std::optional<std::int64_t> samples{};
+    int seeds = 5;  ///< runs of each integrator, [1, 10000]; their seeds are 0, 1, 2 ...
+    /// A picture, or a folder with NAME.exr for each scene; none: references are rendered.
+    std::optional<std::filesystem::path> reference{};
+    double reference_seconds = 60.0;  ///< of each of the two renders that a reference is made of
+    int strategy_depth = 5;  ///< longest paths [edges] in the pictures of strategies; 0: none
+};
+
+}  // namespace bdpt::eval

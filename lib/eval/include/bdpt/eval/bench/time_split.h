@@ -1,0 +1,22 @@
+#pragma once
+
+#include <bdpt/render_options.h>
+#include <bdpt/time_profile.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace bdpt::eval {
+
+/// Where the time of an integrator's samples goes in a scene; from a render of its own, which
+/// counts in none of the comparisons.
+struct TimeSplit {
+    IntegratorKind integrator = IntegratorKind::bdpt;
+    std::array<double, all_phases.size()> shares{};  ///< by phase; they add up to 1
+    double sample_seconds = 0.0;  ///< mean of a sample of a pixel, of one thread [s]
+    std::int64_t samples = 0;     ///< per pixel
+    double distortion = 0.0;      ///< `TimeProfile::distortion`
+};
+
+}  // namespace bdpt::eval

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <bdpt/eval/compare/bias_estimator.h>
+#include <bdpt/eval/compare/comparison_report.h>
+#include <bdpt/eval/metrics/metric.h>
+#include <bdpt/export.h>
+#include <bdpt/image.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace bdpt::eval {
+
+/// What a comparison measures and reports.
+struct ComparisonOptions {
+    std::vector<Metric> metrics{all_metrics.begin(), all_metrics.end()};
+    MetricOptions scale{};
+    Metric map_metric = Metric::relmse;  ///< of the map and the worst tiles; not psnr
+    int tile_size = 32;                  ///< [pixels] a side, at least 1
+    int worst_tiles = 5;                 ///< how many are reported at most; at least 1
+    /// Where the pictures lie in the whole image [pixels]: for messages and reported tiles.
+    int x0 = 0;
+    int y0 = 0;
+};
+
+/// Holds pictures, one after the other, against a reference. Pictures that are added are renders of
+/// one scene with different seeds; the reference is taken as the truth.
+class BDPT_EXPORT Comparison {
+public:
+    /// `name` is for messages. Throws `Error`: usage for options that make no sense, invalid_input
+    /// for a reference without pixels or with NaN or infinity.
+    Comparison(const std::string& name, Image reference, ComparisonOptions options);
+
+    /// Throws `Error` (invalid_input) when the picture has another size than the reference, or
+    /// NaN or infinity.
+    void add(const std::string& name, const Image& image);
+
+    /// Of at least one picture.
+    [[nodiscard]] ComparisonReport report() const;
+
+private:
+    [[nodiscard]] std::vector<TileError> worst_tiles(const ErrorMap& terms) const;
+    [[nodiscard]] std::vector<TileBias> biased_tiles() const;
+    [[nodiscard]] MetricSummary summarize(std::size_t metric) const;
+    /// From our pictures to the whole image.
+    [[nodiscard]] PixelRect placed(const PixelRect& rect) const;
+
+    Image reference_;
+    std::string reference_name_;
+    ComparisonOptions options_;
+    MetricScale scale_;
+    std::vector<PixelRect> tiles_;
+    std::vector<ImageErrors> images_;
+    std::vector<double> map_sum_;  // terms of map_metric, a number a pixel
+    BiasEstimator bias_;
+};
+
+}  // namespace bdpt::eval

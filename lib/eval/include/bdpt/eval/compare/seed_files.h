@@ -1,0 +1,16 @@
+#pragma once
+
+#include <bdpt/export.h>
+
+#include <filesystem>
+#include <vector>
+
+namespace bdpt::eval {
+
+/// The pictures that are to be held against `reference`: `path` itself, or, when it is a folder,
+/// all .exr and .hdr files in it but the reference and hidden ones, by name. Throws `Error`
+/// (not_found) when the folder cannot be read or holds none.
+[[nodiscard]] BDPT_EXPORT std::vector<std::filesystem::path> seed_files(
+    const std::filesystem::path& path, const std::filesystem::path& reference);
+
+}  // namespace bdpt::eval

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <bdpt/eval/metrics/error_map.h>
+#include <bdpt/eval/metrics/metric_scale.h>
+#include <bdpt/export.h>
+#include <bdpt/image.h>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace bdpt::eval {
+
+/// A measure of how far a picture x is from its reference r. Means are over pixels and channels.
+enum class Metric : std::uint8_t {
+    relmse,    ///< mean of (x - r)^2 / (r^2 + squared_epsilon)
+    mse,       ///< mean of (x - r)^2
+    rmse,      ///< root of that
+    mape,      ///< mean of |x - r| / (|r| + epsilon)
+    smape,     ///< mean of |x - r| / (|x| + |r| + epsilon) [Vogels et al. 2018]
+    psnr,      ///< 10 log10(peak^2 / MSE) [dB]; infinite without an error; more is better
+    flip,      ///< mean of HDR-FLIP
+    flip_ldr,  ///< mean of FLIP between the pictures as `io::filmic` shows them
+};
+
+/// In the order of the enumerators.
+inline constexpr std::array all_metrics{Metric::relmse, Metric::mse,     Metric::rmse,
+                                        Metric::mape,   Metric::smape,   Metric::psnr,
+                                        Metric::flip,   Metric::flip_ldr};
+
+/// The enumerator's own name.
+[[nodiscard]] BDPT_EXPORT std::string_view to_string(Metric metric);
+/// The enumerator of that name, if there is one.
+[[nodiscard]] BDPT_EXPORT std::optional<Metric> parse_metric(std::string_view name);
+
+/// Whether a greater value is a greater error: all but psnr.
+[[nodiscard]] BDPT_EXPORT bool grows_with_error(Metric metric);
+
+/// What the metric averages: for each pixel the mean over its channels of the terms above, before
+/// any root or logarithm; mse, rmse and psnr average the same. The pictures have one size and are
+/// finite.
+[[nodiscard]] BDPT_EXPORT ErrorMap error_terms(Metric metric, const Image& image,
+                                               const Image& reference, const MetricScale& scale);
+
+/// The metric from the mean of its terms.
+[[nodiscard]] BDPT_EXPORT double from_mean(Metric metric, double mean, const MetricScale& scale);
+
+/// The mean of the values, which are at least one.
+[[nodiscard]] BDPT_EXPORT double mean(const ErrorMap& map);
+
+/// The metric of a whole picture.
+[[nodiscard]] BDPT_EXPORT double evaluate(Metric metric, const Image& image, const Image& reference,
+                                          const MetricOptions& options = {});
+
+}  // namespace bdpt::eval

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+namespace bdpt::eval {
+
+/// Mean and spread of a stream of numbers [Welford 1962].
+class Moments {
+public:
+    void add(double x)
+    {
+        ++count_;
+        const double delta = x - mean_;
+        mean_ += delta / static_cast<double>(count_);
+        squares_ += delta * (x - mean_);
+    }
+
+    [[nodiscard]] std::int64_t count() const { return count_; }
+    [[nodiscard]] double mean() const { return mean_; }
+    /// Unbiased; needs two numbers.
+    [[nodiscard]] double variance() const { return squares_ / static_cast<double>(count_ - 1); }
+    /// Of the mean.
+    [[nodiscard]] double standard_error() const
+    {
+        return std::sqrt(variance() / static_cast<double>(count_));
+    }
+
+private:
+    std::int64_t count_ = 0;
+    double mean_ = 0.0;
+    double squares_ = 0.0;
+};
+
+}  // namespace bdpt::eval

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <bdpt/export.h>
+
+#include <vector>
+
+namespace bdpt::eval {
+
+/// The middle of some numbers, and how far they reach.
+struct Spread {
+    double median = 0.0;
+    double least = 0.0;
+    double greatest = 0.0;
+};
+
+/// Of at least one number; the median of an even count is the mean of the two in the middle.
+[[nodiscard]] BDPT_EXPORT Spread spread(std::vector<double> values);
+
+}  // namespace bdpt::eval

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <bdpt/eval/verify/verify_report.h>
+#include <bdpt/export.h>
+
+#include <string>
+#include <string_view>
+
+namespace bdpt::eval {
+
+/// "pass", "fail" or "inconclusive".
+[[nodiscard]] BDPT_EXPORT std::string_view to_string(Verdict verdict);
+
+/// The report as one line of JSON, as docs/verify.md describes it, with a line break. Numbers that
+/// are not finite are null; bytes of `scene` that are not UTF-8 are replaced.
+[[nodiscard]] BDPT_EXPORT std::string verify_json(const VerifyReport& report,
+                                                  std::string_view scene);
+
+}  // namespace bdpt::eval

@@ -1,0 +1,122 @@
+#pragma once
+
+#include <bdpt/film.h>
+#include <bdpt/pixel_rect.h>
+#include <bdpt/render_options.h>
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace bdpt::eval {
+
+/// What `verify` says of a scene.
+enum class Verdict : std::uint8_t {
+    pass,          ///< nothing disagrees, and what would bias the picture would have been seen
+    fail,          ///< something disagrees
+    inconclusive,  ///< nothing disagrees, but the noise could hide it
+};
+
+/// Two estimates of the same light.
+struct MeanComparison {
+    double found = 0.0;       ///< [nit]
+    double expected = 0.0;    ///< [nit]
+    double error = 0.0;       ///< standard error of `found - expected` [nit]
+    double z = 0.0;           ///< difference in standard errors
+    double p = 1.0;           ///< chance of such a difference if both means are equal
+    double p_adjusted = 1.0;  ///< after Holm's correction for all tests of its family
+    /// Errors that change the mean of the picture by this fraction are found with 90 % chance;
+    /// infinite if it takes another comparison to find them. Of the whole picture only.
+    double detectable = std::numeric_limits<double>::infinity();
+};
+
+/// A strategy held against all that find the same paths.
+struct StrategyFinding {
+    Strategy strategy;
+    /// Of the light of paths of this length, what the strategy cannot make; in [0, 1].
+    double blind = 0.0;
+    double weighted = 0.0;    ///< what it brings to the picture, on average [nit]
+    double unweighted = 0.0;  ///< what it finds by itself, on average [nit]; may be very noisy
+    /// Part of `weighted` along paths that no other strategy can make [nit].
+    double solitary = 0.0;
+    MeanComparison whole;               ///< in the whole picture
+    std::vector<MeanComparison> tiles;  ///< in rows
+};
+
+/// An integrator held against those paths of bdpt that it can make, at one length.
+struct IntegratorFinding {
+    IntegratorKind integrator = IntegratorKind::pt;
+    int edges = 0;
+    MeanComparison whole;
+    std::vector<MeanComparison> tiles;
+};
+
+/// The light of all paths of one length.
+struct LengthFinding {
+    int edges = 0;
+    double radiance = 0.0;  ///< on average over the picture, by bdpt [nit]
+    double error = 0.0;     ///< its standard error [nit]
+    /// What pt, nee and mis can make of it, and what lt can; in [0, 1].
+    double seen_from_camera = 0.0;
+    double seen_from_light = 0.0;
+};
+
+/// An integrator's mean of the picture, over all lengths that are tested.
+struct PictureFinding {
+    IntegratorKind integrator = IntegratorKind::bdpt;
+    double radiance = 0.0;  ///< [nit]
+    double error = 0.0;     ///< standard error [nit]
+    FilmDefects defects;
+    /// The greatest difference of a tile between the picture and the sum of the paths that were
+    /// reported for it, relative to the tile.
+    double lost = 0.0;
+};
+
+/// What was seen of the weights of single paths.
+struct WeightFinding {
+    std::int64_t paths = 0;
+    /// Whose weight differs by more than 0.001 from the definition, by which the weights of all
+    /// strategies of a path sum to one.
+    std::int64_t wrong = 0;
+    double worst = 0.0;  ///< greatest such difference
+};
+
+/// What `verify` found.
+struct VerifyReport {
+    Verdict verdict = Verdict::inconclusive;
+    std::int64_t batches = 0;
+    double seconds = 0.0;
+    /// The mean of the picture [nit].
+    double radiance = 0.0;
+    /// Errors of a strategy that change the mean of the picture by this fraction would have been
+    /// found with 90 % chance. Infinite with too few samples to tell.
+    double detectable = std::numeric_limits<double>::infinity();
+    /// Fraction of the picture along paths that only one strategy of bdpt, and neither pt, nee nor
+    /// mis, can make: nothing checks it.
+    double unchecked = 0.0;
+    double false_alarm = 0.0;  ///< that was allowed
+    std::vector<PixelRect> tiles;
+    std::array<PictureFinding, 5> pictures;  ///< bdpt, pt, nee, mis, lt
+    WeightFinding weights;
+    std::vector<LengthFinding> lengths;
+    std::vector<StrategyFinding> strategies;
+    std::vector<IntegratorFinding> integrators;
+};
+
+/// Does this comparison fail? Each of the two families of tests, whole pictures and tiles, has half
+/// of the false alarms.
+[[nodiscard]] inline bool fails(const MeanComparison& comparison, const VerifyReport& report)
+{
+    return comparison.p_adjusted <= 0.5 * report.false_alarm;
+}
+
+/// Does the picture lack what its paths brought, or hold what no path did? Rounding to single
+/// floats loses far less.
+[[nodiscard]] inline bool loses_light(const PictureFinding& picture)
+{
+    return !(picture.lost <= 1e-3);
+}
+
+}  // namespace bdpt::eval

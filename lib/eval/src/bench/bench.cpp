@@ -1,0 +1,211 @@
+#include <bdpt/eval/bench/bench.h>
+
+#include <bdpt/error.h>
+#include <bdpt/eval/bench/error_floor.h>
+#include <bdpt/io/exr.h>
+#include <bdpt/io/read_image.h>
+#include <bdpt/version.h>
+
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "bench/bench_files.h"
+#include "bench/hasher.h"
+#include "bench/meter.h"
+#include "bench/plan.h"
+#include "bench/reference_cache.h"
+#include "bench/strategy_shares.h"
+#include "bench/time_splits.h"
+#include "bench/trial.h"
+
+namespace bdpt::eval {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+bool reaches(const BenchRun& run, const BenchGoals& goals)
+{
+    const auto has = [&](std::int64_t samples) {
+        return std::any_of(run.checkpoints.begin(), run.checkpoints.end(),
+                           [&](const Checkpoint& point) { return point.samples == samples; });
+    };
+    return has(goals.equal_time) && has(goals.equal_samples);
+}
+
+/// The run that the folder has; none if there is none.
+std::optional<BenchRun> kept_run(const BenchFiles& files, const BenchGoals& goals,
+                                 std::uint64_t seed)
+{
+    const fs::path file = files.run(goals.integrator, seed);
+    const std::optional<ordered_json> json = read_json(file);
+    if (!json) {
+        return std::nullopt;
+    }
+    BenchRun run = parse_run(*json, file);
+    if (run.integrator != goals.integrator || run.seed != seed || !reaches(run, goals)) {
+        throw Error(ErrorCode::invalid_input, file.string() +
+                                                  ": is another run than its name and "
+                                                  "plan.json say; delete it to have it "
+                                                  "made again");
+    }
+    return run;
+}
+
+void keep(const Trial& trial, const BenchFiles& files, const BenchScene& scene,
+          const BenchGoals& goals)
+{
+    io::ExrOptions exr;
+    exr.metadata.version = BDPT_VERSION;
+    exr.metadata.scene = scene.file;
+    exr.metadata.integrator = to_string(goals.integrator);
+    exr.metadata.seed = trial.run.seed;
+    exr.metadata.samples_per_pixel = goals.equal_time;
+    exr.metadata.camera = scene.camera;
+    exr.metadata.created = std::chrono::system_clock::now();
+    io::write_exr(files.picture(goals.integrator, trial.run.seed), trial.picture, exr);
+    // Comes last: a run without its numbers is none.
+    write_json(files.run(goals.integrator, trial.run.seed), run_json(trial.run));
+}
+
+/// False if stopped.
+bool run_all(const BenchScene& scene, const BenchOptions& options, const BenchFiles& files,
+             const Reference& reference, Meter& meter, const BenchControl& control,
+             SceneResult& result)
+{
+    for (int seed = 0; seed < options.seeds; ++seed) {
+        for (const BenchGoals& goals : result.goals) {
+            const auto number = static_cast<std::uint64_t>(seed);
+            if (auto run = kept_run(files, goals, number)) {
+                meter.skip(options.seconds);
+                result.runs.push_back(std::move(*run));
+                continue;
+            }
+            meter.begin(std::string(to_string(goals.integrator)) + ", seed " + std::to_string(seed),
+                        options.seconds);
+            auto trial =
+                make_trial(make_setup(scene, options.render, goals.integrator, number, control),
+                           goals, reference, meter);
+            if (!trial) {
+                return false;
+            }
+            meter.end();
+            keep(*trial, files, scene, goals);
+            result.runs.push_back(std::move(trial->run));
+        }
+    }
+    return true;
+}
+
+/// What the pictures of each integrator have in common beside the reference.
+std::vector<ErrorFloor> find_floors(const SceneResult& result, const BenchFiles& files,
+                                    const Reference& reference)
+{
+    std::vector<ErrorFloor> floors;
+    for (const BenchGoals& goals : result.goals) {
+        std::vector<Image> pictures;
+        for (const BenchRun& run : result.runs) {
+            if (run.integrator == goals.integrator) {
+                const fs::path file = files.picture(run.integrator, run.seed);
+                pictures.push_back(io::read_image(file).image);
+                check_size(pictures.back(), result.width, result.height, file);
+            }
+        }
+        const auto floor = pictures.size() < 2
+                               ? std::nullopt
+                               : error_floor(pictures, reference.image, reference.noise);
+        if (floor) {
+            floors.push_back({.integrator = goals.integrator, .relmse = *floor});
+        }
+    }
+    return floors;
+}
+
+}  // namespace
+
+double planned_seconds(const BenchOptions& options)
+{
+    const auto integrators = static_cast<double>(options.integrators.size());
+    return 2.0 * options.reference_seconds +
+           integrators * options.seconds * (options.seeds + calibration_share + split_share) +
+           (options.strategy_depth > 0 ? options.seconds : 0.0);
+}
+
+fs::path picture_file(const fs::path& folder, const std::string& scene, IntegratorKind integrator,
+                      std::uint64_t seed)
+{
+    return BenchFiles(folder, scene).picture(integrator, seed);
+}
+
+std::vector<fs::path> scene_files(const fs::path& folder, const std::string& scene,
+                                  const BenchOptions& options)
+{
+    const BenchFiles files(folder, scene);
+    std::vector<fs::path> result{files.plan(), files.strategies()};
+    for (const IntegratorKind kind : options.integrators) {
+        for (int seed = 0; seed < options.seeds; ++seed) {
+            const auto number = static_cast<std::uint64_t>(seed);
+            result.push_back(files.run(kind, number));
+            result.push_back(files.picture(kind, number));
+        }
+        result.push_back(files.time_split(kind));
+    }
+    return result;
+}
+
+std::optional<SceneResult> run_scene(const BenchScene& scene, const BenchOptions& options,
+                                     const fs::path& folder, const BenchControl& control)
+{
+    const BenchFiles files(folder, scene.name);
+    files.create();
+    Meter meter(planned_seconds(options), control);
+    // A folder that does not fit is refused before a reference is rendered for it.
+    std::optional<Plan> plan;
+    if (!options.reference) {
+        plan.emplace(scene, options, files, reference_key(scene, options));
+    }
+    const auto keyed = reference_for(scene, options, files, meter, control);
+    if (!keyed) {
+        return std::nullopt;
+    }
+    const Reference& reference = keyed->reference;
+    if (control.on_note) {
+        control.on_note(scene.name + ": reference: " + reference.origin);
+    }
+    SceneResult result{.name = scene.name,
+                       .file = scene.file,
+                       .environment = scene.environment,
+                       .camera = scene.camera.name,
+                       .content = hex_text(scene.content) + hex_text(content_hash(scene.camera)),
+                       .width = scene.width,
+                       .height = scene.height,
+                       .light_scale = bench_scale(reference.image).epsilon / 0.01,
+                       .reference_noise = reference.noise,
+                       .reference_origin = reference.origin,
+                       .reference_file = keyed->file,
+                       .goals = {},
+                       .runs = {},
+                       .complete = false};
+    if (!plan) {
+        plan.emplace(scene, options, files, keyed->key);
+    }
+    if (!plan->complete(scene, options, meter, control)) {
+        return result;
+    }
+    for (const IntegratorKind kind : options.integrators) {
+        result.goals.push_back(plan->goals(kind));
+    }
+    result.complete = run_all(scene, options, files, reference, meter, control, result);
+    result.floors = find_floors(result, files, reference);
+    if (result.complete) {
+        result.splits = measure_time_splits(scene, options, files, result.goals, meter, control);
+    }
+    if (result.complete && options.strategy_depth > 0) {
+        measure_strategies(scene, options, files, reference, meter, control);
+    }
+    return result;
+}
+
+}  // namespace bdpt::eval

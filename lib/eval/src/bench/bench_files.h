@@ -1,0 +1,57 @@
+#pragma once
+
+#include <bdpt/eval/bench/bench_options.h>
+#include <bdpt/eval/bench/bench_run.h>
+#include <bdpt/eval/bench/bench_scene.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace bdpt::eval {
+
+/// Where a benchmark of one scene keeps things.
+class BenchFiles {
+public:
+    BenchFiles(std::filesystem::path folder, std::string scene);
+
+    [[nodiscard]] std::filesystem::path plan() const;
+    [[nodiscard]] std::filesystem::path run(IntegratorKind integrator, std::uint64_t seed) const;
+    [[nodiscard]] std::filesystem::path picture(IntegratorKind integrator,
+                                                std::uint64_t seed) const;
+    [[nodiscard]] std::filesystem::path strategies() const;
+    [[nodiscard]] std::filesystem::path time_split(IntegratorKind integrator) const;
+    /// `key` tells references of one scene apart.
+    [[nodiscard]] std::filesystem::path reference_picture(const std::string& key) const;
+    [[nodiscard]] std::filesystem::path reference_facts(const std::string& key) const;
+
+    /// Makes the folders. Throws `Error` (output).
+    void create() const;
+
+private:
+    std::filesystem::path folder_;
+    std::string scene_;
+};
+
+/// What pictures of a scene depend on, but for integrator, samples and seed.
+[[nodiscard]] nlohmann::ordered_json render_settings(const BenchScene& scene,
+                                                     const RenderOptions& options);
+
+/// A whole JSON file; none if there is no such file. Throws `Error`: not_found when it cannot be
+/// read, invalid_input when it is no JSON.
+[[nodiscard]] std::optional<nlohmann::ordered_json> read_json(const std::filesystem::path& file);
+/// Atomically. Throws `Error` (output).
+void write_json(const std::filesystem::path& file, const nlohmann::ordered_json& json);
+
+/// Throws `Error` (invalid_input) for a picture of another size.
+void check_size(const Image& image, int width, int height, const std::filesystem::path& file);
+
+/// A run as JSON and back. The latter throws `Error` (invalid_input) that names `file`.
+[[nodiscard]] nlohmann::ordered_json run_json(const BenchRun& run);
+[[nodiscard]] BenchRun parse_run(const nlohmann::ordered_json& json,
+                                 const std::filesystem::path& file);
+
+}  // namespace bdpt::eval

@@ -1,0 +1,75 @@
+#include <bdpt/eval/bench/reference.h>
+
+#include <algorithm>
+#include <cstddef>
+
+#include <bdpt/eval/metrics/metric.h>
+
+namespace bdpt::eval {
+namespace {
+
+/// Above this, noise does not explain the difference of two pictures.
+constexpr double most_disagreement = 2.0;
+
+/// Mean of (a - b)^2 / (r^2 + e), where r is `base`.
+double relative_difference(const Image& a, const Image& b, const Image& base, double epsilon)
+{
+    double sum = 0.0;
+    for (std::size_t i = 0; i < base.pixels.size(); ++i) {
+        for (int c = 0; c < 3; ++c) {
+            const double r = static_cast<double>(base.pixels[i][c]);
+            const double d =
+                static_cast<double>(a.pixels[i][c]) - static_cast<double>(b.pixels[i][c]);
+            sum += d * d / (r * r + epsilon);
+        }
+    }
+    return sum / (3.0 * static_cast<double>(base.pixels.size()));
+}
+
+Image mix(const Image& a, const Image& b, double share)
+{
+    Image result = a;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+        result.pixels[i] =
+            static_cast<float>(share) * a.pixels[i] + static_cast<float>(1.0 - share) * b.pixels[i];
+    }
+    return result;
+}
+
+}  // namespace
+
+MetricScale bench_scale(const Image& reference)
+{
+    return make_scale(reference, {.epsilon = 0.01, .epsilon_unit = EpsilonUnit::reference_mean});
+}
+
+double noise_of(const HalvedImage& image, const Image& base)
+{
+    // The squared difference of two halves has four times the variance of their mean.
+    return relative_difference(image.first, image.second, base, bench_scale(base).squared_epsilon) /
+           4.0;
+}
+
+CombinedReference combine(const HalvedImage& all_light, const HalvedImage& most_light)
+{
+    const Image middle = mix(all_light.image, most_light.image, 0.5);
+    const double epsilon = bench_scale(middle).squared_epsilon;
+    const double noise_a = noise_of(all_light, middle);
+    const double noise_b = noise_of(most_light, middle);
+    const double noise = noise_a + noise_b;
+    const double difference =
+        relative_difference(all_light.image, most_light.image, middle, epsilon);
+    // Two pictures without noise agree only if they are the same but for rounding.
+    const double agreement = difference / std::max(noise, 1e-10);
+    const double share = agreement > most_disagreement ? 1.0 : noise > 0.0 ? noise_b / noise : 0.5;
+    CombinedReference result{.image = mix(all_light.image, most_light.image, share),
+                             .noise = 0.0,
+                             .share = share,
+                             .agreement = agreement};
+    const double rest = 1.0 - share;
+    result.noise = share * share * noise_of(all_light, result.image) +
+                   rest * rest * noise_of(most_light, result.image);
+    return result;
+}
+
+}  // namespace bdpt::eval

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <bdpt/eval/bench/bench.h>
+
+#include <algorithm>
+#include <string>
+
+namespace bdpt::eval {
+
+/// Keeps account of the work on a scene, and tells the caller.
+class Meter {
+public:
+    /// `planned`: all of the work, in CPU time [s].
+    Meter(double planned, const BenchControl& control) : left_(planned), control_(&control) {}
+
+    /// Now comes work of about `seconds`.
+    void begin(const std::string& activity, double seconds)
+    {
+        activity_ = activity;
+        piece_ = seconds;
+        tell(0.0);
+    }
+    /// `fraction` of it, in [0, 1], is done.
+    void tell(double fraction) const
+    {
+        if (control_->on_progress) {
+            const double done = piece_ * std::clamp(fraction, 0.0, 1.0);
+            control_->on_progress({.worked = worked_ + done,
+                                   .left = std::max(left_ - done, 0.0),
+                                   .activity = activity_});
+        }
+    }
+    /// It is done.
+    void end()
+    {
+        worked_ += piece_;
+        skip(piece_);
+        piece_ = 0.0;
+    }
+    /// Work of about `seconds` does not have to be done.
+    void skip(double seconds) { left_ = std::max(left_ - seconds, 0.0); }
+
+private:
+    double left_;
+    double worked_ = 0.0;
+    double piece_ = 0.0;
+    std::string activity_;
+    const BenchControl* control_;
+};
+
+}  // namespace bdpt::eval

@@ -1,0 +1,63 @@
+#include <bdpt/eval/bench/option_names.h>
+
+#include <algorithm>
+
+namespace bdpt::eval {
+
+namespace {
+
+template <typename Values>
+auto parse(const Values& values, std::string_view name)
+{
+    const auto* found = std::find_if(values.begin(), values.end(),
+                                     [name](auto value) { return to_string(value) == name; });
+    return found == values.end() ? std::nullopt : std::optional(*found);
+}
+
+}  // namespace
+
+std::string_view to_string(IntegratorKind kind)
+{
+    switch (kind) {
+        case IntegratorKind::pt:
+            return "pt";
+        case IntegratorKind::mis:
+            return "mis";
+        case IntegratorKind::nee:
+            return "nee";
+        case IntegratorKind::lt:
+            return "lt";
+        case IntegratorKind::bdpt:
+            break;
+    }
+    return "bdpt";
+}
+
+std::string_view to_string(Heuristic heuristic)
+{
+    switch (heuristic) {
+        case Heuristic::balance:
+            return "balance";
+        case Heuristic::power:
+            return "power";
+        case Heuristic::cutoff:
+            return "cutoff";
+        case Heuristic::maximum:
+            return "maximum";
+        case Heuristic::uniform:
+            break;
+    }
+    return "uniform";
+}
+
+std::optional<IntegratorKind> parse_integrator(std::string_view name)
+{
+    return parse(all_integrators, name);
+}
+
+std::optional<Heuristic> parse_heuristic(std::string_view name)
+{
+    return parse(all_heuristics, name);
+}
+
+}  // namespace bdpt::eval

@@ -1,0 +1,192 @@
+#include "bench/reference_cache.h"
+
+#include <bdpt/error.h>
+#include <bdpt/io/exr.h>
+#include <bdpt/io/read_image.h>
+#include <bdpt/version.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "bench/hasher.h"
+#include "bench/trial.h"
+
+namespace bdpt::eval {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+/// No run has it.
+constexpr std::uint64_t reference_seed = 1'000'003;
+
+void check_finite(const Image& image, const fs::path& file)
+{
+    for (const Rgb& pixel : image.pixels) {
+        if (!(std::isfinite(pixel.r) && std::isfinite(pixel.g) && std::isfinite(pixel.b))) {
+            throw Error(ErrorCode::invalid_input,
+                        file.string() + ": has pixels that are NaN or infinite");
+        }
+    }
+}
+
+/// What the layer "variance" of a picture says about its own noise; 0 without the layer.
+double noise_by_layer(const fs::path& file, const Image& image)
+{
+    io::LoadedImage variance;
+    try {
+        variance = io::read_image(file, {.layer = "variance"});
+    } catch (const Error&) {
+        return 0.0;
+    }
+    const double epsilon = bench_scale(image).squared_epsilon;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        for (int c = 0; c < 3; ++c) {
+            const double r = static_cast<double>(image.pixels[i][c]);
+            sum += static_cast<double>(variance.image.pixels[i][c]) / (r * r + epsilon);
+        }
+    }
+    const double noise = sum / (3.0 * static_cast<double>(image.pixels.size()));
+    return std::isfinite(noise) && noise >= 0.0 ? noise : 0.0;
+}
+
+KeyedReference given_reference(const BenchScene& scene, const fs::path& given)
+{
+    std::error_code missing;
+    const fs::path file = fs::is_directory(given, missing) ? given / (scene.name + ".exr") : given;
+    Reference reference{.image = io::read_image(file).image, .noise = 0.0, .origin = file.string()};
+    check_size(reference.image, scene.width, scene.height, file);
+    check_finite(reference.image, file);
+    reference.noise = noise_by_layer(file, reference.image);
+    Hasher hasher;
+    hasher.add_array(reference.image.pixels);
+    return {.reference = std::move(reference), .key = hex_text(hasher.hash()), .file = file};
+}
+
+struct HalvedRender {
+    HalvedImage image;
+    std::int64_t samples = 0;
+};
+
+std::optional<HalvedRender> render_halves(const BenchScene& scene, const BenchOptions& options,
+                                          IntegratorKind integrator, Meter& meter,
+                                          const BenchControl& control)
+{
+    const TrialSetup setup = make_setup(scene, options.render, integrator, reference_seed, control);
+    meter.begin("reference by " + std::string(to_string(integrator)), options.reference_seconds);
+    const auto samples = samples_in(setup, options.reference_seconds);
+    const auto film = samples ? render_all(setup, *samples, meter) : std::nullopt;
+    if (!film) {
+        return std::nullopt;
+    }
+    meter.end();
+    return HalvedRender{.image = {.image = film->develop(),
+                                  .first = film->develop_half(0),
+                                  .second = film->develop_half(1)},
+                        .samples = *samples};
+}
+
+std::string origin_of(const CombinedReference& combined, const HalvedRender& bdpt,
+                      const HalvedRender& mis)
+{
+    char text[160];
+    if (combined.share == 1.0) {
+        std::snprintf(text, sizeof text,
+                      "bdpt with %lld samples; mis does not agree with it (%.3g times the "
+                      "difference that noise explains) and does not count",
+                      static_cast<long long>(bdpt.samples), combined.agreement);
+    } else {
+        std::snprintf(text, sizeof text, "bdpt with %lld samples (%.0f %%) and mis with %lld",
+                      static_cast<long long>(bdpt.samples), 100.0 * combined.share,
+                      static_cast<long long>(mis.samples));
+    }
+    return text;
+}
+
+void keep(const KeyedReference& keyed, const BenchFiles& files, const BenchScene& scene,
+          const BenchOptions& options)
+{
+    io::ExrOptions exr;
+    exr.metadata.version = BDPT_VERSION;
+    exr.metadata.scene = scene.file;
+    exr.metadata.camera = scene.camera;
+    exr.metadata.created = std::chrono::system_clock::now();
+    io::write_exr(keyed.file, keyed.reference.image, exr);
+    // Comes last: a reference without its facts is none.
+    write_json(files.reference_facts(keyed.key),
+               {{"origin", keyed.reference.origin},
+                {"noise_relmse", keyed.reference.noise},
+                {"cpu_seconds_each", options.reference_seconds},
+                {"settings", render_settings(scene, options.render)}});
+}
+
+std::optional<KeyedReference> kept_reference(const std::string& key, const BenchFiles& files,
+                                             const BenchScene& scene)
+{
+    const fs::path facts_file = files.reference_facts(key);
+    const std::optional<ordered_json> facts = read_json(facts_file);
+    if (!facts) {
+        return std::nullopt;
+    }
+    const auto noise = facts->find("noise_relmse");
+    const auto origin = facts->find("origin");
+    if (noise == facts->end() || !noise->is_number() || origin == facts->end() ||
+        !origin->is_string()) {
+        throw Error(ErrorCode::invalid_input,
+                    facts_file.string() +
+                        ": lacks what a reference of bdpt bench has; delete it "
+                        "to have it made again");
+    }
+    const fs::path file = files.reference_picture(key);
+    Reference reference{.image = io::read_image(file).image,
+                        .noise = noise->get<double>(),
+                        .origin = origin->get<std::string>()};
+    check_size(reference.image, scene.width, scene.height, file);
+    check_finite(reference.image, file);
+    return KeyedReference{.reference = std::move(reference), .key = key, .file = file};
+}
+
+}  // namespace
+
+std::string reference_key(const BenchScene& scene, const BenchOptions& options)
+{
+    Hasher hasher;
+    hasher.add(render_settings(scene, options.render).dump());
+    hasher.add(options.reference_seconds);
+    return hex_text(hasher.hash());
+}
+
+std::optional<KeyedReference> reference_for(const BenchScene& scene, const BenchOptions& options,
+                                            const BenchFiles& files, Meter& meter,
+                                            const BenchControl& control)
+{
+    if (options.reference) {
+        meter.skip(2.0 * options.reference_seconds);
+        return given_reference(scene, *options.reference);
+    }
+    const std::string key = reference_key(scene, options);
+    if (auto kept = kept_reference(key, files, scene)) {
+        meter.skip(2.0 * options.reference_seconds);
+        return kept;
+    }
+    const auto bdpt = render_halves(scene, options, IntegratorKind::bdpt, meter, control);
+    const auto mis =
+        bdpt ? render_halves(scene, options, IntegratorKind::mis, meter, control) : std::nullopt;
+    if (!mis) {
+        return std::nullopt;
+    }
+    CombinedReference combined = combine(bdpt->image, mis->image);
+    KeyedReference result{.reference = {.image = std::move(combined.image),
+                                        .noise = combined.noise,
+                                        .origin = origin_of(combined, *bdpt, *mis)},
+                          .key = key,
+                          .file = files.reference_picture(key)};
+    keep(result, files, scene, options);
+    return result;
+}
+
+}  // namespace bdpt::eval

@@ -1,0 +1,126 @@
+#include <bdpt/error.h>
+#include <bdpt/eval/compare/compare_files.h>
+#include <bdpt/io/read_image.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+namespace bdpt::eval {
+namespace {
+
+namespace fs = std::filesystem;
+
+PixelRect intersection(const PixelRect& a, const PixelRect& b)
+{
+    return {.x0 = std::max(a.x0, b.x0),
+            .y0 = std::max(a.y0, b.y0),
+            .x1 = std::min(a.x1, b.x1),
+            .y1 = std::min(a.y1, b.y1)};
+}
+
+Image crop(const Image& image, const PixelRect& region)
+{
+    if (region.width() == image.width && region.height() == image.height) {
+        return image;
+    }
+    Image result{region.width(), region.height(), {}};
+    for (int y = region.y0; y < region.y1; ++y) {
+        for (int x = region.x0; x < region.x1; ++x) {
+            result.pixels.push_back(image.at(x, y));
+        }
+    }
+    return result;
+}
+
+std::string to_text(const PixelRect& rect)
+{
+    return std::to_string(rect.x0) + "," + std::to_string(rect.y0) + "," + std::to_string(rect.x1) +
+           "," + std::to_string(rect.y1);
+}
+
+/// A picture and where it comes from.
+struct Picture {
+    std::string name;
+    Image image;
+    PixelRect filled;
+};
+
+class Reader {
+public:
+    explicit Reader(const std::optional<std::string>& layer) { options_.layer = layer; }
+
+    [[nodiscard]] Picture read(const fs::path& file)
+    {
+        io::LoadedImage loaded = io::read_image(file, options_);
+        for (const std::string& warning : loaded.warnings) {
+            warnings_.push_back(file.string() + ": " + warning);
+        }
+        return {.name = file.string(), .image = std::move(loaded.image), .filled = loaded.filled};
+    }
+    void warn(std::string warning) { warnings_.push_back(std::move(warning)); }
+    [[nodiscard]] std::vector<std::string> take_warnings() { return std::move(warnings_); }
+
+private:
+    io::ImageOptions options_;
+    std::vector<std::string> warnings_;
+};
+
+void check_size(const Picture& picture, const Picture& reference)
+{
+    const auto size = [](const Image& image) {
+        return std::to_string(image.width) + " x " + std::to_string(image.height);
+    };
+    if (picture.image.width != reference.image.width ||
+        picture.image.height != reference.image.height) {
+        throw Error(ErrorCode::invalid_input, picture.name + ": has " + size(picture.image) +
+                                                  " pixels, but the reference " + reference.name +
+                                                  " has " + size(reference.image));
+    }
+}
+
+PixelRect common_region(const Picture& picture, const Picture& reference)
+{
+    const PixelRect region = intersection(picture.filled, reference.filled);
+    if (region.width() <= 0 || region.height() <= 0) {
+        throw Error(
+            ErrorCode::invalid_input,
+            picture.name + ": has no pixels in common with the reference " + reference.name);
+    }
+    return region;
+}
+
+}  // namespace
+
+FileComparison compare_files(std::span<const fs::path> files, const fs::path& reference,
+                             const std::optional<std::string>& layer,
+                             const ComparisonOptions& options)
+{
+    Reader reader(layer);
+    const Picture truth = reader.read(reference);
+    Picture picture = reader.read(files[0]);
+    check_size(picture, truth);
+    const PixelRect region = common_region(picture, truth);
+    if (region.width() < truth.image.width || region.height() < truth.image.height) {
+        reader.warn(picture.name + ": compared within " + to_text(region) +
+                    " only, where both pictures have data");
+    }
+    ComparisonOptions placed = options;
+    placed.x0 = region.x0;
+    placed.y0 = region.y0;
+    Comparison comparison(truth.name, crop(truth.image, region), std::move(placed));
+    comparison.add(picture.name, crop(picture.image, region));
+    for (const fs::path& file : files.subspan(1)) {
+        picture = reader.read(file);
+        check_size(picture, truth);
+        if (!(intersection(picture.filled, region) == region)) {
+            throw Error(ErrorCode::invalid_input, picture.name + ": has data within " +
+                                                      to_text(picture.filled) + ", but " +
+                                                      to_text(region) + " is compared");
+        }
+        comparison.add(picture.name, crop(picture.image, region));
+    }
+    return {.report = comparison.report(), .warnings = reader.take_warnings()};
+}
+
+}  // namespace bdpt::eval

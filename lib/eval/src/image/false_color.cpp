@@ -1,0 +1,134 @@
+#include "image/glyphs.h"
+
+#include <bdpt/eval/image/false_color.h>
+#include <bdpt/eval/image/heat_map.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace bdpt::eval {
+namespace {
+
+constexpr Color8 ground{40, 40, 40};
+constexpr Color8 ink{235, 235, 235};
+
+// The strip below the map, from the top [pixels at zoom 1].
+constexpr int bar_top = 4;
+constexpr int bar_height = 10;
+constexpr int numbers_top = bar_top + bar_height + 3;
+constexpr int title_top = numbers_top + glyph_height + 3;
+constexpr int strip_height = title_top + glyph_height + 4;
+constexpr int least_width = 160;    // three numbers side by side
+constexpr int width_at_zoom = 640;  // pictures this wide have glyphs of twice the size, and so on
+constexpr int margin = 4;
+constexpr int advance = glyph_width + 1;
+
+class Canvas {
+public:
+    Canvas(int width, int height) : image_{width, height, {}}
+    {
+        for (int i = 0; i < width * height; ++i) {
+            image_.rgb.insert(image_.rgb.end(), ground.begin(), ground.end());
+        }
+    }
+
+    void set(int x, int y, const Color8& color)
+    {
+        if (x < 0 || y < 0 || x >= image_.width || y >= image_.height) {
+            return;
+        }
+        const std::size_t index =
+            3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width) +
+                 static_cast<std::size_t>(x));
+        std::copy(color.begin(), color.end(),
+                  image_.rgb.begin() + static_cast<std::ptrdiff_t>(index));
+    }
+
+    /// Its top left corner at (x, y).
+    void write(std::string_view text, int x, int y, int zoom)
+    {
+        for (const char c : text) {
+            const Glyph& rows = glyph(c);
+            for (int dy = 0; dy < glyph_height * zoom; ++dy) {
+                for (int dx = 0; dx < glyph_width * zoom; ++dx) {
+                    if (rows[static_cast<std::size_t>(dy / zoom)]
+                            [static_cast<std::size_t>(dx / zoom)] == '#') {
+                        set(x + dx, y + dy, ink);
+                    }
+                }
+            }
+            x += advance * zoom;
+        }
+    }
+
+    [[nodiscard]] io::DisplayImage take() { return std::move(image_); }
+
+private:
+    io::DisplayImage image_;
+};
+
+std::string number_text(double value)
+{
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.3g", value);
+    return text.data();
+}
+
+int text_width(std::string_view text, int zoom)
+{
+    return static_cast<int>(text.size()) * advance * zoom;
+}
+
+void draw_bar(Canvas& canvas, const std::vector<Color8>& colors, int width, int top, int zoom)
+{
+    const int left = margin * zoom;
+    const int length = width - 2 * left;
+    for (int x = 0; x < length; ++x) {
+        const auto index =
+            static_cast<std::size_t>(x) * colors.size() / static_cast<std::size_t>(length);
+        for (int y = bar_top * zoom; y < (bar_top + bar_height) * zoom; ++y) {
+            canvas.set(left + x, top + y, colors[index]);
+        }
+    }
+}
+
+void draw_numbers(Canvas& canvas, double scale, int width, int top, int zoom)
+{
+    const std::string half = number_text(0.5 * scale);
+    const std::string full = number_text(scale);
+    const int y = top + numbers_top * zoom;
+    canvas.write("0", margin * zoom, y, zoom);
+    canvas.write(half, (width - text_width(half, zoom)) / 2, y, zoom);
+    canvas.write(full, width - margin * zoom - text_width(full, zoom), y, zoom);
+}
+
+}  // namespace
+
+io::DisplayImage false_color(const ErrorMap& map, const FalseColorOptions& options)
+{
+    const std::vector<Color8> colors = heat_colors();
+    const double last = static_cast<double>(colors.size() - 1);
+    const int width = std::max(map.width, least_width);
+    const int zoom = 1 + width / width_at_zoom;
+    Canvas canvas(width, map.height + strip_height * zoom);
+    for (int y = 0; y < map.height; ++y) {
+        for (int x = 0; x < map.width; ++x) {
+            const double error = map.at(x, y);  // NaN has the first colour
+            const double part = error > 0.0 ? std::min(error / options.scale, 1.0) : 0.0;
+            canvas.set(x, y, colors[static_cast<std::size_t>(std::lround(part * last))]);
+        }
+    }
+    draw_bar(canvas, colors, width, map.height, zoom);
+    draw_numbers(canvas, options.scale, width, map.height, zoom);
+    canvas.write(options.title, margin * zoom, map.height + title_top * zoom, zoom);
+    return canvas.take();
+}
+
+}  // namespace bdpt::eval

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace bdpt::eval {
+
+constexpr int glyph_width = 5;  // [pixels]
+constexpr int glyph_height = 7;
+
+/// Rows of a character, five letters each: '#' is ink. Characters without a picture are blank.
+using Glyph = std::array<std::string_view, glyph_height>;
+
+[[nodiscard]] const Glyph& glyph(char c);
+
+}  // namespace bdpt::eval

@@ -1,0 +1,133 @@
+#include <bdpt/eval/metrics/metric.h>
+#include <bdpt/io/tone_map.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+
+namespace bdpt::eval {
+namespace {
+
+/// The mean over the channels of `term(x, r)`, for each pixel.
+template <typename Term>
+ErrorMap channel_means(const Image& image, const Image& reference, Term term)
+{
+    ErrorMap map{image.width, image.height, {}};
+    map.values.reserve(image.pixels.size());
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        double sum = 0.0;
+        for (int c = 0; c < 3; ++c) {
+            sum += term(static_cast<double>(image.pixels[i][c]),
+                        static_cast<double>(reference.pixels[i][c]));
+        }
+        map.values.push_back(sum / 3.0);
+    }
+    return map;
+}
+
+/// As `bdpt render` shows it in a PNG file, in linear light.
+Image on_screen(const Image& image, float exposure)
+{
+    Image result = image;
+    const float factor = std::exp2(exposure);
+    for (Rgb& pixel : result.pixels) {
+        pixel = io::filmic(factor * pixel);
+    }
+    return result;
+}
+
+}  // namespace
+
+std::string_view to_string(Metric metric)
+{
+    switch (metric) {
+        case Metric::relmse:
+            return "relmse";
+        case Metric::mse:
+            return "mse";
+        case Metric::rmse:
+            return "rmse";
+        case Metric::mape:
+            return "mape";
+        case Metric::smape:
+            return "smape";
+        case Metric::psnr:
+            return "psnr";
+        case Metric::flip:
+            return "flip";
+        case Metric::flip_ldr:
+            return "flip_ldr";
+    }
+    return "";
+}
+
+std::optional<Metric> parse_metric(std::string_view name)
+{
+    const auto found = std::find_if(all_metrics.begin(), all_metrics.end(),
+                                    [name](Metric metric) { return to_string(metric) == name; });
+    return found != all_metrics.end() ? std::optional(*found) : std::nullopt;
+}
+
+bool grows_with_error(Metric metric)
+{
+    return metric != Metric::psnr;
+}
+
+ErrorMap error_terms(Metric metric, const Image& image, const Image& reference,
+                     const MetricScale& scale)
+{
+    switch (metric) {
+        case Metric::relmse:
+            return channel_means(image, reference, [&scale](double x, double r) {
+                return (x - r) * (x - r) / (r * r + scale.squared_epsilon);
+            });
+        case Metric::mse:
+        case Metric::rmse:
+        case Metric::psnr:
+            return channel_means(image, reference,
+                                 [](double x, double r) { return (x - r) * (x - r); });
+        case Metric::mape:
+            return channel_means(image, reference, [&scale](double x, double r) {
+                return std::abs(x - r) / (std::abs(r) + scale.epsilon);
+            });
+        case Metric::smape:
+            return channel_means(image, reference, [&scale](double x, double r) {
+                return std::abs(x - r) / (std::abs(x) + std::abs(r) + scale.epsilon);
+            });
+        case Metric::flip:
+            return hdr_flip(image, reference, scale.exposures, scale.pixels_per_degree);
+        case Metric::flip_ldr:
+            return flip(on_screen(image, scale.exposure), on_screen(reference, scale.exposure),
+                        scale.pixels_per_degree);
+    }
+    return {};
+}
+
+double from_mean(Metric metric, double mean, const MetricScale& scale)
+{
+    if (metric == Metric::rmse) {
+        return std::sqrt(mean);
+    }
+    if (metric == Metric::psnr) {
+        return mean > 0.0 ? 10.0 * std::log10(scale.peak * scale.peak / mean)
+                          : std::numeric_limits<double>::infinity();
+    }
+    return mean;
+}
+
+double mean(const ErrorMap& map)
+{
+    return std::accumulate(map.values.begin(), map.values.end(), 0.0) /
+           static_cast<double>(map.values.size());
+}
+
+double evaluate(Metric metric, const Image& image, const Image& reference,
+                const MetricOptions& options)
+{
+    const MetricScale scale = make_scale(reference, options);
+    return from_mean(metric, mean(error_terms(metric, image, reference, scale)), scale);
+}
+
+}  // namespace bdpt::eval

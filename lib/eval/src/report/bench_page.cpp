@@ -1,0 +1,179 @@
+#include <bdpt/eval/image/heat_map.h>
+#include <bdpt/eval/report/bench_output.h>
+#include <bdpt/eval/report/packed_image.h>
+#include <bdpt/io/read_image.h>
+#include <bdpt/io/tone_map.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "bench/bench_files.h"
+#include "bench/time_splits.h"
+#include "report/page_source.h"
+#include "report/record_json.h"
+
+namespace bdpt::eval {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+/// Logarithms of variances in a byte: 0 for nothing, then 2^-24 to 2^8 in eighths of an octave.
+constexpr double variance_octaves_below = 24.0;
+constexpr double variance_steps = 8.0;
+
+std::string heat_text()
+{
+    constexpr std::string_view digits = "0123456789abcdef";
+    std::string result;
+    for (const Color8& color : heat_colors()) {
+        for (const std::uint8_t channel : color) {
+            result += digits[channel >> 4];
+            result += digits[channel & 15];
+        }
+    }
+    return result;
+}
+
+/// The pictures of an integrator at equal time, one for each seed that it has runs with.
+std::vector<Image> read_pictures(const SceneResult& scene, IntegratorKind kind,
+                                 const fs::path& folder)
+{
+    std::vector<Image> result;
+    for (const BenchRun& run : scene.runs) {
+        if (run.integrator == kind) {
+            result.push_back(
+                io::read_image(picture_file(folder, scene.name, kind, run.seed)).image);
+        }
+    }
+    return result;
+}
+
+/// Variance between pictures over r^2 + e: mean of the channels, as bytes of logarithms.
+std::vector<std::uint8_t> variance_map(const std::vector<Image>& pictures, const Image& reference,
+                                       double epsilon)
+{
+    const auto count = static_cast<double>(pictures.size());
+    std::vector<std::uint8_t> result;
+    for (std::size_t i = 0; i < reference.pixels.size(); ++i) {
+        double relative = 0.0;
+        for (int c = 0; c < 3; ++c) {
+            double sum = 0.0;
+            double squares = 0.0;
+            for (const Image& picture : pictures) {
+                const double value = static_cast<double>(picture.pixels[i][c]);
+                sum += value;
+                squares += value * value;
+            }
+            const double r = static_cast<double>(reference.pixels[i][c]);
+            relative += std::max(squares - sum * sum / count, 0.0) / (count - 1.0) /
+                        (r * r + epsilon) / 3.0;
+        }
+        const double steps =
+            relative > 0.0 ? variance_steps * (std::log2(relative) + variance_octaves_below) + 1.0
+                           : 0.0;
+        result.push_back(static_cast<std::uint8_t>(std::clamp(steps + 0.5, 0.0, 255.0)));
+    }
+    return result;
+}
+
+ordered_json pictures_json(const SceneResult& scene, const fs::path& folder, const Image& reference,
+                           double scale)
+{
+    const double epsilon = bench_scale(reference).squared_epsilon;
+    ordered_json pictures = ordered_json::object();
+    ordered_json variances = ordered_json::object();
+    for (const BenchGoals& goals : scene.goals) {
+        const std::vector<Image> all = read_pictures(scene, goals.integrator, folder);
+        if (all.empty()) {
+            continue;
+        }
+        const std::string name(to_string(goals.integrator));
+        pictures[name] = packed_image(all.front(), scale);
+        if (all.size() > 1) {
+            variances[name] = packed_bytes(variance_map(all, reference, epsilon));
+        }
+    }
+    pictures["reference"] = packed_image(reference, scale);
+    return {{"scale", scale},
+            {"exposure", io::automatic_exposure(reference)},
+            {"epsilon", epsilon},
+            {"images", std::move(pictures)},
+            {"variance", std::move(variances)}};
+}
+
+/// Maps of the time that pixels take.
+ordered_json times_json(const SceneResult& scene, const BenchFiles& files)
+{
+    ordered_json maps = ordered_json::object();
+    for (const TimeSplit& split : scene.splits) {
+        if (std::optional<std::string> map = packed_time_map(files, split.integrator)) {
+            maps[std::string(to_string(split.integrator))] = std::move(*map);
+        }
+    }
+    return maps;
+}
+
+/// `text` with each word in double braces replaced by what it stands for.
+std::string fill(std::string_view text,
+                 const std::vector<std::pair<std::string_view, std::string_view>>& values)
+{
+    std::string result;
+    while (true) {
+        const std::size_t open = text.find("{{");
+        const std::size_t close = text.find("}}", open);
+        if (close == std::string_view::npos) {
+            return result.append(text);
+        }
+        result.append(text.substr(0, open));
+        const std::string_view word = text.substr(open + 2, close - open - 2);
+        for (const auto& [name, value] : values) {
+            if (name == word) {
+                result.append(value);
+            }
+        }
+        text.remove_prefix(close + 2);
+    }
+}
+
+/// JSON that no HTML parser takes for the end of a script.
+std::string script_safe(const std::string& json)
+{
+    std::string result;
+    for (const char c : json) {
+        result += c == '<' ? "\\u003c" : std::string(1, c);
+    }
+    return result;
+}
+
+}  // namespace
+
+std::string bench_page(const BenchRecord& record, const fs::path& folder)
+{
+    ordered_json data = head_json(record);
+    data["heat"] = heat_text();
+    data["scenes"] = ordered_json::array();
+    for (const SceneResult& scene : record.scenes) {
+        ordered_json json = scene_json(scene, record.options.seconds);
+        const Image reference = io::read_image(scene.reference_file).image;
+        json["pictures"] = pictures_json(scene, folder, reference, page_scale(scene.light_scale));
+        std::optional<ordered_json> strategies =
+            read_json(BenchFiles(folder, scene.name).strategies());
+        json["pictures"]["time"] = times_json(scene, BenchFiles(folder, scene.name));
+        json["strategies"] = strategies ? std::move(*strategies) : ordered_json();
+        data["scenes"].push_back(std::move(json));
+    }
+    const std::string text =
+        script_safe(data.dump(-1, ' ', false, ordered_json::error_handler_t::replace));
+    return fill(page_template(),
+                {{"style", page_style()}, {"data", text}, {"script", page_script()}});
+}
+
+}  // namespace bdpt::eval

@@ -1,0 +1,121 @@
+#include <bdpt/error.h>
+#include <bdpt/eval/report/packed_image.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace bdpt::eval {
+namespace {
+
+constexpr int mantissa_bits = 9;
+constexpr int exponent_bias = 15;
+constexpr int greatest_exponent = 31;
+constexpr float greatest_value = 65408.0f;  // 511 / 512 * 2^16
+
+std::string base64(std::span<const Bytef> bytes)
+{
+    constexpr const char* digits =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string result;
+    result.reserve((bytes.size() + 2) / 3 * 4);
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        const auto byte = [&](std::size_t k) -> std::uint32_t {
+            return i + k < bytes.size() ? bytes[i + k] : 0;
+        };
+        const std::uint32_t word = byte(0) << 16 | byte(1) << 8 | byte(2);
+        result += digits[word >> 18];
+        result += digits[word >> 12 & 63];
+        result += i + 1 < bytes.size() ? digits[word >> 6 & 63] : '=';
+        result += i + 2 < bytes.size() ? digits[word & 63] : '=';
+    }
+    return result;
+}
+
+}  // namespace
+
+std::uint32_t pack_rgb9e5(Rgb rgb)
+{
+    const auto clamped = [](float value) {
+        return value > 0.0f ? std::min(value, greatest_value) : 0.0f;  // NaN is not above 0
+    };
+    const Rgb color(clamped(rgb.r), clamped(rgb.g), clamped(rgb.b));
+    const float greatest = std::max({color.r, color.g, color.b});
+    int exponent = 0;  // greatest < 2^exponent
+    if (greatest > 0.0f) {
+        std::frexp(greatest, &exponent);
+    }
+    exponent = std::max(exponent, -exponent_bias);
+    const auto mantissa = [&](float value) {
+        return static_cast<std::uint32_t>(
+            std::floor(std::ldexp(value, mantissa_bits - exponent) + 0.5f));
+    };
+    if (mantissa(greatest) == 1u << mantissa_bits) {
+        ++exponent;  // it was rounded up to the next power of two
+    }
+    const auto biased =
+        static_cast<std::uint32_t>(std::min(exponent + exponent_bias, greatest_exponent));
+    return mantissa(color.r) | mantissa(color.g) << 9 | mantissa(color.b) << 18 | biased << 27;
+}
+
+Rgb unpack_rgb9e5(std::uint32_t packed)
+{
+    const int exponent = static_cast<int>(packed >> 27) - exponent_bias - mantissa_bits;
+    const auto component = [&](unsigned shift) {
+        return std::ldexp(static_cast<float>(packed >> shift & 511u), exponent);
+    };
+    return {component(0), component(9), component(18)};
+}
+
+std::string packed_bytes(std::span<const std::uint8_t> bytes)
+{
+    uLongf size = compressBound(static_cast<uLong>(bytes.size()));
+    std::vector<Bytef> compressed(size);
+    const int result = compress2(compressed.data(), &size, bytes.data(),
+                                 static_cast<uLong>(bytes.size()), Z_BEST_COMPRESSION);
+    if (result != Z_OK) {
+        throw Error(result == Z_MEM_ERROR ? ErrorCode::out_of_memory : ErrorCode::internal,
+                    "cannot compress a picture for the report");
+    }
+    return base64(std::span(compressed).first(size));
+}
+
+std::string packed_image(const Image& image, double scale)
+{
+    const std::size_t count = image.pixels.size();
+    std::vector<std::uint8_t> bytes(4 * count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t packed = pack_rgb9e5(image.pixels[i] * static_cast<float>(scale));
+        for (std::size_t plane = 0; plane < 4; ++plane) {
+            bytes[plane * count + i] = static_cast<std::uint8_t>(packed >> (8 * plane));
+        }
+    }
+    return packed_bytes(bytes);
+}
+
+Image shrunk(const Image& image, int factor)
+{
+    Image result{(image.width + factor - 1) / factor, (image.height + factor - 1) / factor, {}};
+    for (int y0 = 0; y0 < image.height; y0 += factor) {
+        for (int x0 = 0; x0 < image.width; x0 += factor) {
+            const int x1 = std::min(x0 + factor, image.width);
+            const int y1 = std::min(y0 + factor, image.height);
+            Rgb sum(0.0f);
+            for (int y = y0; y < y1; ++y) {
+                for (int x = x0; x < x1; ++x) {
+                    sum += image.at(x, y);
+                }
+            }
+            result.pixels.push_back(sum / static_cast<float>((x1 - x0) * (y1 - y0)));
+        }
+    }
+    return result;
+}
+
+double page_scale(double mean)
+{
+    return mean > 0.0 ? std::exp2(-2.0 - std::floor(std::log2(mean) + 0.5)) : 1.0;
+}
+
+}  // namespace bdpt::eval

@@ -1,0 +1,94 @@
+#include "verify/compare_evidence.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bdpt::eval {
+namespace {
+
+double squared_error(const Moments& moments)
+{
+    return moments.variance() / static_cast<double>(moments.count());
+}
+
+/// Samples of an estimate: how many and which there were, and what `expected_samples` of them are
+/// expected to be.
+struct SampleMoments {
+    double samples;
+    const SecondMoment& seen;
+    double expected_samples;
+    const SecondMoment& expected;
+};
+
+/// What the spread lacks of the variance of a mean: that of rare samples, one of which moves the
+/// mean too much, as far as fewer of them were seen than expected.
+double unseen_variance(const SampleMoments& of, double sample_variance)
+{
+    const double size = rare_fraction * std::sqrt(sample_variance) * of.samples;
+    const double unseen =
+        of.expected.above(size) / of.expected_samples - of.seen.above(size) / of.samples;
+    return std::max(unseen, 0.0) / of.samples;
+}
+
+const SecondMoment& second_moment(const LengthSums& sums, IntegratorKind integrator)
+{
+    switch (integrator) {
+        case IntegratorKind::pt:
+            return sums.pt;
+        case IntegratorKind::nee:
+            return sums.nee;
+        case IntegratorKind::mis:
+            return sums.mis;
+        default:
+            return sums.lt;
+    }
+}
+
+}  // namespace
+
+MeanComparison compare_strategy(const Evidence& evidence, std::size_t cell, std::size_t index)
+{
+    const StrategyEvidence& found = evidence.strategy(cell, index);
+    const double samples = evidence.bdpt_samples_in(cell);
+    const double variance = squared_error(found.difference);
+    return compare_means({.found = found.sums.tested / samples,
+                          .expected = found.sums.expected / samples,
+                          .sample_variance = variance,
+                          .rare_variance = unseen_variance({.samples = samples,
+                                                            .seen = found.sums.seen,
+                                                            .expected_samples = samples,
+                                                            .expected = found.sums.second_moment},
+                                                           variance),
+                          .freedom = static_cast<double>(found.difference.count() - 1)});
+}
+
+MeanComparison compare_integrator(const Evidence& evidence, std::size_t cell, int edges,
+                                  std::size_t integrator)
+{
+    const LengthEvidence& length = evidence.length(cell, edges);
+    const IntegratorKind kind = other_integrators[integrator];
+    const bool from_light = kind == IntegratorKind::lt;
+    const ReachSums& reach = from_light ? length.sums.from_light : length.sums.from_camera;
+    const Moments& expected = from_light ? length.from_light : length.from_camera;
+    const Moments& found = length.others[integrator];
+    const double variance = squared_error(found) + squared_error(expected);
+    const double samples = evidence.bdpt_samples_in(cell);
+    const double rare =
+        unseen_variance({.samples = samples / bdpt_samples * samples_of(kind, edges),
+                         .seen = length.seen[integrator],
+                         .expected_samples = samples,
+                         .expected = second_moment(length.sums, kind)},
+                        variance) +
+        unseen_variance({.samples = samples,
+                         .seen = reach.seen,
+                         .expected_samples = samples,
+                         .expected = reach.second_moment},
+                        variance);
+    return compare_means({.found = found.mean(),
+                          .expected = reach.radiance / samples,
+                          .sample_variance = variance,
+                          .rare_variance = rare,
+                          .freedom = welch_freedom(found, expected)});
+}
+
+}  // namespace bdpt::eval

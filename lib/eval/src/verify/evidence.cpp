@@ -1,0 +1,120 @@
+#include "verify/evidence.h"
+
+#include <algorithm>
+
+namespace bdpt::eval {
+
+PictureCheck& PictureCheck::operator+=(const PictureCheck& later)
+{
+    if (!defects.first_invalid) {
+        defects.first_invalid = later.defects.first_invalid;
+    }
+    defects.invalid += later.defects.invalid;
+    defects.saturated += later.defects.saturated;
+    lost = std::max(lost, later.lost);
+    return *this;
+}
+
+Evidence::Evidence(const TileGrid& grid, int max_depth)
+    : grid_(grid),
+      row_(max_depth),
+      strategies_((grid.size() + 1) * row_.size()),
+      lengths_((grid.size() + 1) * static_cast<std::size_t>(max_depth)),
+      finders_(row_.pairs())
+{}
+
+void Evidence::add(const Batch& batch)
+{
+    ++batches_;
+    add_strategies(batch);
+    add_lengths(batch);
+    add_pictures(batch);
+    const WeightFinding& weights = batch.bdpt.weights();
+    weights_.paths += weights.paths;
+    weights_.wrong += weights.wrong;
+    weights_.worst = std::max(weights_.worst, weights.worst);
+}
+
+void Evidence::add_strategies(const Batch& batch)
+{
+    const auto add = [&](std::size_t cell, std::size_t index, const StrategySums& sums) {
+        StrategyEvidence& evidence = strategies_[cell * row_.size() + index];
+        evidence.sums += sums;
+        evidence.difference.add((sums.tested - sums.expected) / (bdpt_samples * pixels(cell)));
+    };
+    for (std::size_t index = 0; index < row_.size(); ++index) {
+        StrategySums all;
+        for (std::size_t tile = 0; tile < grid_.size(); ++tile) {
+            add(tile, index, batch.bdpt.strategy(tile, index));
+            all += batch.bdpt.strategy(tile, index);
+        }
+        add(whole(), index, all);
+    }
+    for (int edges = 1; edges <= row_.max_depth(); ++edges) {
+        const auto count = static_cast<std::size_t>(edges + 2);
+        for (std::size_t u = 0; u < count; ++u) {
+            for (std::size_t finder = 0; finder < count; ++finder) {
+                finders_[row_.pair(edges, u, finder)] += batch.bdpt.expected_from(edges, u, finder);
+            }
+        }
+    }
+}
+
+void Evidence::add_lengths(const Batch& batch)
+{
+    struct OtherSums {
+        std::array<double, 4> radiance{};
+        std::array<SecondMoment, 4> seen{};
+    };
+    const auto add = [&](std::size_t cell, int edges, const LengthSums& sums,
+                         const OtherSums& others) {
+        LengthEvidence& evidence = lengths_[cell * static_cast<std::size_t>(row_.max_depth()) +
+                                            static_cast<std::size_t>(edges - 1)];
+        const double samples = bdpt_samples * pixels(cell);
+        evidence.sums += sums;
+        evidence.radiance.add(sums.radiance / samples);
+        evidence.from_camera.add(sums.from_camera.radiance / samples);
+        evidence.from_light.add(sums.from_light.radiance / samples);
+        for (std::size_t i = 0; i < other_integrators.size(); ++i) {
+            evidence.others[i].add(others.radiance[i] /
+                                   (samples_of(other_integrators[i], edges) * pixels(cell)));
+            evidence.seen[i] += others.seen[i];
+        }
+    };
+    for (int edges = 1; edges <= row_.max_depth(); ++edges) {
+        LengthSums all;
+        OtherSums all_others;
+        for (std::size_t tile = 0; tile < grid_.size(); ++tile) {
+            OtherSums others;
+            for (std::size_t i = 0; i < other_integrators.size(); ++i) {
+                others.radiance[i] = batch.others[i].at(tile, edges);
+                others.seen[i] = batch.others[i].seen(tile, edges);
+                all_others.radiance[i] += others.radiance[i];
+                all_others.seen[i] += others.seen[i];
+            }
+            add(tile, edges, batch.bdpt.length(tile, edges), others);
+            all += batch.bdpt.length(tile, edges);
+        }
+        add(whole(), edges, all, all_others);
+    }
+}
+
+void Evidence::add_pictures(const Batch& batch)
+{
+    std::array<double, 5> sums{};
+    for (std::size_t tile = 0; tile < grid_.size(); ++tile) {
+        for (int edges = 1; edges <= row_.max_depth(); ++edges) {
+            sums[0] += batch.bdpt.length(tile, edges).radiance / bdpt_samples;
+            for (std::size_t i = 0; i < batch.others.size(); ++i) {
+                sums[i + 1] +=
+                    batch.others[i].at(tile, edges) / samples_of(other_integrators[i], edges);
+            }
+        }
+    }
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        pictures_[i].add(sums[i] / grid_.pixels());
+        checks_[i] += batch.pictures[i];
+    }
+}
+
+}  // namespace bdpt::eval

@@ -1,0 +1,118 @@
+#pragma once
+
+#include "verify/path_sums.h"
+#include "verify/radiance_sums.h"
+
+#include <bdpt/eval/statistics/moments.h>
+#include <bdpt/eval/verify/verify_options.h>
+#include <bdpt/film.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace bdpt::eval {
+
+/// Those that are held against bdpt.
+constexpr std::array<IntegratorKind, 4> other_integrators{IntegratorKind::pt, IntegratorKind::nee,
+                                                          IntegratorKind::mis, IntegratorKind::lt};
+
+/// Samples a pixel that a batch takes of paths of this length.
+[[nodiscard]] constexpr int samples_of(IntegratorKind integrator, int edges)
+{
+    return integrator == IntegratorKind::bdpt               ? bdpt_samples
+           : integrator == IntegratorKind::mis              ? mis_samples
+           : integrator == IntegratorKind::pt && edges == 1 ? direct_samples
+                                                            : other_samples;
+}
+
+/// What one integrator said about itself in a batch.
+struct PictureCheck {
+    FilmDefects defects;
+    double lost = 0.0;  ///< as `PictureFinding::lost`
+
+    /// Adds what a later render said.
+    PictureCheck& operator+=(const PictureCheck& later);
+};
+
+/// One batch: independent samples of all integrators.
+struct Batch {
+    PathSums bdpt;
+    std::array<RadianceSums, 4> others;    ///< in the order of `other_integrators`
+    std::array<PictureCheck, 5> pictures;  ///< bdpt, then in that order
+};
+
+/// What many batches say about a strategy in a tile or in the whole picture.
+struct StrategyEvidence {
+    Moments difference;  ///< tested - expected, a mean over samples and pixels
+    StrategySums sums;
+};
+
+struct LengthEvidence {
+    Moments radiance;
+    Moments from_camera;
+    Moments from_light;
+    std::array<Moments, 4> others;
+    std::array<SecondMoment, 4> seen;  ///< of the samples of `others`
+    LengthSums sums;
+};
+
+/// All batches together, by cell: the tiles, then the whole picture.
+class Evidence {
+public:
+    Evidence(const TileGrid& grid, int max_depth);
+
+    void add(const Batch& batch);
+
+    [[nodiscard]] const TileGrid& grid() const { return grid_; }
+    [[nodiscard]] const StrategyRow& row() const { return row_; }
+    [[nodiscard]] std::size_t whole() const { return grid_.size(); }
+    [[nodiscard]] std::int64_t batches() const { return batches_; }
+    [[nodiscard]] const StrategyEvidence& strategy(std::size_t cell, std::size_t index) const
+    {
+        return strategies_[cell * row_.size() + index];
+    }
+    [[nodiscard]] const LengthEvidence& length(std::size_t cell, int edges) const
+    {
+        return lengths_[cell * static_cast<std::size_t>(row_.max_depth()) +
+                        static_cast<std::size_t>(edges - 1)];
+    }
+    /// Sum over all batches of `PathSums::expected_from`.
+    [[nodiscard]] double expected_from(int edges, std::size_t u, std::size_t finder) const
+    {
+        return finders_[row_.pair(edges, u, finder)];
+    }
+    /// Over all lengths: bdpt, then `other_integrators`.
+    [[nodiscard]] const std::array<Moments, 5>& pictures() const { return pictures_; }
+    [[nodiscard]] const std::array<PictureCheck, 5>& checks() const { return checks_; }
+    [[nodiscard]] const WeightFinding& weights() const { return weights_; }
+    /// Pixels of a cell.
+    [[nodiscard]] double pixels(std::size_t cell) const
+    {
+        return cell == whole() ? grid_.pixels() : grid_.pixels(cell);
+    }
+
+    /// Samples of bdpt in a cell.
+    [[nodiscard]] double bdpt_samples_in(std::size_t cell) const
+    {
+        return bdpt_samples * pixels(cell) * static_cast<double>(batches_);
+    }
+
+private:
+    void add_strategies(const Batch& batch);
+    void add_lengths(const Batch& batch);
+    void add_pictures(const Batch& batch);
+
+    const TileGrid& grid_;
+    StrategyRow row_;
+    std::int64_t batches_ = 0;
+    std::vector<StrategyEvidence> strategies_;  // by cell, then by index
+    std::vector<LengthEvidence> lengths_;       // by cell, then by length
+    std::vector<double> finders_;               // by pair
+    std::array<Moments, 5> pictures_;
+    std::array<PictureCheck, 5> checks_;
+    WeightFinding weights_;
+};
+
+}  // namespace bdpt::eval

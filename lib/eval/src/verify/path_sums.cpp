@@ -1,0 +1,200 @@
+#include "verify/path_sums.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bdpt::eval {
+namespace {
+
+double mean_channel(Rgb c)
+{
+    return (static_cast<double>(c.r) + static_cast<double>(c.g) + static_cast<double>(c.b)) / 3.0;
+}
+
+double square(double x)
+{
+    return x * x;
+}
+
+/// The samples of two strategies with these shares, weighed by the power heuristic, along a path of
+/// which all strategies together make `all`; none without a share.
+void add_pair(SecondMoment& moment, double weighted, double all, double a, double b)
+{
+    const double greater = std::max(a, b);
+    if (!(greater > 0.0)) {
+        return;
+    }
+    // Divided by the greater first: squares of small shares would be lost.
+    const double x = a / greater;
+    const double y = b / greater;
+    const double sum = x * x + y * y;
+    const double size = all / greater / sum;
+    moment.add(size * x, weighted * size / sum * x * x * x);
+    moment.add(size * y, weighted * size / sum * y * y * y);
+}
+
+double share_of(const FoundPath& path, std::size_t s)
+{
+    return s < path.shares.size() ? static_cast<double>(path.shares[s]) : 0.0;
+}
+
+}  // namespace
+
+StrategySums& StrategySums::operator+=(const StrategySums& other)
+{
+    tested += other.tested;
+    expected += other.expected;
+    second_moment += other.second_moment;
+    seen += other.seen;
+    reach += other.reach;
+    weighted += other.weighted;
+    unweighted += other.unweighted;
+    solitary += other.solitary;
+    unchecked += other.unchecked;
+    return *this;
+}
+
+ReachSums& ReachSums::operator+=(const ReachSums& other)
+{
+    radiance += other.radiance;
+    second_moment += other.second_moment;
+    seen += other.seen;
+    return *this;
+}
+
+LengthSums& LengthSums::operator+=(const LengthSums& other)
+{
+    radiance += other.radiance;
+    from_camera += other.from_camera;
+    from_light += other.from_light;
+    pt += other.pt;
+    nee += other.nee;
+    mis += other.mis;
+    lt += other.lt;
+    return *this;
+}
+
+PathSums::PathSums(const TileGrid& grid, int max_depth)
+    : grid_(grid),
+      row_(max_depth),
+      strategies_(grid.size() * row_.size()),
+      lengths_(grid.size() * static_cast<std::size_t>(max_depth)),
+      finders_(row_.pairs())
+{}
+
+void PathSums::check_weight(const FoundPath& path, double definition)
+{
+    constexpr double tolerance = 1e-3;  // far above what rounding does
+    const double difference = std::abs(static_cast<double>(path.weight) - definition);
+    ++weights_.paths;
+    if (!(difference <= tolerance)) {
+        ++weights_.wrong;
+    }
+    weights_.worst = std::isnan(difference) ? 1.0 : std::max(weights_.worst, difference);
+}
+
+void PathSums::add(const FoundPath& path)
+{
+    const int edges = path.strategy.s + path.strategy.t - 1;
+    const double unweighted = mean_channel(path.unweighted);
+    if (edges > row_.max_depth() || !std::isfinite(unweighted)) {
+        return;
+    }
+    double squares = 0.0;
+    for (const float share : path.shares) {
+        squares += square(static_cast<double>(share));
+    }
+    const auto own = static_cast<std::size_t>(path.strategy.s);
+    const double own_share = share_of(path, own);
+    // A strategy that found what it claims that it cannot find has no share: its weight is wrong.
+    check_weight(path, squares > 0.0 ? square(own_share) / squares : 0.0);
+    if (!(squares > 0.0)) {
+        return;
+    }
+    const double all = own_share * unweighted;
+    Measure measure{.weighted = static_cast<double>(path.weight) * unweighted,
+                    .all = all,
+                    .squares = squares,
+                    .moment = 0.0,
+                    .largest = 0.0};
+    for (const float share : path.shares) {
+        // w / b with w = b^2 / squares
+        const double sample = static_cast<double>(share) / squares * all;
+        measure.moment += sample * square(static_cast<double>(share)) / squares;
+        measure.largest = std::max(measure.largest, sample);
+    }
+    const std::size_t tile = grid_.tile_at(path.raster);
+    const std::size_t first = tile * row_.size() + row_.begin(edges);
+    add_to_strategies(path, measure, first);
+    StrategySums& sums = strategies_[first + own];
+    sums.tested += std::min(1.0, own_share / full_share) * unweighted;
+    sums.weighted += measure.weighted;
+    sums.unweighted += unweighted;
+    const bool alone = own_share > 1.0 - 1e-6;
+    const bool from_camera = own <= 1 || share_of(path, 0) > 0.0 || share_of(path, 1) > 0.0;
+    sums.solitary += alone ? measure.weighted : 0.0;
+    sums.unchecked += alone && !from_camera ? measure.weighted : 0.0;
+    add_to_length(lengths_[tile * static_cast<std::size_t>(row_.max_depth()) +
+                           static_cast<std::size_t>(edges - 1)],
+                  path, measure);
+}
+
+void PathSums::add_to_strategies(const FoundPath& path, const Measure& measure, std::size_t first)
+{
+    const auto& [weighted, all, squares, moment, largest] = measure;
+    const auto own = static_cast<std::size_t>(path.strategy.s);
+    const int edges = path.strategy.s + path.strategy.t - 1;
+    for (std::size_t u = 0; u < path.shares.size(); ++u) {
+        const double share = share_of(path, u);
+        if (!(share > 0.0)) {
+            continue;
+        }
+        StrategySums& sums = strategies_[first + u];
+        const double g = std::min(1.0, share / full_share);
+        const double weight = square(share) / squares;
+        sums.expected += g * weighted;
+        finders_[row_.pair(edges, u, own)] += g * weighted;
+        sums.reach += weighted;
+        // Found by u, the path adds g (1 - w_u) / b_u to the difference; found by v, it takes g w_v
+        // / b_v from it.
+        const double by_own = (1.0 - weight) * g * all / share;
+        sums.second_moment.add(by_own, weighted * by_own * (1.0 - weight) * g);
+        const double by_others = moment - square(weight) * all / share;
+        sums.second_moment.add(g * largest, weighted * square(g) * std::max(by_others, 0.0));
+        if (u == own) {
+            sums.seen.add(by_own, square(by_own));
+        } else {
+            sums.seen.add(g * largest, square(g * weighted));
+        }
+    }
+}
+
+void PathSums::add_to_length(LengthSums& sums, const FoundPath& path, const Measure& measure)
+{
+    const std::size_t n = path.shares.size() - 1;  // vertices
+    const double hit = share_of(path, 0);
+    // Of paths of one edge, s = 1 goes through the lens: no path tracer has that.
+    const double next_event = n > 2 ? share_of(path, 1) : 0.0;
+    const double to_lens = share_of(path, n - 1);
+    const double hit_lens = share_of(path, n);
+    const double weighted = measure.weighted;
+    const double all = measure.all;
+    sums.radiance += weighted;
+    const auto reach = [&](ReachSums& reached) {
+        reached.radiance += weighted;
+        reached.second_moment.add(measure.largest, weighted * measure.moment);
+        reached.seen.add(measure.largest, square(weighted));
+    };
+    if (hit > 0.0 || next_event > 0.0) {
+        reach(sums.from_camera);
+        add_pair(sums.pt, weighted, all, hit > 0.0 ? hit : next_event, 0.0);
+        add_pair(sums.nee, weighted, all, next_event > 0.0 ? next_event : hit, 0.0);
+        add_pair(sums.mis, weighted, all, hit, next_event);
+    }
+    if (to_lens > 0.0 || hit_lens > 0.0) {
+        reach(sums.from_light);
+        add_pair(sums.lt, weighted, all, to_lens, hit_lens);
+    }
+}
+
+}  // namespace bdpt::eval

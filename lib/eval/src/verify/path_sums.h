@@ -1,0 +1,139 @@
+#pragma once
+
+#include "verify/second_moment.h"
+#include "verify/tile_grid.h"
+
+#include <bdpt/eval/verify/verify_report.h>
+#include <bdpt/found_path.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace bdpt::eval {
+
+/// Where strategies of paths of 1 to `max_depth` edges stand in a row: by length, then by s.
+class StrategyRow {
+public:
+    explicit StrategyRow(int max_depth) : max_depth_(max_depth) {}
+
+    [[nodiscard]] int max_depth() const { return max_depth_; }
+    [[nodiscard]] std::size_t size() const { return begin(max_depth_ + 1); }
+    /// The first of paths of `edges` edges.
+    [[nodiscard]] std::size_t begin(int edges) const
+    {
+        return static_cast<std::size_t>(edges * (edges + 3) / 2 - 2);
+    }
+    [[nodiscard]] std::size_t index(Strategy strategy) const
+    {
+        return begin(strategy.s + strategy.t - 1) + static_cast<std::size_t>(strategy.s);
+    }
+
+    /// Pairs of strategies of the same length stand in a row as well.
+    [[nodiscard]] std::size_t pairs() const { return pair(max_depth_ + 1, 0, 0); }
+    [[nodiscard]] std::size_t pair(int edges, std::size_t u, std::size_t v) const
+    {
+        std::size_t first = 0;
+        for (int shorter = 1; shorter < edges; ++shorter) {
+            first += square(shorter + 2);
+        }
+        return first + u * static_cast<std::size_t>(edges + 2) + v;
+    }
+
+private:
+    [[nodiscard]] static std::size_t square(int x) { return static_cast<std::size_t>(x * x); }
+
+    int max_depth_;
+};
+
+/// The share of a strategy by the balance heuristic below which its samples count less in the test
+/// of the strategy: so each counts at most for the inverse of it times what all strategies together
+/// would make of the path.
+constexpr double full_share = 1.0 / 16.0;
+
+/// What the paths of bdpt say about one strategy u in one tile. All numbers are sums of mean
+/// channels [nit]. Tested are the paths in which u has a share, each multiplied by g = min(1, share
+/// / `full_share`); g is a function of the path, so whoever finds it takes the same.
+struct StrategySums {
+    double tested = 0.0;         ///< g times the unweighted paths that u found
+    double expected = 0.0;       ///< g times the weighted paths that anyone found
+    SecondMoment second_moment;  ///< of a sample's `tested - expected`, estimated from all paths
+    SecondMoment seen;           ///< the same of the paths as they were found
+    double reach = 0.0;          ///< weighted paths that u can make, found by anyone
+    double weighted = 0.0;       ///< paths that u found
+    double unweighted = 0.0;
+    double solitary = 0.0;   ///< weighted paths that u alone can make
+    double unchecked = 0.0;  ///< of these, those that no integrator makes from the camera
+
+    StrategySums& operator+=(const StrategySums& other);
+};
+
+/// Weighted paths that an integrator can make, and the second moment of a sample of them.
+struct ReachSums {
+    double radiance = 0.0;
+    SecondMoment second_moment;  ///< estimated from all paths
+    SecondMoment seen;
+    ReachSums& operator+=(const ReachSums& other);
+};
+
+/// What the paths of bdpt of one length say about the other integrators in one tile.
+struct LengthSums {
+    double radiance = 0.0;
+    ReachSums from_camera;  ///< pt, nee and mis can make them
+    ReachSums from_light;   ///< lt can make them
+    /// Of a sample of the integrators themselves, estimated from the paths of bdpt.
+    SecondMoment pt;
+    SecondMoment nee;
+    SecondMoment mis;
+    SecondMoment lt;
+
+    LengthSums& operator+=(const LengthSums& other);
+};
+
+/// Sums over the paths that bdpt found in some samples. Not for several threads at once.
+class PathSums {
+public:
+    PathSums(const TileGrid& grid, int max_depth);
+
+    /// Those with more than `max_depth` edges or values that are not finite are ignored. Knows its
+    /// shares; weighed by the power heuristic.
+    void add(const FoundPath& path);
+
+    [[nodiscard]] const StrategySums& strategy(std::size_t tile, std::size_t index) const
+    {
+        return strategies_[tile * row_.size() + index];
+    }
+    [[nodiscard]] const LengthSums& length(std::size_t tile, int edges) const
+    {
+        return lengths_[tile * static_cast<std::size_t>(row_.max_depth()) +
+                        static_cast<std::size_t>(edges - 1)];
+    }
+    /// In the whole picture, for paths of `edges` edges: how much the estimate `expected` of the
+    /// strategy with `u` light vertices owes to paths that the one with `finder` has found.
+    [[nodiscard]] double expected_from(int edges, std::size_t u, std::size_t finder) const
+    {
+        return finders_[row_.pair(edges, u, finder)];
+    }
+    [[nodiscard]] const WeightFinding& weights() const { return weights_; }
+
+private:
+    void check_weight(const FoundPath& path, double definition);
+    /// What a path is to any strategy, by the balance and the power heuristic.
+    struct Measure {
+        double weighted;  // as it was found
+        double all;       // by the balance heuristic, the same whoever finds it
+        double squares;   // sum of squared shares
+        double moment;    // second moment of a sample of bdpt along this path
+        double largest;   // greatest such sample
+    };
+    void add_to_strategies(const FoundPath& path, const Measure& measure, std::size_t first);
+    static void add_to_length(LengthSums& sums, const FoundPath& path, const Measure& measure);
+
+    const TileGrid& grid_;
+    StrategyRow row_;
+    std::vector<StrategySums> strategies_;  // by tile, then by index
+    std::vector<LengthSums> lengths_;       // by tile, then by length
+    std::vector<double> finders_;           // by length, tested strategy, finder
+    WeightFinding weights_;
+};
+
+}  // namespace bdpt::eval

@@ -1,0 +1,69 @@
+#pragma once
+
+#include "verify/second_moment.h"
+#include "verify/tile_grid.h"
+
+#include <bdpt/found_path.h>
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace bdpt::eval {
+
+/// Sums of the mean channel over the weighted paths that an integrator found in some samples, by
+/// tile and length [nit]. Not for several threads at once.
+class RadianceSums {
+public:
+    RadianceSums(const TileGrid& grid, int max_depth)
+        : grid_(grid),
+          max_depth_(max_depth),
+          sums_(grid.size() * static_cast<std::size_t>(max_depth)),
+          seen_(sums_.size())
+    {}
+
+    /// Longer ones and values that are not finite are ignored.
+    void add(const FoundPath& path)
+    {
+        const int edges = path.strategy.s + path.strategy.t - 1;
+        const Rgb& c = path.unweighted;
+        const double sum =
+            static_cast<double>(path.weight) *
+            (static_cast<double>(c.r) + static_cast<double>(c.g) + static_cast<double>(c.b));
+        if (edges <= max_depth_ && std::isfinite(sum)) {
+            const std::size_t place = index(grid_.tile_at(path.raster), edges);
+            const double mean = sum / 3.0;
+            sums_[place] += mean;
+            seen_[place].add(mean, mean * mean);
+        }
+    }
+
+    [[nodiscard]] double at(std::size_t tile, int edges) const { return sums_[index(tile, edges)]; }
+    /// Of single paths.
+    [[nodiscard]] const SecondMoment& seen(std::size_t tile, int edges) const
+    {
+        return seen_[index(tile, edges)];
+    }
+    /// Over lengths from `shortest` to `longest`.
+    [[nodiscard]] double between(std::size_t tile, int shortest, int longest) const
+    {
+        double sum = 0.0;
+        for (int edges = shortest; edges <= longest; ++edges) {
+            sum += at(tile, edges);
+        }
+        return sum;
+    }
+
+private:
+    [[nodiscard]] std::size_t index(std::size_t tile, int edges) const
+    {
+        return tile * static_cast<std::size_t>(max_depth_) + static_cast<std::size_t>(edges - 1);
+    }
+
+    const TileGrid& grid_;
+    int max_depth_;
+    std::vector<double> sums_;
+    std::vector<SecondMoment> seen_;
+};
+
+}  // namespace bdpt::eval

@@ -1,0 +1,115 @@
+#include "verify/render_batch.h"
+
+#include <bdpt/render.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace bdpt::eval {
+namespace {
+
+/// One for each integrator and batch, or they would trace the same camera paths.
+std::uint64_t seed_of(const VerifyOptions& options, IntegratorKind integrator, std::int64_t number)
+{
+    constexpr std::uint64_t odd = 0x9e3779b97f4a7c15U;  // spreads consecutive numbers
+    constexpr std::uint64_t integrators = 8;
+    return options.seed + odd * (integrators * static_cast<std::uint64_t>(number) +
+                                 static_cast<std::uint64_t>(integrator) + 1);
+}
+
+/// Paths of `shortest` to `longest` edges.
+RenderOptions render_options(const VerifyOptions& options, IntegratorKind integrator,
+                             std::int64_t number, int shortest, int longest)
+{
+    RenderOptions result;
+    result.integrator = integrator;
+    result.width = options.width;
+    result.height = options.height;
+    result.min_depth = shortest;
+    result.max_depth = longest;
+    // Sobol points of one sequence depend on each other; those of other seeds do not.
+    result.samples = {.begin = 0, .end = samples_of(integrator, shortest)};
+    if (integrator == IntegratorKind::bdpt) {
+        // Its strategies are judged one by one, and s = 1 alone needs all of the sky.
+        result.environment_sampling = EnvironmentSampling::plain;
+    }
+    result.threads = 1;
+    result.seed = seed_of(options, integrator, number) + static_cast<std::uint64_t>(shortest);
+    return result;
+}
+
+/// The sum of a tile's pixels in the film's image against what its paths add up to.
+double lost(const Image& image, const PixelRect& tile, double sum, double samples)
+{
+    double pixels = 0.0;
+    for (int y = tile.y0; y < tile.y1; ++y) {
+        for (int x = tile.x0; x < tile.x1; ++x) {
+            const Rgb& c = image.at(x, y);
+            pixels +=
+                (static_cast<double>(c.r) + static_cast<double>(c.g) + static_cast<double>(c.b)) /
+                3.0;
+        }
+    }
+    const double difference = std::abs(pixels - sum / samples);
+    return difference > 0.0 ? difference / std::max(std::abs(pixels), std::abs(sum / samples))
+                            : 0.0;
+}
+
+template <typename SumOfTile>
+PictureCheck check_picture(const Film& film, const TileGrid& grid, const SumOfTile& sum_of_tile)
+{
+    PictureCheck check{.defects = film.defects(), .lost = 0.0};
+    const Image image = film.develop();
+    for (std::size_t tile = 0; tile < grid.size(); ++tile) {
+        check.lost = std::max(check.lost, lost(image, grid.tiles()[tile], sum_of_tile(tile),
+                                               static_cast<double>(film.sample_count())));
+    }
+    return check;
+}
+
+}  // namespace
+
+Batch render_batch(const Scene& scene, const CameraDesc& camera, const VerifyOptions& options,
+                   const TileGrid& grid, std::int64_t number)
+{
+    const RadianceSums none(grid, options.max_depth);
+    Batch batch{.bdpt = PathSums(grid, options.max_depth),
+                .others = {none, none, none, none},
+                .pictures = {}};
+    const int longest = options.max_depth;
+    RenderControl to_bdpt;
+    to_bdpt.on_path = [&](const FoundPath& path) { batch.bdpt.add(path); };
+    const RenderResult bdpt = render(
+        scene, camera, render_options(options, IntegratorKind::bdpt, number, 1, longest), to_bdpt);
+    batch.pictures[0] = check_picture(bdpt.film, grid, [&](std::size_t tile) {
+        double sum = 0.0;
+        for (int edges = 1; edges <= longest; ++edges) {
+            sum += batch.bdpt.length(tile, edges).radiance;
+        }
+        return sum;
+    });
+    for (std::size_t i = 0; i < other_integrators.size(); ++i) {
+        const IntegratorKind kind = other_integrators[i];
+        RadianceSums& sums = batch.others[i];
+        PictureCheck& check = batch.pictures[i + 1];
+        RenderControl to_sums;
+        to_sums.on_path = [&](const FoundPath& path) { sums.add(path); };
+        // Lengths that take the same number of samples are rendered together.
+        int shortest = 1;
+        while (shortest <= longest) {
+            int last = shortest;
+            while (last < longest && samples_of(kind, last + 1) == samples_of(kind, shortest)) {
+                ++last;
+            }
+            const RenderResult other = render(
+                scene, camera, render_options(options, kind, number, shortest, last), to_sums);
+            check += check_picture(other.film, grid, [&](std::size_t tile) {
+                return sums.between(tile, shortest, last);
+            });
+            shortest = last + 1;
+        }
+    }
+    return batch;
+}
+
+}  // namespace bdpt::eval

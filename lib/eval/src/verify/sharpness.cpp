@@ -1,0 +1,78 @@
+#include "verify/sharpness.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace bdpt::eval {
+namespace {
+
+/// What can hide behind the noise if strategy v of paths of `edges` edges is wrong by a factor 1 +
+/// c, as a fraction of the picture. That moves what is expected of each strategy u by c times what
+/// of it v has found, but for v itself, of whose difference c times what the others found remains.
+double detectable_by_strategies(const Evidence& evidence, const VerifyReport& report,
+                                const StrategyFinding& v, double distance)
+{
+    const double brought = v.weighted - v.solitary;
+    if (!(brought > 0.0)) {
+        return 0.0;
+    }
+    const int edges = v.strategy.s + v.strategy.t - 1;
+    const auto finder = static_cast<std::size_t>(v.strategy.s);
+    const std::size_t first = evidence.row().begin(edges);
+    double least = std::numeric_limits<double>::infinity();  // c
+    for (std::size_t u = 0; u < static_cast<std::size_t>(edges + 2); ++u) {
+        const MeanComparison& test = report.strategies[first + u].whole;
+        double moved = evidence.expected_from(edges, u, finder);
+        if (u == finder) {
+            moved = 0.0;
+            for (std::size_t other = 0; other < static_cast<std::size_t>(edges + 2); ++other) {
+                moved += other == finder ? 0.0 : evidence.expected_from(edges, u, other);
+            }
+        }
+        moved /= evidence.bdpt_samples_in(evidence.whole());
+        // Without an error there was no test: u has found nothing that differs.
+        if (moved > 0.0 && test.error > 0.0) {
+            least = std::min(least, distance * test.error / moved);
+        }
+    }
+    return least * brought / report.radiance;
+}
+
+/// The same for the light that no other strategy of bdpt makes, and as what pt, nee and mis say of
+/// paths of this length.
+double detectable_by_integrators(const VerifyReport& report, int edges)
+{
+    double least = std::numeric_limits<double>::infinity();
+    for (const IntegratorFinding& other : report.integrators) {
+        if (other.edges == edges && other.integrator != IntegratorKind::lt) {
+            least = std::min(least, other.whole.detectable);
+        }
+    }
+    return least;
+}
+
+}  // namespace
+
+double find_detectable(const Evidence& evidence, VerifyReport& report, double distance)
+{
+    for (IntegratorFinding& finding : report.integrators) {
+        finding.whole.detectable = distance * finding.whole.error / report.radiance;
+    }
+    double worst = 0.0;
+    for (StrategyFinding& finding : report.strategies) {
+        const int edges = finding.strategy.s + finding.strategy.t - 1;
+        const std::size_t index = evidence.row().index(finding.strategy);
+        const StrategySums& sums = evidence.strategy(evidence.whole(), index).sums;
+        // What only this strategy can make is all at stake, unless path tracers check it.
+        const double alone =
+            (sums.solitary - sums.unchecked) / evidence.bdpt_samples_in(evidence.whole());
+        const double by_strategies = std::max(
+            detectable_by_strategies(evidence, report, finding, distance), alone / report.radiance);
+        finding.whole.detectable =
+            std::min(by_strategies, detectable_by_integrators(report, edges));
+        worst = std::max(worst, finding.whole.detectable);
+    }
+    return worst;
+}
+
+}  // namespace bdpt::eval

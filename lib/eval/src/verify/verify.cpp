@@ -1,0 +1,116 @@
+#include <bdpt/eval/verify/verify.h>
+
+#include "verify/evidence.h"
+#include "verify/judge.h"
+#include "verify/render_batch.h"
+
+#include <bdpt/error.h>
+
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace bdpt::eval {
+namespace {
+
+constexpr std::int64_t fewest_batches = 8;
+
+void require(bool holds, const char* what)
+{
+    if (!holds) {
+        throw Error(ErrorCode::usage, std::string("verify: ") + what);
+    }
+}
+
+void check_options(const VerifyOptions& options)
+{
+    constexpr int longest = 64;  // [edges]: sums grow with the square
+    constexpr int widest = 4096;
+    require(options.width >= 1 && options.width <= widest && options.height >= 1 &&
+                options.height <= widest,
+            "the picture must have 1 to 4096 pixels along each side");
+    require(options.grid >= 1 && options.grid <= std::min(options.width, options.height),
+            "there must be 1 tile or more along each side, and not more than pixels");
+    require(options.max_depth >= 1 && options.max_depth <= longest,
+            "the longest path must have 1 to 64 edges");
+    require(options.false_alarm > 0.0 && options.false_alarm < 1.0,
+            "the chance of a false alarm must be between 0 and 1");
+    require(options.detectable_bias > 0.0, "the bias to detect must be greater than 0");
+    require(options.seconds > 0.0, "the time must be greater than 0");
+    require(options.most_batches >= 2, "there must be at least 2 batches");
+    require(options.threads >= 0 && options.threads <= 4096,
+            "the number of threads must be in [0, 4096]");
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start)
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+VerifyReport verify(const Scene& scene, const CameraDesc& camera, const VerifyOptions& options,
+                    const VerifyControl& control)
+{
+    check_options(options);
+    const auto start = std::chrono::steady_clock::now();
+    const TileGrid grid(options.width, options.height, options.grid);
+    Evidence evidence(grid, options.max_depth);
+    const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
+    // More threads than cores are allowed only while somebody asks for them.
+    const tbb::global_control allowance(
+        tbb::global_control::max_allowed_parallelism,
+        std::max(static_cast<std::size_t>(threads),
+                 tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)));
+    tbb::task_arena arena(threads);
+
+    // Sharpness is looked at each time that the number of batches has grown by a quarter, and what
+    // it asks is how much noise there is, not how much difference: p-values know of one look only.
+    std::int64_t next_look = 32;
+    double detectable = 1.0;
+    while (evidence.batches() < options.most_batches) {
+        const std::int64_t first = evidence.batches();
+        const std::int64_t count =
+            std::min({std::int64_t{2} * threads, options.most_batches - first, next_look - first});
+        std::vector<std::optional<Batch>> batches(static_cast<std::size_t>(count));
+        arena.execute([&] {
+            tbb::parallel_for(std::size_t{0}, batches.size(), [&](std::size_t i) {
+                batches[i].emplace(render_batch(scene, camera, options, grid,
+                                                first + static_cast<std::int64_t>(i)));
+            });
+        });
+        for (const std::optional<Batch>& batch : batches) {
+            evidence.add(*batch);
+        }
+        if (evidence.batches() == next_look) {
+            detectable = judge(evidence, options).detectable;
+            next_look += (next_look + 3) / 4;
+            if (detectable <= options.detectable_bias) {
+                break;
+            }
+        }
+        if (control.on_progress) {
+            control.on_progress({.batches = evidence.batches(),
+                                 .seconds = seconds_since(start),
+                                 .detectable = detectable});
+        }
+        if (evidence.batches() >= fewest_batches &&
+            (control.stop.stop_requested() || seconds_since(start) >= options.seconds)) {
+            break;
+        }
+    }
+    VerifyReport report = judge(evidence, options);
+    report.seconds = seconds_since(start);
+    return report;
+}
+
+}  // namespace bdpt::eval

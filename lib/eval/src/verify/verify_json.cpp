@@ -1,0 +1,123 @@
+#include <bdpt/eval/bench/option_names.h>
+#include <bdpt/eval/verify/verify_json.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <cstdint>
+
+namespace bdpt::eval {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json number(double value)
+{
+    return std::isfinite(value) ? ordered_json(value) : ordered_json();
+}
+
+ordered_json to_json(const PixelRect& rect)
+{
+    return {rect.x0, rect.y0, rect.x1, rect.y1};
+}
+
+ordered_json to_json(const MeanComparison& test, const VerifyReport& report)
+{
+    return {{"found", number(test.found)},
+            {"expected", number(test.expected)},
+            {"error", number(test.error)},
+            {"z", number(test.z)},
+            {"p", test.p},
+            {"p_adjusted", test.p_adjusted},
+            {"failed", fails(test, report)}};
+}
+
+/// `finding` has a comparison of the whole picture, and one for each tile.
+template <typename Finding>
+void add_tests(ordered_json& object, const Finding& finding, const VerifyReport& report)
+{
+    object["whole"] = to_json(finding.whole, report);
+    object["whole"]["detectable"] = number(finding.whole.detectable);
+    ordered_json tiles = ordered_json::array();
+    for (std::size_t i = 0; i < finding.tiles.size(); ++i) {
+        ordered_json tile = to_json(finding.tiles[i], report);
+        tile["tile"] = to_json(report.tiles[i]);
+        tiles.push_back(std::move(tile));
+    }
+    object["tiles"] = std::move(tiles);
+}
+
+ordered_json to_json(const PictureFinding& picture)
+{
+    ordered_json object{{"integrator", to_string(picture.integrator)},
+                        {"radiance", number(picture.radiance)},
+                        {"error", number(picture.error)},
+                        {"invalid", picture.defects.invalid},
+                        {"saturated", picture.defects.saturated},
+                        {"lost", number(picture.lost)}};
+    if (const auto& place = picture.defects.first_invalid) {
+        object["first_invalid"] = {
+            {"x", place->x}, {"y", place->y}, {"sample", place->sample_index}};
+    }
+    return object;
+}
+
+}  // namespace
+
+std::string_view to_string(Verdict verdict)
+{
+    switch (verdict) {
+        case Verdict::pass:
+            return "pass";
+        case Verdict::fail:
+            return "fail";
+        case Verdict::inconclusive:
+            return "inconclusive";
+    }
+    return "";
+}
+
+std::string verify_json(const VerifyReport& report, std::string_view scene)
+{
+    ordered_json object{{"scene", scene},
+                        {"verdict", to_string(report.verdict)},
+                        {"batches", report.batches},
+                        {"seconds", number(report.seconds)},
+                        {"radiance", number(report.radiance)},
+                        {"detectable", number(report.detectable)},
+                        {"unchecked", number(report.unchecked)},
+                        {"false_alarm", number(report.false_alarm)},
+                        {"weights",
+                         {{"paths", report.weights.paths},
+                          {"wrong", report.weights.wrong},
+                          {"worst", number(report.weights.worst)}}}};
+    for (const PictureFinding& picture : report.pictures) {
+        object["integrators"].push_back(to_json(picture));
+    }
+    for (const LengthFinding& length : report.lengths) {
+        object["lengths"].push_back({{"edges", length.edges},
+                                     {"radiance", number(length.radiance)},
+                                     {"error", number(length.error)},
+                                     {"seen_from_camera", number(length.seen_from_camera)},
+                                     {"seen_from_light", number(length.seen_from_light)}});
+    }
+    for (const StrategyFinding& strategy : report.strategies) {
+        ordered_json entry{{"s", strategy.strategy.s},
+                           {"t", strategy.strategy.t},
+                           {"blind", number(strategy.blind)},
+                           {"weighted", number(strategy.weighted)},
+                           {"unweighted", number(strategy.unweighted)},
+                           {"solitary", number(strategy.solitary)}};
+        add_tests(entry, strategy, report);
+        object["strategies"].push_back(std::move(entry));
+    }
+    for (const IntegratorFinding& integrator : report.integrators) {
+        ordered_json entry{{"integrator", to_string(integrator.integrator)},
+                           {"edges", integrator.edges}};
+        add_tests(entry, integrator, report);
+        object["comparisons"].push_back(std::move(entry));
+    }
+    return object.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace bdpt::eval

@@ -148,7 +148,7 @@ std::optional<LensSample> Camera::sample_lens(Vec3 scene_point, Vec2 u_lens) con
     // We = 1 / (A pi r^2 cos^4) [Pharr et al. 2016, sec. 16.1.1], so We cos is the density of
     // direction times that of the lens point.
     return LensSample{.lens = lens_end(lens),
-                      .wi = world_from_camera_ * (-d / distance),
+                      .wi = world_from_camera_ * (-d * (1.0f / distance)),
                       .distance = distance,
                       .raster = raster,
                       .weight = pdf_direction.value / (distance * distance),

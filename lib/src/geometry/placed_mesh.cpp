@@ -17,7 +17,7 @@ namespace {
 /// How often a coordinate of a point, or of an intersection test, is rounded at most.
 constexpr int rounded_operations = 12;
 
-inline float max_axis(Vec3 v)
+[[gnu::always_inline]] inline float max_axis(Vec3 v)
 {
     return std::max(v.x, std::max(v.y, v.z));
 }
@@ -35,7 +35,7 @@ struct Edges {
 
 /// Where the line of the ray crosses the plane of the triangle [Moeller and Trumbore 1997, "Fast,
 /// Minimum Storage Ray/Triangle Intersection"].
-inline Vec2 barycentrics_of(Vec3 corner, const Edges& edges, const Ray& ray)
+[[gnu::always_inline]] inline Vec2 barycentrics_of(Vec3 corner, const Edges& edges, const Ray& ray)
 {
     const float determinant = dot(edges.normal, ray.direction);
     if (determinant == 0.0f) {
@@ -47,12 +47,12 @@ inline Vec2 barycentrics_of(Vec3 corner, const Edges& edges, const Ray& ray)
 }
 
 /// The greatest coordinate of all corners.
-inline Vec3 extent(const std::array<Vec3, 3>& corners)
+[[gnu::always_inline]] inline Vec3 extent(const std::array<Vec3, 3>& corners)
 {
     return max(abs(corners[0]), max(abs(corners[1]), abs(corners[2])));
 }
 
-inline Vec3 interpolated(const std::array<Vec3, 3>& corners, Vec2 barycentrics)
+[[gnu::always_inline]] inline Vec3 interpolated(const std::array<Vec3, 3>& corners, Vec2 barycentrics)
 {
     return (1.0f - barycentrics.x - barycentrics.y) * corners[0] + barycentrics.x * corners[1] +
            barycentrics.y * corners[2];
@@ -61,7 +61,7 @@ inline Vec3 interpolated(const std::array<Vec3, 3>& corners, Vec2 barycentrics)
 /// Of corners as Embree has them. The intersection test works on the corners relative to the ray's
 /// origin and rounds in all directions, even where a coordinate of all corners is zero. So the
 /// bound takes the greatest coordinate of all, not each axis for itself.
-inline BoundedPoint bounded_point(const std::array<Vec3, 3>& corners, Vec2 barycentrics)
+[[gnu::always_inline]] inline BoundedPoint bounded_point(const std::array<Vec3, 3>& corners, Vec2 barycentrics)
 {
     return {interpolated(corners, barycentrics), position_error(max_axis(extent(corners)))};
 }
@@ -218,10 +218,11 @@ TriangleHit PlacedMesh::hit(std::uint32_t triangle, const Ray& ray) const
     const std::array<Vec3, 3> corners = still_corners(triangle);
     const Edges edges(corners);
     const Vec2 barycentrics = barycentrics_of(corners[0], edges, ray);
-    return {.barycentrics = barycentrics,
-            .normal = front_sign() * edges.normal,
-            .point = world_positions_ != nullptr ? bounded_point(corners, barycentrics)
-                                                 : still_point(triangle, barycentrics)};
+    const Vec3 normal = front_sign() * edges.normal;
+    if (world_positions_ == nullptr) {
+        return {barycentrics, normal, still_point(triangle, barycentrics)};
+    }
+    return {barycentrics, normal, bounded_point(corners, barycentrics)};
 }
 
 Vec3 PlacedMesh::area_normal(std::uint32_t triangle, float time) const

@@ -105,13 +105,13 @@ std::optional<IncidentSample> TriangleLight::sample_incident(Vec3 receiver, Vec2
     const Vec3 to_light = from.end.p - receiver;
     const float distance_squared = dot(to_light, to_light);
     const float distance = std::sqrt(distance_squared);
-    const Vec3 wi = to_light / distance;
+    const Vec3 wi = to_light * (1.0f / distance);
     const float cosine = dot(from.end.ng, -wi);
     const bool dark_side = cosine < 0.0f && !material_->emits_from_both_sides();
     if (!(distance_squared > 0.0f) || cosine == 0.0f || dark_side) {
         return std::nullopt;
     }
-    const float geometry = std::abs(cosine) / distance_squared;
+    const float geometry = std::abs(cosine) * (1.0f / distance_squared);
     return IncidentSample{.end = from.end,
                           .barycentrics = from.barycentrics,
                           .wi = wi,

@@ -17,20 +17,18 @@ BsdfEval Bsdf::eval(Vec3 wi, TransportMode mode) const noexcept
         return {};
     }
     const Vec3 local_wi = shading_.to_local(wi);
-    return std::visit(
-        [&](const auto& model) -> BsdfEval {
-            const Cosines cosines{dot(wi, ng_), height(model, local_wi)};
-            if (!cosines.agree()) {
-                return {};
-            }
-            BsdfEval value = model.eval(local_wo_, local_wi, mode);
-            if (mode == TransportMode::importance) {
-                const float ratio_i = cosines.ratio();
-                value.f_cos *= ratio_i / ratio_o_;
-            }
-            return value;
-        },
-        model_);
+    return visit([&](const auto& model) -> BsdfEval {
+        const Cosines cosines{dot(wi, ng_), height(model, local_wi)};
+        if (!cosines.agree()) {
+            return {};
+        }
+        BsdfEval value = model.eval(local_wo_, local_wi, mode);
+        if (mode == TransportMode::importance) {
+            const float ratio_i = cosines.ratio();
+            value.f_cos *= ratio_i / ratio_o_;
+        }
+        return value;
+    });
 }
 
 std::optional<BsdfSample> Bsdf::sample(float u_lobe, Vec2 u, TransportMode mode) const noexcept
@@ -38,25 +36,23 @@ std::optional<BsdfSample> Bsdf::sample(float u_lobe, Vec2 u, TransportMode mode)
     if (ratio_o_ == 0.0f) {
         return std::nullopt;
     }
-    return std::visit(
-        [&](const auto& model) -> std::optional<BsdfSample> {
-            std::optional<BsdfSample> sampled = model.sample(local_wo_, u_lobe, u, mode);
-            if (!sampled) {
-                return std::nullopt;
-            }
-            const float local_cos = height(model, sampled->wi);
-            sampled->wi = shading_.to_world(sampled->wi);
-            const Cosines cosines{dot(sampled->wi, ng_), local_cos};
-            if (!cosines.agree()) {
-                return std::nullopt;
-            }
-            if (mode == TransportMode::importance) {
-                const float ratio_i = cosines.ratio();
-                sampled->weight *= ratio_i / ratio_o_;
-            }
-            return sampled;
-        },
-        model_);
+    return visit([&](const auto& model) -> std::optional<BsdfSample> {
+        std::optional<BsdfSample> sampled = model.sample(local_wo_, u_lobe, u, mode);
+        if (!sampled) {
+            return std::nullopt;
+        }
+        const float local_cos = height(model, sampled->wi);
+        sampled->wi = shading_.to_world(sampled->wi);
+        const Cosines cosines{dot(sampled->wi, ng_), local_cos};
+        if (!cosines.agree()) {
+            return std::nullopt;
+        }
+        if (mode == TransportMode::importance) {
+            const float ratio_i = cosines.ratio();
+            sampled->weight *= ratio_i / ratio_o_;
+        }
+        return sampled;
+    });
 }
 
 }  // namespace bdpt

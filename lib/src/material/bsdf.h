@@ -16,6 +16,16 @@ namespace bdpt {
 /// geometric versus shading normals. What follows from `wo` alone is worked out once, for all the
 /// joins of a path vertex. A trivially copyable value that lives inside a vertex.
 class Bsdf {
+    /// As std::visit, but the most common model is no call away.
+    template <typename Visitor>
+    [[nodiscard]] auto visit(const Visitor& visitor) const
+    {
+        if (const auto* common = std::get_if<Lambertian>(&model_)) [[likely]] {
+            return visitor(*common);
+        }
+        return std::visit(visitor, model_);
+    }
+
 public:
     Bsdf() = default;
     /// `ng` and `shading.z` are unit vectors on the front side of the surface (for a solid body:
@@ -39,31 +49,29 @@ public:
     /// Has a lobe that is not delta: strategies can join here.
     [[nodiscard]] bool connectible() const noexcept
     {
-        return std::visit([](const auto& model) { return model.has_smooth_lobe(); }, model_);
+        return visit([](const auto& model) { return model.has_smooth_lobe(); });
     }
-    /// Samples without `u_lobe`.
+    /// `sample` has no use for `u_lobe`.
     [[nodiscard]] bool has_one_lobe() const noexcept
     {
-        return !is_rare() && extra_.from.specular_choice == 0.0f;
+        return std::holds_alternative<Lambertian>(model_);
     }
     /// The geometric normal, unit, on the side of wo: if all light that is scattered stays there.
     [[nodiscard]] std::optional<Vec3> opaque_normal() const noexcept
     {
-        return std::visit(
-            [this](const auto& model) -> std::optional<Vec3> {
-                if (model.transmits()) {
-                    return std::nullopt;
-                }
-                return height(model, local_wo_) < 0.0f ? -ng_ : ng_;
-            },
-            model_);
+        return visit([this](const auto& model) -> std::optional<Vec3> {
+            if (model.transmits()) {
+                return std::nullopt;
+            }
+            return height(model, local_wo_) < 0.0f ? -ng_ : ng_;
+        });
     }
     /// Unit, on the front side of the surface; that of the normal map, if there is one.
     [[nodiscard]] Vec3 shading_normal() const noexcept { return shading_.z; }
     /// In [0, 1].
     [[nodiscard]] Rgb base_color() const noexcept
     {
-        return std::visit([](const auto& model) { return model.base_color(); }, model_);
+        return visit([](const auto& model) { return model.base_color(); });
     }
 
 private:

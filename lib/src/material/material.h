@@ -27,6 +27,11 @@ public:
     [[nodiscard]] Bsdf bsdf(const ShadingPoint& point) const noexcept;
     /// Does that depend on `ShadingPoint::footprint`?
     [[nodiscard]] bool needs_footprint() const noexcept { return needs_footprint_; }
+    /// Does anything depend on texture coordinates?
+    [[nodiscard]] bool has_textures() const noexcept
+    {
+        return !plain_ || normal_map_ || emission_map_ || base_color_map_;
+    }
 
     /// The share of rays that meet the surface, in [0, 1]; the others pass as if it were not there.
     [[nodiscard]] float opacity(const TexturePoint& point) const noexcept;

@@ -43,7 +43,7 @@ public:
     /// more. Never draws an index of zero weight. An empty table gives index 0 of probability 0.
     [[nodiscard]] Choice sample(double u) const noexcept;
     /// The same for tables of a few items that are not empty, where `u` has digits enough.
-    [[nodiscard]] Choice sample_coarse(float u) const noexcept
+    [[nodiscard, gnu::always_inline]] inline Choice sample_coarse(float u) const noexcept
     {
         constexpr float below_one = 1.0f - 0x1p-24f;
         const float scaled = u * static_cast<float>(buckets_.size());

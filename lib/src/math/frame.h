@@ -8,7 +8,7 @@
 
 namespace bdpt {
 
-/// Orthonormal basis, right-handed.
+/// Orthonormal basis, right-handed. Always inlined: who needs one coordinate pays for one.
 struct Frame {
     Vec3 x{1.0f, 0.0f, 0.0f};
     Vec3 y{0.0f, 1.0f, 0.0f};
@@ -16,7 +16,7 @@ struct Frame {
 
     /// Any basis whose z axis is the unit vector `n` [Duff et al. 2017, "Building an Orthonormal
     /// Basis, Revisited"].
-    [[nodiscard]] static Frame from_normal(Vec3 n)
+    [[nodiscard, gnu::always_inline]] static inline Frame from_normal(Vec3 n)
     {
         const float sign = std::copysign(1.0f, n.z);
         const float a = -1.0f / (sign + n.z);
@@ -26,8 +26,14 @@ struct Frame {
                 n};
     }
 
-    [[nodiscard]] Vec3 to_local(Vec3 v) const { return {dot(v, x), dot(v, y), dot(v, z)}; }
-    [[nodiscard]] Vec3 to_world(Vec3 v) const { return v.x * x + v.y * y + v.z * z; }
+    [[nodiscard, gnu::always_inline]] inline Vec3 to_local(Vec3 v) const
+    {
+        return {dot(v, x), dot(v, y), dot(v, z)};
+    }
+    [[nodiscard, gnu::always_inline]] inline Vec3 to_world(Vec3 v) const
+    {
+        return v.x * x + v.y * y + v.z * z;
+    }
 };
 
 }  // namespace bdpt

@@ -65,7 +65,7 @@ public:
     /// Of the segment that has `s` vertices on the light's side and `t` on the camera's: (s, t) of
     /// a join, (0, t) where the camera subpath goes on from its t vertices, (s, 0) likewise of the
     /// light subpath. Its numbers are independent of those of other segments and of `next_1d`.
-    [[nodiscard]] SegmentKey segment_key(int s, int t) const
+    [[nodiscard, gnu::always_inline]] inline SegmentKey segment_key(int s, int t) const
     {
         // Sets have numbers of less than 63 bits, so those of segments are never the same.
         const std::uint64_t number = std::uint64_t{1} << 63U |

@@ -267,13 +267,13 @@ std::optional<Contribution> connect_interior(const SampleContext& sample,
     if (distance_squared < coincident) {
         return std::nullopt;
     }
-    const Vec3 wi = to_y / std::sqrt(distance_squared);
+    const Vec3 wi = to_y * (1.0f / std::sqrt(distance_squared));
     const BsdfEval f_z = z.bsdf->eval(wi, TransportMode::radiance);
     if (is_black(f_z.f_cos)) {
         return std::nullopt;
     }
     const BsdfEval f_y = y.bsdf->eval(-wi, TransportMode::importance);
-    Rgb value = z.beta * f_z.f_cos * f_y.f_cos * y.beta / distance_squared;
+    Rgb value = z.beta * f_z.f_cos * f_y.f_cos * y.beta * (1.0f / distance_squared);
     if (is_black(value)) {
         return std::nullopt;
     }

@@ -43,7 +43,7 @@ LightDensities light_densities(const SampleContext& sample, const PathVertex& x0
     const bool infinite = x0.kind == VertexKind::infinite;
     const Vec3 offset = x0.end.p - x1.p;
     const float distance_squared = dot(offset, offset);
-    const Vec3 to_light = infinite ? x0.end.p : offset / std::sqrt(distance_squared);
+    const Vec3 to_light = infinite ? x0.end.p : offset * (1.0f / std::sqrt(distance_squared));
     const LightPoint point = light_point(x0, sample.time);
     const float cosine = std::abs(dot(x1.ng, to_light));
     return {.emit = light.pdf_position(point) * lights.emission_probability(*x0.light),

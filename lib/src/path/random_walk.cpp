@@ -25,7 +25,8 @@ struct Step {
     SolidAnglePdf pdf;
     /// Set for the first step from a light at infinity, which has no density of directions.
     std::optional<PlanarPdf> pdf_plane;
-    SegmentEnd origin;  ///< where the ray starts: the last vertex, or the edge of the scene
+    /// Where the ray starts: the last vertex, or the edge of the scene.
+    const SegmentEnd* origin = nullptr;
 };
 
 /// Camera walks end on the environment, which light walks cannot see.
@@ -40,7 +41,7 @@ void append_environment(const World& world, const Step& step, Subpath& path)
     vertex.kind = VertexKind::infinite;
     vertex.light = id;
     vertex.end.p = step.direction;
-    vertex.beta = step.beta * medium_transmittance(step.origin, {}, step.direction,
+    vertex.beta = step.beta * medium_transmittance(*step.origin, {}, step.direction,
                                                    std::numeric_limits<float>::max());
     vertex.emission = light.radiance(step.direction);
     vertex.pdf_fwd = {step.pdf.value};
@@ -50,13 +51,14 @@ void append_surface(const SurfacePoint& point, float distance_squared, const Ste
                     Subpath& path)
 {
     PathVertex& previous = path.back();
-    PathVertex& vertex = path.append(point.bsdf);
+    PathVertex& vertex = path.append();
     vertex.end = point.end;
-    vertex.beta = step.beta * medium_transmittance(step.origin, point.end, step.direction,
+    vertex.beta = step.beta * medium_transmittance(*step.origin, point.end, step.direction,
                                                    std::sqrt(distance_squared));
     vertex.emission = point.emission;
     vertex.light = point.light;
     vertex.barycentrics = point.barycentrics;
+    vertex.bsdf = &point.bsdf;
     vertex.connectible = point.bsdf.connectible();
     vertex.dispersed = previous.dispersed || point.disperses;
     const float cosine = std::abs(dot(point.end.ng, step.direction));
@@ -81,7 +83,7 @@ struct Walk {
 /// Records that `step` crosses the lens before it ends, after `free_distance`.
 void look_for_lens(const Camera& camera, const Step& step, float free_distance, Subpath& path)
 {
-    const auto hit = camera.hit_lens(step.origin.p, step.direction);
+    const auto hit = camera.hit_lens(step.origin->p, step.direction);
     if (!hit || hit->distance >= free_distance || hit->distance * hit->distance < coincident) {
         return;
     }
@@ -101,7 +103,7 @@ void look_for_lens(const Camera& camera, const Step& step, float free_distance, 
     lens.kind = VertexKind::camera;
     lens.end = hit->lens;
     lens.beta =
-        step.beta * medium_transmittance(step.origin, hit->lens, step.direction, hit->distance);
+        step.beta * medium_transmittance(*step.origin, hit->lens, step.direction, hit->distance);
     // Both densities of the lens: as the walk found it, and as a camera path starts.
     lens.pdf_rev = step.pdf_plane ? to_area(*step.pdf_plane, cosine)
                                   : to_area(step.pdf, cosine, distance_squared);
@@ -124,16 +126,19 @@ bool survives(Rgb& beta, Rgb full, Sampler& sampler)
     return true;
 }
 
-/// The first surface on the way of `step`.
-std::optional<SurfacePoint> find_surface(const SampleContext& sample, const Step& step,
-                                         SegmentKey segment)
+/// The first surface on the way of `step`, in the place of the next vertex of `path`; null if there
+/// is none.
+const SurfacePoint* find_surface(const SampleContext& sample, const Step& step, SegmentKey segment,
+                                 Subpath& path)
 {
-    const auto hit = sample.world.first_hit(step.origin, step.direction, segment);
+    const auto hit = sample.world.first_hit(*step.origin, step.direction, segment);
     if (!hit) {
-        return std::nullopt;
+        return nullptr;
     }
     const PhaseScope scope(sample.clock, Phase::shade);
-    return sample.world.surface_at(*hit, step.direction, segment, sample.camera.pixel_cone());
+    return &path.emplace_surface([&] {
+        return sample.world.surface_at(*hit, step.direction, segment, sample.camera.pixel_cone());
+    });
 }
 
 /// Goes on from the first vertex until the path is full, leaves the scene or is absorbed.
@@ -148,10 +153,12 @@ void walk(SampleContext& sample, const Walk& rules, Step step, Subpath& path)
         ++rules.rays;
         const SegmentKey segment =
             rules.from_camera() ? sample.segment(0, path.size()) : sample.segment(path.size(), 0);
-        const auto hit = find_surface(sample, step, segment);
+        // It may take the place of the vertex after the last, which the lens alone is looked for
+        // from.
+        const SurfacePoint* hit = find_surface(sample, step, segment, path);
         if (watches_lens) {
             look_for_lens(camera, step,
-                          hit ? glm::distance(hit->end.p, step.origin.p)
+                          hit ? glm::distance(hit->end.p, step.origin->p)
                               : std::numeric_limits<float>::infinity(),
                           path);
         }
@@ -164,7 +171,7 @@ void walk(SampleContext& sample, const Walk& rules, Step step, Subpath& path)
             }
             return;
         }
-        const Vec3 along = hit->end.p - step.origin.p;
+        const Vec3 along = hit->end.p - step.origin->p;
         const float distance_squared = dot(along, along);
         if (distance_squared < coincident) {
             return;
@@ -194,7 +201,7 @@ void walk(SampleContext& sample, const Walk& rules, Step step, Subpath& path)
                 .beta = vertex.beta * scattered->weight,
                 .pdf = scattered->pdf_fwd,
                 .pdf_plane = std::nullopt,
-                .origin = vertex.end};
+                .origin = &vertex.end};
         if (path.size() > rules.limits.rr_start && !survives(step.beta, full, sampler)) {
             return;
         }
@@ -223,7 +230,7 @@ void trace_camera_subpath(SampleContext& sample, Vec2 raster, const WalkLimits& 
           .beta = Rgb(1.0f),
           .pdf = ray.pdf_direction,
           .pdf_plane = ray.pdf_plane,
-          .origin = ray.lens},
+          .origin = &lens.end},
          path);
 }
 
@@ -261,7 +268,7 @@ void trace_light_subpath(SampleContext& sample, const WalkLimits& limits,
               .beta = emitted->weight / choice->probability,
               .pdf = emitted->pdf_direction,
               .pdf_plane = std::nullopt,
-              .origin = emitted->end};
+              .origin = &emitted->end};
     if (infinite) {
         step.pdf_plane = world.bounding_sphere().pdf_disk();
     }

@@ -3,8 +3,9 @@
 #include "path/path_vertex.h"
 
 #include <cstddef>
-#include <cstdint>
+#include <new>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 namespace bdpt {
@@ -18,11 +19,13 @@ struct LensCrossing {
     AreaPdf camera_at_light_end;  ///< the walk's last vertex sampled from the lens
 };
 
+static_assert(std::is_trivially_copyable_v<SurfacePoint>);
+
 /// Storage for one walk after another; it allocates only when it is made.
 class Subpath {
 public:
     explicit Subpath(int max_vertices)
-        : vertices_(static_cast<std::size_t>(max_vertices)), bsdfs_(vertices_.size())
+        : vertices_(static_cast<std::size_t>(max_vertices)), surfaces_(vertices_.size() + 1)
     {
         crossings_.reserve(vertices_.size() + 1);
     }
@@ -39,13 +42,11 @@ public:
         vertex = PathVertex{};
         return vertex;
     }
-    /// The same, on a surface that scatters by `bsdf`.
-    PathVertex& append(const Bsdf& bsdf)
+    /// Where the surface of the next vertex is put by `make()`, without a copy. There must be room.
+    template <typename Make>
+    const SurfacePoint& emplace_surface(const Make& make)
     {
-        bsdfs_[size_] = bsdf;
-        PathVertex& vertex = append();
-        vertex.bsdf = &bsdfs_[size_ - 1];
-        return vertex;
+        return *::new (&surfaces_[size_]) SurfacePoint(make());
     }
     void add_crossing(const LensCrossing& crossing) { crossings_.push_back(crossing); }
     [[nodiscard]] std::span<const LensCrossing> crossings() const { return crossings_; }
@@ -62,7 +63,7 @@ public:
 
 private:
     std::vector<PathVertex> vertices_;
-    std::vector<Bsdf> bsdfs_;  // of the vertex with the same number
+    std::vector<SurfacePoint> surfaces_;  // of the vertex with the same number, and one more
     std::vector<LensCrossing> crossings_;
     std::size_t size_ = 0;
 };

@@ -116,7 +116,9 @@ SurfacePoint World::mesh_point(const RayHit& hit, Vec3 direction, SegmentKey seg
     const float side = dot(ns, ng);
     ns = side > 0.0f ? ns : side < 0.0f ? -ns : ng;
 
-    const TexturePoint at = texture_point(mesh, hit.triangle, hit.at.barycentrics);
+    const bool varies = material.has_textures() || !mesh.mesh().colors.empty();
+    const TexturePoint at =
+        varies ? texture_point(mesh, hit.triangle, hit.at.barycentrics) : TexturePoint{};
     const auto tangent_uv_set = material.tangent_uv_set();
     std::optional<UvFootprint> footprint;
     if (material.needs_footprint()) [[unlikely]] {
@@ -166,7 +168,9 @@ Rgb World::transmittance(const SegmentEnd& a, const SegmentEnd& b,
                            .segment = segment})) {
         return Rgb(0.0f);
     }
-    return medium_transmittance(a, b, to_b, std::sqrt(dot(to_b, to_b)));
+    return a.media == nullptr && b.media == nullptr
+               ? Rgb(1.0f)
+               : medium_transmittance(a, b, to_b, std::sqrt(dot(to_b, to_b)));
 }
 
 Rgb World::transmittance_to_infinity(const SegmentEnd& a, Vec3 direction,

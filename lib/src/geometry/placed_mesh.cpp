@@ -63,7 +63,8 @@ struct Edges {
 /// bound takes the greatest coordinate of all, not each axis for itself.
 [[gnu::always_inline]] inline BoundedPoint bounded_point(const std::array<Vec3, 3>& corners, Vec2 barycentrics)
 {
-    return {interpolated(corners, barycentrics), position_error(max_axis(extent(corners)))};
+    return {interpolated(corners, barycentrics),
+            rounding_bound(rounded_operations) * max_axis(extent(corners))};
 }
 
 /// Of a corner that goes `way` in one of `steps` steps and is at most `size` from the origin. Both

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "stage/default_lights.h"
 
 namespace bdpt::app {
 namespace {
@@ -124,59 +123,6 @@ TEST_CASE("the default size is the largest in 1280 x 720 with the camera's aspec
     check(1e-30f, 1, 720);
     check(0.0f, 1280, 720);
     check(-1.0f, 1280, 720);
-}
-
-TEST_CASE("the default environment is grey, brighter above, and 1 nit on average")
-{
-    const Image sky = default_environment().radiance;
-    REQUIRE(sky.height > 1);
-    double sum = 0.0;
-    double weights = 0.0;
-    for (int y = 0; y < sky.height; ++y) {
-        const double polar = std::numbers::pi * (y + 0.5) / sky.height;
-        for (int x = 0; x < sky.width; ++x) {
-            const Rgb value = sky.at(x, y);
-            CHECK(value.r == value.g);
-            CHECK(value.g == value.b);
-            CHECK(value.r > 0.0f);
-            sum += std::sin(polar) * static_cast<double>(value.g);
-            weights += std::sin(polar);
-            CHECK((y == 0 || value.g <= sky.at(x, y - 1).g));
-        }
-    }
-    CHECK(sum / weights == Approx(1.0).epsilon(0.01));
-    CHECK(sky.at(0, 0).g > 2.0f * sky.at(0, sky.height - 1).g);
-}
-
-TEST_CASE("the default lamp gives 1 nit at the camera's distance, whatever the scale")
-{
-    const float scale = GENERATE(1e-3f, 1.0f, 1e3f);
-    FramedView view;
-    view.camera.world_from_camera[3] = Vec4(0.0f, 0.0f, scale * 3.0f, 1.0f);
-    view.lamp_position = Vec3(0.0f, scale * 4.0f, 0.0f);
-    const PointLightDesc lamp = default_lamp(view);
-    CHECK(lamp.position == view.lamp_position);
-    const float distance = scale * 5.0f;
-    CHECK(lamp.intensity.g / (distance * distance) == Approx(std::numbers::pi));
-}
-
-TEST_CASE("light is found where it is")
-{
-    SceneDesc desc;
-    desc.materials.resize(2);
-    desc.materials[1].emission = Rgb(0.0f, 0.0f, 2.0f);
-    desc.instances.resize(1);
-    CHECK_FALSE(has_light(desc));
-    SECTION("in a material that is used")
-    {
-        desc.instances[0].material = MaterialId{1};
-        CHECK(has_light(desc));
-    }
-    SECTION("in a lamp")
-    {
-        desc.lights.emplace_back(PointLightDesc{});
-        CHECK(has_light(desc));
-    }
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "commands/info_command.h"
 
+#include <bdpt/default_lights.h>
 #include <bdpt/error.h>
 #include <bdpt/framing.h>
 #include <bdpt/io/gltf.h>
@@ -12,7 +13,6 @@
 
 #include "report/limits_text.h"
 #include "report/scene_report.h"
-#include "stage/default_lights.h"
 
 namespace bdpt::app {
 namespace {

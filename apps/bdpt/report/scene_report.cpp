@@ -1,5 +1,6 @@
 #include "report/scene_report.h"
 
+#include <bdpt/default_lights.h>
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -8,7 +9,6 @@
 #include <numbers>
 #include <variant>
 
-#include "stage/default_lights.h"
 #include "terminal/text.h"
 
 namespace bdpt::app {

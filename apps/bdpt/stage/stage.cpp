@@ -1,5 +1,6 @@
 #include "stage/stage.h"
 
+#include <bdpt/default_lights.h>
 #include <bdpt/error.h>
 #include <bdpt/framing.h>
 #include <bdpt/io/environment.h>
@@ -13,7 +14,6 @@
 #include <vector>
 
 #include "options/view.h"
-#include "stage/default_lights.h"
 
 namespace bdpt::app {
 namespace {

@@ -186,12 +186,14 @@ struct EmbreeScene::State {
     HitFilter filter;
     float reach = 0.0f;
 
+    [[nodiscard]] float farthest_origin() const { return 8.0f * reach; }
+
     /// Embree may end the process for other rays. What numbers make of odd scenes, such as NaN,
     /// must not; such rays meet nothing.
     [[nodiscard]] bool can_trace(const Ray& ray) const
     {
-        return is_within(ray.origin, 8.0f * reach) && is_within(ray.direction, 16.0f * reach) &&
-               ray.t_max >= 0.0f;
+        return is_within(ray.origin, farthest_origin()) &&
+               is_within(ray.direction, 16.0f * reach) && ray.t_max >= 0.0f;
     }
 };
 
@@ -263,6 +265,11 @@ EmbreeScene::EmbreeScene(std::span<const InstanceDesc> instances, std::span<Plac
 
 EmbreeScene::EmbreeScene(EmbreeScene&&) noexcept = default;
 EmbreeScene::~EmbreeScene() = default;
+
+float EmbreeScene::farthest_origin() const noexcept
+{
+    return state_->farthest_origin();
+}
 
 Isa EmbreeScene::isa() const noexcept
 {

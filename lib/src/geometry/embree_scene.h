@@ -29,6 +29,8 @@ public:
     EmbreeScene(EmbreeScene&&) noexcept;
     ~EmbreeScene();
 
+    /// Rays that start farther than that from the origin [m], in any coordinate, meet nothing.
+    [[nodiscard]] float farthest_origin() const noexcept;
     /// What rays are traced with.
     [[nodiscard]] Isa isa() const noexcept;
     /// The first surface that the ray does not pass.

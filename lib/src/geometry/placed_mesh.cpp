@@ -1,5 +1,6 @@
 #include "geometry/placed_mesh.h"
 
+#include "geometry/length.h"
 #include "geometry/motion.h"
 #include "geometry/rounding.h"
 
@@ -82,6 +83,11 @@ Mat3 cofactors(const Mat3& m)
 }
 
 }  // namespace
+
+float position_error(float extent)
+{
+    return rounding_bound(rounded_operations) * extent;
+}
 
 Placement::Placement(const Mat4& world_from_object)
     : linear(world_from_object),
@@ -272,8 +278,8 @@ Vec3 PlacedMesh::shading_normal(std::uint32_t triangle, Vec2 barycentrics, float
         moves() ? placement(time).normal_matrix *
                       interpolate(mesh_->normals, &MeshPose::normals, triangle, barycentrics, time)
                 : world_normal(interpolate(mesh_->normals, triangle, barycentrics));
-    const float length_squared = dot(n, n);
-    return length_squared > 0.0f ? n / std::sqrt(length_squared) : Vec3(0.0f);
+    const float length = length_of(n);
+    return length > 0.0f ? n / length : Vec3(0.0f);
 }
 
 Vec4 PlacedMesh::tangent(std::uint32_t triangle, Vec2 barycentrics, int uv_set, float time) const

@@ -28,6 +28,10 @@ struct Placement {
     float front_sign;  ///< -1 when it mirrors, else +1
 };
 
+/// Bounds the error of points on triangles that reach `extent` from the origin [m], in one
+/// coordinate.
+[[nodiscard]] float position_error(float extent);
+
 /// A mesh as one instance places it in the world. Refers to both, which must outlive it. Times are
 /// in [0, 1] while the shutter is open, and count where something moves.
 ///

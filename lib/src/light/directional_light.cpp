@@ -22,17 +22,19 @@ Vec3 DirectionalLight::direction(float time) const
     return turn_.empty() ? direction_ : normalize(at_time(axis_, turn_, time));
 }
 
-EmissionSample DirectionalLight::sample_emission(Vec2 u, float time) const
+EmissionSample DirectionalLight::sample_emission(Vec2 u_position, Vec2 /*u_direction*/,
+                                                 float time) const
 {
     const Vec3 direction = this->direction(time);
-    return {.end = {.p = sample_entry(bounds_, direction, u)},
+    return {.end = {.p = sample_entry(bounds_, direction, u_position)},
             .direction = direction,
             .weight = illuminance_ / bounds_.pdf_disk().value,
             .pdf_position = {1.0f},
             .pdf_direction = {}};
 }
 
-IncidentSample DirectionalLight::sample_incident(float time) const
+IncidentSample DirectionalLight::sample_incident(Vec3 /*receiver*/, Vec2 /*u*/,
+                                                 EnvironmentSampling /*sampling*/, float time) const
 {
     return {.end = {},
             .wi = -direction(time),

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "light/bounding_sphere.h"
+#include "light/light_model.h"
 #include "light/light_samples.h"
 
 #include <bdpt/scene_desc.h>
@@ -10,13 +11,16 @@
 namespace bdpt {
 
 /// Parallel light from infinity: delta in direction.
-class DirectionalLight {
+class DirectionalLight : public DeltaLight, public InfiniteLight {
 public:
     /// The motion of `desc` must outlive this.
     DirectionalLight(const DirectionalLightDesc& desc, const BoundingSphere& bounds);
 
-    [[nodiscard]] EmissionSample sample_emission(Vec2 u, float time = 0.0f) const;
-    [[nodiscard]] IncidentSample sample_incident(float time = 0.0f) const;
+    [[nodiscard]] EmissionSample sample_emission(Vec2 u_position, Vec2 u_direction,
+                                                 float time = 0.0f) const;
+    [[nodiscard]] IncidentSample sample_incident(Vec3 receiver, Vec2 u,
+                                                 EnvironmentSampling sampling,
+                                                 float time = 0.0f) const;
     /// Luminous flux through the scene's disk [lm].
     [[nodiscard]] Rgb power() const;
 

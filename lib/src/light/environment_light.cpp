@@ -139,20 +139,21 @@ const Distribution2D& EnvironmentLight::distribution(EnvironmentSampling samplin
     return sampling == EnvironmentSampling::plain ? plain_ : compensated_;
 }
 
-SolidAnglePdf EnvironmentLight::pdf(Vec3 to_light, EnvironmentSampling sampling) const
+SolidAnglePdf EnvironmentLight::pdf_incident(Vec3 to_light, EnvironmentSampling sampling) const
 {
     const Vec2 uv = uv_of(to_light);
     return to_solid_angle(distribution(sampling).pdf(uv), row_of(uv.y));
 }
 
-SolidAnglePdf EnvironmentLight::pdf_emission(Vec3 to_light) const
+AreaPdf EnvironmentLight::pdf_incident(Vec3 /*receiver*/, const LightPoint& x0,
+                                       EnvironmentSampling sampling) const
 {
-    return pdf(to_light, EnvironmentSampling::plain);
+    return {pdf_incident(x0.p, sampling).value};
 }
 
-SolidAnglePdf EnvironmentLight::pdf_incident(Vec3 to_light, EnvironmentSampling sampling) const
+AreaPdf EnvironmentLight::pdf_position(const LightPoint& x0) const
 {
-    return pdf(to_light, sampling);
+    return {pdf_incident(x0.p, EnvironmentSampling::plain).value};
 }
 
 std::optional<EnvironmentLight::Direction> EnvironmentLight::sample_direction(
@@ -174,8 +175,8 @@ std::optional<EnvironmentLight::Direction> EnvironmentLight::sample_direction(
                      .pdf = to_solid_angle(pdf, row)};
 }
 
-std::optional<EmissionSample> EnvironmentLight::sample_emission(Vec2 u_position,
-                                                                Vec2 u_direction) const
+std::optional<EmissionSample> EnvironmentLight::sample_emission(Vec2 u_position, Vec2 u_direction,
+                                                                float /*time*/) const
 {
     const auto from = sample_direction(u_direction, EnvironmentSampling::plain);
     if (!from) {
@@ -188,8 +189,9 @@ std::optional<EmissionSample> EnvironmentLight::sample_emission(Vec2 u_position,
                           .pdf_direction = {}};
 }
 
-std::optional<IncidentSample> EnvironmentLight::sample_incident(Vec2 u,
-                                                                EnvironmentSampling sampling) const
+std::optional<IncidentSample> EnvironmentLight::sample_incident(Vec3 /*receiver*/, Vec2 u,
+                                                                EnvironmentSampling sampling,
+                                                                float /*time*/) const
 {
     const auto from = sample_direction(u, sampling);
     if (!from) {

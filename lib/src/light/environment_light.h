@@ -1,6 +1,7 @@
 #pragma once
 
 #include "light/bounding_sphere.h"
+#include "light/light_model.h"
 #include "light/light_samples.h"
 #include "math/distribution_2d.h"
 
@@ -15,22 +16,27 @@ namespace bdpt {
 /// Light from all directions at infinity, from an equirectangular picture that is looked up with
 /// bilinear interpolation. Light paths start in proportion to luminance; next-event estimation has
 /// the choice of `EnvironmentSampling`.
-class EnvironmentLight {
+class EnvironmentLight : public InfiniteLight {
 public:
+    static constexpr bool is_delta = false;
+
     /// The picture is copied; negative values have been refused before.
     EnvironmentLight(const EnvironmentLightDesc& desc, const BoundingSphere& bounds);
 
     /// `to_light`: unit, from the scene towards infinity.
     [[nodiscard]] Rgb radiance(Vec3 to_light) const;
     /// Of the direction that a light path comes from.
-    [[nodiscard]] SolidAnglePdf pdf_emission(Vec3 to_light) const;
+    [[nodiscard]] AreaPdf pdf_position(const LightPoint& x0) const;
     /// Of the direction that `sample_incident` takes; compensated, it can be zero where light is.
     [[nodiscard]] SolidAnglePdf pdf_incident(Vec3 to_light, EnvironmentSampling sampling) const;
+    [[nodiscard]] AreaPdf pdf_incident(Vec3 receiver, const LightPoint& x0,
+                                       EnvironmentSampling sampling) const;
 
-    [[nodiscard]] std::optional<EmissionSample> sample_emission(Vec2 u_position,
-                                                                Vec2 u_direction) const;
-    [[nodiscard]] std::optional<IncidentSample> sample_incident(Vec2 u,
-                                                                EnvironmentSampling sampling) const;
+    [[nodiscard]] std::optional<EmissionSample> sample_emission(Vec2 u_position, Vec2 u_direction,
+                                                                float time = 0.0f) const;
+    [[nodiscard]] std::optional<IncidentSample> sample_incident(Vec3 receiver, Vec2 u,
+                                                                EnvironmentSampling sampling,
+                                                                float time = 0.0f) const;
     /// Luminous flux into the scene's bounding sphere [lm].
     [[nodiscard]] Rgb power() const;
 
@@ -43,7 +49,6 @@ private:
     [[nodiscard]] const Distribution2D& distribution(EnvironmentSampling sampling) const;
     [[nodiscard]] std::optional<Direction> sample_direction(Vec2 u,
                                                             EnvironmentSampling sampling) const;
-    [[nodiscard]] SolidAnglePdf pdf(Vec3 to_light, EnvironmentSampling sampling) const;
     [[nodiscard]] Vec2 uv_of(Vec3 to_light) const;
     [[nodiscard]] Rgb lookup(Vec2 uv) const;
     [[nodiscard]] const Rgb& texel(int x, int y) const;

@@ -1,27 +1,21 @@
 #pragma once
 
-#include "light/directional_light.h"
-#include "light/environment_light.h"
 #include "light/light_bounds.h"
+#include "light/light_models.h"
 #include "light/light_samples.h"
-#include "light/profile_light.h"
-#include "light/punctual_light.h"
-#include "light/sphere_light.h"
-#include "light/triangle_light.h"
 
 #include <optional>
 #include <utility>
-#include <variant>
 
 namespace bdpt {
 
-/// Any light. To add a kind, add it to `Model` and to the functions in light.cpp.
+/// Any light: it does what its kind does. Kinds are listed in light/light_models.h.
 class Light {
 public:
-    using Model = std::variant<TriangleLight, SphereLight, PunctualLight, DirectionalLight,
-                               EnvironmentLight, ProfileLight>;
+    using Model = AnyLightModel;
 
     explicit Light(Model model) : model_(std::move(model)) {}
+    Light(const LightDesc& desc, const LightContext& context);
 
     [[nodiscard]] std::optional<EmissionSample> sample_emission(Vec2 u_position, Vec2 u_direction,
                                                                 float time = 0.0f) const;

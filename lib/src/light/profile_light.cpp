@@ -22,9 +22,10 @@ Vec3 ProfileLight::to_local(Vec3 direction) const
     return transpose(world_from_light_) * direction;
 }
 
-std::optional<EmissionSample> ProfileLight::sample_emission(Vec2 u, float time) const
+std::optional<EmissionSample> ProfileLight::sample_emission(Vec2 /*u_position*/, Vec2 u_direction,
+                                                            float time) const
 {
-    const auto from = profile_->sample(u);
+    const auto from = profile_->sample(u_direction);
     if (!from) {
         return std::nullopt;
     }
@@ -35,13 +36,15 @@ std::optional<EmissionSample> ProfileLight::sample_emission(Vec2 u, float time) 
                           .pdf_direction = from->pdf};
 }
 
-std::optional<IncidentSample> ProfileLight::sample_incident(Vec3 receiver, float time) const
+std::optional<IncidentSample> ProfileLight::sample_incident(Vec3 receiver, Vec2 /*u*/,
+                                                            EnvironmentSampling /*sampling*/,
+                                                            float time) const
 {
     return incident_from_point(at_time(position_, motion_, time), receiver, scale_,
                                [this](Vec3 from) { return profile_->intensity(to_local(from)); });
 }
 
-SolidAnglePdf ProfileLight::pdf_direction(Vec3 direction) const
+SolidAnglePdf ProfileLight::pdf_direction(Vec3 /*ng*/, Vec3 direction, float /*time*/) const
 {
     return profile_->pdf(to_local(direction));
 }

@@ -2,6 +2,7 @@
 
 #include "light/intensity_profile.h"
 #include "light/light_bounds.h"
+#include "light/light_model.h"
 #include "light/light_samples.h"
 
 #include <bdpt/scene_desc.h>
@@ -13,16 +14,20 @@ namespace bdpt {
 
 /// A point light that shines by a profile [EXT_lights_ies]: delta in position, like
 /// `PunctualLight`.
-class ProfileLight {
+class ProfileLight : public DeltaLight {
 public:
+    static constexpr bool is_infinite = false;
+
     /// `profile` is that of the description; it and the motion outlive the light.
     ProfileLight(const ProfileLightDesc& desc, const IntensityProfile& profile);
 
     /// Directions are drawn by their intensity; none from a profile that is black.
-    [[nodiscard]] std::optional<EmissionSample> sample_emission(Vec2 u, float time = 0.0f) const;
-    [[nodiscard]] std::optional<IncidentSample> sample_incident(Vec3 receiver,
+    [[nodiscard]] std::optional<EmissionSample> sample_emission(Vec2 u_position, Vec2 u_direction,
                                                                 float time = 0.0f) const;
-    [[nodiscard]] SolidAnglePdf pdf_direction(Vec3 direction) const;
+    [[nodiscard]] std::optional<IncidentSample> sample_incident(
+        Vec3 receiver, Vec2 u = {}, EnvironmentSampling sampling = EnvironmentSampling::plain,
+        float time = 0.0f) const;
+    [[nodiscard]] SolidAnglePdf pdf_direction(Vec3 ng, Vec3 direction, float time = 0.0f) const;
     /// Luminous flux [lm].
     [[nodiscard]] Rgb power() const { return scale_ * profile_->flux(); }
     /// Of a light that may shine everywhere.

@@ -29,10 +29,11 @@ SpotCone PunctualLight::cone(float time) const
     return turn_.empty() ? cone_ : cone_.around(at_time(axis_, turn_, time));
 }
 
-EmissionSample PunctualLight::sample_emission(Vec2 u, float time) const
+EmissionSample PunctualLight::sample_emission(Vec2 /*u_position*/, Vec2 u_direction,
+                                              float time) const
 {
     const SpotCone cone = this->cone(time);
-    const Vec3 direction = cone.sample(u);
+    const Vec3 direction = cone.sample(u_direction);
     const float omega = cone.solid_angle();
     return {.end = {.p = position(time)},
             .direction = direction,
@@ -41,7 +42,9 @@ EmissionSample PunctualLight::sample_emission(Vec2 u, float time) const
             .pdf_direction = {1.0f / omega}};
 }
 
-std::optional<IncidentSample> PunctualLight::sample_incident(Vec3 receiver, float time) const
+std::optional<IncidentSample> PunctualLight::sample_incident(Vec3 receiver, Vec2 /*u*/,
+                                                             EnvironmentSampling /*sampling*/,
+                                                             float time) const
 {
     return incident_from_point(position(time), receiver, intensity_,
                                [&](Vec3 from) { return cone(time).falloff(from); });

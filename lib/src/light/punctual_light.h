@@ -1,6 +1,7 @@
 #pragma once
 
 #include "light/light_bounds.h"
+#include "light/light_model.h"
 #include "light/light_samples.h"
 #include "light/spot_cone.h"
 
@@ -13,17 +14,21 @@ namespace bdpt {
 
 /// A point or spot light of KHR_lights_punctual: delta in position, so no ray ever hits it. A point
 /// light is a spot whose cone is the whole sphere.
-class PunctualLight {
+class PunctualLight : public DeltaLight {
 public:
+    static constexpr bool is_infinite = false;
+
     /// The motion of `desc` must outlive this.
     explicit PunctualLight(const PointLightDesc& desc);
     explicit PunctualLight(const SpotLightDesc& desc);
 
     /// Directions are uniform in the cone.
-    [[nodiscard]] EmissionSample sample_emission(Vec2 u, float time = 0.0f) const;
-    [[nodiscard]] std::optional<IncidentSample> sample_incident(Vec3 receiver,
-                                                                float time = 0.0f) const;
-    [[nodiscard]] SolidAnglePdf pdf_direction(Vec3 direction, float time = 0.0f) const
+    [[nodiscard]] EmissionSample sample_emission(Vec2 u_position, Vec2 u_direction,
+                                                 float time = 0.0f) const;
+    [[nodiscard]] std::optional<IncidentSample> sample_incident(
+        Vec3 receiver, Vec2 u = {}, EnvironmentSampling sampling = EnvironmentSampling::plain,
+        float time = 0.0f) const;
+    [[nodiscard]] SolidAnglePdf pdf_direction(Vec3 /*ng*/, Vec3 direction, float time = 0.0f) const
     {
         return cone(time).pdf(direction);
     }

@@ -114,7 +114,9 @@ std::optional<EmissionSample> SphereLight::sample_emission(Vec2 u_position, Vec2
                           .pdf_direction = {4.0f * on_disk.z / cone.solid_angle()}};
 }
 
-std::optional<IncidentSample> SphereLight::sample_incident(Vec3 receiver, Vec2 u, float time) const
+std::optional<IncidentSample> SphereLight::sample_incident(Vec3 receiver, Vec2 u,
+                                                           EnvironmentSampling /*sampling*/,
+                                                           float time) const
 {
     const auto view = view_from(receiver, sphere_.at(time));
     if (!view) {
@@ -138,17 +140,18 @@ std::optional<IncidentSample> SphereLight::sample_incident(Vec3 receiver, Vec2 u
                           .pdf_solid_angle = view->pdf()};
 }
 
-AreaPdf SphereLight::pdf_position() const
+AreaPdf SphereLight::pdf_position(const LightPoint& /*x0*/) const
 {
     return {0.25f * inv_pi / (sphere_.radius * sphere_.radius)};
 }
 
-AreaPdf SphereLight::pdf_incident(Vec3 receiver, Vec3 p, Vec3 ng, float time) const
+AreaPdf SphereLight::pdf_incident(Vec3 receiver, const LightPoint& x0,
+                                  EnvironmentSampling /*sampling*/) const
 {
-    const auto view = view_from(receiver, sphere_.at(time));
-    const Vec3 to_light = p - receiver;
+    const auto view = view_from(receiver, sphere_.at(x0.time));
+    const Vec3 to_light = x0.p - receiver;
     const float distance_squared = dot(to_light, to_light);
-    const float cosine = -dot(ng, to_light / std::sqrt(distance_squared));
+    const float cosine = -dot(x0.ng, to_light / std::sqrt(distance_squared));
     if (!view || !(cosine > 0.0f)) {
         return {0.0f};
     }

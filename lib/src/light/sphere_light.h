@@ -2,6 +2,7 @@
 
 #include "geometry/sphere.h"
 #include "light/light_bounds.h"
+#include "light/light_model.h"
 #include "light/light_samples.h"
 #include "light/spot_cone.h"
 
@@ -17,6 +18,9 @@ namespace bdpt {
 /// *direction* of the light, equally at all points of the ball.
 class SphereLight {
 public:
+    static constexpr bool is_delta = false;
+    static constexpr bool is_infinite = false;
+
     /// `number`: of the sphere in the scene's geometry. The motion of `desc` must outlive this.
     SphereLight(const PointLightDesc& desc, std::uint32_t number);
     SphereLight(const SpotLightDesc& desc, std::uint32_t number);
@@ -31,13 +35,16 @@ public:
     [[nodiscard]] std::optional<EmissionSample> sample_emission(Vec2 u_position, Vec2 u_direction,
                                                                 float time = 0.0f) const;
     /// Directions are uniform in the cone that the ball fills; none from inside of it.
-    [[nodiscard]] std::optional<IncidentSample> sample_incident(Vec3 receiver, Vec2 u,
-                                                                float time = 0.0f) const;
+    [[nodiscard]] std::optional<IncidentSample> sample_incident(
+        Vec3 receiver, Vec2 u, EnvironmentSampling sampling = EnvironmentSampling::plain,
+        float time = 0.0f) const;
 
     /// Uniform over the area. For a spot that is not the density of the position alone; but its
     /// product with `pdf_direction` is that of both, and nothing else is ever used.
-    [[nodiscard]] AreaPdf pdf_position() const;
-    [[nodiscard]] AreaPdf pdf_incident(Vec3 receiver, Vec3 p, Vec3 ng, float time = 0.0f) const;
+    [[nodiscard]] AreaPdf pdf_position(const LightPoint& x0 = {}) const;
+    [[nodiscard]] AreaPdf pdf_incident(
+        Vec3 receiver, const LightPoint& x0,
+        EnvironmentSampling sampling = EnvironmentSampling::plain) const;
     [[nodiscard]] SolidAnglePdf pdf_direction(Vec3 ng, Vec3 direction, float time = 0.0f) const;
     /// Luminous flux [lm].
     [[nodiscard]] Rgb power() const { return intensity_ * cone_.integral(); }

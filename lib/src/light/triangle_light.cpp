@@ -1,5 +1,6 @@
 #include "light/triangle_light.h"
 
+#include "geometry/length.h"
 #include "math/elementary.h"
 #include "math/frame.h"
 #include "math/rgb.h"
@@ -14,7 +15,7 @@ namespace bdpt {
 
 TriangleLight::Facing TriangleLight::facing_of(Vec3 area_normal)
 {
-    const float area = 0.5f * std::sqrt(dot(area_normal, area_normal));
+    const float area = 0.5f * length_of(area_normal);
     return {.area = area, .ng = area_normal / (2.0f * area)};
 }
 
@@ -93,6 +94,7 @@ std::optional<EmissionSample> TriangleLight::sample_emission(Vec2 u_position, Ve
 }
 
 std::optional<IncidentSample> TriangleLight::sample_incident(Vec3 receiver, Vec2 u,
+                                                             EnvironmentSampling /*sampling*/,
                                                              float time) const
 {
     const Facing facing = this->facing(time);
@@ -126,9 +128,14 @@ AreaPdf TriangleLight::pdf_position(Vec2 barycentrics, const Facing& at) const
     return {spread / at.area};
 }
 
-AreaPdf TriangleLight::pdf_position(Vec2 barycentrics, float time) const
+AreaPdf TriangleLight::pdf_position(const LightPoint& x0) const
 {
-    return pdf_position(barycentrics, facing(time));
+    return pdf_position(x0.barycentrics, facing(x0.time));
+}
+
+SolidAnglePdf TriangleLight::pdf_direction(Vec3 ng, Vec3 direction, float /*time*/) const
+{
+    return pdf_direction(dot(ng, direction));
 }
 
 SolidAnglePdf TriangleLight::pdf_direction(float cosine) const

@@ -2,6 +2,7 @@
 
 #include "geometry/placed_mesh.h"
 #include "light/light_bounds.h"
+#include "light/light_model.h"
 #include "light/light_samples.h"
 #include "light/triangle_emission.h"
 #include "material/material.h"
@@ -14,18 +15,28 @@ namespace bdpt {
 /// the texture's luminance, both for light paths and for next-event estimation.
 class TriangleLight {
 public:
+    static constexpr bool is_delta = false;
+    static constexpr bool is_infinite = false;
+
     /// `most_samples`: as for `measure_emission`.
     TriangleLight(const PlacedMesh& mesh, const Material& material, std::uint32_t triangle,
                   int most_samples);
 
     [[nodiscard]] std::optional<EmissionSample> sample_emission(Vec2 u_position, Vec2 u_direction,
                                                                 float time = 0.0f) const;
-    [[nodiscard]] std::optional<IncidentSample> sample_incident(Vec3 receiver, Vec2 u,
-                                                                float time = 0.0f) const;
+    [[nodiscard]] std::optional<IncidentSample> sample_incident(
+        Vec3 receiver, Vec2 u, EnvironmentSampling sampling = EnvironmentSampling::plain,
+        float time = 0.0f) const;
 
-    /// Density of a light path's direction; `cosine` is that to the front normal.
-    [[nodiscard]] SolidAnglePdf pdf_direction(float cosine) const;
-    [[nodiscard]] AreaPdf pdf_position(Vec2 barycentrics, float time = 0.0f) const;
+    [[nodiscard]] AreaPdf pdf_position(const LightPoint& x0) const;
+    /// The same points are sampled for every receiver.
+    [[nodiscard]] AreaPdf pdf_incident(
+        Vec3 /*receiver*/, const LightPoint& x0,
+        EnvironmentSampling /*sampling*/ = EnvironmentSampling::plain) const
+    {
+        return pdf_position(x0);
+    }
+    [[nodiscard]] SolidAnglePdf pdf_direction(Vec3 ng, Vec3 direction, float time = 0.0f) const;
     /// Emitted luminous flux [lm]; the mean at and between the steps of a motion.
     [[nodiscard]] Rgb power() const;
     [[nodiscard]] LightBounds bounds() const;
@@ -41,6 +52,8 @@ private:
         float area;
         Vec3 ng;  ///< unit; not finite without an area
     };
+    /// `cosine` is that to the front normal.
+    [[nodiscard]] SolidAnglePdf pdf_direction(float cosine) const;
     [[nodiscard]] static Facing facing_of(Vec3 area_normal);
     [[nodiscard]] Facing facing(float time) const;
     [[nodiscard]] float mean_area() const;

@@ -7,11 +7,14 @@
 #include <bdpt/integrators.h>
 #include <bdpt/motion.h>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <sstream>
 #include <string>
 
 namespace bdpt {
@@ -98,6 +101,11 @@ void check_motion(const std::string& item, const CameraDesc& camera)
     }
 }
 
+std::string label(const CameraDesc& camera)
+{
+    return camera.name.empty() ? std::string("camera") : "camera \"" + camera.name + "\"";
+}
+
 }  // namespace
 
 void check_options(const RenderOptions& options)
@@ -141,8 +149,7 @@ void check_options(const RenderOptions& options)
 
 void check_camera(const CameraDesc& camera)
 {
-    const std::string item =
-        camera.name.empty() ? std::string("camera") : "camera \"" + camera.name + "\"";
+    const std::string item = label(camera);
     const auto check_reach = [&](const char* what, float value) {
         check_within_reach(item, what, value);
     };
@@ -163,6 +170,26 @@ void check_camera(const CameraDesc& camera)
         throw Error(ErrorCode::invalid_input, item + ": vertical field of view is " +
                                                   std::to_string(camera.vertical_fov) +
                                                   " rad, not in (0, pi)");
+    }
+}
+
+void check_camera_distance(const CameraDesc& camera, float farthest)
+{
+    const auto check = [&](const Mat4& world_from_camera) {
+        const Vec3 position = abs(Vec3(world_from_camera[3]));
+        const float distance = std::max({position.x, position.y, position.z});
+        if (!(distance <= farthest)) {
+            std::ostringstream text;
+            text << label(camera) << ": is " << distance << " m from the origin, but " << farthest
+                 << " m is the most in this scene, as a mesh that is used more than once or moves "
+                    "is "
+                    "scaled down very much";
+            throw Error(ErrorCode::invalid_input, text.str());
+        }
+    };
+    check(camera.world_from_camera);
+    for (const Mat4& later : camera.motion) {
+        check(later);
     }
 }
 

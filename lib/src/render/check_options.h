@@ -11,4 +11,8 @@ void check_options(const RenderOptions& options);
 /// Throws `Error` (invalid_input) when the camera has no usable view.
 void check_camera(const CameraDesc& camera);
 
+/// Throws `Error` (invalid_input) when the camera, on its way, is farther than that from the origin
+/// [m], in any coordinate: its rays would meet nothing.
+void check_camera_distance(const CameraDesc& camera, float farthest);
+
 }  // namespace bdpt

@@ -137,6 +137,7 @@ RenderResult render(const Scene& scene, const CameraDesc& camera_desc, const Ren
 {
     check_options(options);
     check_camera(camera_desc);
+    check_camera_distance(camera_desc, scene.world().farthest_origin());
     check_strategy_memory(options, camera_desc);
     const auto start = std::chrono::steady_clock::now();
     const PixelRect region = options.crop.value_or(whole_image(options));

@@ -1,5 +1,6 @@
 #include "scene/bodies.h"
 
+#include "geometry/length.h"
 #include "geometry/rounding.h"
 
 #include <tbb/parallel_for.h>
@@ -71,7 +72,7 @@ Vec3 beyond(const Sphere& sphere, Ray ray)
 std::optional<Vec3> before(const PlacedMesh& placed, std::uint32_t triangle)
 {
     const Vec3 normal = placed.area_normal(triangle);
-    const float length = std::sqrt(dot(normal, normal));
+    const float length = length_of(normal);
     if (!(length > 0.0f)) {
         return std::nullopt;
     }
@@ -116,7 +117,7 @@ Bodies::Set Bodies::left_by(Vec3 origin, Vec3 direction) const
             ray.origin = beyond(spheres_[hit->sphere], ray);
             continue;
         }
-        const Vec3 normal = normalize(hit->at.normal);
+        const Vec3 normal = hit->at.normal / length_of(hit->at.normal);
         if (const auto body = body_of_instance_[hit->instance]) {
             crossings.emplace_back(*body, dot(normal, direction) > 0.0f ? 1 : -1);
         }

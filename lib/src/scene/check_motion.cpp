@@ -135,35 +135,16 @@ void check_directions(const std::string& item, Vec3 first, std::span<const Vec3>
     }
 }
 
-struct LightMotionCheck {
-    std::size_t index;
-    float reach;
-
-    void operator()(const PointLightDesc& light) const
-    {
-        check_positions(label("point light", index, light.name), light.motion, reach);
+template <typename Light>
+void check(const Light& light, std::size_t index, float reach)
+{
+    if constexpr (requires { light.motion; }) {
+        check_positions(light_label(light, index), light.motion, reach);
     }
-
-    void operator()(const SpotLightDesc& light) const
-    {
-        const std::string item = label("spot light", index, light.name);
-        check_positions(item, light.motion, reach);
-        check_directions(item, light.direction, light.turn);
+    if constexpr (requires { light.turn; }) {
+        check_directions(light_label(light, index), light.direction, light.turn);
     }
-
-    void operator()(const DirectionalLightDesc& light) const
-    {
-        check_directions(label("directional light", index, light.name), light.direction,
-                         light.turn);
-    }
-
-    void operator()(const ProfileLightDesc& light) const
-    {
-        check_positions(label("profile light", index, light.name), light.motion, reach);
-    }
-
-    void operator()(const EnvironmentLightDesc& /*light*/) const {}
-};
+}
 
 }  // namespace
 
@@ -185,7 +166,7 @@ void check_motion(const SceneDesc& desc, float reach)
         }
     }
     for (std::size_t i = 0; i < desc.lights.size(); ++i) {
-        std::visit(LightMotionCheck{i, reach}, desc.lights[i]);
+        std::visit([&](const auto& light) { check(light, i, reach); }, desc.lights[i]);
     }
 }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 
 namespace bdpt {
 namespace {
@@ -23,28 +22,6 @@ std::optional<Sphere> sphere_of(const LightDesc& desc)
                 }
             }
             return std::nullopt;
-        },
-        desc);
-}
-
-/// `sphere`: the number that the light gets if it is one.
-Light make_light(const LightDesc& desc, std::span<const IntensityProfile> profiles,
-                 const BoundingSphere& bounds, std::uint32_t sphere)
-{
-    return std::visit(
-        [profiles, &bounds, sphere](const auto& d) {
-            using T = std::decay_t<decltype(d)>;
-            if constexpr (std::is_same_v<T, DirectionalLightDesc>) {
-                return Light(DirectionalLight(d, bounds));
-            } else if constexpr (std::is_same_v<T, EnvironmentLightDesc>) {
-                return Light(EnvironmentLight(d, bounds));
-            } else if constexpr (std::is_same_v<T, ProfileLightDesc>) {
-                return Light(ProfileLight(d, profiles[static_cast<std::size_t>(d.profile)]));
-            } else if (d.radius > 0.0f) {
-                return Light(SphereLight(d, sphere));
-            } else {
-                return Light(PunctualLight(d));
-            }
         },
         desc);
 }
@@ -119,8 +96,10 @@ LightSet::LightSet(std::span<const InstanceDesc> instances, std::span<const Plac
     }
     for (const LightDesc& desc : lights) {
         const LightId id{static_cast<std::uint32_t>(lights_.size())};
-        lights_.push_back(
-            make_light(desc, profiles, bounds, static_cast<std::uint32_t>(spheres_.size())));
+        lights_.emplace_back(desc,
+                             LightContext{.profiles = profiles,
+                                          .bounds = bounds,
+                                          .sphere = static_cast<std::uint32_t>(spheres_.size())});
         if (std::holds_alternative<EnvironmentLightDesc>(desc)) {
             environment_ = id;
         }
@@ -144,7 +123,8 @@ std::optional<LightSet::Choice> LightSet::choose_for_emission(Vec2 u) const
 
 float LightSet::emission_probability(LightId id) const
 {
-    return by_power_.probability(static_cast<std::uint32_t>(id));
+    // Triangles may shine so little that no light has any power in the range of floats.
+    return by_power_.empty() ? 0.0f : by_power_.probability(static_cast<std::uint32_t>(id));
 }
 
 std::optional<LightId> LightSet::of_triangle(std::uint32_t instance, std::uint32_t triangle) const

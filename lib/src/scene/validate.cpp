@@ -11,7 +11,9 @@
 
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace bdpt {
@@ -65,52 +67,35 @@ void check(const TextureRef& texture, const std::string& item, std::size_t image
     }
 }
 
-void check_layers(const MaterialDesc& material, const std::string& item)
+/// The numbers of a material, or of one of its layers.
+template <HasFields Desc>
+void check_numbers(const Desc& desc, const std::string& item)
 {
-    check_range(item, "clearcoat", material.clearcoat.factor, 0.0f, 1.0f);
-    check_range(item, "clearcoat roughness", material.clearcoat.roughness, 0.0f, 1.0f);
-    check_range(item, "clearcoat normal scale", material.clearcoat.normal_scale, -any_positive,
-                any_positive);
-    check_color(item, "sheen colour", material.sheen.color, 1.0f);
-    check_range(item, "sheen roughness", material.sheen.roughness, 0.0f, 1.0f);
-    check_range(item, "anisotropy strength", material.anisotropy.strength, 0.0f, 1.0f);
-    check_range(item, "anisotropy rotation", material.anisotropy.rotation, -any_positive,
-                any_positive);
-    const IridescenceDesc& film = material.iridescence;
-    check_range(item, "iridescence", film.factor, 0.0f, 1.0f);
-    check_range(item, "iridescence index of refraction", film.ior, 1.0f, any_positive);
-    check_range(item, "iridescence thickness", film.thickness_minimum, 0.0f, any_positive);
-    check_range(item, "iridescence thickness", film.thickness_maximum, 0.0f, any_positive);
-    const DiffuseTransmissionDesc& through = material.diffuse_transmission;
-    check_range(item, "diffuse transmission", through.factor, 0.0f, 1.0f);
-    check_color(item, "diffuse transmission colour", through.color, 1.0f);
+    for_each_field(desc, [&item](const auto& field, const auto& value) {
+        using T = std::remove_cvref_t<decltype(value)>;
+        if constexpr (requires { field.limits; }) {
+            check_limits(item, field.name, value, field.limits);
+        } else if constexpr (HasFields<T>) {
+            check_numbers(value, item);
+        } else {
+            constexpr bool is_number = std::is_floating_point_v<T> || requires
+            {
+                value[0];
+            };
+            static_assert(!is_number || std::is_same_v<T, std::string>,
+                          "a number of a material needs limits in its list of fields");
+        }
+    });
 }
 
 void check(const MaterialDesc& material, const std::string& item, std::size_t image_count)
 {
-    check_color(item, "base colour", material.base_color, 1.0f);
-    check_range(item, "alpha cutoff", material.alpha_cutoff, 0.0f, any_positive);
-    check_range(item, "metallic", material.metallic, 0.0f, 1.0f);
-    check_range(item, "roughness", material.roughness, 0.0f, 1.0f);
-    check_color(item, "emission", material.emission, any_positive);
-    check_range(item, "normal scale", material.normal_scale, -any_positive, any_positive);
-    check_range(item, "index of refraction", material.ior, 1.0f, any_positive);
-    check_range(item, "specular", material.specular, 0.0f, 1.0f);
-    check_color(item, "specular colour", material.specular_color, any_positive);
-    check_range(item, "transmission", material.transmission, 0.0f, 1.0f);
-    check_range(item, "thickness", material.thickness, 0.0f, any_positive);
-    check_color(item, "attenuation colour", material.attenuation_color, 1.0f);
-    if (!(material.attenuation_distance > 0.0f)) {
-        fail(item, ": attenuation distance is ", material.attenuation_distance,
-             ", but must be above 0");
-    }
-    check_range(item, "dispersion", material.dispersion, 0.0f, any_positive);
-    check_layers(material, item);
-    for (const auto* texture : material.textures()) {
-        if (*texture) {
-            check(**texture, item, image_count);
+    check_numbers(material, item);
+    for_each_texture(material, [&](const std::optional<TextureRef>& texture) {
+        if (texture) {
+            check(*texture, item, image_count);
         }
-    }
+    });
 }
 
 void check(const InstanceDesc& instance, const std::string& item, const SceneDesc& desc)

@@ -102,18 +102,18 @@ struct LightCheck {
 
     void operator()(const PointLightDesc& light) const
     {
-        const std::string item = label("point light", index, light.name);
+        const std::string item = light_label(light, index);
         check_position(item, light.position, reach);
-        check_color(item, "intensity", light.intensity, any_positive);
+        check_own_limits(item, light);
         check_radius(item, light.radius, light.intensity);
     }
 
     void operator()(const SpotLightDesc& light) const
     {
-        const std::string item = label("spot light", index, light.name);
+        const std::string item = light_label(light, index);
         check_position(item, light.position, reach);
         check_direction(item, light.direction);
-        check_color(item, "intensity", light.intensity, any_positive);
+        check_own_limits(item, light);
         check_radius(item, light.radius, light.intensity);
         check_range(item, "inner cone angle", light.inner_cone_angle, 0.0f, 0.5f * pi);
         check_range(item, "outer cone angle", light.outer_cone_angle, 1e-4f, 0.5f * pi + 1e-6f);
@@ -125,17 +125,17 @@ struct LightCheck {
 
     void operator()(const DirectionalLightDesc& light) const
     {
-        const std::string item = label("directional light", index, light.name);
+        const std::string item = light_label(light, index);
         check_direction(item, light.direction);
-        check_color(item, "illuminance", light.illuminance, any_positive);
+        check_own_limits(item, light);
     }
 
     void operator()(const ProfileLightDesc& light) const
     {
-        const std::string item = label("profile light", index, light.name);
+        const std::string item = light_label(light, index);
         check_position(item, light.position, reach);
         check_rotation(item, light.world_from_light);
-        check_color(item, "scale", light.scale, any_positive);
+        check_own_limits(item, light);
         const auto profile = static_cast<std::size_t>(light.profile);
         if (profile >= profile_peaks.size()) {
             fail(item, ": profile ", profile, ", but there are ", profile_peaks.size(),
@@ -146,7 +146,7 @@ struct LightCheck {
 
     void operator()(const EnvironmentLightDesc& light) const
     {
-        const std::string item = label("environment light", index, "");
+        const std::string item = light_label(light, index);
         const Image& image = light.radiance;
         if (image.width < 1 || image.height < 1 ||
             image.pixels.size() != area(image.width, image.height)) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bdpt/error.h>
+#include <bdpt/fields.h>
 
 #include <cmath>
 #include <cstddef>
@@ -8,6 +9,7 @@
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 namespace bdpt {
 
@@ -28,6 +30,17 @@ template <typename... Parts>
     return name.empty() ? text : text + " \"" + name + "\"";
 }
 
+/// `spot light 2 "stage"`
+template <typename Light>
+[[nodiscard]] std::string light_label(const Light& light, std::size_t index)
+{
+    if constexpr (requires { light.name; }) {
+        return label(Light::kind, index, light.name);
+    } else {
+        return label(Light::kind, index, "");
+    }
+}
+
 /// Pixels of a picture.
 [[nodiscard]] inline std::size_t area(int width, int height)
 {
@@ -46,7 +59,7 @@ template <typename... Parts>
 }
 
 /// Throws unless the value is in [low, high]; a NaN is in no range.
-inline void check_range(const std::string& item, const char* what, float value, float low,
+inline void check_range(const std::string& item, std::string_view what, float value, float low,
                         float high)
 {
     if (!(value >= low && value <= high)) {
@@ -56,11 +69,40 @@ inline void check_range(const std::string& item, const char* what, float value, 
 
 /// The same for all channels, from 0.
 template <typename Color>
-void check_color(const std::string& item, const char* what, const Color& value, float high)
+void check_color(const std::string& item, std::string_view what, const Color& value, float high)
 {
     for (int c = 0; c < Color::length(); ++c) {
         check_range(item, what, value[c], 0.0f, high);
     }
+}
+
+/// Throws unless the number, or each channel of the colour, is within the limits.
+template <typename T>
+void check_limits(const std::string& item, std::string_view what, const T& value,
+                  const Limits& limits)
+{
+    if constexpr (std::is_same_v<T, float>) {
+        if (!limits.low_is_excluded) {
+            check_range(item, what, value, limits.low, limits.high);
+        } else if (!(value > limits.low && value <= limits.high)) {
+            fail(item, ": ", what, " is ", value, ", but must be above ", limits.low);
+        }
+    } else {
+        for (int c = 0; c < T::length(); ++c) {
+            check_limits(item, what, value[c], limits);
+        }
+    }
+}
+
+/// Checks the numbers of a description that have limits of their own.
+template <HasFields Desc>
+void check_own_limits(const std::string& item, const Desc& desc)
+{
+    for_each_field(desc, [&item](const auto& field, const auto& value) {
+        if constexpr (requires { field.limits; }) {
+            check_limits(item, field.name, value, field.limits);
+        }
+    });
 }
 
 /// The greatest of all values that are finite.

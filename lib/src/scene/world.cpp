@@ -1,74 +1,20 @@
 #include "scene/world.h"
 
+#include "geometry/length.h"
 #include "geometry/rounding.h"
-#include "material/specular_albedo.h"
-#include "scene/validate.h"
+#include "scene/world_builder.h"
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <utility>
 
 namespace bdpt {
 namespace {
-
-Bounds bounds_of(std::span<const PlacedMesh> placed, std::span<const Sphere> spheres)
-{
-    Bounds bounds{.min = Vec3(std::numeric_limits<float>::infinity()),
-                  .max = Vec3(-std::numeric_limits<float>::infinity())};
-    for (const PlacedMesh& mesh : placed) {
-        for (const UVec3& triangle : mesh.mesh().triangles) {
-            for (int corner = 0; corner < 3; ++corner) {
-                for (std::size_t step = 0; step <= mesh.steps(); ++step) {
-                    const Vec3 p = mesh.world_point_at(step, triangle[corner]);
-                    bounds.min = min(bounds.min, p);
-                    bounds.max = max(bounds.max, p);
-                }
-            }
-        }
-    }
-    const auto add_ball = [&bounds](Vec3 center, float radius) {
-        bounds.min = min(bounds.min, center - radius);
-        bounds.max = max(bounds.max, center + radius);
-    };
-    for (const Sphere& sphere : spheres) {
-        add_ball(sphere.center, sphere.radius);
-        for (const Vec3& center : sphere.motion) {
-            add_ball(center, sphere.radius);
-        }
-    }
-    return bounds.min.x <= bounds.max.x ? bounds : Bounds{};
-}
-
-bool light_moves(const LightDesc& light)
-{
-    return std::visit(
-        [](const auto& l) {
-            bool moves = false;
-            if constexpr (requires { l.motion; }) {
-                moves = moves || !l.motion.empty();
-            }
-            if constexpr (requires { l.turn; }) {
-                moves = moves || !l.turn.empty();
-            }
-            return moves;
-        },
-        light);
-}
-
-BoundingSphere sphere_around(const Bounds& bounds)
-{
-    const float radius = 0.5f * glm::length(bounds.max - bounds.min);
-    // A little more, so that rounding leaves no corner outside.
-    return {.center = 0.5f * (bounds.min + bounds.max),
-            .radius = radius > 0.0f ? 1.0001f * radius : 1.0f};
-}
 
 /// A type of its own, as that of a plain function would be visible from outside of the library.
 struct ForRowsAtOnce {
@@ -83,61 +29,13 @@ struct ForRowsAtOnce {
 
 World::World(SceneDesc desc, Isa isa) : desc_(std::move(desc)), mip_maps_(ForRowsAtOnce{})
 {
-    validate(desc_);
-    if (std::any_of(desc_.materials.begin(), desc_.materials.end(), has_layers)) {
-        layer_tables_ = std::make_unique<const LayerTables>(desc_.materials);
-    }
-    for (const MaterialDesc& material : desc_.materials) {
-        materials_.push_back(make_material(material, {}));
-    }
-    placed_.reserve(desc_.instances.size());
-    for (const InstanceDesc& instance : desc_.instances) {
-        placed_.emplace_back(desc_.meshes[static_cast<std::size_t>(instance.mesh)], instance);
-    }
-    moves_ = std::any_of(placed_.begin(), placed_.end(),
-                         [](const PlacedMesh& mesh) { return mesh.moves(); }) ||
-             std::any_of(desc_.lights.begin(), desc_.lights.end(), light_moves);
-    spheres_ = light_spheres(desc_.lights);
-    bounds_ = bounds_of(placed_, spheres_);
-    sphere_ = sphere_around(bounds_);
-    embree_ = std::make_unique<const EmbreeScene>(desc_.instances, placed_, desc_.meshes.size(),
-                                                  spheres_, pass_rule(), isa);
-    profiles_.reserve(desc_.profiles.size());
-    for (const LightProfile& profile : desc_.profiles) {
-        profiles_.emplace_back(profile);
-    }
-    find_bodies();
-    lights_ = std::make_unique<const LightSet>(desc_.instances, placed_, materials_, desc_.lights,
-                                               profiles_, sphere_);
-    counts_ = count(desc_);
-    counts_.lights = lights_->size();
-    counts_.emissive_triangles = lights_->size() - desc_.lights.size();
-}
-
-Material World::make_material(const MaterialDesc& desc, const Exterior& exterior)
-{
-    const auto [red, green, blue] = boundary_indices(desc, exterior).greater_by_less;
-    const bool mip_mapped = desc_.texture_filter == TextureFilter::mip_mapped;
-    const Pictures pictures(desc_.images, mip_mapped ? &mip_maps_ : nullptr);
-    Material material(desc, pictures, {albedo_of(red), albedo_of(green), albedo_of(blue)},
-                      layer_tables_.get(), exterior);
-    disperses_ = disperses_ || material.disperses();
-    return material;
+    WorldBuilder(*this).build(isa);
 }
 
 const SideMedia* World::medium_at(Vec3 p) const
 {
     const auto body = bodies_ ? bodies_->at(p) : std::nullopt;
     return body ? material_of(*body).media_within() : nullptr;
-}
-
-const SpecularAlbedo& World::albedo_of(float ior)
-{
-    auto& albedo = albedos_[ior];
-    if (!albedo) {
-        albedo = std::make_unique<const SpecularAlbedo>(ior);
-    }
-    return *albedo;
 }
 
 const Material& World::material_of(std::uint32_t instance) const noexcept
@@ -212,8 +110,8 @@ SurfacePoint World::mesh_point(const RayHit& hit, Vec3 direction, SegmentKey seg
     const PlacedMesh& mesh = placed_[hit.instance];
     const Material& material = material_of(hit.instance);
 
-    const float length_squared = dot(hit.at.normal, hit.at.normal);
-    const Vec3 ng = length_squared > 0.0f ? hit.at.normal / std::sqrt(length_squared) : -direction;
+    const float length = length_of(hit.at.normal);
+    const Vec3 ng = length > 0.0f ? hit.at.normal / length : -direction;
     Vec3 ns = mesh.shading_normal(hit.triangle, hit.at.barycentrics, segment.time);
     const float side = dot(ns, ng);
     ns = side > 0.0f ? ns : side < 0.0f ? -ns : ng;

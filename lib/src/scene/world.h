@@ -33,7 +33,8 @@ struct SurfacePoint {
     bool disperses = false;        ///< scatters light of different colours differently
 };
 
-/// The scene as rays see it: geometry, materials and lights, validated and immutable.
+/// The scene as rays see it: geometry, materials and lights. `WorldBuilder` fills it in; after that
+/// nothing changes.
 class World {
 public:
     /// Throws `Error`: invalid_input, or what `EmbreeScene` throws.
@@ -77,16 +78,16 @@ public:
     [[nodiscard]] const Bounds& bounds() const { return bounds_; }
     [[nodiscard]] const SceneCounts& counts() const { return counts_; }
     [[nodiscard]] Isa isa() const noexcept { return embree_->isa(); }
+    /// As that of `EmbreeScene`.
+    [[nodiscard]] float farthest_origin() const noexcept { return embree_->farthest_origin(); }
     /// What absorbs around a point that lies on no surface; null if nothing does.
     [[nodiscard]] const SideMedia* medium_at(Vec3 p) const;
     /// What is likely not meant, one line each.
     [[nodiscard]] const std::vector<std::string>& warnings() const noexcept { return warnings_; }
 
 private:
-    [[nodiscard]] const SpecularAlbedo& albedo_of(float ior);
-    [[nodiscard]] Material make_material(const MaterialDesc& desc, const Exterior& exterior);
-    void find_bodies();
-    void warn_of_open_bodies();
+    friend class WorldBuilder;
+
     [[nodiscard]] const Material& material_of(std::uint32_t instance) const noexcept;
     [[nodiscard]] bool may_be_passed(std::uint32_t instance) const noexcept;
     [[nodiscard]] bool is_passed(const Crossing& crossing) const noexcept;

@@ -65,7 +65,7 @@ TEST_CASE("environment: the density integrates to one and is that of the samples
 
     test::Moments sampled;
     for (int i = 0; i < 20000; ++i) {
-        const auto incident = light.sample_incident(random.next_2d(), sampling);
+        const auto incident = light.sample_incident({}, random.next_2d(), sampling);
         REQUIRE(incident.has_value());
         REQUIRE(light.pdf_incident(incident->wi, sampling).value ==
                 Approx(incident->pdf_solid_angle.value).epsilon(2e-3));
@@ -84,7 +84,7 @@ TEST_CASE("environment: light wherever it is bright can be sampled", "[light]")
         const Vec3 w = random.direction();
         if (luminance(light.radiance(w)) > 0.0f) {
             REQUIRE(light.pdf_incident(w, EnvironmentSampling::plain).value > 0.0f);
-            REQUIRE(light.pdf_emission(w).value > 0.0f);
+            REQUIRE(light.pdf_position({.p = w}).value > 0.0f);
         }
     }
 }
@@ -110,7 +110,7 @@ TEST_CASE("environment: compensated sampling leaves out half of the mean", "[lig
     CHECK(light.pdf_incident(right, compensated).value == share(0.375f, 1.78125f));
     CHECK(light.pdf_incident(left, compensated).value == 0.0f);
     for (const auto& [direction, level] : {std::pair{up, 5.0f}, {left, 1.0f}, {right, 2.0f}}) {
-        CHECK(light.pdf_emission(direction).value == share(level, 3.25f));
+        CHECK(light.pdf_position({.p = direction}).value == share(level, 3.25f));
         CHECK(light.pdf_incident(direction, EnvironmentSampling::plain).value ==
               share(level, 3.25f));
     }

@@ -68,8 +68,8 @@ TEST_CASE("sphere: next-event directions are uniform in the cone that the ball f
             REQUIRE(static_cast<double>(incident->pdf_solid_angle.value) ==
                     Approx(1.0 / (2.0 * 3.14159265358979 * height)).epsilon(1e-5));
             // A strategy that finds the point by chance computes the same density.
-            REQUIRE(light.pdf_incident(receiver, incident->end.p, incident->end.ng).value ==
-                    Approx(incident->pdf.value).epsilon(1e-4));
+            REQUIRE(light.pdf_incident(receiver, {.p = incident->end.p, .ng = incident->end.ng})
+                        .value == Approx(incident->pdf.value).epsilon(1e-4));
         }
         INFO("distance " << distance);
         check_uniform(counts);
@@ -85,8 +85,9 @@ TEST_CASE("sphere: the density of next-event points integrates to one", "[light]
         test::Moments integral;
         for (int i = 0; i < 2000000; ++i) {
             const SegmentEnd at = light.surface(random.direction());
-            integral.add(static_cast<double>(light.pdf_incident(receiver, at.p, at.ng).value /
-                                             light.pdf_position().value));
+            integral.add(
+                static_cast<double>(light.pdf_incident(receiver, {.p = at.p, .ng = at.ng}).value /
+                                    light.pdf_position().value));
         }
         INFO("distance " << distance);
         CHECK(std::abs(integral.mean() - 1.0) < 4.0 * integral.standard_error());
@@ -101,10 +102,10 @@ TEST_CASE("sphere: there is no light inside of the ball", "[light]")
     const Vec3 center = bulb(0.0f).position;
     for (const Vec3 receiver : {center, center + Vec3(0.2f, 0.0f, 0.0f)}) {
         CHECK_FALSE(light.sample_incident(receiver, {0.3f, 0.6f}).has_value());
-        CHECK(light.pdf_incident(receiver, top.p, top.ng).value == 0.0f);
+        CHECK(light.pdf_incident(receiver, {.p = top.p, .ng = top.ng}).value == 0.0f);
     }
     // Nor on the far side.
-    CHECK(light.pdf_incident({0.3f, -4.0f, 0.5f}, top.p, top.ng).value == 0.0f);
+    CHECK(light.pdf_incident({0.3f, -4.0f, 0.5f}, {.p = top.p, .ng = top.ng}).value == 0.0f);
 }
 
 TEST_CASE("sphere: light that leaves has the density that is claimed", "[light]")

@@ -76,7 +76,8 @@ TEST_CASE("textured emitter: points have the density that is claimed", "[light]"
                 const Vec2 u = (Vec2(i % steps, i / steps) +
                                 (Vec2(j % inner, j / inner) + 0.5f) / static_cast<float>(inner)) /
                                static_cast<float>(steps);
-                mean += static_cast<double>(light.pdf_position(square_to_triangle(u)).value * area);
+                mean += static_cast<double>(
+                    light.pdf_position({.barycentrics = square_to_triangle(u)}).value * area);
             }
             expected.push_back(mean / (inner * inner * steps * steps));
             sum += expected.back();
@@ -96,8 +97,10 @@ TEST_CASE("textured emitter: points have the density that is claimed", "[light]"
             const auto incident = light.sample_incident({0.1f, 3.0f, 0.2f}, random.next_2d());
             REQUIRE(emitted.has_value());
             REQUIRE(incident.has_value());
-            REQUIRE(light.pdf_position(emitted->barycentrics).value == emitted->pdf_position.value);
-            REQUIRE(light.pdf_position(incident->barycentrics).value == incident->pdf.value);
+            REQUIRE(light.pdf_position({.barycentrics = emitted->barycentrics}).value ==
+                    emitted->pdf_position.value);
+            REQUIRE(light.pdf_position({.barycentrics = incident->barycentrics}).value ==
+                    incident->pdf.value);
             count(by_paths, emitted->barycentrics);
             count(by_next_event, incident->barycentrics);
         }
@@ -164,7 +167,9 @@ TEST_CASE("textured emitter: no point has a density of zero", "[light]")
             const Vec2 barycentrics = square_to_triangle(random.next_2d());
             for (const std::uint32_t id : {0U, 1U}) {
                 CHECK(world.lights().emission_probability(LightId{id}) > 0.0f);
-                REQUIRE(triangle(world, id).pdf_position(barycentrics).value * area > 0.09f);
+                REQUIRE(triangle(world, id).pdf_position({.barycentrics = barycentrics}).value *
+                            area >
+                        0.09f);
             }
         }
     }
@@ -174,7 +179,7 @@ TEST_CASE("an even texture costs no table", "[light]")
 {
     const TexelImage even{.width = 2, .height = 2, .bytes = std::vector<std::uint8_t>(16, 200)};
     const World world(screen(even));
-    CHECK(triangle(world, 0).pdf_position({0.1f, 0.7f}).value == 1.0f / area);
+    CHECK(triangle(world, 0).pdf_position({.barycentrics = {0.1f, 0.7f}}).value == 1.0f / area);
 }
 
 TEST_CASE("coordinates without bounds do not stop the texture from being measured", "[light]")
@@ -185,7 +190,7 @@ TEST_CASE("coordinates without bounds do not stop the texture from being measure
     }
     desc.materials[0].emission_texture->scale = Vec2(1e30f);
     const World world(std::move(desc));
-    const float pdf = triangle(world, 0).pdf_position({0.2f, 0.3f}).value;
+    const float pdf = triangle(world, 0).pdf_position({.barycentrics = {0.2f, 0.3f}}).value;
     CHECK(std::isfinite(pdf));
     CHECK(pdf > 0.0f);
 }

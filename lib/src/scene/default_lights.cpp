@@ -1,12 +1,14 @@
-#include "stage/default_lights.h"
+#include <bdpt/default_lights.h>
+
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cstddef>
-#include <glm/geometric.hpp>
 #include <numbers>
+#include <utility>
 #include <variant>
 
-namespace bdpt::app {
+namespace bdpt {
 
 bool has_light(const SceneDesc& desc)
 {
@@ -80,4 +82,18 @@ PointLightDesc default_lamp(const FramedView& view)
     return result;
 }
 
-}  // namespace bdpt::app
+DefaultLights add_default_lights(SceneDesc& desc, float aspect)
+{
+    if (has_light(desc)) {
+        return DefaultLights::none;
+    }
+    desc.lights.emplace_back(default_environment());
+    const FramedView view = frame_scene(Scene(desc), aspect);
+    if (!view.enclosed) {
+        return DefaultLights::sky;
+    }
+    desc.lights.emplace_back(default_lamp(view));
+    return DefaultLights::sky_and_lamp;
+}
+
+}  // namespace bdpt

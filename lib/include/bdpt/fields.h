@@ -1,0 +1,127 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+namespace bdpt {
+
+// The fields of a description, such as `MaterialDesc`, are listed once, beside it. What is done
+// with all of them (checks, hashes) goes through that list; a list that misses a field does not
+// compile.
+
+/// What a number may be, or each channel of a colour: in [low, high], or (low, high].
+struct Limits {
+    float low = 0.0f;
+    float high = 0.0f;
+    bool low_is_excluded = false;
+
+    /// [0, 1]
+    [[nodiscard]] static constexpr Limits unit() { return {.low = 0.0f, .high = 1.0f}; }
+    /// Any finite number.
+    [[nodiscard]] static constexpr Limits finite()
+    {
+        return at_least(-std::numeric_limits<float>::max());
+    }
+    /// And finite.
+    [[nodiscard]] static constexpr Limits at_least(float low)
+    {
+        return {.low = low, .high = std::numeric_limits<float>::max()};
+    }
+    /// Infinity included.
+    [[nodiscard]] static constexpr Limits above(float low)
+    {
+        return {
+            .low = low, .high = std::numeric_limits<float>::infinity(), .low_is_excluded = true};
+    }
+};
+
+/// A field, and its name for people.
+template <typename Desc, typename T>
+struct Field {
+    std::string_view name;
+    T Desc::*member;
+};
+template <typename Desc, typename T>
+Field(const char*, T Desc::*) -> Field<Desc, T>;
+
+/// A field that is a number or a colour, in whatever surroundings it is valid.
+template <typename Desc, typename T>
+struct Number {
+    std::string_view name;
+    T Desc::*member;
+    Limits limits;
+};
+template <typename Desc, typename T>
+Number(const char*, T Desc::*, Limits) -> Number<Desc, T>;
+
+/// The list of the fields of `Desc`, in their order; specialised beside each description.
+template <typename Desc>
+inline constexpr std::nullptr_t fields = nullptr;
+
+/// Has `T`, which may be a reference or const, a list of its fields?
+template <typename T>
+concept HasFields =
+    !std::is_null_pointer_v<std::remove_cv_t<decltype(fields<std::remove_cvref_t<T>>)>>;
+
+/// Is `Desc` an aggregate whose first members have these types?
+template <typename Desc, typename... T>
+concept BeginsWith = requires(T... values)
+{
+    Desc{std::move(values)...};
+};
+/// Does it have more members than those?
+template <typename Desc, typename... T>
+concept HasMoreThan = requires(T... values)
+{
+    Desc{std::move(values)..., {}};
+};
+
+namespace detail {
+
+template <typename A, typename B>
+constexpr bool is_same_member(const A& a, const B& b)
+{
+    if constexpr (std::is_same_v<A, B>) {
+        return a == b;
+    } else {
+        return false;
+    }
+}
+
+/// How many times a member is in the list, over all members: as many as there are if each is once.
+template <typename... Members>
+constexpr std::size_t count_pairs(Members... members)
+{
+    const auto count = [=](auto member) {
+        return (std::size_t{0} + ... + (is_same_member(member, members) ? 1U : 0U));
+    };
+    return (std::size_t{0} + ... + count(members));
+}
+
+}  // namespace detail
+
+/// A list of fields (`Field`, `Number`) that has all of those of `Desc`, each once.
+template <template <typename, typename> typename... Kinds, typename Desc, typename... T>
+[[nodiscard]] consteval std::tuple<Kinds<Desc, T>...> all_fields(Kinds<Desc, T>... list)
+{
+    static_assert(BeginsWith<Desc, T...>, "the list is not in the order of the members");
+    static_assert(!HasMoreThan<Desc, T...>, "the list misses members");
+    if (detail::count_pairs(list.member...) != sizeof...(T)) {
+        throw "the list has a member twice";
+    }
+    return {list...};
+}
+
+/// Calls `visit(field, value)` for each field of `desc`.
+template <HasFields Desc, typename Visitor>
+constexpr void for_each_field(Desc& desc, Visitor&& visit)
+{
+    std::apply([&](const auto&... field) { (visit(field, desc.*(field.member)), ...); },
+               fields<std::remove_const_t<Desc>>);
+}
+
+}  // namespace bdpt

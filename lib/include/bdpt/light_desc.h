@@ -1,0 +1,133 @@
+#pragma once
+
+#include <bdpt/fields.h>
+#include <bdpt/image.h>
+#include <bdpt/scene_ids.h>
+#include <bdpt/types.h>
+
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace bdpt {
+
+/// The greatest luminous flux [lm] that a light may have, emissive triangles included, in each
+/// channel: what is computed from it stays in the range of floats. The sun has 4e28 lm.
+inline constexpr float greatest_light_power = 1e36f;
+
+/// Shines alike in all directions; intensity over distance squared [KHR_lights_punctual].
+struct PointLightDesc {
+    static constexpr std::string_view kind = "point light";  ///< for people
+
+    std::string name{};
+    Vec3 position{0.0f};
+    Rgb intensity{1.0f};  ///< [cd]
+    /// [m] 0: a point. Else a ball of radiance intensity / (pi radius^2), seen like any surface; it
+    /// hides what is behind it and reflects nothing.
+    float radius = 0.0f;
+    std::vector<Vec3> motion{};  ///< of the position
+};
+
+/// A point light in a cone, smooth from the inner to the outer angle [KHR_lights_punctual].
+struct SpotLightDesc {
+    static constexpr std::string_view kind = "spot light";  ///< for people
+
+    std::string name{};
+    Vec3 position{0.0f};
+    Vec3 direction{0.0f, 0.0f, -1.0f};    ///< the axis; of any length but 0
+    Rgb intensity{1.0f};                  ///< [cd] within the inner cone
+    float inner_cone_angle = 0.0f;        ///< [rad] from the axis
+    float outer_cone_angle = 0.7853982f;  ///< [rad] from the axis, in (inner, pi/2]
+    /// [m] As for point lights; the falloff is that of the direction in which light leaves the
+    /// ball.
+    float radius = 0.0f;
+    std::vector<Vec3> motion{};  ///< of the position
+    std::vector<Vec3> turn{};    ///< of the direction, by less than 90 degrees a step
+};
+
+/// The intensities of a luminaire by direction, on a grid of two angles: the polar angle from -z,
+/// and the azimuth around that axis, from +x towards +y. Between the angles of the grid intensities
+/// are bilinear in both; beyond its first and last ones it is dark.
+struct LightProfile {
+    std::vector<float> polar_angles;  ///< [rad] two or more, ascending, in [0, pi]
+    std::vector<float> azimuths;      ///< [rad] ascending over at most a turn; one: round
+    std::vector<float> intensities;   ///< [cd] those of all polar angles for each azimuth, >= 0
+};
+
+/// A point light that shines as a measured luminaire does [EXT_lights_ies].
+struct ProfileLightDesc {
+    static constexpr std::string_view kind = "profile light";  ///< for people
+
+    std::string name{};
+    Vec3 position{0.0f};
+    Mat3 world_from_light{1.0f};  ///< orthonormal; may mirror
+    Rgb scale{1.0f};              ///< >= 0, times the intensities of the profile
+    ProfileId profile{};
+    std::vector<Vec3> motion{};  ///< as of point lights; it does not turn
+};
+
+/// Light from infinity out of one direction, like the sun's [KHR_lights_punctual].
+struct DirectionalLightDesc {
+    static constexpr std::string_view kind = "directional light";  ///< for people
+
+    std::string name{};
+    Vec3 direction{0.0f, 0.0f, -1.0f};  ///< the way the light travels; of any length but 0
+    Rgb illuminance{1.0f};              ///< [lx] on a surface that faces the light
+    std::vector<Vec3> turn{};           ///< of the direction, by less than 90 degrees a step
+};
+
+/// Light from infinity. `radiance` is equirectangular [nit]: its top row is +y, its centre column
+/// is seen along -z and columns to the right turn towards +x. A 1 x 1 picture is constant.
+struct EnvironmentLightDesc {
+    static constexpr std::string_view kind = "environment light";  ///< for people
+
+    Image radiance;
+    Mat3 world_from_environment{1.0f};  ///< rotation
+};
+
+/// A light that is no surface.
+using LightDesc = std::variant<PointLightDesc, SpotLightDesc, DirectionalLightDesc,
+                               EnvironmentLightDesc, ProfileLightDesc>;
+
+template <>
+inline constexpr auto fields<PointLightDesc> =
+    all_fields(Field{"name", &PointLightDesc::name}, Field{"position", &PointLightDesc::position},
+               Number{"intensity", &PointLightDesc::intensity, Limits::at_least(0.0f)},
+               Field{"radius", &PointLightDesc::radius}, Field{"motion", &PointLightDesc::motion});
+
+template <>
+inline constexpr auto fields<SpotLightDesc> =
+    all_fields(Field{"name", &SpotLightDesc::name}, Field{"position", &SpotLightDesc::position},
+               Field{"direction", &SpotLightDesc::direction},
+               Number{"intensity", &SpotLightDesc::intensity, Limits::at_least(0.0f)},
+               Field{"inner cone angle", &SpotLightDesc::inner_cone_angle},
+               Field{"outer cone angle", &SpotLightDesc::outer_cone_angle},
+               Field{"radius", &SpotLightDesc::radius}, Field{"motion", &SpotLightDesc::motion},
+               Field{"turn", &SpotLightDesc::turn});
+
+template <>
+inline constexpr auto fields<LightProfile> = all_fields(
+    Field{"polar angles", &LightProfile::polar_angles}, Field{"azimuths", &LightProfile::azimuths},
+    Field{"intensities", &LightProfile::intensities});
+
+template <>
+inline constexpr auto fields<ProfileLightDesc> = all_fields(
+    Field{"name", &ProfileLightDesc::name}, Field{"position", &ProfileLightDesc::position},
+    Field{"axes", &ProfileLightDesc::world_from_light},
+    Number{"scale", &ProfileLightDesc::scale, Limits::at_least(0.0f)},
+    Field{"profile", &ProfileLightDesc::profile}, Field{"motion", &ProfileLightDesc::motion});
+
+template <>
+inline constexpr auto fields<DirectionalLightDesc> =
+    all_fields(Field{"name", &DirectionalLightDesc::name},
+               Field{"direction", &DirectionalLightDesc::direction},
+               Number{"illuminance", &DirectionalLightDesc::illuminance, Limits::at_least(0.0f)},
+               Field{"turn", &DirectionalLightDesc::turn});
+
+template <>
+inline constexpr auto fields<EnvironmentLightDesc> =
+    all_fields(Field{"radiance", &EnvironmentLightDesc::radiance},
+               Field{"rotation", &EnvironmentLightDesc::world_from_environment});
+
+}  // namespace bdpt

@@ -1,0 +1,221 @@
+#pragma once
+
+#include <bdpt/fields.h>
+#include <bdpt/scene_ids.h>
+#include <bdpt/types.h>
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <type_traits>
+
+namespace bdpt {
+
+/// What a texture shows outside of [0, 1]; names as in glTF 2.0.
+enum class Wrap : std::uint8_t { repeat, mirrored_repeat, clamp_to_edge };
+
+/// A picture used by a material slot, with the transform of KHR_texture_transform.
+struct TextureRef {
+    ImageId image{};
+    int uv_set = 0;  ///< 0 or 1
+    Wrap wrap_u = Wrap::repeat;
+    Wrap wrap_v = Wrap::repeat;
+    Vec2 offset{0.0f};
+    float rotation = 0.0f;  ///< [rad], counter-clockwise
+    Vec2 scale{1.0f};
+};
+
+/// What alpha, that is base_color.a times the texture's and the vertex colour's, does to a surface
+/// [glTF 2.0, sec. 3.9.4].
+enum class AlphaMode : std::uint8_t {
+    opaque,  ///< nothing
+    mask,    ///< the surface is there where alpha is at least `alpha_cutoff`
+    blend,   ///< alpha is the share of light that meets the surface; the rest passes straight on
+};
+
+/// Clear varnish over everything else, of index 1.5 [KHR_materials_clearcoat].
+struct ClearcoatDesc {
+    float factor = 0.0f;     ///< [0, 1], share of the surface that is coated; 0: no coat
+    float roughness = 0.0f;  ///< [0, 1], perceptual
+    float normal_scale = 1.0f;
+    std::optional<TextureRef> texture;            ///< linear; R, times factor
+    std::optional<TextureRef> roughness_texture;  ///< linear; G, times roughness
+    std::optional<TextureRef> normal_texture;     ///< linear; none: the coat is even
+};
+
+/// Fibres that stand off a cloth, over everything but a coat [KHR_materials_sheen].
+struct SheenDesc {
+    Rgb color{0.0f};                              ///< [0, 1]; black: no sheen
+    float roughness = 0.0f;                       ///< [0, 1]
+    std::optional<TextureRef> color_texture;      ///< sRGB
+    std::optional<TextureRef> roughness_texture;  ///< linear; A
+};
+
+/// Grooves that blur reflections along one direction [KHR_materials_anisotropy].
+struct AnisotropyDesc {
+    float strength = 0.0f;  ///< [0, 1]; 0: round highlights
+    float rotation = 0.0f;  ///< [rad] of the direction of blur, from the tangent to the bitangent
+    std::optional<TextureRef> texture;  ///< linear; RG direction, B times strength
+};
+
+/// A thin film whose interference colours reflections [KHR_materials_iridescence].
+struct IridescenceDesc {
+    float factor = 0.0f;                          ///< [0, 1]; 0: no film
+    float ior = 1.3f;                             ///< >= 1, of the film
+    float thickness_minimum = 100.0f;             ///< [nm], where the texture is 0
+    float thickness_maximum = 400.0f;             ///< [nm], where it is 1, or without it
+    std::optional<TextureRef> texture;            ///< linear; R, times factor
+    std::optional<TextureRef> thickness_texture;  ///< linear; G
+};
+
+/// Matt light that comes out on the other side, as through paper or a leaf
+/// [KHR_materials_diffuse_transmission].
+struct DiffuseTransmissionDesc {
+    float factor = 0.0f;                      ///< [0, 1], share of the diffuse light
+    Rgb color{1.0f};                          ///< [0, 1]
+    std::optional<TextureRef> texture;        ///< linear; A, times factor
+    std::optional<TextureRef> color_texture;  ///< sRGB
+};
+
+/// glTF 2.0 metallic-roughness material with KHR_materials_{anisotropy, clearcoat,
+/// diffuse_transmission, dispersion, emissive_strength, iridescence, ior, sheen, specular,
+/// transmission, volume, unlit}; names, defaults and ranges are those of the specification
+/// [glTF 2.0, sec. 3.9; KHR extensions of these names].
+struct MaterialDesc {
+    std::string name{};
+    Vec4 base_color{1.0f};  ///< [0, 1]
+    AlphaMode alpha_mode = AlphaMode::opaque;
+    float alpha_cutoff = 0.5f;  ///< >= 0
+    /// Shines with its base colour as radiance [nit] and scatters nothing: a light like any other.
+    /// Nothing but base colour, alpha and `double_sided` counts.
+    bool unlit = false;
+    float metallic = 1.0f;      ///< [0, 1]
+    float roughness = 1.0f;     ///< [0, 1], perceptual; GGX alpha is its square; 0: a mirror
+    Rgb emission{0.0f};         ///< radiance [nit], >= 0
+    float normal_scale = 1.0f;  ///< times x and y of normal_texture
+    bool double_sided = false;  ///< emits from both sides; scattering is two-sided in any case
+
+    float ior = 1.5f;           ///< >= 1
+    float specular = 1.0f;      ///< [0, 1]; 0 takes the dielectric reflection away
+    Rgb specular_color{1.0f};   ///< >= 0, times the reflectance at normal incidence
+    float transmission = 0.0f;  ///< [0, 1]
+    float thickness = 0.0f;     ///< > 0: the mesh bounds a solid body; 0: a thin sheet
+    float attenuation_distance = std::numeric_limits<float>::infinity();  ///< [m], > 0
+    Rgb attenuation_color{1.0f};  ///< [0, 1], what is left of white after that distance
+    float dispersion = 0.0f;      ///< >= 0, 20 / Abbe number of a solid transmitter
+
+    ClearcoatDesc clearcoat{};
+    SheenDesc sheen{};
+    AnisotropyDesc anisotropy{};
+    IridescenceDesc iridescence{};
+    DiffuseTransmissionDesc diffuse_transmission{};
+
+    std::optional<TextureRef> base_color_texture;          ///< sRGB, times base_color
+    std::optional<TextureRef> metallic_roughness_texture;  ///< linear; G roughness, B metallic
+    std::optional<TextureRef> normal_texture;              ///< linear, tangent space
+    std::optional<TextureRef> emission_texture;            ///< sRGB, times emission
+    std::optional<TextureRef> specular_texture;            ///< linear; A
+    std::optional<TextureRef> specular_color_texture;      ///< sRGB
+    std::optional<TextureRef> transmission_texture;        ///< linear; R
+    std::optional<TextureRef> glossiness_texture;          ///< linear; A, times 1 - roughness
+};
+
+template <>
+inline constexpr auto fields<TextureRef> = all_fields(Field{"image", &TextureRef::image},
+                                                      Field{"uv set", &TextureRef::uv_set},
+                                                      Field{"wrap u", &TextureRef::wrap_u},
+                                                      Field{"wrap v", &TextureRef::wrap_v},
+                                                      Field{"offset", &TextureRef::offset},
+                                                      Field{"rotation", &TextureRef::rotation},
+                                                      Field{"scale", &TextureRef::scale});
+
+template <>
+inline constexpr auto fields<ClearcoatDesc> =
+    all_fields(Number{"clearcoat", &ClearcoatDesc::factor, Limits::unit()},
+               Number{"clearcoat roughness", &ClearcoatDesc::roughness, Limits::unit()},
+               Number{"clearcoat normal scale", &ClearcoatDesc::normal_scale, Limits::finite()},
+               Field{"clearcoat texture", &ClearcoatDesc::texture},
+               Field{"clearcoat roughness texture", &ClearcoatDesc::roughness_texture},
+               Field{"clearcoat normal texture", &ClearcoatDesc::normal_texture});
+
+template <>
+inline constexpr auto fields<SheenDesc> =
+    all_fields(Number{"sheen colour", &SheenDesc::color, Limits::unit()},
+               Number{"sheen roughness", &SheenDesc::roughness, Limits::unit()},
+               Field{"sheen colour texture", &SheenDesc::color_texture},
+               Field{"sheen roughness texture", &SheenDesc::roughness_texture});
+
+template <>
+inline constexpr auto fields<AnisotropyDesc> =
+    all_fields(Number{"anisotropy strength", &AnisotropyDesc::strength, Limits::unit()},
+               Number{"anisotropy rotation", &AnisotropyDesc::rotation, Limits::finite()},
+               Field{"anisotropy texture", &AnisotropyDesc::texture});
+
+template <>
+inline constexpr auto fields<IridescenceDesc> = all_fields(
+    Number{"iridescence", &IridescenceDesc::factor, Limits::unit()},
+    Number{"iridescence index of refraction", &IridescenceDesc::ior, Limits::at_least(1.0f)},
+    Number{"iridescence thickness", &IridescenceDesc::thickness_minimum, Limits::at_least(0.0f)},
+    Number{"iridescence thickness", &IridescenceDesc::thickness_maximum, Limits::at_least(0.0f)},
+    Field{"iridescence texture", &IridescenceDesc::texture},
+    Field{"iridescence thickness texture", &IridescenceDesc::thickness_texture});
+
+template <>
+inline constexpr auto fields<DiffuseTransmissionDesc> = all_fields(
+    Number{"diffuse transmission", &DiffuseTransmissionDesc::factor, Limits::unit()},
+    Number{"diffuse transmission colour", &DiffuseTransmissionDesc::color, Limits::unit()},
+    Field{"diffuse transmission texture", &DiffuseTransmissionDesc::texture},
+    Field{"diffuse transmission colour texture", &DiffuseTransmissionDesc::color_texture});
+
+template <>
+inline constexpr auto fields<MaterialDesc> = all_fields(
+    Field{"name", &MaterialDesc::name},  //
+    Number{"base colour", &MaterialDesc::base_color, Limits::unit()},
+    Field{"alpha mode", &MaterialDesc::alpha_mode},
+    Number{"alpha cutoff", &MaterialDesc::alpha_cutoff, Limits::at_least(0.0f)},
+    Field{"unlit", &MaterialDesc::unlit},
+    Number{"metallic", &MaterialDesc::metallic, Limits::unit()},
+    Number{"roughness", &MaterialDesc::roughness, Limits::unit()},
+    Number{"emission", &MaterialDesc::emission, Limits::at_least(0.0f)},
+    Number{"normal scale", &MaterialDesc::normal_scale, Limits::finite()},
+    Field{"double sided", &MaterialDesc::double_sided},
+    Number{"index of refraction", &MaterialDesc::ior, Limits::at_least(1.0f)},
+    Number{"specular", &MaterialDesc::specular, Limits::unit()},
+    Number{"specular colour", &MaterialDesc::specular_color, Limits::at_least(0.0f)},
+    Number{"transmission", &MaterialDesc::transmission, Limits::unit()},
+    Number{"thickness", &MaterialDesc::thickness, Limits::at_least(0.0f)},
+    Number{"attenuation distance", &MaterialDesc::attenuation_distance, Limits::above(0.0f)},
+    Number{"attenuation colour", &MaterialDesc::attenuation_color, Limits::unit()},
+    Number{"dispersion", &MaterialDesc::dispersion, Limits::at_least(0.0f)},
+    Field{"clearcoat", &MaterialDesc::clearcoat}, Field{"sheen", &MaterialDesc::sheen},
+    Field{"anisotropy", &MaterialDesc::anisotropy},
+    Field{"iridescence", &MaterialDesc::iridescence},
+    Field{"diffuse transmission", &MaterialDesc::diffuse_transmission},
+    Field{"base colour texture", &MaterialDesc::base_color_texture},
+    Field{"metallic roughness texture", &MaterialDesc::metallic_roughness_texture},
+    Field{"normal texture", &MaterialDesc::normal_texture},
+    Field{"emission texture", &MaterialDesc::emission_texture},
+    Field{"specular texture", &MaterialDesc::specular_texture},
+    Field{"specular colour texture", &MaterialDesc::specular_color_texture},
+    Field{"transmission texture", &MaterialDesc::transmission_texture},
+    Field{"glossiness texture", &MaterialDesc::glossiness_texture});
+
+/// Calls `visit(texture)` with each `std::optional<TextureRef>` of `desc`, and then of its layers.
+template <HasFields Desc, typename Visitor>
+constexpr void for_each_texture(Desc& desc, const Visitor& visit)
+{
+    for_each_field(desc, [&visit](const auto& /*field*/, auto& value) {
+        using T = std::remove_cvref_t<decltype(value)>;
+        if constexpr (std::is_same_v<T, std::optional<TextureRef>>) {
+            visit(value);
+        }
+    });
+    for_each_field(desc, [&visit](const auto& /*field*/, auto& value) {
+        if constexpr (HasFields<decltype(value)>) {
+            for_each_texture(value, visit);
+        }
+    });
+}
+
+}  // namespace bdpt

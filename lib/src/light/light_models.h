@@ -1,0 +1,73 @@
+#pragma once
+
+#include "light/bounding_sphere.h"
+#include "light/directional_light.h"
+#include "light/environment_light.h"
+#include "light/intensity_profile.h"
+#include "light/light_model.h"
+#include "light/profile_light.h"
+#include "light/punctual_light.h"
+#include "light/sphere_light.h"
+#include "light/triangle_light.h"
+
+#include <bdpt/scene_desc.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <variant>
+
+namespace bdpt {
+
+/// One light of any kind. To add a kind, add it here and to `make_model`.
+template <LightModel... Kinds>
+using AnyOf = std::variant<Kinds...>;
+using AnyLightModel = AnyOf<TriangleLight, SphereLight, PunctualLight, DirectionalLight,
+                            EnvironmentLight, ProfileLight>;
+
+/// What lights of a scene may refer to. It outlives them.
+struct LightContext {
+    std::span<const IntensityProfile> profiles;
+    BoundingSphere bounds;
+    std::uint32_t sphere = 0;  ///< number that the light gets if it is a sphere
+};
+
+// What a description becomes; it outlives the light.
+
+[[nodiscard]] inline AnyLightModel make_model(const PointLightDesc& desc,
+                                              const LightContext& context)
+{
+    if (desc.radius > 0.0f) {
+        return SphereLight(desc, context.sphere);
+    }
+    return PunctualLight(desc);
+}
+
+[[nodiscard]] inline AnyLightModel make_model(const SpotLightDesc& desc,
+                                              const LightContext& context)
+{
+    if (desc.radius > 0.0f) {
+        return SphereLight(desc, context.sphere);
+    }
+    return PunctualLight(desc);
+}
+
+[[nodiscard]] inline AnyLightModel make_model(const DirectionalLightDesc& desc,
+                                              const LightContext& context)
+{
+    return DirectionalLight(desc, context.bounds);
+}
+
+[[nodiscard]] inline AnyLightModel make_model(const EnvironmentLightDesc& desc,
+                                              const LightContext& context)
+{
+    return EnvironmentLight(desc, context.bounds);
+}
+
+[[nodiscard]] inline AnyLightModel make_model(const ProfileLightDesc& desc,
+                                              const LightContext& context)
+{
+    return ProfileLight(desc, context.profiles[static_cast<std::size_t>(desc.profile)]);
+}
+
+}  // namespace bdpt

@@ -1,0 +1,151 @@
+#include "scene/precision.h"
+
+#include "geometry/placed_mesh.h"
+#include "scene/value_checks.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <sstream>
+#include <variant>
+
+namespace bdpt {
+namespace {
+
+struct Box {
+    Vec3 center{0.0f};
+    Vec3 half{0.0f};
+};
+
+float greatest(Vec3 v)
+{
+    return std::max({v.x, v.y, v.z});
+}
+
+std::optional<Box> box_of(const MeshDesc& mesh)
+{
+    if (mesh.triangles.empty()) {
+        return std::nullopt;
+    }
+    Vec3 low(std::numeric_limits<float>::max());
+    Vec3 high(-std::numeric_limits<float>::max());
+    for (const Vec3& position : mesh.positions) {
+        low = min(low, position);
+        high = max(high, position);
+    }
+    return Box{.center = 0.5f * low + 0.5f * high, .half = 0.5f * high - 0.5f * low};
+}
+
+Box transformed(const Box& box, const Mat4& m)
+{
+    return {.center = Vec3(m * Vec4(box.center, 1.0f)),
+            .half = abs(Vec3(m[0])) * box.half.x + abs(Vec3(m[1])) * box.half.y +
+                    abs(Vec3(m[2])) * box.half.z};
+}
+
+/// An instance, and how inexact the points on it are.
+struct Placed {
+    std::size_t instance = 0;
+    Box box;
+    float distance = 0.0f;  ///< of its farthest point from the origin, in one coordinate [m]
+    float error = 0.0f;     ///< [m]
+
+    [[nodiscard]] float size() const { return 2.0f * greatest(box.half); }
+    /// All of it is near one plane along the axes.
+    [[nodiscard]] bool is_flat() const
+    {
+        return std::min({box.half.x, box.half.y, box.half.z}) < error;
+    }
+};
+
+std::vector<Placed> place(const SceneDesc& desc)
+{
+    std::vector<std::optional<Box>> boxes;
+    boxes.reserve(desc.meshes.size());
+    for (const MeshDesc& mesh : desc.meshes) {
+        boxes.push_back(box_of(mesh));
+    }
+    std::vector<Placed> result;
+    for (std::size_t i = 0; i < desc.instances.size(); ++i) {
+        const InstanceDesc& instance = desc.instances[i];
+        if (const auto& box = boxes[static_cast<std::size_t>(instance.mesh)]) {
+            const Box world = transformed(*box, instance.world_from_object);
+            const float distance = greatest(abs(world.center) + world.half);
+            result.push_back({i, world, distance, position_error(distance)});
+        }
+    }
+    return result;
+}
+
+std::optional<Vec3> position_of(const LightDesc& light)
+{
+    return std::visit(
+        [](const auto& kind) -> std::optional<Vec3> {
+            if constexpr (requires { kind.position; }) {
+                return kind.position;
+            } else {
+                return std::nullopt;
+            }
+        },
+        light);
+}
+
+std::string known_to(const Placed& placed)
+{
+    std::ostringstream text;
+    text << "points on it are known to " << placed.error << " m only, as it reaches "
+         << placed.distance << " m from the origin";
+    return text.str();
+}
+
+}  // namespace
+
+std::vector<std::string> precision_warnings(const SceneDesc& desc)
+{
+    constexpr float least_exact = 0.1f;  // of its size
+    std::vector<std::string> warnings;
+    const std::vector<Placed> all = place(desc);
+    const Placed* coarsest = nullptr;
+    const Placed* vaguest = nullptr;  // of those that are small
+    std::size_t vague = 0;
+    for (const Placed& placed : all) {
+        if (placed.error > least_exact * placed.size()) {
+            ++vague;
+            vaguest = vaguest == nullptr || placed.error > vaguest->error ? &placed : vaguest;
+        }
+        coarsest = coarsest == nullptr || placed.error > coarsest->error ? &placed : coarsest;
+    }
+    const auto name = [&desc](const Placed& placed) {
+        return label("instance", placed.instance, desc.instances[placed.instance].name);
+    };
+    if (vaguest != nullptr) {
+        std::ostringstream text;
+        text << name(*vaguest) << ": is " << vaguest->size() << " m large, but "
+             << known_to(*vaguest);
+        if (vague > 1) {
+            text << " (and " << vague - 1 << " more of this kind)";
+        }
+        warnings.push_back(text.str());
+    }
+    if (coarsest == nullptr || !coarsest->is_flat()) {
+        return warnings;
+    }
+    for (std::size_t i = 0; i < desc.lights.size(); ++i) {
+        const auto position = position_of(desc.lights[i]);
+        if (position && greatest(abs(*position - coarsest->box.center) - coarsest->box.half) <
+                            coarsest->error) {
+            const std::string lamp = std::visit(
+                [i](const auto& light) { return light_label(light, i); }, desc.lights[i]);
+            warnings.push_back(name(*coarsest) + ": " + known_to(*coarsest) + ", but " + lamp +
+                               " is nearer to it than that: its light may get lost");
+            break;
+        }
+    }
+    return warnings;
+}
+
+}  // namespace bdpt

@@ -1,0 +1,150 @@
+#include "scene/world_builder.h"
+
+#include "material/specular_albedo.h"
+#include "scene/check_powers.h"
+#include "scene/precision.h"
+#include "scene/validate.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <span>
+#include <variant>
+
+namespace bdpt {
+namespace {
+
+Bounds bounds_of(std::span<const PlacedMesh> placed, std::span<const Sphere> spheres)
+{
+    Bounds bounds{.min = Vec3(std::numeric_limits<float>::infinity()),
+                  .max = Vec3(-std::numeric_limits<float>::infinity())};
+    for (const PlacedMesh& mesh : placed) {
+        for (const UVec3& triangle : mesh.mesh().triangles) {
+            for (int corner = 0; corner < 3; ++corner) {
+                for (std::size_t step = 0; step <= mesh.steps(); ++step) {
+                    const Vec3 p = mesh.world_point_at(step, triangle[corner]);
+                    bounds.min = min(bounds.min, p);
+                    bounds.max = max(bounds.max, p);
+                }
+            }
+        }
+    }
+    const auto add_ball = [&bounds](Vec3 center, float radius) {
+        bounds.min = min(bounds.min, center - radius);
+        bounds.max = max(bounds.max, center + radius);
+    };
+    for (const Sphere& sphere : spheres) {
+        add_ball(sphere.center, sphere.radius);
+        for (const Vec3& center : sphere.motion) {
+            add_ball(center, sphere.radius);
+        }
+    }
+    return bounds.min.x <= bounds.max.x ? bounds : Bounds{};
+}
+
+bool light_moves(const LightDesc& light)
+{
+    return std::visit(
+        [](const auto& l) {
+            bool moves = false;
+            if constexpr (requires { l.motion; }) {
+                moves = moves || !l.motion.empty();
+            }
+            if constexpr (requires { l.turn; }) {
+                moves = moves || !l.turn.empty();
+            }
+            return moves;
+        },
+        light);
+}
+
+BoundingSphere sphere_around(const Bounds& bounds)
+{
+    const float radius = 0.5f * glm::length(bounds.max - bounds.min);
+    // A little more, so that rounding leaves no corner outside.
+    return {.center = 0.5f * (bounds.min + bounds.max),
+            .radius = radius > 0.0f ? 1.0001f * radius : 1.0f};
+}
+
+}  // namespace
+
+void WorldBuilder::build(Isa isa)
+{
+    World& w = world_;
+    validate(w.desc_);
+    add_materials();
+    place_meshes();
+    w.embree_ = std::make_unique<const EmbreeScene>(
+        w.desc_.instances, w.placed_, w.desc_.meshes.size(), w.spheres_, w.pass_rule(), isa);
+    w.warnings_ = precision_warnings(w.desc_);
+    find_bodies();
+    add_lights();
+}
+
+void WorldBuilder::add_materials()
+{
+    const std::vector<MaterialDesc>& materials = world_.desc_.materials;
+    if (std::any_of(materials.begin(), materials.end(), has_layers)) {
+        world_.layer_tables_ = std::make_unique<const LayerTables>(materials);
+    }
+    for (const MaterialDesc& material : materials) {
+        world_.materials_.push_back(make_material(material, {}));
+    }
+}
+
+Material WorldBuilder::make_material(const MaterialDesc& desc, const Exterior& exterior)
+{
+    World& w = world_;
+    const auto [red, green, blue] = boundary_indices(desc, exterior).greater_by_less;
+    const bool mip_mapped = w.desc_.texture_filter == TextureFilter::mip_mapped;
+    const Pictures pictures(w.desc_.images, mip_mapped ? &w.mip_maps_ : nullptr);
+    Material material(desc, pictures, {albedo_of(red), albedo_of(green), albedo_of(blue)},
+                      w.layer_tables_.get(), exterior);
+    w.disperses_ = w.disperses_ || material.disperses();
+    return material;
+}
+
+const SpecularAlbedo& WorldBuilder::albedo_of(float ior)
+{
+    auto& albedo = world_.albedos_[ior];
+    if (!albedo) {
+        albedo = std::make_unique<const SpecularAlbedo>(ior);
+    }
+    return *albedo;
+}
+
+void WorldBuilder::place_meshes()
+{
+    World& w = world_;
+    const SceneDesc& desc = w.desc_;
+    w.placed_.reserve(desc.instances.size());
+    for (const InstanceDesc& instance : desc.instances) {
+        w.placed_.emplace_back(desc.meshes[static_cast<std::size_t>(instance.mesh)], instance);
+    }
+    w.moves_ = std::any_of(w.placed_.begin(), w.placed_.end(),
+                           [](const PlacedMesh& mesh) { return mesh.moves(); }) ||
+               std::any_of(desc.lights.begin(), desc.lights.end(), light_moves);
+    w.spheres_ = light_spheres(desc.lights);
+    w.bounds_ = bounds_of(w.placed_, w.spheres_);
+    w.sphere_ = sphere_around(w.bounds_);
+}
+
+void WorldBuilder::add_lights()
+{
+    World& w = world_;
+    const SceneDesc& desc = w.desc_;
+    w.profiles_.reserve(desc.profiles.size());
+    for (const LightProfile& profile : desc.profiles) {
+        w.profiles_.emplace_back(profile);
+    }
+    w.lights_ = std::make_unique<const LightSet>(desc.instances, w.placed_, w.materials_,
+                                                 desc.lights, w.profiles_, w.sphere_);
+    check_powers(desc, w.materials_, *w.lights_);
+    w.counts_ = count(desc);
+    w.counts_.lights = w.lights_->size();
+    w.counts_.emissive_triangles = w.lights_->size() - desc.lights.size();
+}
+
+}  // namespace bdpt

@@ -1,0 +1,92 @@
+#include <bdpt/default_lights.h>
+
+#include "catch.hpp"
+#include "scene_builder.h"
+
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+namespace bdpt {
+namespace {
+
+const MaterialDesc wall = test::lambertian(Rgb(0.7f));
+
+}  // namespace
+
+TEST_CASE("the default environment is grey, brighter above, and 1 nit on average",
+          "[default_lights]")
+{
+    const Image sky = default_environment().radiance;
+    REQUIRE(sky.height > 1);
+    double sum = 0.0;
+    double weights = 0.0;
+    for (int y = 0; y < sky.height; ++y) {
+        const double polar = std::numbers::pi * (y + 0.5) / sky.height;
+        for (int x = 0; x < sky.width; ++x) {
+            const Rgb value = sky.at(x, y);
+            CHECK(value.r == value.g);
+            CHECK(value.g == value.b);
+            CHECK(value.r > 0.0f);
+            sum += std::sin(polar) * static_cast<double>(value.g);
+            weights += std::sin(polar);
+            CHECK((y == 0 || value.g <= sky.at(x, y - 1).g));
+        }
+    }
+    CHECK(sum / weights == Approx(1.0).epsilon(0.01));
+    CHECK(sky.at(0, 0).g > 2.0f * sky.at(0, sky.height - 1).g);
+}
+
+TEST_CASE("the default lamp gives 1 nit at the camera's distance, whatever the scale",
+          "[default_lights]")
+{
+    const float scale = GENERATE(1e-3f, 1.0f, 1e3f);
+    FramedView view;
+    view.camera.world_from_camera[3] = Vec4(0.0f, 0.0f, scale * 3.0f, 1.0f);
+    view.lamp_position = Vec3(0.0f, scale * 4.0f, 0.0f);
+    const PointLightDesc lamp = default_lamp(view);
+    CHECK(lamp.position == view.lamp_position);
+    const float distance = scale * 5.0f;
+    CHECK(lamp.intensity.g / (distance * distance) == Approx(std::numbers::pi));
+}
+
+TEST_CASE("light is found where it is", "[default_lights]")
+{
+    SceneDesc desc;
+    desc.materials.resize(2);
+    desc.materials[1].emission = Rgb(0.0f, 0.0f, 2.0f);
+    desc.instances.resize(1);
+    CHECK_FALSE(has_light(desc));
+    SECTION("in a material that is used")
+    {
+        desc.instances[0].material = MaterialId{1};
+        CHECK(has_light(desc));
+    }
+    SECTION("in a lamp")
+    {
+        desc.lights.emplace_back(PointLightDesc{});
+        CHECK(has_light(desc));
+    }
+}
+
+TEST_CASE("a scene without light gets a sky, and a closed room a lamp, too", "[default_lights]")
+{
+    test::SceneBuilder open;
+    open.walls(wall, wall);
+    CHECK(add_default_lights(open.desc) == DefaultLights::sky);
+    REQUIRE(open.desc.lights.size() == 1);
+    CHECK(std::holds_alternative<EnvironmentLightDesc>(open.desc.lights[0]));
+    CHECK(add_default_lights(open.desc) == DefaultLights::none);
+    CHECK(open.desc.lights.size() == 1);
+
+    test::SceneBuilder closed;
+    closed.walls(wall, wall).ceiling(wall).front(wall);
+    CHECK(add_default_lights(closed.desc) == DefaultLights::sky_and_lamp);
+    REQUIRE(closed.desc.lights.size() == 2);
+    const Vec3 lamp = std::get<PointLightDesc>(closed.desc.lights[1]).position;
+    for (int axis = 0; axis < 3; ++axis) {
+        CHECK(std::abs(lamp[axis]) < 1.0f);
+    }
+}
+
+}  // namespace bdpt

@@ -1,0 +1,128 @@
+#include "scene/precision.h"
+
+#include <bdpt/error.h>
+#include <bdpt/render.h>
+#include <bdpt/scene.h>
+
+#include "catch.hpp"
+#include "scene/world.h"
+#include "scene_builder.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace bdpt {
+namespace {
+
+using test::SceneBuilder;
+
+/// A square at distance `size` that is twice as large, seen from the origin.
+SceneBuilder wall(float size, const MaterialDesc& material)
+{
+    SceneBuilder builder;
+    builder.quad({-size, -size, -size}, {size, -size, -size}, {size, size, -size},
+                 {-size, size, -size}, material);
+    return builder;
+}
+
+Rgb center_pixel(SceneDesc desc, IntegratorKind integrator)
+{
+    const Scene scene(std::move(desc));
+    RenderOptions options;
+    options.width = 1;
+    options.height = 1;
+    options.samples = {0, 16};
+    options.integrator = integrator;
+    return render(scene, test::camera_at({0, 0, 0}, {0, 0, -1}, 0.5f), options)
+        .film.develop()
+        .at(0, 0);
+}
+
+}  // namespace
+
+TEST_CASE("surfaces are as bright at any scale", "[precision]")
+{
+    // From 1e10 m on the square of the length of the normal of the area is infinite, below 1e-10 m
+    // it is zero.
+    for (const float size : {1e-12f, 1e-9f, 1.0f, 1e8f, 3e9f, 1e10f, 1e12f, 9e14f}) {
+        CAPTURE(size);
+        const World world(wall(size, test::emitter(Rgb(1.0f))).desc);
+        const auto hit = world.intersect({.p = {0, 0, 0}}, {0, 0, -1}, {});
+        REQUIRE(hit.has_value());
+        CHECK(hit->end.ng == Vec3(0, 0, 1));
+        CHECK(hit->emission == Rgb(1.0f));
+        for (const IntegratorKind integrator : {IntegratorKind::pt, IntegratorKind::bdpt}) {
+            CHECK(center_pixel(wall(size, test::emitter(Rgb(1.0f))).desc, integrator).g ==
+                  Approx(1.0f).epsilon(0.01));
+        }
+    }
+}
+
+TEST_CASE("a camera beyond the reach of rays is refused, where it would see nothing", "[precision]")
+{
+    // In the space of the shared mesh 1 m is 1e9 units.
+    SceneBuilder builder = wall(1e7f, test::emitter(Rgb(1.0f)));
+    const MeshId small = builder.add_mesh(builder.desc.meshes[0]);
+    for (int use = 0; use < 2; ++use) {
+        builder.place(small, test::lambertian(Rgb(0.5f)), glm::scale(Mat4(1.0f), Vec3(1e-9f)));
+    }
+    const Scene scene(std::move(builder.desc));
+    const auto refusal = [&scene](float z) -> std::string {
+        CameraDesc camera = test::camera_at({0, 0, 0}, {0, 0, -1}, 0.5f);
+        camera.name = "far";
+        camera.motion = {camera.world_from_camera};
+        camera.motion[0][3].z = z;
+        RenderOptions options;
+        options.width = 1;
+        options.height = 1;
+        options.samples = {0, 1};
+        try {
+            (void)render(scene, camera, options);
+        } catch (const Error& error) {
+            CHECK(error.code() == ErrorCode::invalid_input);
+            return error.what();
+        }
+        return "";
+    };
+    CHECK(refusal(7e8f).empty());
+    CHECK(refusal(1e9f).find("camera \"far\": is 1e+09 m from the origin, but 8e+08 m is the most "
+                             "in this scene") == 0);
+}
+
+TEST_CASE("what is small for its distance is named", "[precision]")
+{
+    SceneBuilder builder = wall(1.0f, test::lambertian(Rgb(0.5f)));
+    CHECK(precision_warnings(builder.desc).empty());
+    builder.desc.instances[0].name = "house";
+    builder.desc.instances[0].world_from_object =
+        glm::translate(Mat4(1.0f), Vec3(1e8f, 0.0f, 0.0f));
+    const std::vector<std::string> warnings = precision_warnings(builder.desc);
+    REQUIRE(warnings.size() == 1);
+    CHECK(warnings[0].find("instance 0 \"house\": is 2 m large, but points on it are known to 7") ==
+          0);
+    CHECK(warnings[0].find("1e+08 m from the origin") != std::string::npos);
+    CHECK(Scene(builder.desc).warnings() == warnings);
+    CHECK(precision_warnings(wall(1e8f, test::lambertian(Rgb(0.5f))).desc).empty());
+}
+
+TEST_CASE("a lamp that is too near to a vast plane is named", "[precision]")
+{
+    const auto with_lamp = [](float size, float height) {
+        SceneBuilder builder;
+        builder.quad({-size, 0, size}, {size, 0, size}, {size, 0, -size}, {-size, 0, -size},
+                     test::lambertian(Rgb(0.5f)));
+        builder.light(PointLightDesc{.name = "lamp", .position = {0.0f, height, 0.0f}});
+        return precision_warnings(builder.desc);
+    };
+    CHECK(with_lamp(1e4f, 2.0f).empty());
+    CHECK(with_lamp(1e8f, 200.0f).empty());
+    const std::vector<std::string> warnings = with_lamp(1e8f, 2.0f);
+    REQUIRE(warnings.size() == 1);
+    CHECK(warnings[0].find("instance 0: points on it are known to 7") == 0);
+    CHECK(warnings[0].find("but point light 0 \"lamp\" is nearer") != std::string::npos);
+}
+
+}  // namespace bdpt

@@ -2,8 +2,14 @@
 
 namespace bdpt {
 
+Light::Light(Model model)
+    : model_(std::move(model)),
+      is_delta_(std::visit([](const auto& light) { return light.is_delta; }, model_)),
+      is_infinite_(std::visit([](const auto& light) { return light.is_infinite; }, model_))
+{}
+
 Light::Light(const LightDesc& desc, const LightContext& context)
-    : model_(std::visit([&context](const auto& kind) { return make_model(kind, context); }, desc))
+    : Light(std::visit([&context](const auto& kind) { return make_model(kind, context); }, desc))
 {}
 
 std::optional<EmissionSample> Light::sample_emission(Vec2 u_position, Vec2 u_direction,
@@ -19,6 +25,9 @@ std::optional<EmissionSample> Light::sample_emission(Vec2 u_position, Vec2 u_dir
 std::optional<IncidentSample> Light::sample_incident(Vec3 receiver, Vec2 u,
                                                      EnvironmentSampling sampling, float time) const
 {
+    if (const auto* common = std::get_if<TriangleLight>(&model_)) [[likely]] {
+        return common->sample_incident(receiver, u, sampling, time);
+    }
     return std::visit(
         [=](const auto& light) -> std::optional<IncidentSample> {
             return light.sample_incident(receiver, u, sampling, time);
@@ -41,16 +50,6 @@ SolidAnglePdf Light::pdf_direction(Vec3 ng, Vec3 direction, float time) const
 {
     return std::visit([=](const auto& light) { return light.pdf_direction(ng, direction, time); },
                       model_);
-}
-
-bool Light::is_delta() const
-{
-    return std::visit([](const auto& light) { return light.is_delta; }, model_);
-}
-
-bool Light::is_infinite() const
-{
-    return std::visit([](const auto& light) { return light.is_infinite; }, model_);
 }
 
 Rgb Light::power() const

@@ -14,7 +14,7 @@ class Light {
 public:
     using Model = AnyLightModel;
 
-    explicit Light(Model model) : model_(std::move(model)) {}
+    explicit Light(Model model);
     Light(const LightDesc& desc, const LightContext& context);
 
     [[nodiscard]] std::optional<EmissionSample> sample_emission(Vec2 u_position, Vec2 u_direction,
@@ -36,8 +36,8 @@ public:
     [[nodiscard]] SolidAnglePdf pdf_direction(Vec3 ng, Vec3 direction, float time = 0.0f) const;
 
     /// No ray hits it by chance: s = 0 is impossible.
-    [[nodiscard]] bool is_delta() const;
-    [[nodiscard]] bool is_infinite() const;
+    [[nodiscard]] bool is_delta() const { return is_delta_; }
+    [[nodiscard]] bool is_infinite() const { return is_infinite_; }
     /// Luminous flux [lm] into the scene; the mean while the shutter is open, about.
     [[nodiscard]] Rgb power() const;
     /// Where it is and shines while the shutter is open; nothing for an infinite light.
@@ -47,6 +47,8 @@ public:
 
 private:
     Model model_;
+    bool is_delta_;
+    bool is_infinite_;
 };
 
 }  // namespace bdpt

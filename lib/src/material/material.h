@@ -27,10 +27,19 @@ public:
     [[nodiscard]] Bsdf bsdf(const ShadingPoint& point) const noexcept;
     /// Does that depend on `ShadingPoint::footprint`?
     [[nodiscard]] bool needs_footprint() const noexcept { return needs_footprint_; }
-    /// Does anything depend on texture coordinates?
-    [[nodiscard]] bool has_textures() const noexcept
+    /// Does it scatter alike everywhere, but for vertex colours?
+    [[nodiscard]] bool is_even() const noexcept { return plain_ && !normal_map_; }
+    /// `bsdf` where it `is_even` and there are no vertex colours; arguments as in `ShadingPoint`.
+    [[nodiscard]] Bsdf even_bsdf(Vec3 ng, Vec3 ns, Vec3 wo) const noexcept
     {
-        return !plain_ || normal_map_ || emission_map_ || base_color_map_;
+        if (const auto* common = std::get_if<Lambertian>(&*plain_)) [[likely]] {
+            return {ng, Frame::from_normal(ns), wo, *common};
+        }
+        return std::visit(
+            [&](const auto& model) -> Bsdf {
+                return {ng, Frame::from_normal(ns), wo, model};
+            },
+            *plain_);
     }
 
     /// The share of rays that meet the surface, in [0, 1]; the others pass as if it were not there.

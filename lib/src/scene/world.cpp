@@ -104,6 +104,31 @@ SurfacePoint World::sphere_point(const RayHit& hit, Vec3 direction, float time) 
             .light = id};
 }
 
+/// The BSDF where something varies over the surface: textures, vertex colours, tangents.
+Bsdf World::varying_bsdf(const RayHit& hit, const ShadingNormals& normals, Vec3 wo,
+                         SegmentKey segment, const PixelCone& pixel) const noexcept
+{
+    const PlacedMesh& mesh = placed_[hit.instance];
+    const Material& material = material_of(hit.instance);
+    const TexturePoint at = texture_point(mesh, hit.triangle, hit.at.barycentrics);
+    const auto tangent_uv_set = material.tangent_uv_set();
+    std::optional<UvFootprint> footprint;
+    if (material.needs_footprint()) [[unlikely]] {
+        footprint = mesh.uv_footprint(hit.triangle, pixel.width_at(hit.at.point.p), segment.time);
+    }
+    return material.bsdf({.ng = normals.ng,
+                          .ns = normals.ns,
+                          .tangent = tangent_uv_set
+                                         ? mesh.tangent(hit.triangle, hit.at.barycentrics,
+                                                        *tangent_uv_set, segment.time)
+                                         : Vec4(0.0f),
+                          .uv = at.uv,
+                          .color = at.color,
+                          .wavelength = segment.wavelength,
+                          .wo = wo,
+                          .footprint = footprint ? &*footprint : nullptr});
+}
+
 SurfacePoint World::mesh_point(const RayHit& hit, Vec3 direction, SegmentKey segment,
                                const PixelCone& pixel) const noexcept
 {
@@ -111,42 +136,27 @@ SurfacePoint World::mesh_point(const RayHit& hit, Vec3 direction, SegmentKey seg
     const Material& material = material_of(hit.instance);
 
     const float length = length_of(hit.at.normal);
-    const Vec3 ng = length > 0.0f ? hit.at.normal / length : -direction;
-    Vec3 ns = mesh.shading_normal(hit.triangle, hit.at.barycentrics, segment.time);
-    const float side = dot(ns, ng);
-    ns = side > 0.0f ? ns : side < 0.0f ? -ns : ng;
-
-    const bool varies = material.has_textures() || !mesh.mesh().colors.empty();
-    const TexturePoint at =
-        varies ? texture_point(mesh, hit.triangle, hit.at.barycentrics) : TexturePoint{};
-    const auto tangent_uv_set = material.tangent_uv_set();
-    std::optional<UvFootprint> footprint;
-    if (material.needs_footprint()) [[unlikely]] {
-        footprint = mesh.uv_footprint(hit.triangle, pixel.width_at(hit.at.point.p), segment.time);
+    const Vec3 ng = length > 0.0f ? hit.at.normal * (1.0f / length) : -direction;
+    Vec3 ns = ng;
+    if (!mesh.mesh().normals.empty()) {
+        ns = mesh.shading_normal(hit.triangle, hit.at.barycentrics, segment.time);
+        const float side = dot(ns, ng);
+        ns = side > 0.0f ? ns : side < 0.0f ? -ns : ng;
     }
-    const ShadingPoint shading{.ng = ng,
-                               .ns = ns,
-                               .tangent = tangent_uv_set
-                                              ? mesh.tangent(hit.triangle, hit.at.barycentrics,
-                                                             *tangent_uv_set, segment.time)
-                                              : Vec4(0.0f),
-                               .uv = at.uv,
-                               .color = at.color,
-                               .wavelength = segment.wavelength,
-                               .wo = -direction,
-                               .footprint = footprint ? &*footprint : nullptr};
-
+    const Vec3 wo = -direction;
+    const bool even = material.is_even() && mesh.mesh().colors.empty();
     SurfacePoint result{.end = {.p = hit.at.point.p,
                                 .error = hit.at.point.error,
                                 .ng = ng,
                                 .media = material.media()},
-                        .bsdf = material.bsdf(shading),
+                        .bsdf = even ? material.even_bsdf(ng, ns, wo)
+                                     : varying_bsdf(hit, {ng, ns}, wo, segment, pixel),
                         .emission = Rgb(0.0f),
                         .light = lights_->of_triangle(hit.instance, hit.triangle),
                         .barycentrics = hit.at.barycentrics,
                         .disperses = material.disperses()};
     if (result.light && (dot(ng, direction) < 0.0f || material.emits_from_both_sides())) {
-        result.emission = material.emission(at);
+        result.emission = material.emission(texture_point(mesh, hit.triangle, hit.at.barycentrics));
     }
     return result;
 }

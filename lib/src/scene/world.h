@@ -92,6 +92,13 @@ private:
     [[nodiscard]] bool may_be_passed(std::uint32_t instance) const noexcept;
     [[nodiscard]] bool is_passed(const Crossing& crossing) const noexcept;
     [[nodiscard]] PassRule pass_rule() const noexcept;
+    /// Unit, on the front: of the triangle, and interpolated.
+    struct ShadingNormals {
+        Vec3 ng;
+        Vec3 ns;
+    };
+    [[nodiscard]] Bsdf varying_bsdf(const RayHit& hit, const ShadingNormals& normals, Vec3 wo,
+                                    SegmentKey segment, const PixelCone& pixel) const noexcept;
     [[nodiscard]] SurfacePoint mesh_point(const RayHit& hit, Vec3 direction, SegmentKey segment,
                                           const PixelCone& pixel) const noexcept;
     [[nodiscard]] SurfacePoint sphere_point(const RayHit& hit, Vec3 direction,

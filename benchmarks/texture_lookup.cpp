@@ -1,8 +1,8 @@
 // Lookups of textures: how many a second, in how much memory, as they are, with huge pages, in
 // smaller copies, and by OpenImageIO's texture system from a file.
 
-#include "material/mip_maps.h"
-#include "material/texture.h"
+#include "texture/mip_maps.h"
+#include "texture/texture.h"
 
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>

@@ -1,8 +1,11 @@
 # Reading: glTF scenes, textures, environment maps.
 target_sources(bdpt_io PRIVATE
-  # files, JSON
+  # files, JSON, what loading may spend
+  src/file/data_budget.cpp
+  src/file/file_kind.cpp
   src/file/json_parser.cpp
   src/file/json_place.cpp
+  src/file/memory_figures.cpp
   src/file/read_file.cpp
   src/file/uri.cpp
   src/file/warnings.cpp
@@ -14,6 +17,7 @@ target_sources(bdpt_io PRIVATE
   src/image/exr_reader.cpp
   src/image/hdr_reader.cpp
   src/image/oiio_library.cpp
+  src/image/png_picture.cpp
   src/image/read_image.cpp
   src/image/texels.cpp
   src/image/webp_header.cpp
@@ -21,67 +25,71 @@ target_sources(bdpt_io PRIVATE
   src/ies/ies_file.cpp
   src/ies/ies_numbers.cpp
   src/ies/ies_profile.cpp
-  # glTF: checks before tinygltf
-  src/gltf/decoded_size.cpp
-  src/gltf/draco_primitives.cpp
-  src/gltf/extensions.cpp
-  src/gltf/glb.cpp
-  src/gltf/layout.cpp
-  src/gltf/lens.cpp
-  src/gltf/meshopt_views.cpp
-  src/gltf/node_graph.cpp
-  src/gltf/prepass.cpp
-  src/gltf/schema.cpp
-  # glTF: structs by tinygltf
-  src/gltf/model.cpp
-  src/gltf/tinygltf.cpp
+  # glTF, each folder including those above it only. What a document must be before any library sees it
+  src/gltf/checks/glb.cpp
+  src/gltf/checks/layout.cpp
+  src/gltf/checks/node_graph.cpp
+  src/gltf/checks/schema.cpp
+  # glTF: Draco and meshoptimizer
+  src/gltf/compression/decoded_size.cpp
+  src/gltf/compression/draco_primitives.cpp
+  src/gltf/compression/meshopt_views.cpp
+  # glTF: from bytes to the structs of tinygltf
+  src/gltf/document/accessor.cpp
+  src/gltf/document/extensions.cpp
+  src/gltf/document/facts.cpp
+  src/gltf/document/model.cpp
+  src/gltf/document/prepass.cpp
+  src/gltf/document/selection.cpp
+  src/gltf/document/tinygltf.cpp
+  # glTF: where nodes are, and when
+  src/gltf/animation/animation.cpp
+  src/gltf/animation/instancing.cpp
+  src/gltf/animation/keyframes.cpp
+  src/gltf/animation/node_motion.cpp
+  src/gltf/animation/node_transforms.cpp
+  src/gltf/animation/transform.cpp
+  # glTF: meshes
+  src/gltf/geometry/attributes.cpp
+  src/gltf/geometry/mesh.cpp
+  src/gltf/geometry/mesh_table.cpp
+  src/gltf/geometry/morph.cpp
+  src/gltf/geometry/placement.cpp
+  src/gltf/geometry/primitive_reader.cpp
+  src/gltf/geometry/skin.cpp
+  # glTF: materials and their pictures
+  src/gltf/material/image_table.cpp
+  src/gltf/material/material.cpp
+  src/gltf/material/material_layers.cpp
+  src/gltf/material/material_table.cpp
+  src/gltf/material/material_values.cpp
+  src/gltf/material/specular_glossiness.cpp
+  src/gltf/material/texture.cpp
+  src/gltf/material/variants.cpp
+  # glTF: lights and cameras
+  src/gltf/light_camera/camera.cpp
+  src/gltf/light_camera/image_based_light.cpp
+  src/gltf/light_camera/lens.cpp
+  src/gltf/light_camera/light.cpp
+  src/gltf/light_camera/light_profiles.cpp
+  src/gltf/light_camera/motion.cpp
   # glTF: structs to SceneDesc
-  src/gltf/accessor.cpp
-  src/gltf/animation.cpp
-  src/gltf/attributes.cpp
-  src/gltf/camera.cpp
-  src/gltf/data_budget.cpp
-  src/gltf/facts.cpp
-  src/gltf/gltf.cpp
-  src/gltf/image_based_light.cpp
-  src/gltf/image_table.cpp
-  src/gltf/instancing.cpp
-  src/gltf/keyframes.cpp
-  src/gltf/light.cpp
-  src/gltf/light_profiles.cpp
-  src/gltf/material.cpp
-  src/gltf/material_layers.cpp
-  src/gltf/material_table.cpp
-  src/gltf/material_values.cpp
-  src/gltf/mesh.cpp
-  src/gltf/mesh_table.cpp
-  src/gltf/morph.cpp
-  src/gltf/motion.cpp
-  src/gltf/node_motion.cpp
-  src/gltf/node_transforms.cpp
-  src/gltf/placement.cpp
-  src/gltf/primitive_reader.cpp
-  src/gltf/scene_builder.cpp
-  src/gltf/select_scene.cpp
-  src/gltf/selection.cpp
-  src/gltf/skin.cpp
-  src/gltf/specular_glossiness.cpp
-  src/gltf/texture.cpp
-  src/gltf/transform.cpp
-  src/gltf/variants.cpp
+  src/gltf/scene/gltf.cpp
+  src/gltf/scene/scene_builder.cpp
+  src/gltf/scene/select_scene.cpp
 )
 # Decoders of compressed meshes, as far as they are installed (cmake/Dependencies.cmake).
 if(BDPT_HAS_DRACO)
-  target_sources(bdpt_io PRIVATE src/gltf/draco_decoder.cpp)
+  target_sources(bdpt_io PRIVATE src/gltf/compression/draco_decoder.cpp)
   target_link_libraries(bdpt_io PRIVATE draco::draco)
 else()
-  target_sources(bdpt_io PRIVATE src/gltf/draco_absent.cpp)
+  target_sources(bdpt_io PRIVATE src/gltf/compression/draco_absent.cpp)
 endif()
 if(BDPT_HAS_MESHOPT)
-  target_sources(bdpt_io PRIVATE src/gltf/meshopt_decoder.cpp)
+  target_sources(bdpt_io PRIVATE src/gltf/compression/meshopt_decoder.cpp)
   target_link_libraries(bdpt_io PRIVATE meshoptimizer::meshoptimizer)
 else()
-  target_sources(bdpt_io PRIVATE src/gltf/meshopt_absent.cpp)
+  target_sources(bdpt_io PRIVATE src/gltf/compression/meshopt_absent.cpp)
 endif()
 target_include_directories(bdpt_io SYSTEM PRIVATE ${BDPT_TINYGLTF_INCLUDE_DIR})
 target_link_libraries(bdpt_io PRIVATE
@@ -93,7 +101,7 @@ target_compile_definitions(bdpt_io PRIVATE
   TINYGLTF_NO_STB_IMAGE TINYGLTF_NO_STB_IMAGE_WRITE TINYGLTF_NO_EXTERNAL_IMAGE TINYGLTF_NO_FS
   TINYGLTF_NO_INCLUDE_JSON)
 # The implementation's warnings are not ours to mend.
-set_source_files_properties(src/gltf/tinygltf.cpp PROPERTIES COMPILE_OPTIONS "-w")
+set_source_files_properties(src/gltf/document/tinygltf.cpp PROPERTIES COMPILE_OPTIONS "-w")
 
 # OpenImageIO lives in a module that is loaded with the first picture (src/image/oiio_library.h).
 add_library(bdpt_oiio MODULE src/oiio_module/oiio_module.cpp)

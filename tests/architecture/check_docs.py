@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Fails when a document points to a file that is not there, or docs/gltf.md states other extensions than the reader
-knows: check_docs.py ROOT."""
+"""Fails when a document points to a file that is not there, docs/gltf.md states other extensions than the reader
+knows, or the index of decisions lacks one or has another title: check_docs.py ROOT."""
 
 import pathlib
 import re
@@ -10,7 +10,8 @@ import sys
 def broken_links(root):
     """Relative links in all documents that lead nowhere; `count` of links that were followed."""
     errors, count = [], 0
-    documents = [*root.glob("*.md"), *(root / "docs").rglob("*.md"), *(root / "scenes").glob("*.md")]
+    documents = [*root.glob("*.md"), *(root / "docs").rglob("*.md"), *(root / "scenes").glob("*.md"),
+                 *(root / "benchmarks").rglob("*.md")]
     for document in sorted(documents):
         text = re.sub(r"^ {4}.*$", "", document.read_text(encoding="utf-8"), flags=re.M)  # not in code
         for target in re.findall(r"\]\(([^)#\s]+)", text):
@@ -24,22 +25,39 @@ def broken_links(root):
 
 def extension_differences(root):
     """Rows of the table in docs/gltf.md against the table in the code."""
-    code = (root / "lib/io/src/gltf/extensions.cpp").read_text(encoding="utf-8")
+    code = (root / "lib/io/src/gltf/document/extensions.cpp").read_text(encoding="utf-8")
     known = set(re.findall(r'ExtensionSupport\{"(\w+)",\s*(\w+),\s*"([^"]*)"\}', code))
     text = (root / "docs/gltf.md").read_text(encoding="utf-8")
     stated = set(re.findall(r"^\| `(\w+)` \| (supported|ignored) \| (.*?) ?\|$", text, flags=re.M))
-    errors = ["lib/io/src/gltf/extensions.cpp: no table found"] if not known else []
+    errors = ["lib/io/src/gltf/document/extensions.cpp: no table found"] if not known else []
     errors += [f"docs/gltf.md: lacks the row {row}" for row in sorted(known - stated)]
     errors += [f"docs/gltf.md: the reader does not have the row {row}" for row in sorted(stated - known)]
     return errors, len(known)
+
+
+def index_differences(root):
+    """Rows of docs/decisions/README.md against the headings of the decisions."""
+    folder = root / "docs/decisions"
+    decided = set()
+    for page in folder.glob("[0-9]*.md"):
+        heading = page.read_text(encoding="utf-8").splitlines()[0]
+        decided.add((heading[2:6], heading[7:], page.name))
+    listed = re.findall(r"^\| (\d{4}) \| \[(.*?)\]\((.*?)\) \| .*\S.* \|$", (folder / "README.md").read_text("utf-8"),
+                        flags=re.M)
+    errors = ["docs/decisions: no decisions found"] if not decided else []
+    errors += [f"docs/decisions/README.md: lacks the row {row}" for row in sorted(decided - set(listed))]
+    errors += [f"docs/decisions/README.md: no decision has the row {row}" for row in sorted(set(listed) - decided)]
+    errors += [f"docs/decisions/README.md: {row} is there twice" for row in sorted(set(listed)) if listed.count(row) > 1]
+    return errors, len(decided)
 
 
 def main():
     root = pathlib.Path(sys.argv[1]).resolve()
     link_errors, links = broken_links(root)
     extension_errors, extensions = extension_differences(root)
-    errors = link_errors + extension_errors
-    print("\n".join(errors) or f"{links} links and {extensions} extensions are right")
+    index_errors, decisions = index_differences(root)
+    errors = link_errors + extension_errors + index_errors
+    print("\n".join(errors) or f"{links} links, {extensions} extensions and {decisions} decisions are right")
     sys.exit(bool(errors))
 
 

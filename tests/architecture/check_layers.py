@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Fails when the source tree breaks the rules of docs/architecture.md: check_layers.py ROOT.
 
-A folder of lib/src or of apps/bdpt includes only folders of a lower layer, public headers need nothing but GLM and the standard
+A folder of lib/src, lib/io/src or apps/bdpt includes only folders of a lower layer, public headers need nothing but GLM and the standard
 library, each third-party library stays where it belongs, no file is longer than 400 lines, and every source file is
 listed in a CMakeLists.txt or in a .cmake file beside one.
 """
@@ -10,9 +10,13 @@ import pathlib
 import re
 import sys
 
-LAYERS = {"math": 1, "geometry": 2, "material": 2, "light": 3, "camera": 3, "scene": 4, "path": 5, "integrator": 6,
-          "render": 7}
+LAYERS = {"math": 1, "film": 2, "profile": 2, "texture": 2, "geometry": 3, "material": 3, "light": 4, "camera": 4,
+          "scene": 5, "path": 6, "integrator": 7, "render": 8}
 COMMAND_LAYERS = {"terminal": 1, "options": 2, "stage": 3, "report": 4, "commands": 5}
+# The same of lib/io/src. Headers are named by their folder there too.
+IO_LAYERS = {"file": 1, "image": 2, "ies": 2, "output": 2, "oiio_module": 3, "gltf/checks": 3, "gltf/compression": 4,
+             "gltf/document": 5, "gltf/animation": 6, "gltf/geometry": 7, "gltf/material": 7, "gltf/light_camera": 7,
+             "gltf/scene": 8}
 MAX_LINES = 400
 AREAS = ("lib", "apps", "tests", "benchmarks")
 
@@ -25,6 +29,7 @@ ALLOWED = {
     "lib/src": [r"glm/"],
     "lib/src/geometry": [r"glm/", r"embree[34]/", INTRINSICS],
     "lib/src/scene": [r"glm/", r"(oneapi/)?tbb/"],
+    "lib/src/profile": [r"glm/", r"(oneapi/)?tbb/"],
     "lib/src/render": [r"glm/", r"(oneapi/)?tbb/", INTRINSICS],
     "lib/io/include": [r"glm/"],
     "lib/io/src": [r"glm/", FILE_LIBRARIES, POSIX],
@@ -71,7 +76,7 @@ def angle_error(path, header):
 
 def layer_error(layers, layer, header):
     """What is wrong with `#include "header"` in a file of `layer`, or None."""
-    folder = header.split("/")[0]
+    folder = header.rpartition("/")[0] if layers is IO_LAYERS else header.split("/")[0]
     if layer not in layers:
         return f"is in the unknown layer {layer}"
     if folder not in layers or "/" not in header:
@@ -91,7 +96,11 @@ def quoted_error(path, header):
     if not path.startswith("lib/src/"):
         may_look_inside = path.startswith(("tests/", "benchmarks/"))
         internal = folder in LAYERS and "/" in header and not may_look_inside
-        return f'reaches into lib/src: "{header}"' if internal else None
+        if internal:
+            return f'reaches into lib/src: "{header}"'
+        if path.startswith("lib/io/src/"):
+            return layer_error(IO_LAYERS, path.removeprefix("lib/io/src/").rpartition("/")[0], header)
+        return None
     return layer_error(LAYERS, path.split("/")[2], header)
 
 

@@ -1,5 +1,5 @@
 #include "fuzz_target.h"
-#include "gltf/glb.h"
+#include "gltf/checks/glb.h"
 #include "promises.h"
 
 using namespace bdpt;
@@ -20,8 +20,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const ByteView file(data, size);
     static_cast<void>(is_glb(file));
     try {
-        Warnings warnings;
-        const GlbChunks chunks = find_glb_chunks(file, warnings);
+        LoadContext context;
+        const GlbChunks chunks = find_glb_chunks(file, context);
         fuzz::promise(lies_within(chunks.json, size), "the JSON chunk lies within the file");
         if (chunks.bin) {
             fuzz::promise(lies_within(*chunks.bin, size), "the BIN chunk lies within the file");

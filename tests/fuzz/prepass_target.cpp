@@ -1,6 +1,6 @@
 #include "fuzz_target.h"
-#include "gltf/layout.h"
-#include "gltf/prepass.h"
+#include "gltf/checks/layout.h"
+#include "gltf/document/prepass.h"
 #include "input_file.h"
 #include "promises.h"
 
@@ -72,8 +72,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static const fuzz::InputFile input;
     const std::filesystem::path file = input.write(data, size);
     try {
-        Warnings warnings;
-        const CheckedGltf checked = read_checked_gltf(file, fuzz::small_limits, warnings);
+        LoadContext context{.folder = file.parent_path(), .limits = fuzz::small_limits};
+        const CheckedGltf checked = read_checked_gltf(file, context);
         check_views(checked);
         check_accessors(checked);
     } catch (const Error& error) {

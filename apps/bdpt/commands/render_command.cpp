@@ -69,7 +69,8 @@ Stage prepare_within_memory(RenderArguments arguments)
         return prepare_stage(arguments);
     } catch (const Error& error) {
         const std::string message = error.what();
-        if (message.find(fmt::format("the limit is {}", left)) == std::string::npos) {
+        if (message.find("limit is") == std::string::npos &&
+            message.find("of memory in all") == std::string::npos) {
             throw;
         }
         throw Error(error.code(), fmt::format("{} (--max-memory {} less {} for the film)", message,

@@ -26,6 +26,7 @@ enum class Aov : std::uint8_t {
     alpha,
 };
 
+/// A set of them.
 class AovSet {
 public:
     constexpr AovSet() = default;

@@ -21,6 +21,7 @@ struct FilmDefects {
     std::uint64_t invalid = 0;    ///< NaN, infinite or negative: dropped
     std::uint64_t saturated = 0;  ///< above ExactSum::max_value: added as that
 
+    /// A sample of a pixel.
     struct Place {
         int x = 0;
         int y = 0;
@@ -31,6 +32,7 @@ struct FilmDefects {
     std::optional<Place> first_invalid;
 };
 
+/// Whether a film takes contributions of light paths to any pixel.
 enum class SplatImage : std::uint8_t { absent, present };
 
 /// What a film has room for.

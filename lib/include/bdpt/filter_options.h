@@ -15,6 +15,7 @@ enum class FilterKind : std::uint8_t {
     blackman_harris,  ///< 4-term window [Harris 1978, table 1]
 };
 
+/// A pixel filter.
 struct FilterOptions {
     FilterKind kind = FilterKind::box;
     /// [pixels], in [0.01, 16]; none: `default_radius`.

@@ -17,6 +17,7 @@ enum class Isa : std::uint8_t {
     avx512,
 };
 
+/// In the order of the enumerators.
 inline constexpr std::array all_isas{Isa::native, Isa::sse2, Isa::sse4_2,
                                      Isa::avx,    Isa::avx2, Isa::avx512};
 

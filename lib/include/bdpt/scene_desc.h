@@ -13,10 +13,14 @@
 
 namespace bdpt {
 
-/// Indices into the vectors of `SceneDesc`; as types, so that one cannot stand for another.
+/// Index into `SceneDesc::meshes`. Each kind of index is a type, so that one cannot stand for
+/// another.
 enum class MeshId : std::uint32_t {};
+/// Index into `SceneDesc::materials`.
 enum class MaterialId : std::uint32_t {};
+/// Index into `SceneDesc::images`.
 enum class ImageId : std::uint32_t {};
+/// Index into `SceneDesc::profiles`.
 enum class ProfileId : std::uint32_t {};
 
 // What moves while the shutter is open has a `motion` or `turn`: its values at equally spaced later
@@ -254,6 +258,7 @@ struct EnvironmentLightDesc {
     Mat3 world_from_environment{1.0f};  ///< rotation
 };
 
+/// A light that is no surface.
 using LightDesc = std::variant<PointLightDesc, SpotLightDesc, DirectionalLightDesc,
                                EnvironmentLightDesc, ProfileLightDesc>;
 
@@ -269,6 +274,7 @@ struct SceneDesc {
     TextureFilter texture_filter = TextureFilter::bilinear;
 };
 
+/// How a camera maps directions or points to the film.
 enum class Projection : std::uint8_t { perspective, orthographic };
 
 /// A camera with the glTF axes: it looks down -z, +y is up.

@@ -20,6 +20,7 @@ enum class Phase : std::uint8_t {
     splat,    ///< adding to the film and to images of strategies
 };
 
+/// In the order of the enumerators.
 inline constexpr std::array all_phases{Phase::walk, Phase::shade, Phase::connect, Phase::weigh,
                                        Phase::splat};
 

@@ -8,12 +8,12 @@
 
 namespace bdpt {
 
-using Vec2 = glm::vec2;
-using Vec3 = glm::vec3;
-using Vec4 = glm::vec4;
-using UVec3 = glm::uvec3;
-using Mat3 = glm::mat3;
-using Mat4 = glm::mat4;
+using Vec2 = glm::vec2;    ///< two floats
+using Vec3 = glm::vec3;    ///< three floats: a point [m], a direction, a normal
+using Vec4 = glm::vec4;    ///< four floats
+using UVec3 = glm::uvec3;  ///< three vertex indices of a triangle
+using Mat3 = glm::mat3;    ///< in columns
+using Mat4 = glm::mat4;    ///< in columns
 
 /// Linear Rec. 709 triple: radiance [nit = cd/m^2], importance, or a unitless weight.
 using Rgb = glm::vec3;

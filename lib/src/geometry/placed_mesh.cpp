@@ -16,34 +16,42 @@ namespace {
 /// How often a coordinate of a point, or of an intersection test, is rounded at most.
 constexpr int rounded_operations = 12;
 
-float max_axis(Vec3 v)
+inline float max_axis(Vec3 v)
 {
     return std::max(v.x, std::max(v.y, v.z));
 }
 
-/// From products of Pluecker coordinates relative to the ray's origin.
-Vec2 barycentrics_of(const std::array<Vec3, 3>& corners, const Ray& ray)
+/// The edges that meet at the first corner.
+struct Edges {
+    explicit Edges(const std::array<Vec3, 3>& corners)
+        : to_b(corners[1] - corners[0]), to_c(corners[2] - corners[0]), normal(cross(to_b, to_c))
+    {}
+
+    Vec3 to_b;
+    Vec3 to_c;
+    Vec3 normal;  ///< its length is twice the area
+};
+
+/// Where the line of the ray crosses the plane of the triangle [Moeller and Trumbore 1997, "Fast,
+/// Minimum Storage Ray/Triangle Intersection"].
+inline Vec2 barycentrics_of(Vec3 corner, const Edges& edges, const Ray& ray)
 {
-    const Vec3 a = corners[0] - ray.origin;
-    const Vec3 b = corners[1] - ray.origin;
-    const Vec3 c = corners[2] - ray.origin;
-    const float of_b = dot(cross(c - a, c + a), ray.direction);
-    const float of_c = dot(cross(a - b, a + b), ray.direction);
-    const float of_a = dot(cross(b - c, b + c), ray.direction);
-    const float sum = of_a + of_b + of_c;
-    if (sum == 0.0f) {
+    const float determinant = dot(edges.normal, ray.direction);
+    if (determinant == 0.0f) {
         return Vec2(0.0f);  // seen from the side
     }
-    return {of_b / sum, of_c / sum};
+    const Vec3 moment = cross(ray.origin - corner, ray.direction);
+    const float scale = 1.0f / determinant;
+    return {-dot(moment, edges.to_c) * scale, dot(moment, edges.to_b) * scale};
 }
 
 /// The greatest coordinate of all corners.
-Vec3 extent(const std::array<Vec3, 3>& corners)
+inline Vec3 extent(const std::array<Vec3, 3>& corners)
 {
     return max(abs(corners[0]), max(abs(corners[1]), abs(corners[2])));
 }
 
-Vec3 interpolated(const std::array<Vec3, 3>& corners, Vec2 barycentrics)
+inline Vec3 interpolated(const std::array<Vec3, 3>& corners, Vec2 barycentrics)
 {
     return (1.0f - barycentrics.x - barycentrics.y) * corners[0] + barycentrics.x * corners[1] +
            barycentrics.y * corners[2];
@@ -52,7 +60,7 @@ Vec3 interpolated(const std::array<Vec3, 3>& corners, Vec2 barycentrics)
 /// Of corners as Embree has them. The intersection test works on the corners relative to the ray's
 /// origin and rounds in all directions, even where a coordinate of all corners is zero. So the
 /// bound takes the greatest coordinate of all, not each axis for itself.
-BoundedPoint bounded_point(const std::array<Vec3, 3>& corners, Vec2 barycentrics)
+inline BoundedPoint bounded_point(const std::array<Vec3, 3>& corners, Vec2 barycentrics)
 {
     return {interpolated(corners, barycentrics),
             rounding_bound(rounded_operations) * max_axis(extent(corners))};
@@ -163,26 +171,7 @@ std::array<Vec3, 3> PlacedMesh::corners(std::uint32_t triangle, float time) cons
     return moves() ? moment(triangle, time).corners : still_corners(triangle);
 }
 
-std::array<Vec3, 3> PlacedMesh::still_corners(std::uint32_t triangle) const
-{
-    const UVec3& i = mesh_->triangles[triangle];
-    if (world_positions_ != nullptr) {
-        return {world_positions_[i.x], world_positions_[i.y], world_positions_[i.z]};
-    }
-    const auto& p = mesh_->positions;
-    return {world_point(p[i.x]), world_point(p[i.y]), world_point(p[i.z])};
-}
-
-BoundedPoint PlacedMesh::point(std::uint32_t triangle, Vec2 barycentrics, float time) const
-{
-    if (moves()) {
-        const Moment at = moment(triangle, time);
-        return {interpolated(at.corners, barycentrics), at.error};
-    }
-    return still_point(triangle, barycentrics);
-}
-
-BoundedPoint PlacedMesh::still_point(std::uint32_t triangle, Vec2 barycentrics) const
+inline BoundedPoint PlacedMesh::still_point(std::uint32_t triangle, Vec2 barycentrics) const
 {
     if (world_positions_ != nullptr) {
         return bounded_point(still_corners(triangle), barycentrics);
@@ -197,13 +186,22 @@ BoundedPoint PlacedMesh::still_point(std::uint32_t triangle, Vec2 barycentrics) 
             rounding_bound(2 * rounded_operations) * max_axis(world_size)};
 }
 
+BoundedPoint PlacedMesh::point(std::uint32_t triangle, Vec2 barycentrics, float time) const
+{
+    if (moves()) {
+        const Moment at = moment(triangle, time);
+        return {interpolated(at.corners, barycentrics), at.error};
+    }
+    return still_point(triangle, barycentrics);
+}
+
 TriangleHit PlacedMesh::moving_hit(std::uint32_t triangle, const Ray& ray) const
 {
     const Moment at = moment(triangle, ray.segment.time);
-    const Vec2 barycentrics = barycentrics_of(at.corners, ray);
-    const auto& [a, b, c] = at.corners;
+    const Edges edges(at.corners);
+    const Vec2 barycentrics = barycentrics_of(at.corners[0], edges, ray);
     return {.barycentrics = barycentrics,
-            .normal = front_sign() * cross(b - a, c - a),
+            .normal = front_sign() * edges.normal,
             .point = {interpolated(at.corners, barycentrics), at.error}};
 }
 
@@ -213,9 +211,10 @@ TriangleHit PlacedMesh::hit(std::uint32_t triangle, const Ray& ray) const
         return moving_hit(triangle, ray);
     }
     const std::array<Vec3, 3> corners = still_corners(triangle);
-    const Vec2 barycentrics = barycentrics_of(corners, ray);
+    const Edges edges(corners);
+    const Vec2 barycentrics = barycentrics_of(corners[0], edges, ray);
     return {.barycentrics = barycentrics,
-            .normal = front_sign() * cross(corners[1] - corners[0], corners[2] - corners[0]),
+            .normal = front_sign() * edges.normal,
             .point = world_positions_ != nullptr ? bounded_point(corners, barycentrics)
                                                  : still_point(triangle, barycentrics)};
 }

@@ -145,4 +145,15 @@ private:
     std::span<const Mat4> motion_;
 };
 
+// Here because every hit needs it.
+inline std::array<Vec3, 3> PlacedMesh::still_corners(std::uint32_t triangle) const
+{
+    const UVec3& i = mesh_->triangles[triangle];
+    if (world_positions_ != nullptr) {
+        return {world_positions_[i.x], world_positions_[i.y], world_positions_[i.z]};
+    }
+    const auto& p = mesh_->positions;
+    return {world_point(p[i.x]), world_point(p[i.y]), world_point(p[i.z])};
+}
+
 }  // namespace bdpt

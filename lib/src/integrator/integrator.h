@@ -33,22 +33,25 @@ struct Films {
     TimeSheet* times = nullptr;
 };
 
-/// A light transport algorithm. Const while rendering: every thread calls the same object.
+/// A light transport algorithm at work on one render. Const while tiles are rendered: every thread
+/// calls the same object.
 class Integrator {
 public:
     virtual ~Integrator() = default;
+    /// Called on one thread before any tile of a pass of `samples` is rendered, and after the last:
+    /// an integrator may keep what all tiles of a pass share.
+    virtual void begin_pass(SampleRange /*samples*/) {}
+    virtual void end_pass() {}
     /// Adds the samples of all pixels of `tile` that are in the film's region to `films`, and what
     /// the light paths of all of its pixels splat anywhere. Tiles of an integrator without splats
     /// lie inside of the region. Returns the work that it was.
     [[nodiscard]] virtual RenderStats render_tile(const Tile& tile, SampleRange samples,
                                                   const Films& films) const = 0;
-    /// Does it splat on pixels that are not its own?
-    [[nodiscard]] virtual bool splats() const = 0;
 };
 
 /// `options` have been checked. The world and the camera must outlive the integrator.
-[[nodiscard]] std::unique_ptr<const Integrator> make_integrator(const World& world,
-                                                                const MovingCamera& camera,
-                                                                const RenderOptions& options);
+[[nodiscard]] std::unique_ptr<Integrator> make_integrator(const World& world,
+                                                          const MovingCamera& camera,
+                                                          const RenderOptions& options);
 
 }  // namespace bdpt

@@ -26,7 +26,12 @@ TriangleLight::TriangleLight(const PlacedMesh& mesh, const Material& material,
       first_(facing_of(mesh.area_normal(triangle))),
       mean_area_(mean_area()),
       emission_(measure_emission(mesh, material, triangle, most_samples))
-{}
+{
+    const bool colored = !mesh.mesh().colors.empty() && material.emission_needs_color();
+    if (!material.emission_needs_texture() && !colored) {
+        even_radiance_ = material.expected_emission({});
+    }
+}
 
 TriangleLight::Facing TriangleLight::facing(float time) const
 {
@@ -49,11 +54,14 @@ TriangleLight::Point TriangleLight::point(Vec2 u, const Facing& facing, float ti
     const Vec2 barycentrics =
         square_to_triangle(emission_.spread ? emission_.spread->sample(u).point : u);
     const BoundedPoint at = mesh_->point(triangle_, barycentrics, time);
-    return {
-        .end = {.p = at.p, .error = at.error, .ng = facing.ng, .media = material_->media()},
-        .barycentrics = barycentrics,
-        .pdf = pdf_position(barycentrics, facing),
-        .radiance = material_->expected_emission(texture_point(*mesh_, triangle_, barycentrics))};
+    const Rgb radiance =
+        even_radiance_
+            ? *even_radiance_
+            : material_->expected_emission(texture_point(*mesh_, triangle_, barycentrics));
+    return {.end = {.p = at.p, .error = at.error, .ng = facing.ng, .media = material_->media()},
+            .barycentrics = barycentrics,
+            .pdf = pdf_position(barycentrics, facing),
+            .radiance = radiance};
 }
 
 std::optional<EmissionSample> TriangleLight::sample_emission(Vec2 u_position, Vec2 u_direction,

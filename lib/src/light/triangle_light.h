@@ -54,6 +54,7 @@ private:
     Facing first_;  ///< when the shutter opens
     float mean_area_;
     TriangleEmission emission_;
+    std::optional<Rgb> even_radiance_;  ///< where it is the same all over the triangle
 };
 
 }  // namespace bdpt

@@ -5,6 +5,8 @@
 #include <bdpt/types.h>
 
 #include <cmath>
+#include <limits>
+#include <optional>
 
 namespace bdpt {
 
@@ -33,17 +35,32 @@ struct BsdfSample {
     bool delta = false;
 };
 
+/// The whole sample of a direction that is not a delta lobe's; none where it has no density.
+[[nodiscard]] inline std::optional<BsdfSample> smooth_sample(Vec3 wi, const BsdfEval& value)
+{
+    if (!(value.pdf_fwd.value >= std::numeric_limits<float>::min())) {
+        return std::nullopt;
+    }
+    return BsdfSample{wi, value.f_cos * (1.0f / value.pdf_fwd.value), value.pdf_fwd, value.pdf_rev,
+                      false};
+}
+
 /// Nothing scatters closer to the surface: the products of two cosines would vanish.
 [[nodiscard]] inline bool grazes(Vec3 w)
 {
     return std::abs(w.z) < 1e-15f;
 }
 
-/// By how much a cosine to the geometric normal is greater than that to the shading normal; 0 where
-/// they differ in sign, for light neither leaks through a surface nor comes from below it.
-[[nodiscard]] inline float cosine_ratio(float geometric, float shading)
-{
-    return geometric * shading > 0.0f ? geometric / shading : 0.0f;
-}
+/// Those of a direction to the two normals of a surface.
+struct Cosines {
+    float geometric;
+    float shading;
+
+    /// In sign; where they do not, nothing scatters, for light neither leaks through a surface nor
+    /// comes from below it.
+    [[nodiscard]] bool agree() const { return geometric * shading > 0.0f; }
+    /// Where they agree.
+    [[nodiscard]] float ratio() const { return geometric / shading; }
+};
 
 }  // namespace bdpt

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "material/gltf_bsdf.h"
+#include "material/models/metallic_roughness.h"
 #include "material/sheen_albedo.h"
 #include "material/small_numbers.h"
 #include "material/specular_albedo.h"
@@ -28,10 +28,10 @@ struct LayeredConstants {
     const LayerTables* tables = nullptr;
 };
 
-/// A surface of several layers at one point, from the top: coat, sheen, base. As small as a
-/// `GltfBsdf`, whose place it takes in path vertices; `LayeredBsdf` makes a model of it.
-struct LayeredParameters {
-    GltfParameters base;
+/// A surface of several layers at one point, from the top: coat, sheen, base; the base's own
+/// parameters are inherited, so that no byte is lost between them and the others. Small, for it
+/// lives in path vertices; `LayeredBsdf` makes a model of it.
+struct LayeredParameters : GltfParameters {
     Unit16 coat{};              ///< share of the surface that is coated
     Unit16 coat_roughness{};    ///< perceptual
     Direction16 coat_normal{};  ///< local, as all directions of a `LayeredBsdf`
@@ -41,8 +41,14 @@ struct LayeredParameters {
     Unit16 film{};
     Unit16 diffuse_transmission{};
     Color16 transmission_color{};
-    float film_thickness = 0.0f;                  ///< [nm]
-    const LayeredConstants* constants = nullptr;  ///< must outlive this
+    float film_thickness = 0.0f;                        ///< [nm]
+    PackedPointer<const LayeredConstants> constants{};  ///< must outlive this
+
+    LayeredParameters() = default;
+    LayeredParameters(const GltfParameters& base, const LayeredConstants& equal)
+        : GltfParameters(base), constants(&equal)
+    {}
+    void set_base(const GltfParameters& base) { static_cast<GltfParameters&>(*this) = base; }
 };
 
 }  // namespace bdpt

@@ -6,13 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 namespace bdpt {
 
-/// A scattering model on the facet of a normal map. `Model` has `eval` and `sample` like
-/// `GltfBsdf`; its directions, and those here, are local to the facet.
+/// A scattering model or a lobe on the facet of a normal map. `Model` has `eval` and `sample`;
+/// its directions, and those here, are local to the facet.
 ///
 /// What the eye sees is worked out in physical roles, so that walks from both ends see the same:
 /// it looks at the facet directly, or by way of the upright one; light that would come through the
@@ -59,8 +58,6 @@ private:
                                                          Vec2 u) const noexcept;
     [[nodiscard]] std::optional<BsdfSample> sample_eye(Vec3 light, float u_lobe,
                                                        Vec2 u) const noexcept;
-    [[nodiscard]] std::optional<BsdfSample> smooth(const Vec3& wo, const Vec3& wi,
-                                                   TransportMode mode) const noexcept;
 
     TiltedFacet facet_;
     const Model& model_;
@@ -145,19 +142,6 @@ BsdfEval MappedBsdf<Model>::eval(Vec3 wo, Vec3 wi, TransportMode mode) const noe
     return {f_cos * std::abs(facet_.height(eye) / facet_.height(light)), of_eye, of_light};
 }
 
-/// The whole sample of a direction that is not a delta lobe's.
-template <typename Model>
-std::optional<BsdfSample> MappedBsdf<Model>::smooth(const Vec3& wo, const Vec3& wi,
-                                                    TransportMode mode) const noexcept
-{
-    const BsdfEval value = eval(wo, wi, mode);
-    if (!(value.pdf_fwd.value >= std::numeric_limits<float>::min())) {
-        return std::nullopt;
-    }
-    return BsdfSample{wi, value.f_cos * (1.0f / value.pdf_fwd.value), value.pdf_fwd, value.pdf_rev,
-                      false};
-}
-
 // Densities of delta lobes stand for a Dirac factor that is left out, so only their quotient means
 // something: that of the probabilities times the solid angle of light over that of the eye, of
 // which `share` is where it differs from that at the facet.
@@ -178,7 +162,7 @@ std::optional<BsdfSample> MappedBsdf<Model>::sample_light(Vec3 eye, float u_lobe
         return std::nullopt;
     }
     if (!sampled->delta) {
-        return smooth(eye, light, TransportMode::radiance);
+        return smooth_sample(light, eval(eye, light, TransportMode::radiance));
     }
     const Way from_eye = eye_ways(eye)[mirror.taken ? 1 : 0];
     const Way to_light = light_ways(light)[is_raised ? 1 : 0];
@@ -209,7 +193,7 @@ std::optional<BsdfSample> MappedBsdf<Model>::sample_eye(Vec3 light, float u_lobe
     const bool is_mirrored = mirror.taken && facet_.mirrored_share(other) > 0.0f;
     const Vec3 eye = is_mirrored ? other : sampled->wi;
     if (!sampled->delta) {
-        return smooth(light, eye, TransportMode::importance);
+        return smooth_sample(eye, eval(light, eye, TransportMode::importance));
     }
     const Way way = eye_ways(eye)[is_mirrored ? 1 : 0];
     const float cosines = facet_.height(eye) * from.w.z / (facet_.height(light) * way.w.z);

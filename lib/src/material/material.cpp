@@ -128,7 +128,7 @@ Material::Material(const MaterialDesc& desc, const Pictures& pictures,
     if (has_layers(desc) && !any_turned) {
         layers_ = std::make_unique<const MaterialLayers>(desc, pictures, albedos, *tables);
     } else if (!varies && !unlit_ && !disperses()) {
-        plain_.emplace(surface_, albedos_.at(Wavelength::green));
+        plain_ = plain_model(surface_, albedos_.at(Wavelength::green));
     }
     needs_footprint_ = pictures.mip_maps != nullptr && !unlit_ && (varies || layers_ != nullptr);
     tangent_uv_set_ = normal_map_ ? std::optional(normal_map_->uv_set())
@@ -184,31 +184,30 @@ Rgb Material::base_color(const TexturePoint& point, const UvFootprint* footprint
     return base_color_map_ ? color * Rgb(base_color_map_->lookup(point.uv, footprint)) : color;
 }
 
-Bsdf Material::placed(const ShadingPoint& point, const GltfBsdf& model) const noexcept
+Bsdf Material::at(const ShadingPoint& point, const PlainModel& any, bool turned) const noexcept
 {
-    if (!normal_map_) {
-        return {point.ng, Frame::from_normal(point.ns), point.wo, model};
-    }
-    return {point.ng, point.ns, Frame::from_normal(normal_map_->normal(point)), point.wo, model};
-}
-
-Bsdf Material::turned(const ShadingPoint& point, const GltfBsdf& model) const noexcept
-{
-    if (!normal_map_) {
-        return {-point.ng, Frame::from_normal(-point.ns), point.wo, model};
-    }
-    return {-point.ng, -point.ns, Frame::from_normal(-normal_map_->normal(point)), point.wo, model};
+    const Vec3 ng = turned ? -point.ng : point.ng;
+    const Vec3 ns = turned ? -point.ns : point.ns;
+    return std::visit(
+        [&](const auto& model) -> Bsdf {
+            if (!normal_map_) {
+                return {ng, Frame::from_normal(ns), point.wo, model};
+            }
+            const Vec3 normal = normal_map_->normal(point);
+            return {ng, ns, Frame::from_normal(turned ? -normal : normal), point.wo, model};
+        },
+        any);
 }
 
 Bsdf Material::bsdf(const ShadingPoint& point) const noexcept
 {
     if (plain_ && point.color == Vec4(1.0f)) {
-        return placed(point, *plain_);
+        return at(point, *plain_, false);
     }
     const Rgb base = base_color({.uv = point.uv, .color = point.color}, point.footprint);
     if (unlit_) {
         return {point.ng, Frame::from_normal(shading_normal(point)), point.wo,
-                GltfBsdf(glm::clamp(base, 0.0f, 1.0f))};
+                Black(glm::clamp(base, 0.0f, 1.0f))};
     }
     GltfParameters surface = surface_;
     surface.base_color = base;
@@ -233,9 +232,8 @@ Bsdf Material::bsdf(const ShadingPoint& point) const noexcept
     if (layers_) {
         return layers_->bsdf(point, Frame::from_normal(shading_normal(point)), surface);
     }
-    const GltfBsdf model(surface, albedos_.at(point.wavelength));
-    return turned_[static_cast<std::size_t>(point.wavelength)] ? turned(point, model)
-                                                               : placed(point, model);
+    return at(point, plain_model(surface, albedos_.at(point.wavelength)),
+              turned_[static_cast<std::size_t>(point.wavelength)]);
 }
 
 Rgb Material::emission(const TexturePoint& point) const noexcept

@@ -5,8 +5,8 @@
 #include "material/material_layers.h"
 #include "material/normal_map.h"
 #include "material/shading_point.h"
-#include "material/texture.h"
 #include "math/side_media.h"
+#include "texture/texture.h"
 
 #include <bdpt/scene_desc.h>
 
@@ -27,6 +27,11 @@ public:
     [[nodiscard]] Bsdf bsdf(const ShadingPoint& point) const noexcept;
     /// Does that depend on `ShadingPoint::footprint`?
     [[nodiscard]] bool needs_footprint() const noexcept { return needs_footprint_; }
+    /// Does anything depend on texture coordinates?
+    [[nodiscard]] bool has_textures() const noexcept
+    {
+        return !plain_ || normal_map_ || emission_map_ || base_color_map_;
+    }
 
     /// The share of rays that meet the surface, in [0, 1]; the others pass as if it were not there.
     [[nodiscard]] float opacity(const TexturePoint& point) const noexcept;
@@ -91,16 +96,17 @@ private:
     {
         return normal_map_ ? normal_map_->normal(point) : point.ns;
     }
-    [[nodiscard]] Bsdf placed(const ShadingPoint& point, const GltfBsdf& model) const noexcept;
-    [[nodiscard]] Bsdf turned(const ShadingPoint& point, const GltfBsdf& model) const noexcept;
+    /// `turned`: as seen from the other side.
+    [[nodiscard]] Bsdf at(const ShadingPoint& point, const PlainModel& any,
+                          bool turned) const noexcept;
     [[nodiscard]] Rgb base_color(const TexturePoint& point,
                                  const UvFootprint* footprint) const noexcept;
     [[nodiscard]] float opacity_of(float alpha) const noexcept;
     void measure_alpha();
     void measure_emission();
 
-    GltfParameters surface_;         ///< the factors, which textures multiply
-    std::optional<GltfBsdf> plain_;  ///< of a surface on which nothing varies
+    GltfParameters surface_;           ///< the factors, which textures multiply
+    std::optional<PlainModel> plain_;  ///< of a surface on which nothing varies
     Rgb emission_{0.0f};
     Rgb mean_emission_{0.0f};
     SideMedia within_;

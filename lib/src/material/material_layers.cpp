@@ -128,8 +128,7 @@ Bsdf MaterialLayers::bsdf(const ShadingPoint& point, const Frame& shading,
                           const GltfParameters& base) const noexcept
 {
     const bool is_mapped = shading.z != point.ns;
-    LayeredParameters layers{.base = base,
-                             .constants = &constants_[static_cast<std::size_t>(point.wavelength)]};
+    LayeredParameters layers(base, constants_[static_cast<std::size_t>(point.wavelength)]);
     Frame frame = shading;
     if (anisotropy_.strength > 0.0f) {
         frame = add_anisotropy(point, shading, layers);
@@ -146,8 +145,9 @@ Bsdf MaterialLayers::bsdf(const ShadingPoint& point, const Frame& shading,
     if (transmission_.factor > 0.0f) {
         add_transmission(point, layers);
     }
-    return is_mapped ? Bsdf(point.ng, point.ns, frame, point.wo, layers)
-                     : Bsdf(point.ng, frame, point.wo, layers);
+    const Layered model(layers);
+    return is_mapped ? Bsdf(point.ng, point.ns, frame, point.wo, model)
+                     : Bsdf(point.ng, frame, point.wo, model);
 }
 
 }  // namespace bdpt

@@ -5,7 +5,7 @@
 #include "material/layers.h"
 #include "material/normal_map.h"
 #include "material/shading_point.h"
-#include "material/texture.h"
+#include "texture/texture.h"
 
 #include <bdpt/scene_desc.h>
 
@@ -14,7 +14,7 @@
 
 namespace bdpt {
 
-/// Does the material need more than a `GltfBsdf`?
+/// Does the material need more than a `PlainModel`?
 [[nodiscard]] bool has_layers(const MaterialDesc& desc);
 
 /// The factors and maps of a material's layers. Refers to the images and tables, which must outlive

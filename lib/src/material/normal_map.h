@@ -1,7 +1,7 @@
 #pragma once
 
 #include "material/shading_point.h"
-#include "material/texture.h"
+#include "texture/texture.h"
 
 #include <optional>
 

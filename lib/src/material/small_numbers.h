@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstdint>
 
 namespace bdpt {
@@ -34,6 +36,21 @@ private:
     Unit16 r_;
     Unit16 g_;
     Unit16 b_;
+};
+
+/// A pointer that needs no alignment of its own, so that it leaves no gap among numbers.
+template <typename T>
+class PackedPointer {
+public:
+    PackedPointer() = default;
+    explicit PackedPointer(T* pointer) : bits_(std::bit_cast<Bits>(pointer)) {}
+    [[nodiscard]] T* get() const { return std::bit_cast<T*>(bits_); }
+    [[nodiscard]] T& operator*() const { return *get(); }
+    [[nodiscard]] T* operator->() const { return get(); }
+
+private:
+    using Bits = std::array<std::uint32_t, sizeof(T*) / sizeof(std::uint32_t)>;
+    Bits bits_{};
 };
 
 /// A unit vector in 48 bits; exact along the axes, else right to 3e-5 rad.

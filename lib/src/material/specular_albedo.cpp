@@ -1,6 +1,6 @@
 #include "material/specular_albedo.h"
 
-#include "material/ggx.h"
+#include "material/lobes/ggx.h"
 
 #include <cmath>
 #include <cstddef>

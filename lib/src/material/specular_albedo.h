@@ -1,6 +1,6 @@
 #pragma once
 
-#include "material/fresnel.h"
+#include "material/lobes/fresnel.h"
 
 #include <algorithm>
 #include <array>
@@ -35,47 +35,50 @@ public:
 
     /// Where a roughness lies in the tables.
     struct Roughness {
-        int row = 0;
-        float fraction = 0.0f;
+        float row = 0.0f;
     };
 
     /// Of a perceptual roughness in [0, 1].
     [[nodiscard]] static Roughness at_roughness(float roughness)
     {
-        const Position p = position(roughness, roughness_nodes);
-        return {p.node, p.fraction};
+        return {scaled(roughness, roughness_nodes)};
     }
 
     /// Of light from a direction with this cosine in [0, 1].
     [[nodiscard]] Split directional(float cosine, Roughness roughness) const noexcept
     {
-        const Position p = position(std::sqrt(cosine), cosine_nodes);
-        const Split* lower = table_.data() + roughness.row * cosine_nodes + p.node;
+        const Position p = position(scaled(std::sqrt(cosine), cosine_nodes), cosine_nodes);
+        const Position r = position(roughness.row, roughness_nodes);
+        const Split* lower = table_.data() + r.node * cosine_nodes + p.node;
         const Split* upper = lower + cosine_nodes;
         return mix(mix(lower[0], lower[1], p.fraction), mix(upper[0], upper[1], p.fraction),
-                   roughness.fraction);
+                   r.fraction);
     }
 
     /// The cosine-weighted average of `directional` over the hemisphere.
     [[nodiscard]] Split average(Roughness roughness) const noexcept
     {
-        const Split* row = average_.data() + roughness.row;
-        return mix(row[0], row[1], roughness.fraction);
+        const Position r = position(roughness.row, roughness_nodes);
+        const Split* row = average_.data() + r.node;
+        return mix(row[0], row[1], r.fraction);
     }
 
 private:
     static constexpr int cosine_nodes = 64;
     static constexpr int roughness_nodes = 32;
 
-    /// Where a value in [0, 1] lies among evenly spaced nodes.
+    /// Where a value in [0, 1] lies among evenly spaced nodes: between which two, and how far.
     struct Position {
         int node;
         float fraction;
     };
 
-    [[nodiscard]] static Position position(float value, int nodes)
+    [[nodiscard]] static float scaled(float value, int nodes)
     {
-        const float scaled = std::clamp(value, 0.0f, 1.0f) * static_cast<float>(nodes - 1);
+        return std::clamp(value, 0.0f, 1.0f) * static_cast<float>(nodes - 1);
+    }
+    [[nodiscard]] static Position position(float scaled, int nodes)
+    {
         const int node = std::min(static_cast<int>(scaled), nodes - 2);
         return {node, scaled - static_cast<float>(node)};
     }

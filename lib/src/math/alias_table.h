@@ -1,7 +1,10 @@
 #pragma once
 
+#include "math/select.h"
+
 #include <bdpt/types.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -39,6 +42,22 @@ public:
     /// `u` in [0, 1). A float has 24 bits, enough for some thousand items; give `fine_uniform` for
     /// more. Never draws an index of zero weight. An empty table gives index 0 of probability 0.
     [[nodiscard]] Choice sample(double u) const noexcept;
+    /// The same for tables of a few items that are not empty, where `u` has digits enough.
+    [[nodiscard]] Choice sample_coarse(float u) const noexcept
+    {
+        constexpr float below_one = 1.0f - 0x1p-24f;
+        const float scaled = u * static_cast<float>(buckets_.size());
+        const auto last = static_cast<std::int32_t>(buckets_.size()) - 1;
+        const std::int32_t slot = std::min(static_cast<std::int32_t>(scaled), last);
+        const Bucket& bucket = buckets_[static_cast<std::size_t>(slot)];
+        const float within = scaled - static_cast<float>(slot);
+        // Which part it is is up to chance, so it must not be a branch.
+        const bool own = within < bucket.threshold;
+        const std::uint32_t index = own ? static_cast<std::uint32_t>(slot) : bucket.alias;
+        const float start = select(own, 0.0f, bucket.threshold);
+        const float size = select(own, bucket.threshold, 1.0f - bucket.threshold);
+        return {index, buckets_[index].probability, std::min((within - start) / size, below_one)};
+    }
     /// Of drawing `index`, which is less than size().
     [[nodiscard]] float probability(std::size_t index) const noexcept
     {

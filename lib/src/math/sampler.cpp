@@ -54,8 +54,13 @@ void Sampler::fill()
     if (kind_ == SamplerKind::sobol) {
         const std::uint32_t order = high_word(bits(next_set_, 2));
         const Sobol4 point = sobol_table[shuffled(reversed_index_, order)];
-        for (std::size_t d = 0; d < set_size; ++d) {
-            set[d] = reverse_bits(permute_upwards(point[d], set[d]));
+        for (std::size_t d = 0; d < set_size; d += 2) {
+            // Two at once; reversed together they change places.
+            const std::uint64_t pair =
+                reverse_bits(std::uint64_t{permute_upwards(point[d], set[d])} << 32U |
+                             permute_upwards(point[d + 1], set[d + 1]));
+            set[d] = low_word(pair);
+            set[d + 1] = high_word(pair);
         }
     }
     for (std::size_t d = 0; d < set_size; ++d) {

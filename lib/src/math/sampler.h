@@ -15,12 +15,12 @@ namespace bdpt {
 /// What random numbers are for. Each use of each path vertex has dimensions of its own, so that
 /// what one part of a sample consumes cannot shift another.
 enum class SampleUse : std::uint32_t {
-    film,         ///< where in the pixel; at a light vertex: which pixel its splat counts for
-    camera_walk,  ///< scattering at a vertex of the camera subpath
-    next_event,   ///< a light point for a vertex of the camera subpath
-    light_start,  ///< light, point and direction of the light subpath
-    light_walk,   ///< scattering at a vertex of the light subpath
-    lens,         ///< a lens point: of the camera subpath (0), for a vertex of the light subpath
+    film,           ///< where in the pixel; at a light vertex: which pixel its splat counts for
+    camera_walk,    ///< at a vertex of the camera subpath: a direction, then a point on a light
+    camera_choice,  ///< at such a vertex: which lobe, which light, whether the walk goes on
+    light_start,    ///< point and direction of the light subpath, then which light
+    light_walk,     ///< at a vertex of the light subpath: direction, lobe, whether it goes on
+    lens,           ///< a lens point: of the camera subpath (0), for a vertex of the light subpath
 };
 
 /// Random numbers of one pixel sample, a pure function of (kind, seed, pixel, sample index, use,
@@ -71,16 +71,8 @@ public:
         const std::uint64_t number = std::uint64_t{1} << 63U |
                                      std::uint64_t{static_cast<std::uint32_t>(s)} << 32U |
                                      static_cast<std::uint32_t>(t);
-        return {split_mix(key_ + golden_ratio_64 * number + split_mix(reversed_index_)),
-                wavelength_, time_};
+        return {key_ + golden_ratio_64 * number + split_mix(reversed_index_)};
     }
-
-    /// Of the sample; green until it is chosen.
-    [[nodiscard]] Wavelength wavelength() const { return wavelength_; }
-    void set_wavelength(Wavelength wavelength) { wavelength_ = wavelength; }
-    /// Of the sample, in [0, 1] while the shutter is open; 0 until it is chosen.
-    [[nodiscard]] float time() const { return time_; }
-    void set_time(float time) { time_ = time; }
 
 private:
     static constexpr std::size_t set_size = 4;
@@ -120,8 +112,6 @@ private:
     std::size_t next_ = set_size;
     std::uint32_t reversed_index_ = 0;  ///< of the point in its sequence
     SamplerKind kind_;
-    Wavelength wavelength_ = Wavelength::green;
-    float time_ = 0.0f;
     std::array<float, set_size> set_{};
 };
 

@@ -10,7 +10,7 @@ namespace bdpt {
 /// Names one segment of one sample among all others (`Sampler::segment_key`). What happens to a ray
 /// on its way, where it may pass surfaces, is a function of the key and of the surface alone.
 struct SegmentKey {
-    std::uint64_t value = 0;
+    std::uint64_t value = 0;                    ///< mixed only when a surface asks
     Wavelength wavelength = Wavelength::green;  ///< of the whole sample
     float time = 0.0f;  ///< of the whole sample, in [0, 1] while the shutter is open
 
@@ -19,7 +19,7 @@ struct SegmentKey {
                                              std::uint32_t triangle) const noexcept
     {
         const std::uint64_t surface = std::uint64_t{instance} << 32U | triangle;
-        const std::uint64_t bits = split_mix(value + golden_ratio_64 * surface);
+        const std::uint64_t bits = split_mix(split_mix(value) + golden_ratio_64 * surface);
         return static_cast<float>(static_cast<std::int32_t>(bits >> 40U)) * 0x1p-24f;
     }
 };

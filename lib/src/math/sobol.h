@@ -20,6 +20,14 @@ using Sobol4 = std::array<std::uint32_t, 4>;
     return (x & 0x55555555U) << 1U | (x >> 1U & 0x55555555U);
 }
 
+[[nodiscard]] constexpr std::uint64_t reverse_bits(std::uint64_t x)
+{
+    x = __builtin_bswap64(x);
+    x = (x & 0x0f0f0f0f0f0f0f0fU) << 4U | (x >> 4U & 0x0f0f0f0f0f0f0f0fU);
+    x = (x & 0x3333333333333333U) << 2U | (x >> 2U & 0x3333333333333333U);
+    return (x & 0x5555555555555555U) << 1U | (x >> 1U & 0x5555555555555555U);
+}
+
 /// A random permutation in which bits are changed by those below them alone: between two
 /// reversals of bits it is a nested uniform scramble [Owen 1995, "Randomly Permuted (t,m,s)-Nets
 /// and (t,s)-Sequences"]. The idea is that of Laine and Karras [2011, "Stratified Sampling for

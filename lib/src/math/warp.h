@@ -2,6 +2,7 @@
 
 #include "math/elementary.h"
 #include "math/pdf.h"
+#include "math/select.h"
 
 #include <bdpt/types.h>
 
@@ -19,15 +20,14 @@ namespace bdpt {
 {
     const float a = 2.0f * u.x - 1.0f;
     const float b = 2.0f * u.y - 1.0f;
+    // Which is larger is up to chance, so it must not be a branch.
     const bool wide = std::abs(a) > std::abs(b);
-    const float radius = wide ? a : b;
-    if (radius == 0.0f) {
-        return {0.0f, 0.0f};
-    }
-    const float offset = 0.25f * pi * (wide ? b : a) / radius;
-    const SinCos angle = sin_cos(offset);
-    return wide ? Vec2{radius * angle.cos, radius * angle.sin}
-                : Vec2{radius * angle.sin, radius * angle.cos};
+    const float radius = select(wide, a, b);
+    const float divisor = select(radius == 0.0f, 1.0f, radius);
+    const SinCos angle = sin_cos_eighth(0.25f * pi * select(wide, b, a) / divisor);
+    const float across = radius * angle.cos;
+    const float along = radius * angle.sin;
+    return {select(wide, across, along), select(wide, along, across)};
 }
 
 [[nodiscard]] constexpr AreaPdf disk_pdf()
@@ -51,12 +51,8 @@ namespace bdpt {
 /// Low-Distortion Map Between Triangle and Square"].
 [[nodiscard]] inline Vec2 square_to_triangle(Vec2 u)
 {
-    if (u.y > u.x) {
-        const float half = 0.5f * u.x;
-        return {half, u.y - half};
-    }
-    const float half = 0.5f * u.y;
-    return {u.x - half, half};
+    const float half = 0.5f * std::min(u.x, u.y);
+    return {u.x - half, u.y - half};
 }
 
 /// The inverse of `square_to_triangle`.

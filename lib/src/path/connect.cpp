@@ -1,8 +1,7 @@
 #include "path/connect.h"
 
-#include "camera/camera.h"
 #include "math/rgb.h"
-#include "math/sampler.h"
+#include "path/densities.h"
 
 #include <glm/geometric.hpp>
 
@@ -30,53 +29,57 @@ AreaPdf at_end(SolidAnglePdf pdf, const SegmentEnd& end, Vec3 w, float distance_
 
 }  // namespace
 
-template <typename Probe>
-std::optional<Contribution> hit_light(const World& world, std::span<const PathVertex> camera,
-                                      PathWeigher& weigher, Probe& probe)
+std::optional<Contribution> hit_light(const SampleContext& sample,
+                                      std::span<const PathVertex> camera, PathWeigher& weigher)
 {
     const PathVertex& x0 = camera.back();
     const Rgb value = x0.beta * x0.emission;
     if (!x0.light || is_black(value)) {
         return std::nullopt;
     }
-    probe.enter(Phase::weigh);
+    sample.enter(Phase::weigh);
     const PathVertex& x1 = before_last(camera);
-    const LightDensities densities = light_densities(world, x0, x1.end, weigher.time());
-    return Contribution{.unweighted = value,
-                        .weight = weigher.weight(
-                            {}, camera,
-                            {.light_at_camera_end = densities.emit,
-                             .light_at_camera_neighbor = densities.to_next,
-                             .camera_at_light_end = {},
-                             .camera_at_light_neighbor = {},
-                             .next_event = next_event_density(
-                                 world, x0, x1, weigher.next_event_sampling(), weigher.time())})};
+    const LightDensities densities = light_densities(sample, x0, x1.end);
+    return Contribution{
+        .unweighted = value,
+        .weight = weigher.weight(
+            {}, camera,
+            {.light_at_camera_end = densities.emit,
+             .light_at_camera_neighbor = densities.to_next,
+             .camera_at_light_end = {},
+             .camera_at_light_neighbor = {},
+             .next_event = next_event_density(sample, x0, x1, weigher.next_event_sampling())}),
+        .dispersed = x0.dispersed};
 }
 
-template <typename Probe>
-std::optional<Contribution> connect_to_light(const World& world, std::span<const PathVertex> camera,
-                                             Sampler& sampler, PathWeigher& weigher,
-                                             RayCounts& rays, Probe& probe)
+std::optional<Contribution> connect_to_light(SampleContext& sample,
+                                             std::span<const PathVertex> camera,
+                                             PathWeigher& weigher)
 {
+    const World& world = sample.world;
+    Sampler& sampler = sample.sampler;
     const PathVertex& z = camera.back();
     if (z.kind != VertexKind::surface || !z.connectible) {
         return std::nullopt;
     }
-    sampler.start(SampleUse::next_event, static_cast<std::uint32_t>(camera.size()));
-    const Vec2 u_position = sampler.next_2d();
     const NextEventSampling sampling = weigher.next_event_sampling();
+    const auto draw_fine = [&] {
+        sampler.start(SampleUse::camera_choice, static_cast<std::uint32_t>(camera.size()));
+        static_cast<void>(sampler.next_1d());  // chose the lobe
+        return sampler.next_fine();
+    };
     const auto choice = world.lights().choose_for_receiver([&z] { return light_receiver(z); },
-                                                           sampler.next_fine(), sampling.lights);
+                                                           z.u_light, draw_fine, sampling.lights);
     if (!choice) {
         return std::nullopt;
     }
     const Light& light = world.lights()[choice->id];
     const auto incident =
-        light.sample_incident(z.end.p, u_position, sampling.environments, weigher.time());
+        light.sample_incident(z.end.p, choice->u, sampling.environments, sample.time);
     if (!incident) {
         return std::nullopt;
     }
-    const BsdfEval f = z.bsdf.eval(incident->wi, TransportMode::radiance);
+    const BsdfEval f = z.bsdf->eval(incident->wi, TransportMode::radiance);
     Rgb value = z.beta * f.f_cos * incident->weight / choice->probability;
     if (is_black(value)) {
         return std::nullopt;
@@ -91,15 +94,15 @@ std::optional<Contribution> connect_to_light(const World& world, std::span<const
         x0.end = incident->end;
         x0.barycentrics = incident->barycentrics;
     }
-    ++rays.shadow;
-    const SegmentKey segment = sampler.segment_key(1, static_cast<int>(camera.size()));
+    ++sample.rays.shadow;
+    const SegmentKey segment = sample.segment(1, static_cast<int>(camera.size()));
     value *= light.is_infinite() ? world.transmittance_to_infinity(z.end, incident->wi, segment)
                                  : world.transmittance(z.end, x0.end, segment);
     if (is_black(value)) {
         return std::nullopt;
     }
-    probe.enter(Phase::weigh);
-    const LightDensities densities = light_densities(world, x0, z.end, weigher.time());
+    sample.enter(Phase::weigh);
+    const LightDensities densities = light_densities(sample, x0, z.end);
     x0.pdf_fwd = densities.emit;
     const AreaPdf from_camera =
         light.is_infinite()
@@ -113,26 +116,29 @@ std::optional<Contribution> connect_to_light(const World& world, std::span<const
                             .light_at_camera_neighbor = at_neighbor(f.pdf_rev, before_last(camera)),
                             .camera_at_light_end = from_camera,
                             .camera_at_light_neighbor = {},
-                            .next_event = incident->pdf * choice->probability})};
+                            .next_event = incident->pdf * choice->probability}),
+        .dispersed = z.dispersed};
 }
 
-template <typename Probe>
-std::optional<Splat> connect_light_to_lens(const World& world, const Camera& camera,
-                                           Sampler& sampler, PathWeigher& weigher, RayCounts& rays,
-                                           Probe& probe)
+std::optional<Splat> connect_light_to_lens(SampleContext& sample, PathWeigher& weigher)
 {
+    const World& world = sample.world;
+    const Camera& camera = sample.camera;
+    Sampler& sampler = sample.sampler;
     sampler.start(SampleUse::lens, 1);
     const Vec2 u_lens = camera.has_finite_lens() ? sampler.next_2d() : Vec2(0.0f);
     // The lens is the receiver; where on it is settled before the light is chosen.
     const SegmentEnd receiver = camera.generate_ray(Vec2(0.0f), u_lens).lens;
-    sampler.start(SampleUse::next_event, 1);
+    sampler.start(SampleUse::camera_choice, 1);
+    const Vec2 u = sampler.next_2d();
     const auto choice = world.lights().choose_for_receiver(
-        LightReceiver{.p = receiver.p}, sampler.next_fine(), weigher.next_event_sampling().lights);
+        LightReceiver{.p = receiver.p}, u, [&sampler] { return sampler.next_fine(); },
+        weigher.next_event_sampling().lights);
     if (!choice || !can_be_seen_directly(world.lights()[choice->id], camera)) {
         return std::nullopt;
     }
     const auto incident = world.lights()[choice->id].sample_incident(
-        receiver.p, sampler.next_2d(), EnvironmentSampling::plain, weigher.time());
+        receiver.p, choice->u, EnvironmentSampling::plain, sample.time);
     if (!incident) {
         return std::nullopt;
     }
@@ -144,18 +150,18 @@ std::optional<Splat> connect_light_to_lens(const World& world, const Camera& cam
     if (is_black(value)) {
         return std::nullopt;
     }
-    ++rays.shadow;
-    value *= world.transmittance(incident->end, to_lens->lens, sampler.segment_key(1, 1));
+    ++sample.rays.shadow;
+    value *= world.transmittance(incident->end, to_lens->lens, sample.segment(1, 1));
     if (is_black(value)) {
         return std::nullopt;
     }
-    probe.enter(Phase::weigh);
+    sample.enter(Phase::weigh);
     PathVertex x0;
     x0.light = choice->id;
     x0.kind = VertexKind::light;
     x0.end = incident->end;
     x0.barycentrics = incident->barycentrics;
-    const LightDensities densities = light_densities(world, x0, to_lens->lens, weigher.time());
+    const LightDensities densities = light_densities(sample, x0, to_lens->lens);
     x0.pdf_fwd = densities.emit;
     PathVertex lens;
     lens.kind = VertexKind::camera;
@@ -170,15 +176,15 @@ std::optional<Splat> connect_light_to_lens(const World& world, const Camera& cam
                             at_end(to_lens->pdf_direction, x0.end, to_lens->wi, distance_squared),
                         .camera_at_light_neighbor = {},
                         .next_event = incident->pdf * choice->probability});
-    return Splat{.contribution = {.unweighted = value, .weight = weight},
+    return Splat{.contribution = {.unweighted = value, .weight = weight, .dispersed = false},
                  .raster = to_lens->raster};
 }
 
-template <typename Probe>
-std::optional<Splat> connect_to_lens(const World& world, const Camera& camera,
-                                     std::span<const PathVertex> light, Sampler& sampler,
-                                     PathWeigher& weigher, RayCounts& rays, Probe& probe)
+std::optional<Splat> connect_to_lens(SampleContext& sample, std::span<const PathVertex> light,
+                                     PathWeigher& weigher)
 {
+    const Camera& camera = sample.camera;
+    Sampler& sampler = sample.sampler;
     const PathVertex& y = light.back();
     if (!y.connectible) {
         return std::nullopt;
@@ -189,18 +195,18 @@ std::optional<Splat> connect_to_lens(const World& world, const Camera& camera,
     if (!to_lens) {
         return std::nullopt;
     }
-    const BsdfEval f = y.bsdf.eval(to_lens->wi, TransportMode::importance);
+    const BsdfEval f = y.bsdf->eval(to_lens->wi, TransportMode::importance);
     Rgb value = y.beta * f.f_cos * to_lens->weight;
     if (is_black(value)) {
         return std::nullopt;
     }
-    ++rays.shadow;
-    value *= world.transmittance(y.end, to_lens->lens,
-                                 sampler.segment_key(static_cast<int>(light.size()), 1));
+    ++sample.rays.shadow;
+    value *= sample.world.transmittance(y.end, to_lens->lens,
+                                        sample.segment(static_cast<int>(light.size()), 1));
     if (is_black(value)) {
         return std::nullopt;
     }
-    probe.enter(Phase::weigh);
+    sample.enter(Phase::weigh);
     const float distance_squared = to_lens->distance * to_lens->distance;
     const float cosine = std::abs(dot(y.end.ng, to_lens->wi));
     PathVertex lens;
@@ -216,24 +222,23 @@ std::optional<Splat> connect_to_lens(const World& world, const Camera& camera,
                                     : to_area(to_lens->pdf_direction, cosine, distance_squared),
          .camera_at_light_neighbor = at_neighbor(f.pdf_rev, before_last(light)),
          .next_event = light[0].pdf_next_event});
-    return Splat{.contribution = {.unweighted = value, .weight = weight},
+    return Splat{.contribution = {.unweighted = value, .weight = weight, .dispersed = y.dispersed},
                  .raster = to_lens->raster};
 }
 
-template <typename Probe>
-std::optional<Splat> hit_lens(const World& world, const Subpath& light_path,
-                              const LensCrossing& crossing, PathWeigher& weigher, Probe& probe)
+std::optional<Splat> hit_lens(const SampleContext& sample, const Subpath& light_path,
+                              const LensCrossing& crossing, PathWeigher& weigher)
 {
     const Rgb value = crossing.lens.beta * crossing.importance;
     if (is_black(value)) {
         return std::nullopt;
     }
-    probe.enter(Phase::weigh);
+    sample.enter(Phase::weigh);
     const auto light = light_path.first(crossing.light_vertices);
     const AreaPdf next_event =
-        light.size() > 1 ? light[0].pdf_next_event
-                         : next_event_density(world, light[0], crossing.lens,
-                                              weigher.next_event_sampling(), weigher.time());
+        light.size() > 1
+            ? light[0].pdf_next_event
+            : next_event_density(sample, light[0], crossing.lens, weigher.next_event_sampling());
     const AreaPdf neighbor = light.size() > 1 ? before_last(light).pdf_rev : AreaPdf{};
     const float weight = weigher.weight_of_hit(light, crossing.lens,
                                                {.light_at_camera_end = crossing.lens.pdf_rev,
@@ -241,14 +246,16 @@ std::optional<Splat> hit_lens(const World& world, const Subpath& light_path,
                                                 .camera_at_light_end = crossing.camera_at_light_end,
                                                 .camera_at_light_neighbor = neighbor,
                                                 .next_event = next_event});
-    return Splat{.contribution = {.unweighted = value, .weight = weight},
+    return Splat{.contribution = {.unweighted = value,
+                                  .weight = weight,
+                                  .dispersed = light.back().dispersed},
                  .raster = crossing.raster};
 }
 
-template <typename Probe>
-std::optional<Contribution> connect_interior(const World& world, std::span<const PathVertex> light,
-                                             std::span<const PathVertex> camera, SegmentKey segment,
-                                             PathWeigher& weigher, RayCounts& rays, Probe& probe)
+std::optional<Contribution> connect_interior(const SampleContext& sample,
+                                             std::span<const PathVertex> light,
+                                             std::span<const PathVertex> camera,
+                                             PathWeigher& weigher)
 {
     const PathVertex& y = light.back();
     const PathVertex& z = camera.back();
@@ -261,21 +268,23 @@ std::optional<Contribution> connect_interior(const World& world, std::span<const
         return std::nullopt;
     }
     const Vec3 wi = to_y / std::sqrt(distance_squared);
-    const BsdfEval f_z = z.bsdf.eval(wi, TransportMode::radiance);
+    const BsdfEval f_z = z.bsdf->eval(wi, TransportMode::radiance);
     if (is_black(f_z.f_cos)) {
         return std::nullopt;
     }
-    const BsdfEval f_y = y.bsdf.eval(-wi, TransportMode::importance);
+    const BsdfEval f_y = y.bsdf->eval(-wi, TransportMode::importance);
     Rgb value = z.beta * f_z.f_cos * f_y.f_cos * y.beta / distance_squared;
     if (is_black(value)) {
         return std::nullopt;
     }
-    ++rays.shadow;
-    value *= world.transmittance(z.end, y.end, segment);
+    ++sample.rays.shadow;
+    value *= sample.world.transmittance(
+        z.end, y.end,
+        sample.segment(static_cast<int>(light.size()), static_cast<int>(camera.size())));
     if (is_black(value)) {
         return std::nullopt;
     }
-    probe.enter(Phase::weigh);
+    sample.enter(Phase::weigh);
     return Contribution{
         .unweighted = value,
         .weight = weigher.weight(
@@ -284,37 +293,8 @@ std::optional<Contribution> connect_interior(const World& world, std::span<const
              .light_at_camera_neighbor = at_neighbor(f_z.pdf_rev, before_last(camera)),
              .camera_at_light_end = at_end(f_z.pdf_fwd, y.end, wi, distance_squared),
              .camera_at_light_neighbor = at_neighbor(f_y.pdf_rev, before_last(light)),
-             .next_event = light[0].pdf_next_event})};
+             .next_event = light[0].pdf_next_event}),
+        .dispersed = y.dispersed || z.dispersed};
 }
-
-template std::optional<Contribution> hit_light(const World&, std::span<const PathVertex>,
-                                               PathWeigher&, NoProbe&);
-template std::optional<Contribution> hit_light(const World&, std::span<const PathVertex>,
-                                               PathWeigher&, PhaseClock&);
-template std::optional<Contribution> connect_to_light(const World&, std::span<const PathVertex>,
-                                                      Sampler&, PathWeigher&, RayCounts&, NoProbe&);
-template std::optional<Contribution> connect_to_light(const World&, std::span<const PathVertex>,
-                                                      Sampler&, PathWeigher&, RayCounts&,
-                                                      PhaseClock&);
-template std::optional<Splat> connect_light_to_lens(const World&, const Camera&, Sampler&,
-                                                    PathWeigher&, RayCounts&, NoProbe&);
-template std::optional<Splat> connect_light_to_lens(const World&, const Camera&, Sampler&,
-                                                    PathWeigher&, RayCounts&, PhaseClock&);
-template std::optional<Splat> connect_to_lens(const World&, const Camera&,
-                                              std::span<const PathVertex>, Sampler&, PathWeigher&,
-                                              RayCounts&, NoProbe&);
-template std::optional<Splat> connect_to_lens(const World&, const Camera&,
-                                              std::span<const PathVertex>, Sampler&, PathWeigher&,
-                                              RayCounts&, PhaseClock&);
-template std::optional<Splat> hit_lens(const World&, const Subpath&, const LensCrossing&,
-                                       PathWeigher&, NoProbe&);
-template std::optional<Splat> hit_lens(const World&, const Subpath&, const LensCrossing&,
-                                       PathWeigher&, PhaseClock&);
-template std::optional<Contribution> connect_interior(const World&, std::span<const PathVertex>,
-                                                      std::span<const PathVertex>, SegmentKey,
-                                                      PathWeigher&, RayCounts&, NoProbe&);
-template std::optional<Contribution> connect_interior(const World&, std::span<const PathVertex>,
-                                                      std::span<const PathVertex>, SegmentKey,
-                                                      PathWeigher&, RayCounts&, PhaseClock&);
 
 }  // namespace bdpt

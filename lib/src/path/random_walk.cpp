@@ -1,8 +1,6 @@
 #include "path/random_walk.h"
 
-#include "camera/camera.h"
 #include "math/rgb.h"
-#include "math/sampler.h"
 #include "path/densities.h"
 
 #include <glm/geometric.hpp>
@@ -27,7 +25,8 @@ struct Step {
     SolidAnglePdf pdf;
     /// Set for the first step from a light at infinity, which has no density of directions.
     std::optional<PlanarPdf> pdf_plane;
-    SegmentEnd origin;  ///< where the ray starts: the last vertex, or the edge of the scene
+    /// Where the ray starts: the last vertex, or the edge of the scene.
+    const SegmentEnd* origin = nullptr;
 };
 
 /// Camera walks end on the environment, which light walks cannot see.
@@ -42,7 +41,7 @@ void append_environment(const World& world, const Step& step, Subpath& path)
     vertex.kind = VertexKind::infinite;
     vertex.light = id;
     vertex.end.p = step.direction;
-    vertex.beta = step.beta * medium_transmittance(step.origin, {}, step.direction,
+    vertex.beta = step.beta * medium_transmittance(*step.origin, {}, step.direction,
                                                    std::numeric_limits<float>::max());
     vertex.emission = light.radiance(step.direction);
     vertex.pdf_fwd = {step.pdf.value};
@@ -51,15 +50,15 @@ void append_environment(const World& world, const Step& step, Subpath& path)
 void append_surface(const SurfacePoint& point, float distance_squared, const Step& step,
                     Subpath& path)
 {
-    PathVertex& previous = path[path.size() - 1];
+    PathVertex& previous = path.back();
     PathVertex& vertex = path.append();
     vertex.end = point.end;
-    vertex.beta = step.beta * medium_transmittance(step.origin, point.end, step.direction,
+    vertex.beta = step.beta * medium_transmittance(*step.origin, point.end, step.direction,
                                                    std::sqrt(distance_squared));
     vertex.emission = point.emission;
     vertex.light = point.light;
     vertex.barycentrics = point.barycentrics;
-    vertex.bsdf = point.bsdf;
+    vertex.bsdf = &point.bsdf;
     vertex.connectible = point.bsdf.connectible();
     vertex.dispersed = previous.dispersed || point.disperses;
     const float cosine = std::abs(dot(point.end.ng, step.direction));
@@ -73,24 +72,24 @@ void append_surface(const SurfacePoint& point, float distance_squared, const Ste
 
 /// Everything of a walk that does not change on its way.
 struct Walk {
-    const World& world;
-    const Camera* lens;  ///< of light walks: where they may cross it
-    const PixelCone& pixel;
     TransportMode mode;
     SampleUse use;
     WalkLimits limits;
+    std::uint64_t& rays;  ///< counts those of this walk
+
+    [[nodiscard]] bool from_camera() const { return mode == TransportMode::radiance; }
 };
 
 /// Records that `step` crosses the lens before it ends, after `free_distance`.
 void look_for_lens(const Camera& camera, const Step& step, float free_distance, Subpath& path)
 {
-    const auto hit = camera.hit_lens(step.origin.p, step.direction);
+    const auto hit = camera.hit_lens(step.origin->p, step.direction);
     if (!hit || hit->distance >= free_distance || hit->distance * hit->distance < coincident) {
         return;
     }
     const float distance_squared = hit->distance * hit->distance;
     const float cosine = std::abs(dot(hit->lens.ng, step.direction));
-    const PathVertex& last = path[path.size() - 1];
+    const PathVertex& last = path.back();
     LensCrossing crossing;
     crossing.light_vertices = path.size();
     crossing.raster = hit->raster;
@@ -104,7 +103,7 @@ void look_for_lens(const Camera& camera, const Step& step, float free_distance, 
     lens.kind = VertexKind::camera;
     lens.end = hit->lens;
     lens.beta =
-        step.beta * medium_transmittance(step.origin, hit->lens, step.direction, hit->distance);
+        step.beta * medium_transmittance(*step.origin, hit->lens, step.direction, hit->distance);
     // Both densities of the lens: as the walk found it, and as a camera path starts.
     lens.pdf_rev = step.pdf_plane ? to_area(*step.pdf_plane, cosine)
                                   : to_area(step.pdf, cosine, distance_squared);
@@ -114,35 +113,52 @@ void look_for_lens(const Camera& camera, const Step& step, float free_distance, 
 
 /// Ends a walk by chance in proportion to what it has lost since `full`. The survivors are worth
 /// more in return; no density knows of it, so that all strategies are treated alike.
-bool survives(Rgb& beta, Rgb full, float u)
+bool survives(Rgb& beta, Rgb full, Sampler& sampler)
 {
-    const float survival = std::min(1.0f, max_component(beta) / max_component(full));
-    if (u >= survival) {
+    const float survival = max_component(beta) / max_component(full);
+    if (survival >= 1.0f) {
+        return true;
+    }
+    if (sampler.next_1d() >= survival) {
         return false;
     }
     beta /= survival;
     return true;
 }
 
+/// The first surface on the way of `step`, in the place of the next vertex of `path`; null if there
+/// is none.
+const SurfacePoint* find_surface(const SampleContext& sample, const Step& step, SegmentKey segment,
+                                 Subpath& path)
+{
+    const auto hit = sample.world.first_hit(*step.origin, step.direction, segment);
+    if (!hit) {
+        return nullptr;
+    }
+    const PhaseScope scope(sample.clock, Phase::shade);
+    return &path.emplace_surface([&] {
+        return sample.world.surface_at(*hit, step.direction, segment, sample.camera.pixel_cone());
+    });
+}
+
 /// Goes on from the first vertex until the path is full, leaves the scene or is absorbed.
-template <typename Probe>
-void walk(const Walk& rules, Step step, Sampler& sampler, Subpath& path, Probe& probe)
+void walk(SampleContext& sample, const Walk& rules, Step step, Subpath& path)
 {
     const Rgb full = step.beta;
-    const bool watches_lens = rules.lens != nullptr && rules.lens->has_finite_lens();
+    const Camera& camera = sample.camera;
+    const bool watches_lens = !rules.from_camera() && camera.has_finite_lens();
     const int max_vertices = rules.limits.max_vertices;
-    const World& world = rules.world;
-    const TransportMode mode = rules.mode;
     // A walk whose vertices are full may still cross the lens.
     while (path.size() < max_vertices || (watches_lens && path.size() == max_vertices)) {
-        path.count_ray();
-        const bool from_camera = mode == TransportMode::radiance;
+        ++rules.rays;
         const SegmentKey segment =
-            sampler.segment_key(from_camera ? 0 : path.size(), from_camera ? path.size() : 0);
-        const auto hit = world.intersect(step.origin, step.direction, segment, rules.pixel, probe);
+            rules.from_camera() ? sample.segment(0, path.size()) : sample.segment(path.size(), 0);
+        // It may take the place of the vertex after the last, which the lens alone is looked for
+        // from.
+        const SurfacePoint* hit = find_surface(sample, step, segment, path);
         if (watches_lens) {
-            look_for_lens(*rules.lens, step,
-                          hit ? glm::distance(hit->end.p, step.origin.p)
+            look_for_lens(camera, step,
+                          hit ? glm::distance(hit->end.p, step.origin->p)
                               : std::numeric_limits<float>::infinity(),
                           path);
         }
@@ -150,12 +166,12 @@ void walk(const Walk& rules, Step step, Sampler& sampler, Subpath& path, Probe& 
             return;
         }
         if (!hit) {
-            if (mode == TransportMode::radiance) {
-                append_environment(world, step, path);
+            if (rules.from_camera()) {
+                append_environment(sample.world, step, path);
             }
             return;
         }
-        const Vec3 along = hit->end.p - step.origin.p;
+        const Vec3 along = hit->end.p - step.origin->p;
         const float distance_squared = dot(along, along);
         if (distance_squared < coincident) {
             return;
@@ -164,10 +180,17 @@ void walk(const Walk& rules, Step step, Sampler& sampler, Subpath& path, Probe& 
         if (path.size() == max_vertices && !watches_lens) {
             return;
         }
-        PathVertex& vertex = path[path.size() - 1];
-        sampler.start(rules.use, static_cast<std::uint32_t>(path.size()));
+        PathVertex& vertex = path.back();
+        Sampler& sampler = sample.sampler;
+        const auto number = static_cast<std::uint32_t>(path.size());
+        sampler.start(rules.use, number);
         const Vec2 u_direction = sampler.next_2d();
-        const auto scattered = vertex.bsdf.sample(sampler.next_1d(), u_direction, mode);
+        if (rules.from_camera()) {
+            vertex.u_light = sampler.next_2d();
+            sampler.start(SampleUse::camera_choice, number);
+        }
+        const float u_lobe = vertex.bsdf->has_one_lobe() ? 0.0f : sampler.next_1d();
+        const auto scattered = vertex.bsdf->sample(u_lobe, u_direction, rules.mode);
         if (!scattered || is_black(scattered->weight)) {
             return;
         }
@@ -178,8 +201,8 @@ void walk(const Walk& rules, Step step, Sampler& sampler, Subpath& path, Probe& 
                 .beta = vertex.beta * scattered->weight,
                 .pdf = scattered->pdf_fwd,
                 .pdf_plane = std::nullopt,
-                .origin = vertex.end};
-        if (path.size() > rules.limits.rr_start && !survives(step.beta, full, sampler.next_1d())) {
+                .origin = &vertex.end};
+        if (path.size() > rules.limits.rr_start && !survives(step.beta, full, sampler)) {
             return;
         }
     }
@@ -187,45 +210,46 @@ void walk(const Walk& rules, Step step, Sampler& sampler, Subpath& path, Probe& 
 
 }  // namespace
 
-template <typename Probe>
-void trace_camera_subpath(const World& world, const Camera& camera, Vec2 raster,
-                          const WalkLimits& limits, Sampler& sampler, Subpath& path, Probe& probe)
+void trace_camera_subpath(SampleContext& sample, Vec2 raster, const WalkLimits& limits,
+                          Subpath& path)
 {
     path.clear();
-    sampler.start(SampleUse::lens);
-    const Vec2 u_lens = camera.has_finite_lens() ? sampler.next_2d() : Vec2(0.0f);
-    const CameraRay ray = camera.generate_ray(raster, u_lens);
+    sample.sampler.start(SampleUse::lens);
+    const Vec2 u_lens = sample.camera.has_finite_lens() ? sample.sampler.next_2d() : Vec2(0.0f);
+    const CameraRay ray = sample.camera.generate_ray(raster, u_lens);
     PathVertex& lens = path.append();
     lens.kind = VertexKind::camera;
     lens.end = ray.lens;
     lens.pdf_fwd = ray.pdf_lens;
-    walk({.world = world,
-          .lens = nullptr,
-          .pixel = camera.pixel_cone(),
-          .mode = TransportMode::radiance,
+    walk(sample,
+         {.mode = TransportMode::radiance,
           .use = SampleUse::camera_walk,
-          .limits = limits},
+          .limits = limits,
+          .rays = sample.rays.camera},
          {.direction = ray.direction,
           .beta = Rgb(1.0f),
           .pdf = ray.pdf_direction,
           .pdf_plane = ray.pdf_plane,
-          .origin = ray.lens},
-         sampler, path, probe);
+          .origin = &lens.end},
+         path);
 }
 
-template <typename Probe>
-void trace_light_subpath(const World& world, const Camera& camera, const WalkLimits& limits,
-                         NextEventSampling sampling, Sampler& sampler, Subpath& path, Probe& probe)
+void trace_light_subpath(SampleContext& sample, const WalkLimits& limits,
+                         NextEventSampling sampling, Subpath& path)
 {
     path.clear();
+    const World& world = sample.world;
+    Sampler& sampler = sample.sampler;
     sampler.start(SampleUse::light_start);
     const Vec2 u_position = sampler.next_2d();
-    const auto choice = world.lights().choose_for_emission(sampler.next_fine());
+    const Vec2 u_direction = sampler.next_2d();
+    const auto choice =
+        world.lights().choose_for_emission(u_position, [&sampler] { return sampler.next_fine(); });
     if (!choice || limits.max_vertices < 1) {
         return;
     }
     const Light& light = world.lights()[choice->id];
-    const auto emitted = light.sample_emission(u_position, sampler.next_2d(), sampler.time());
+    const auto emitted = light.sample_emission(choice->u, u_direction, sample.time);
     if (!emitted || is_black(emitted->weight)) {
         return;
     }
@@ -244,29 +268,19 @@ void trace_light_subpath(const World& world, const Camera& camera, const WalkLim
               .beta = emitted->weight / choice->probability,
               .pdf = emitted->pdf_direction,
               .pdf_plane = std::nullopt,
-              .origin = emitted->end};
+              .origin = &emitted->end};
     if (infinite) {
         step.pdf_plane = world.bounding_sphere().pdf_disk();
     }
-    walk({.world = world,
-          .lens = &camera,
-          .pixel = camera.pixel_cone(),
-          .mode = TransportMode::importance,
+    walk(sample,
+         {.mode = TransportMode::importance,
           .use = SampleUse::light_walk,
-          .limits = limits},
-         step, sampler, path, probe);
+          .limits = limits,
+          .rays = sample.rays.light},
+         step, path);
     if (path.size() > 1) {
-        start.pdf_next_event = next_event_density(world, start, path[1], sampling, sampler.time());
+        start.pdf_next_event = next_event_density(sample, start, path[1], sampling);
     }
 }
-
-template void trace_camera_subpath(const World&, const Camera&, Vec2, const WalkLimits&, Sampler&,
-                                   Subpath&, NoProbe&);
-template void trace_camera_subpath(const World&, const Camera&, Vec2, const WalkLimits&, Sampler&,
-                                   Subpath&, PhaseClock&);
-template void trace_light_subpath(const World&, const Camera&, const WalkLimits&, NextEventSampling,
-                                  Sampler&, Subpath&, NoProbe&);
-template void trace_light_subpath(const World&, const Camera&, const WalkLimits&, NextEventSampling,
-                                  Sampler&, Subpath&, PhaseClock&);
 
 }  // namespace bdpt

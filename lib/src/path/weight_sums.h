@@ -1,6 +1,6 @@
 #pragma once
 
-#include "path/join_densities.h"
+#include "path/path_vertex.h"
 #include "path/strategy_set.h"
 
 #include <span>
@@ -9,6 +9,16 @@
 namespace bdpt {
 
 class Camera;
+
+/// What joining two subpaths adds to the densities that the walks have stored: those of the ends
+/// and of their neighbours, which now see a new vertex.
+struct JoinDensities {
+    AreaPdf light_at_camera_end;       ///< z_{t-1} sampled from y_{s-1}
+    AreaPdf light_at_camera_neighbor;  ///< z_{t-2} sampled from z_{t-1}
+    AreaPdf camera_at_light_end;       ///< y_{s-1} sampled from z_{t-1}
+    AreaPdf camera_at_light_neighbor;  ///< y_{s-2} sampled from y_{s-1}
+    AreaPdf next_event;                ///< x_0 sampled from x_1 by next-event estimation
+};
 
 /// The balance and power heuristics in constant time a join: the share of all strategies that a
 /// subpath could hand vertices over to is summed up once for each of its vertices, and a join adds

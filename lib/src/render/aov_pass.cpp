@@ -35,24 +35,25 @@ RenderStats AovPass::render_tile(const Tile& tile, SampleRange samples, AovFilm&
 std::optional<PrimaryHit> AovPass::first_hit(int x, int y, std::int64_t sample_index) const
 {
     // The random numbers of the integrators' camera rays.
-    Sampler sampler(options_.sampler, options_.seed, x, y, sample_index);
-    const Vec2 raster = start_sample(sampler, filter_, world_, camera_, x, y);
-    const TimedCamera timed(camera_, sampler.time());
+    SampleStart start(options_, filter_, world_, camera_, x, y, sample_index);
+    const TimedCamera timed(camera_, start.time);
     const Camera& camera = timed.get();
-    sampler.start(SampleUse::lens);
-    const Vec2 u_lens = camera.has_finite_lens() ? sampler.next_2d() : Vec2(0.0f);
-    const CameraRay ray = camera.generate_ray(raster, u_lens);
-    NoProbe probe;
-    const auto point = world_.intersect(ray.lens, ray.direction, sampler.segment_key(0, 1),
-                                        camera.pixel_cone(), probe);
-    if (!point) {
+    start.sampler.start(SampleUse::lens);
+    const Vec2 u_lens = camera.has_finite_lens() ? start.sampler.next_2d() : Vec2(0.0f);
+    const CameraRay ray = camera.generate_ray(start.raster, u_lens);
+    SegmentKey segment = start.sampler.segment_key(0, 1);
+    segment.wavelength = start.wavelength;
+    segment.time = start.time;
+    const auto hit = world_.first_hit(ray.lens, ray.direction, segment);
+    if (!hit) {
         return std::nullopt;
     }
-    const Vec3 normal = point->bsdf.shading_normal();
-    return PrimaryHit{.albedo = point->bsdf.base_color(),
+    const SurfacePoint point = world_.surface_at(*hit, ray.direction, segment, camera.pixel_cone());
+    const Vec3 normal = point.bsdf.shading_normal();
+    return PrimaryHit{.albedo = point.bsdf.base_color(),
                       .normal = dot(normal, ray.direction) > 0.0f ? -normal : normal,
-                      .position = point->end.p,
-                      .depth = camera.depth(point->end.p)};
+                      .position = point.end.p,
+                      .depth = camera.depth(point.end.p)};
 }
 
 }  // namespace bdpt

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "camera/pixel_filter.h"
+#include "film/pixel_filter.h"
 #include "integrator/integrator.h"
 
 #include <bdpt/aov_film.h>

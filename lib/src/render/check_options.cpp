@@ -4,6 +4,7 @@
 #include "math/elementary.h"
 
 #include <bdpt/error.h>
+#include <bdpt/integrators.h>
 #include <bdpt/motion.h>
 
 #include <glm/geometric.hpp>
@@ -130,8 +131,7 @@ void check_options(const RenderOptions& options)
     }
     check_range("longest path with images of strategies", options.strategy_depth, 0,
                 max_path_edges);
-    if (options.strategy_depth > 0 && options.integrator != IntegratorKind::bdpt &&
-        options.integrator != IntegratorKind::lt) {
+    if (options.strategy_depth > 0 && !info(options.integrator).has_strategies) {
         throw Error(ErrorCode::usage,
                     "images of strategies (strategy_depth) need the integrator bdpt or lt");
     }

@@ -1,14 +1,15 @@
 #include <bdpt/error.h>
+#include <bdpt/integrators.h>
 #include <bdpt/render.h>
 
 #include "camera/moving_camera.h"
-#include "camera/pixel_filter.h"
+#include "film/pixel_filter.h"
 #include "integrator/integrator.h"
+#include "profile/time_recorder.h"
 #include "render/aov_pass.h"
 #include "render/check_options.h"
 #include "render/flush_denormals.h"
 #include "render/strategy_images.h"
-#include "render/time_recorder.h"
 #include "scene/world.h"
 
 #include <tbb/blocked_range2d.h>
@@ -40,7 +41,7 @@ PixelRect whole_image(const RenderOptions& options)
 
 /// All that works on a tile.
 struct Work {
-    const Integrator& integrator;
+    Integrator& integrator;
     const AovPass& aov_pass;
     const RenderControl& control;
     TimeRecorder* times;  // if times are recorded
@@ -50,10 +51,12 @@ void render_pass(const Work& work, const RenderOptions& options, SampleRange sam
                  RenderResult& result)
 {
     // Each pixel of the whole image has its light path, and any of them can reach a crop.
-    const PixelRect area = work.integrator.splats() ? whole_image(options) : result.film.region();
+    const PixelRect area =
+        info(options.integrator).traces_light_paths ? whole_image(options) : result.film.region();
     const int columns = (area.width() + options.tile_size - 1) / options.tile_size;
     const int rows = (area.height() + options.tile_size - 1) / options.tile_size;
     tbb::combinable<RenderStats> stats_of_threads;
+    work.integrator.begin_pass(samples);
     tbb::parallel_for(
         tbb::blocked_range2d<int>(0, rows, 1, 0, columns, 1),
         [&](const tbb::blocked_range2d<int>& range) {
@@ -80,6 +83,7 @@ void render_pass(const Work& work, const RenderOptions& options, SampleRange sam
             }
         },
         tbb::simple_partitioner{});
+    work.integrator.end_pass();
     stats_of_threads.combine_each([&](const RenderStats& stats) { result.stats += stats; });
     result.film.count_samples(samples.begin, samples.end);
     result.strategies.count_samples(samples.end - samples.begin);
@@ -148,12 +152,13 @@ RenderResult render(const Scene& scene, const CameraDesc& camera_desc, const Ren
 
     Threads threads(options.threads);
 
-    const FilmLayout layout{
-        .width = options.width,
-        .height = options.height,
-        .region = region,
-        .splats = integrator->splats() ? SplatImage::present : SplatImage::absent,
-        .clamp = options.clamp};
+    const FilmLayout layout{.width = options.width,
+                            .height = options.height,
+                            .region = region,
+                            .splats = info(options.integrator).traces_light_paths
+                                          ? SplatImage::present
+                                          : SplatImage::absent,
+                            .clamp = options.clamp};
     RenderResult result{
         .film = Film(layout),
         .aovs = AovFilm(region, options.aovs),

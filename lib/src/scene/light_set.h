@@ -37,6 +37,30 @@ public:
 
     /// In proportion to power; nothing when no light has any.
     [[nodiscard]] std::optional<Choice> choose_for_emission(Vec2 u) const;
+    /// A light, and for a point on it the numbers that are left, uniform in [0, 1)^2.
+    struct ChoiceAndNumbers {
+        LightId id{};
+        float probability = 0.0f;
+        Vec2 u{0.0f};
+    };
+    /// The same where there are so few lights that `u` can do for both; else `draw_fine()` gives
+    /// the number that chooses.
+    template <typename DrawFine>
+    [[nodiscard]] std::optional<ChoiceAndNumbers> choose_for_emission(
+        Vec2 u, const DrawFine& draw_fine) const
+    {
+        if (lights_.size() > few_lights) {
+            const auto choice = choose_for_emission(draw_fine());
+            return choice ? std::optional(ChoiceAndNumbers{choice->id, choice->probability, u})
+                          : std::nullopt;
+        }
+        if (by_power_.empty()) {
+            return std::nullopt;
+        }
+        const auto choice = by_power_.sample_coarse(u.x);
+        return ChoiceAndNumbers{
+            LightId{choice.index}, choice.probability, {choice.u_remapped, u.y}};
+    }
     [[nodiscard]] float emission_probability(LightId id) const;
 
     /// For next-event estimation; nothing where no light can shine. `receiver` or what it returns
@@ -47,6 +71,20 @@ public:
     {
         return uses_tree(sampling) ? next_event_.choose(stated(receiver), fine_uniform(u))
                                    : choose_for_emission(u);
+    }
+    /// The same, with numbers as for emission.
+    template <typename Receiver, typename DrawFine>
+    [[nodiscard]] std::optional<ChoiceAndNumbers> choose_for_receiver(const Receiver& receiver,
+                                                                      Vec2 u,
+                                                                      const DrawFine& draw_fine,
+                                                                      LightSampling sampling) const
+    {
+        if (!uses_tree(sampling)) {
+            return choose_for_emission(u, draw_fine);
+        }
+        const auto choice = next_event_.choose(stated(receiver), fine_uniform(draw_fine()));
+        return choice ? std::optional(ChoiceAndNumbers{choice->id, choice->probability, u})
+                      : std::nullopt;
     }
     /// Of choosing light `id` so; positive if it can shine at the receiver.
     template <typename Receiver>
@@ -81,6 +119,9 @@ private:
             return receiver;
         }
     }
+
+    /// With so many a float has more than enough digits for a choice and a point.
+    static constexpr std::size_t few_lights = 64;
 
     std::vector<Light> lights_;
     std::vector<std::optional<std::uint32_t>> first_of_instance_;

@@ -185,13 +185,13 @@ std::optional<RayHit> World::first_hit(const SegmentEnd& from, Vec3 direction,
                                .segment = segment});
 }
 
-SurfacePoint World::point_of(const RayHit& hit, Vec3 direction, SegmentKey segment,
-                             const PixelCone& pixel) const noexcept
+SurfacePoint World::surface_at(const RayHit& hit, Vec3 direction, SegmentKey segment,
+                               const PixelCone& pixel) const noexcept
 {
     if (hit.sphere != no_sphere) [[unlikely]] {
         return sphere_point(hit, direction, segment.time);
     }
-    return surface_point(hit, direction, segment, pixel);
+    return mesh_point(hit, direction, segment, pixel);
 }
 
 /// Spheres are lights: they emit from their outside and reflect nothing.
@@ -206,8 +206,8 @@ SurfacePoint World::sphere_point(const RayHit& hit, Vec3 direction, float time) 
             .light = id};
 }
 
-SurfacePoint World::surface_point(const RayHit& hit, Vec3 direction, SegmentKey segment,
-                                  const PixelCone& pixel) const noexcept
+SurfacePoint World::mesh_point(const RayHit& hit, Vec3 direction, SegmentKey segment,
+                               const PixelCone& pixel) const noexcept
 {
     const PlacedMesh& mesh = placed_[hit.instance];
     const Material& material = material_of(hit.instance);
@@ -218,7 +218,9 @@ SurfacePoint World::surface_point(const RayHit& hit, Vec3 direction, SegmentKey 
     const float side = dot(ns, ng);
     ns = side > 0.0f ? ns : side < 0.0f ? -ns : ng;
 
-    const TexturePoint at = texture_point(mesh, hit.triangle, hit.at.barycentrics);
+    const bool varies = material.has_textures() || !mesh.mesh().colors.empty();
+    const TexturePoint at =
+        varies ? texture_point(mesh, hit.triangle, hit.at.barycentrics) : TexturePoint{};
     const auto tangent_uv_set = material.tangent_uv_set();
     std::optional<UvFootprint> footprint;
     if (material.needs_footprint()) [[unlikely]] {
@@ -268,7 +270,9 @@ Rgb World::transmittance(const SegmentEnd& a, const SegmentEnd& b,
                            .segment = segment})) {
         return Rgb(0.0f);
     }
-    return medium_transmittance(a, b, to_b, std::sqrt(dot(to_b, to_b)));
+    return a.media == nullptr && b.media == nullptr
+               ? Rgb(1.0f)
+               : medium_transmittance(a, b, to_b, std::sqrt(dot(to_b, to_b)));
 }
 
 Rgb World::transmittance_to_infinity(const SegmentEnd& a, Vec3 direction,

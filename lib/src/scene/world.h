@@ -6,12 +6,11 @@
 #include "light/intensity_profile.h"
 #include "material/bsdf.h"
 #include "material/material.h"
-#include "material/mip_maps.h"
 #include "math/footprint.h"
-#include "math/probe.h"
 #include "scene/bodies.h"
 #include "scene/light_set.h"
 #include "scene/medium.h"
+#include "texture/mip_maps.h"
 
 #include <bdpt/scene.h>
 
@@ -45,27 +44,21 @@ public:
     // Surfaces that are not opaque are met or passed, by chance: the key of the segment decides.
     // Each segment of a path needs a key of its own (docs/mis.md).
 
-    /// The first surface that a ray meets from `from` in the unit direction `direction`, as light
-    /// of the segment's wavelength sees it, at the segment's time.
+    /// Where a ray from `from` in the unit direction `direction` meets the first surface, at the
+    /// segment's time.
+    [[nodiscard]] std::optional<RayHit> first_hit(const SegmentEnd& from, Vec3 direction,
+                                                  SegmentKey segment) const noexcept;
+    /// That surface as light of the segment's wavelength sees it; mip-mapped textures have the
+    /// detail that pixels show.
+    [[nodiscard]] SurfacePoint surface_at(const RayHit& hit, Vec3 direction, SegmentKey segment,
+                                          const PixelCone& pixel) const noexcept;
+    /// Both, for rays of no pixel.
     [[nodiscard]] std::optional<SurfacePoint> intersect(const SegmentEnd& from, Vec3 direction,
                                                         SegmentKey segment) const noexcept
     {
-        NoProbe probe;
-        return intersect(from, direction, segment, PixelCone{}, probe);
-    }
-    /// The same, where mip-mapped textures have the detail that pixels show; `probe` is told when
-    /// the ray has hit and the surface is at work.
-    template <typename Probe>
-    [[nodiscard]] std::optional<SurfacePoint> intersect(const SegmentEnd& from, Vec3 direction,
-                                                        SegmentKey segment, const PixelCone& pixel,
-                                                        Probe& probe) const noexcept
-    {
         const auto hit = first_hit(from, direction, segment);
-        if (!hit) {
-            return std::nullopt;
-        }
-        const PhaseScope scope(probe, Phase::shade);
-        return point_of(*hit, direction, segment, pixel);
+        return hit ? std::optional(surface_at(*hit, direction, segment, PixelCone{}))
+                   : std::nullopt;
     }
     /// What is left of light between two points: zero when it meets a surface in between, else what
     /// the medium lets through.
@@ -98,12 +91,8 @@ private:
     [[nodiscard]] bool may_be_passed(std::uint32_t instance) const noexcept;
     [[nodiscard]] bool is_passed(const Crossing& crossing) const noexcept;
     [[nodiscard]] PassRule pass_rule() const noexcept;
-    [[nodiscard]] std::optional<RayHit> first_hit(const SegmentEnd& from, Vec3 direction,
-                                                  SegmentKey segment) const noexcept;
-    [[nodiscard]] SurfacePoint point_of(const RayHit& hit, Vec3 direction, SegmentKey segment,
-                                        const PixelCone& pixel) const noexcept;
-    [[nodiscard]] SurfacePoint surface_point(const RayHit& hit, Vec3 direction, SegmentKey segment,
-                                             const PixelCone& pixel) const noexcept;
+    [[nodiscard]] SurfacePoint mesh_point(const RayHit& hit, Vec3 direction, SegmentKey segment,
+                                          const PixelCone& pixel) const noexcept;
     [[nodiscard]] SurfacePoint sphere_point(const RayHit& hit, Vec3 direction,
                                             float time) const noexcept;
 

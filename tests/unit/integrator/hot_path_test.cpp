@@ -2,7 +2,7 @@
 #include "camera/moving_camera.h"
 #include "catch.hpp"
 #include "integrator/integrator.h"
-#include "integrator/sample_timer.h"
+#include "profile/sample_timer.h"
 #include "render/aov_pass.h"
 #include "scene/world.h"
 #include "moving_scenes.h"

@@ -1,5 +1,5 @@
 #include "catch.hpp"
-#include "gltf/keyframes.h"
+#include "gltf/animation/keyframes.h"
 #include "gltf_fixture.h"
 
 #include <bdpt/scene_desc.h>

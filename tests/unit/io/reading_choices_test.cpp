@@ -128,6 +128,23 @@ TEST_CASE("instances are placed by translation, rotation and scale")
     CHECK(corner.z == Approx(9 + 4));
 }
 
+TEST_CASE("too many instances are refused before they are read")
+{
+    // Elements that are stored nowhere: a few bytes ask for gigabytes.
+    GltfFixture fixture = instanced(nlohmann::json::object());
+    fixture.json["accessors"].push_back(
+        {{"componentType", f32}, {"count", 20'000'000}, {"type", "VEC3"}});
+    fixture.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
+        {"TRANSLATION", 2}};
+    GltfOptions options;
+    options.limits.memory_bytes = 1'000'000;  // a read would break this limit first
+    const Error error = fixture.error(options);
+    CHECK(error.code() == ErrorCode::invalid_input);
+    CHECK(contains(error.what(),
+                   "/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes: 20000000 instances, "
+                   "but the limits allow 10000000 more"));
+}
+
 TEST_CASE("attributes of instances must fit")
 {
     GltfFixture fixture = instanced({{"TRANSLATION", 0}});

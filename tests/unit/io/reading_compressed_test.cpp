@@ -1,6 +1,6 @@
 #include "catch.hpp"
-#include "gltf/draco_decoder.h"
-#include "gltf/meshopt_decoder.h"
+#include "gltf/compression/draco_decoder.h"
+#include "gltf/compression/meshopt_decoder.h"
 #include "gltf_fixture.h"
 
 #include <bdpt/scene_desc.h>

@@ -1,8 +1,13 @@
 #include "catch.hpp"
+#include "file/named_errors.h"
 #include "file/uri.h"
 #include "gltf_fixture.h"
 
+#include <sys/resource.h>
+
+#include <algorithm>
 #include <filesystem>
+#include <new>
 
 using namespace bdpt;
 using namespace bdpt::io;
@@ -24,6 +29,32 @@ std::string triangle_bytes()
 }
 
 }  // namespace
+
+TEST_CASE("an allocation that fails is told with what the process had and may have")
+{
+    const auto fail = []() -> int { throw std::bad_alloc(); };
+    std::string message;
+    try {
+        static_cast<void>(with_named_errors("scene.gltf", fail));
+    } catch (const Error& error) {
+        message = error.what();
+        CHECK(error.code() == ErrorCode::out_of_memory);
+    }
+    CHECK(contains(message, "scene.gltf: not enough memory: the process had up to "));
+    CHECK(contains(message, "B and needs more"));
+    CHECK_FALSE(contains(message, "up to 0 B"));
+
+    rlimit before{};
+    REQUIRE(::getrlimit(RLIMIT_AS, &before) == 0);
+    if (before.rlim_cur == RLIM_INFINITY) {
+        rlimit limited = before;
+        limited.rlim_cur = std::min<rlim_t>(before.rlim_max, rlim_t{1} << 46U);
+        REQUIRE(::setrlimit(RLIMIT_AS, &limited) == 0);
+        const std::string figures = memory_figures();
+        ::setrlimit(RLIMIT_AS, &before);
+        CHECK(contains(figures, "but its limit is 70.4 TB"));
+    }
+}
 
 TEST_CASE("buffers come from files next to the scene")
 {

@@ -35,8 +35,8 @@ const std::vector<Refusal>& refusals()
          },
          "/extensionsRequired/1: the file requires \"EXT_odd\"", ErrorCode::unsupported},
         {"required extension that is merely known",
-         [](Json& j) { j["extensionsRequired"] = {"KHR_texture_basisu"}; },
-         "KHR_texture_basisu", ErrorCode::unsupported},
+         [](Json& j) { j["extensionsRequired"] = {"KHR_texture_basisu"}; }, "KHR_texture_basisu",
+         ErrorCode::unsupported},
         {"extension name", [](Json& j) { j["extensionsUsed"] = {1}; },
          "/extensionsUsed/0: must be a string, but is 1"},
         {"default scene", [](Json& j) { j["scene"] = 1; },
@@ -177,11 +177,13 @@ const std::vector<Refusal>& refusals()
         {"texture image",
          [](Json& j) {
              j["textures"] = {{{"source", 0}}};
+             j["materials"] = {{{"emissiveTexture", {{"index", 0}}}}};
          },
          "/textures/0/source: index 0, but there are 0 images"},
         {"texture sampler",
          [](Json& j) {
              j["textures"] = {{{"sampler", 0}}};
+             j["materials"] = {{{"emissiveTexture", {{"index", 0}}}}};
          },
          "/textures/0/sampler: index 0, but there are 0 samplers"},
         {"image with two sources",
@@ -240,7 +242,6 @@ TEST_CASE("the triangle that those changes break is sound itself")
 
 TEST_CASE("broken JSON is refused")
 {
-    CHECK(contains(json_error(""), "JSON: byte "));
     CHECK(contains(json_error("{\"asset\":{\"version\":\"2.0\"}"), "unexpected end of input"));
     CHECK(contains(json_error("{\"asset\":{\"version\":\"2.0\"}} x"),
                    "JSON: byte 29: parse error at line 1, column 29"));
@@ -248,6 +249,49 @@ TEST_CASE("broken JSON is refused")
     CHECK(contains(json_error("{\"asset\":{\"version\":\"\xff\"}}"), "JSON"));
     CHECK(contains(json_error("[]"), "must be a JSON object"));
     CHECK(contains(json_error("{\"scene\":0,\"scene\":1}"), "\"scene\" stands twice"));
+}
+
+TEST_CASE("a file of another kind is called by its name")
+{
+    const std::pair<std::string, std::string> kinds[] = {
+        {"", "not a glTF file but an empty file"},
+        {" \n\t", "a file of white space"},
+        {std::string(64, '\0'), "a file that starts with zeros"},
+        {"\x89PNG\r\n\x1a\n", "not a glTF file but a PNG image"},
+        {"\xff\xd8\xff\xe0", "a JPEG image"},
+        {"\n<!DOCTYPE HTML>\n<html>", "an HTML page"},
+        {"\xef\xbb\xbf<html lang=\"en\">", "an HTML page"},
+        {"<svg/>", "an HTML or XML file"},
+        {"version https://git-lfs.github.com/spec/v1\n", "a Git LFS pointer"},
+        {"PK\x03\x04", "a ZIP archive"},
+    };
+    for (const auto& [bytes, name] : kinds) {
+        CAPTURE(name);
+        CHECK(contains(json_error(bytes), name));
+    }
+    // What is nothing known is broken JSON.
+    CHECK(contains(json_error("v 1 2 3\n"), "JSON: byte 1"));
+    CHECK(contains(json_error("glTF"), "GLB: truncated"));
+}
+
+TEST_CASE("a broken texture that no material uses costs nothing but a warning")
+{
+    GltfFixture fixture = GltfFixture::triangle();
+    fixture.json["images"] = {{{"uri", "missing.png"}}};
+    fixture.json["textures"] = {{{"source", 0}},
+                                {{"source", 7}},
+                                {{"extensions", {{"EXT_texture_webp", {{"source", 1}}}}}},
+                                {{"sampler", 0}}};
+    fixture.json["materials"] = {{{"emissiveTexture", {{"index", 0}}}}};
+    const LoadedScene loaded = fixture.load();
+    CHECK(loaded.scene.instances.size() == 1);
+    REQUIRE(loaded.warnings.size() == 1);
+    CHECK(warns(loaded.warnings, {"a broken texture that no material uses is left out",
+                                  "/textures/1/source: index 7, but there are 1 images"}));
+    // One that is used is still refused, wherever the material names it.
+    fixture.json["materials"][0]["extensions"]["KHR_materials_sheen"]["sheenColorTexture"] = {
+        {"index", 3}};
+    CHECK(contains(fixture.error().what(), "/textures/3/sampler: index 0, but there are 0"));
 }
 
 TEST_CASE("deep, rich and long JSON is refused")

@@ -2,8 +2,8 @@
 
 #include "catch.hpp"
 #include "file/read_file.h"
-#include "gltf/draco_decoder.h"
-#include "gltf/prepass.h"
+#include "gltf/compression/draco_decoder.h"
+#include "gltf/document/prepass.h"
 #include "gltf_fixture.h"
 #include "image/exr_header.h"
 
@@ -134,14 +134,14 @@ TEST_CASE("of a buffer's file no more is read than the buffer needs")
     for (int i = 0; i < 3; ++i) {
         fixture.json["buffers"].push_back({{"byteLength", 10 + i}, {"uri", "large.bin"}});
     }
-    Warnings warnings;
+    LoadContext context{.folder = folder.path()};
     const CheckedGltf checked =
-        read_checked_gltf(folder.write("scene.gltf", fixture.json.dump()), {}, warnings);
+        read_checked_gltf(folder.write("scene.gltf", fixture.json.dump()), context);
     REQUIRE(checked.buffers.size() == 3);
     for (std::size_t i = 0; i < 3; ++i) {
         CHECK(checked.buffers[i].size() == 11 + i);  // one more tells that there are more
     }
-    CHECK(warns(warnings.lines(), {"more bytes than it says", "and 2 more"}));
+    CHECK(warns(context.warnings.lines(), {"more bytes than it says", "and 2 more"}));
 }
 
 TEST_CASE("a Draco mesh of more points than its head says keeps to the limit")

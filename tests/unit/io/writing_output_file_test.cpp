@@ -1,6 +1,8 @@
 #include <bdpt/io/output_file.h>
 
 #include <bdpt/error.h>
+#include <signal.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -28,6 +30,34 @@ Error error_of(const std::filesystem::path& file)
     }
     FAIL("no error for " << file);
     return {ErrorCode::internal, ""};
+}
+
+TEST_CASE("a file beyond the limit of the process is an error and leaves nothing")
+{
+    const ScratchFolder folder;
+    rlimit before{};
+    REQUIRE(::getrlimit(RLIMIT_FSIZE, &before) == 0);
+    rlimit small = before;
+    small.rlim_cur = 4096;
+    REQUIRE(::setrlimit(RLIMIT_FSIZE, &small) == 0);
+    std::string message;
+    try {
+        OutputFile file(folder / "large.exr");
+        file.write(std::string(10000, 'x'));
+    } catch (const Error& error) {
+        message = error.what();
+        CHECK(error.code() == ErrorCode::output);
+    }
+    ::setrlimit(RLIMIT_FSIZE, &before);
+    CHECK(message.find("large.exr: cannot write: File too large") != std::string::npos);
+    CHECK(folder.names().empty());
+    // The thread is as it was.
+    sigset_t pending;
+    sigset_t blocked;
+    ::sigpending(&pending);
+    ::pthread_sigmask(SIG_BLOCK, nullptr, &blocked);
+    CHECK(::sigismember(&pending, SIGXFSZ) == 0);
+    CHECK(::sigismember(&blocked, SIGXFSZ) == 0);
 }
 
 TEST_CASE("an output file appears whole or not at all")

@@ -1,5 +1,5 @@
-#include "material/ggx.h"
-#include "material/layered_bsdf.h"
+#include "material/lobes/ggx.h"
+#include "material/models/layered_bsdf.h"
 
 #include "catch.hpp"
 #include "layered_cases.h"

@@ -83,8 +83,10 @@ TEST_CASE("BSDFs stay finite in the corners of their domain")
 TEST_CASE("parameters out of range are clamped")
 {
     const SpecularAlbedo albedo(1.5f);
-    const GltfBsdf wild({Rgb{-1.0f, 0.5f, 7.0f}, 3.0f, -0.5f, 9.0f, Rgb{-2.0f}, 5.0f}, albedo);
-    const GltfBsdf tame({Rgb{0.0f, 0.5f, 1.0f}, 1.0f, 0.0f, 1.0f, Rgb{0.0f}, 1.0f}, albedo);
+    const MetallicRoughness wild({Rgb{-1.0f, 0.5f, 7.0f}, 3.0f, -0.5f, 9.0f, Rgb{-2.0f}, 5.0f},
+                                 albedo);
+    const MetallicRoughness tame({Rgb{0.0f, 0.5f, 1.0f}, 1.0f, 0.0f, 1.0f, Rgb{0.0f}, 1.0f},
+                                 albedo);
     const Vec3 wo = normalize(Vec3{0.2f, 0.4f, 0.9f});
     const auto a = wild.sample(wo, 0.3f, {}, TransportMode::radiance);
     const auto b = tame.sample(wo, 0.3f, {}, TransportMode::radiance);

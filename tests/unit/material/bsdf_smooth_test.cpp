@@ -36,7 +36,7 @@ double fresnel(double cos_i, double n_i, double n_t)
 TEST_CASE("smooth glass reflects and refracts by Fresnel and Snell")
 {
     const SpecularAlbedo albedo(ior);
-    const GltfBsdf bsdf(smooth_glass(Body::solid), albedo);
+    const MetallicRoughness bsdf(smooth_glass(Body::solid), albedo);
     CHECK(!bsdf.has_smooth_lobe());
     for (const Vec3 wo : test::bsdf_directions()) {
         const double n_o = wo.z > 0.0f ? 1.0 : 1.5;
@@ -80,7 +80,7 @@ TEST_CASE("smooth lobes know the density of the way back")
 {
     for (const test::BsdfCase& bsdf_case : test::bsdf_cases()) {
         const SpecularAlbedo albedo(bsdf_case.ior);
-        const GltfBsdf bsdf(bsdf_case.surface, albedo);
+        const MetallicRoughness bsdf(bsdf_case.surface, albedo);
         test::Random random(59);
         int found = 0;
         for (int i = 0; i < 2000; ++i) {
@@ -114,7 +114,7 @@ TEST_CASE("smooth lobes know the density of the way back")
 TEST_CASE("thin glass lets light straight through")
 {
     const SpecularAlbedo albedo(ior);
-    const GltfBsdf bsdf(smooth_glass(Body::thin_walled), albedo);
+    const MetallicRoughness bsdf(smooth_glass(Body::thin_walled), albedo);
     for (const Vec3 wo : test::bsdf_directions()) {
         const double cos_o = std::abs(static_cast<double>(wo.z));
         const double f = fresnel(cos_o, 1.0, 1.5);
@@ -132,7 +132,7 @@ TEST_CASE("thin glass lets light straight through")
 TEST_CASE("a smooth coat over a base is both delta and connectible")
 {
     const SpecularAlbedo albedo(ior);
-    const GltfBsdf bsdf({.base_color = Rgb{0.5f}, .roughness = 0.0f}, albedo);
+    const MetallicRoughness bsdf({.base_color = Rgb{0.5f}, .roughness = 0.0f}, albedo);
     CHECK(bsdf.has_smooth_lobe());
     const Vec3 wo = normalize(Vec3{1.0f, 0.0f, 1.0f});
     const auto mirror = bsdf.sample(wo, 0.0f, {}, TransportMode::radiance);
@@ -158,7 +158,7 @@ TEST_CASE("base colour tints once per crossing and reflection not at all")
     for (const Body body : {Body::thin_walled, Body::solid}) {
         GltfParameters surface = smooth_glass(body);
         surface.base_color = tint;
-        const GltfBsdf bsdf(surface, albedo);
+        const MetallicRoughness bsdf(surface, albedo);
         const Vec3 wo{0.0f, 0.0f, 1.0f};
         const auto mirror = bsdf.sample(wo, 0.0f, {}, TransportMode::importance);
         const auto through = bsdf.sample(wo, 0.9f, {}, TransportMode::importance);
@@ -178,7 +178,7 @@ TEST_CASE("total reflection keeps its energy where specular is low")
     const SpecularAlbedo albedo(ior);
     GltfParameters surface = smooth_glass(Body::solid);
     surface.specular = 0.25f;
-    const GltfBsdf bsdf(surface, albedo);
+    const MetallicRoughness bsdf(surface, albedo);
     const Vec3 wo = normalize(Vec3{1.0f, 0.5f, -0.5f});
     const auto sampled = bsdf.sample(wo, 0.9f, {}, TransportMode::radiance);
     REQUIRE(sampled);

@@ -141,7 +141,7 @@ TEST_CASE("BSDFs have the values worked out by hand")
 
     SECTION("Lambert: base / pi")
     {
-        const GltfBsdf bsdf({base, 0, 1, 0}, albedo);
+        const Lambertian bsdf(base);
         const Vec3 wi = normalize(Vec3{1.0f, 0.0f, 1.0f});
         const BsdfEval value = bsdf.eval(up, wi, TransportMode::radiance);
         check_close(value.f_cos, base * (inv_pi * wi.z), 1e-6f);
@@ -151,13 +151,13 @@ TEST_CASE("BSDFs have the values worked out by hand")
     }
     SECTION("metal of alpha 1, seen straight: base D G / 4 = base / (4 pi)")
     {
-        const GltfBsdf bsdf({base, 1, 1}, albedo);
+        const MetallicRoughness bsdf({base, 1, 1}, albedo);
         check_close(bsdf.eval(up, up, TransportMode::radiance).f_cos, base * (0.25f * inv_pi),
                     1e-5f);
     }
     SECTION("glass of alpha 1, straight through: (1 - F) D / (n - 1)^2, times n^2 for importance")
     {
-        const GltfBsdf bsdf({Rgb{1.0f}, 0, 1, 1, Rgb{1.0f}, 1, Body::solid}, albedo);
+        const MetallicRoughness bsdf({Rgb{1.0f}, 0, 1, 1, Rgb{1.0f}, 1, Body::solid}, albedo);
         const float radiance = 0.96f * inv_pi / 0.25f;
         CHECK(bsdf.eval(up, down, TransportMode::radiance).f_cos.x == Approx(radiance));
         CHECK(bsdf.eval(up, down, TransportMode::importance).f_cos.x == Approx(radiance * 2.25f));
@@ -167,7 +167,7 @@ TEST_CASE("BSDFs have the values worked out by hand")
     }
     SECTION("a default BSDF is black")
     {
-        const GltfBsdf bsdf;
+        const Black bsdf;
         CHECK(!bsdf.has_smooth_lobe());
         CHECK(bsdf.eval(up, up, TransportMode::radiance).f_cos == Rgb{0.0f});
         CHECK(!bsdf.sample(up, 0.3f, {0.1f, 0.9f}, TransportMode::radiance));

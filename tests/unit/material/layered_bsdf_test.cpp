@@ -1,4 +1,4 @@
-#include "material/layered_bsdf.h"
+#include "material/models/layered_bsdf.h"
 
 #include "bsdf_cases.h"
 #include "catch.hpp"

@@ -1,12 +1,13 @@
 #pragma once
 
 #include "material/bsdf.h"
-#include "material/gltf_bsdf.h"
-#include "material/layered_bsdf.h"
+#include "material/models/layered_bsdf.h"
+#include "material/models/models.h"
 
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace bdpt::test {
@@ -29,48 +30,54 @@ struct BsdfCase {
 
 /// The model of a case, whichever it is.
 class TestedBsdf {
+    template <typename Visitor>
+    [[nodiscard]] auto visit(const Visitor& visitor) const
+    {
+        return layered_ ? visitor(*layered_) : std::visit(visitor, plain_);
+    }
+
 public:
     explicit TestedBsdf(const BsdfCase& tested)
         : albedo_(std::make_unique<const SpecularAlbedo>(tested.ior)),
-          plain_(tested.surface, *albedo_)
+          plain_(plain_model(tested.surface, *albedo_))
     {
         if (tested.layers) {
             static const LayerTables tables = all_tables();
             constants_ = std::make_unique<const LayeredConstants>(
                 LayeredConstants{.base = albedo_.get(), .film_ior = 1.8f, .tables = &tables});
             LayeredParameters layers = *tested.layers;
-            layers.base = tested.surface;
-            layers.constants = constants_.get();
+            layers.set_base(tested.surface);
+            layers.constants = PackedPointer(constants_.get());
             layered_.emplace(layers);
-            parameters_ = layers;
+            small_layered_.emplace(layers);
         }
     }
 
     [[nodiscard]] BsdfEval eval(Vec3 wo, Vec3 wi, TransportMode mode) const
     {
-        return layered_ ? layered_->eval(wo, wi, mode) : plain_.eval(wo, wi, mode);
+        return visit([&](const auto& model) { return model.eval(wo, wi, mode); });
     }
     [[nodiscard]] std::optional<BsdfSample> sample(Vec3 wo, float u_lobe, Vec2 u,
                                                    TransportMode mode) const
     {
-        return layered_ ? layered_->sample(wo, u_lobe, u, mode)
-                        : plain_.sample(wo, u_lobe, u, mode);
+        return visit([&](const auto& model) { return model.sample(wo, u_lobe, u, mode); });
     }
     /// On a facet with the normal `facet.z` of a surface with the normals `ng` and `ns`.
     [[nodiscard]] Bsdf mapped(Vec3 ng, Vec3 ns, const Frame& facet, Vec3 wo) const
     {
-        return parameters_ ? Bsdf(ng, ns, facet, wo, *parameters_)
-                           : Bsdf(ng, ns, facet, wo, plain_);
+        const auto placed = [&](const auto& model) { return Bsdf(ng, ns, facet, wo, model); };
+        return small_layered_ ? placed(*small_layered_) : std::visit(placed, plain_);
     }
     /// At a surface with these normals, seen from wo.
     [[nodiscard]] Bsdf at(Vec3 ng, Vec3 ns, Vec3 wo) const
     {
         const Frame shading = Frame::from_normal(ns);
-        return parameters_ ? Bsdf(ng, shading, wo, *parameters_) : Bsdf(ng, shading, wo, plain_);
+        const auto placed = [&](const auto& model) { return Bsdf(ng, shading, wo, model); };
+        return small_layered_ ? placed(*small_layered_) : std::visit(placed, plain_);
     }
     [[nodiscard]] bool has_smooth_lobe() const
     {
-        return layered_ ? layered_->has_smooth_lobe() : plain_.has_smooth_lobe();
+        return visit([](const auto& model) { return model.has_smooth_lobe(); });
     }
 
 private:
@@ -84,9 +91,9 @@ private:
 
     std::unique_ptr<const SpecularAlbedo> albedo_;
     std::unique_ptr<const LayeredConstants> constants_;
-    GltfBsdf plain_;
+    PlainModel plain_;
     std::optional<LayeredBsdf> layered_;
-    std::optional<LayeredParameters> parameters_;
+    std::optional<Layered> small_layered_;
 };
 
 [[nodiscard]] inline LayeredParameters coated(float share, float roughness,

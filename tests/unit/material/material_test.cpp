@@ -49,7 +49,7 @@ float srgb(double encoded)
 Rgb expected(const GltfParameters& surface, const SpecularAlbedo& albedo)
 {
     const Vec3 up{0.0f, 0.0f, 1.0f};
-    return GltfBsdf(surface, albedo).eval(up, up, TransportMode::radiance).f_cos;
+    return MetallicRoughness(surface, albedo).eval(up, up, TransportMode::radiance).f_cos;
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 #include "material/specular_albedo.h"
 
 #include "catch.hpp"
-#include "material/ggx.h"
+#include "material/lobes/ggx.h"
 #include "statistics.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "material/thin_film.h"
+#include "material/lobes/thin_film.h"
 
 #include "catch.hpp"
 #include "math/rgb.h"

@@ -1,9 +1,10 @@
 #include "camera/camera.h"
 #include "catch.hpp"
 #include "many_lights.h"
-#include "math/sampler.h"
 #include "path/connect.h"
+#include "path/densities.h"
 #include "path/random_walk.h"
+#include "sample_of.h"
 #include "scene_builder.h"
 
 #include <glm/geometric.hpp>
@@ -54,7 +55,6 @@ TEST_CASE("weights of all strategies sum to one on traced paths", "[mis]")
     const StrategySet strategies(options);
     Subpath camera_path(max_depth + 1);
     RayCounts rays;
-    NoProbe probe;
     int paths = 0;
     for (const auto heuristic : {Heuristic::balance, Heuristic::power}) {
         PathWeigher weigher(world, camera, strategies, heuristic, max_depth + 1);
@@ -68,22 +68,22 @@ TEST_CASE("weights of all strategies sum to one on traced paths", "[mis]")
             }
         };
         for (int i = 0; i < 2000; ++i) {
-            Sampler sampler(SamplerKind::sobol, 1, i % size, i / size, i);
+            SampleContext sample = test::sample_of(
+                world, camera, {SamplerKind::sobol, 1, i % size, i / size, i}, rays);
             const Vec2 raster(static_cast<float>(i % size) + 0.5f,
                               static_cast<float>(i / size % size) + 0.5f);
-            trace_camera_subpath(world, camera, raster, {.max_vertices = camera_path.capacity()},
-                                 sampler, camera_path, probe);
-            trace_light_subpath(world, camera, {.max_vertices = light_path.capacity()},
-                                strategies.next_event_sampling(), sampler, light_path, probe);
+            trace_camera_subpath(sample, raster, {.max_vertices = camera_path.capacity()},
+                                 camera_path);
+            trace_light_subpath(sample, {.max_vertices = light_path.capacity()},
+                                strategies.next_event_sampling(), light_path);
             for (int t = 2; t <= camera_path.size(); ++t) {
-                check(hit_light(world, camera_path.first(t), weigher, probe));
+                check(hit_light(sample, camera_path.first(t), weigher));
                 if (t <= max_depth) {
-                    check(connect_to_light(world, camera_path.first(t), sampler, weigher, rays,
-                                           probe));
+                    check(connect_to_light(sample, camera_path.first(t), weigher));
                 }
                 for (int s = 2; s <= std::min(light_path.size(), max_depth + 1 - t); ++s) {
-                    check(connect_interior(world, light_path.first(s), camera_path.first(t),
-                                           sampler.segment_key(s, t), weigher, rays, probe));
+                    check(connect_interior(sample, light_path.first(s), camera_path.first(t),
+                                           weigher));
                 }
             }
         }
@@ -103,14 +103,14 @@ TEST_CASE("joining and hitting agree about the densities of the same path", "[mi
     const StrategySet strategies(options);
     Subpath camera_path(max_depth + 1);
     PathWeigher weigher(world, camera, strategies, Heuristic::balance, max_depth + 1);
-    NoProbe probe;
+    RayCounts rays;
     int compared = 0;
     for (int i = 0; i < 3000; ++i) {
-        Sampler sampler(SamplerKind::sobol, 2, i % 16, i / 16 % 16, i);
+        SampleContext sample =
+            test::sample_of(world, camera, {SamplerKind::sobol, 2, i % 16, i / 16 % 16, i}, rays);
         const Vec2 raster(static_cast<float>(i % 16) + 0.5f,
                           static_cast<float>(i / 16 % 16) + 0.5f);
-        trace_camera_subpath(world, camera, raster, {.max_vertices = camera_path.capacity()},
-                             sampler, camera_path, probe);
+        trace_camera_subpath(sample, raster, {.max_vertices = camera_path.capacity()}, camera_path);
         for (int t = 3; t <= camera_path.size(); ++t) {
             const auto path = camera_path.first(t);
             const PathVertex& x0 = path.back();
@@ -119,7 +119,7 @@ TEST_CASE("joining and hitting agree about the densities of the same path", "[mi
             if (!finite_light || !x1.connectible || x1.scattered_delta) {
                 continue;
             }
-            const auto hit = hit_light(world, path, weigher, probe);
+            const auto hit = hit_light(sample, path, weigher);
             if (!hit) {
                 continue;
             }
@@ -128,7 +128,7 @@ TEST_CASE("joining and hitting agree about the densities of the same path", "[mi
             const Vec3 along = x0.end.p - x1.end.p;
             const float distance_squared = dot(along, along);
             const Vec3 wi = along / std::sqrt(distance_squared);
-            const BsdfEval f = x1.bsdf.eval(wi, TransportMode::radiance);
+            const BsdfEval f = x1.bsdf->eval(wi, TransportMode::radiance);
             const float joined =
                 to_area(f.pdf_fwd, std::abs(dot(x0.end.ng, wi)), distance_squared).value;
             CHECK(made.from_camera[0].value == Approx(joined).epsilon(1e-3));
@@ -158,14 +158,15 @@ TEST_CASE("next-event estimation has the density that others are weighed against
     const Camera camera(test::room_camera(), 16, 16);
     const NextEventSampling sampling{.lights = LightSampling::tree};
     Subpath path(5);
-    NoProbe probe;
+    RayCounts rays;
     int compared = 0;
     int through = 0;
     for (int i = 0; i < 4000; ++i) {
-        Sampler sampler(SamplerKind::independent, 3, i % 16, i / 16 % 16, i);
+        SampleContext sample = test::sample_of(
+            world, camera, {SamplerKind::independent, 3, i % 16, i / 16 % 16, i}, rays);
+        Sampler& sampler = sample.sampler;
         const Vec2 raster = 16.0f * sampler.next_2d();
-        trace_camera_subpath(world, camera, raster, {.max_vertices = path.capacity()}, sampler,
-                             path, probe);
+        trace_camera_subpath(sample, raster, {.max_vertices = path.capacity()}, path);
         for (int t = 2; t <= path.size(); ++t) {
             const PathVertex& x1 = path[t - 1];
             if (x1.kind != VertexKind::surface || !x1.connectible) {
@@ -178,7 +179,7 @@ TEST_CASE("next-event estimation has the density that others are weighed against
             }
             const Light& light = world.lights()[choice->id];
             const auto incident = light.sample_incident(x1.end.p, sampler.next_2d());
-            if (!incident || x1.bsdf.eval(incident->wi, TransportMode::radiance).f_cos.g <= 0.0f) {
+            if (!incident || x1.bsdf->eval(incident->wi, TransportMode::radiance).f_cos.g <= 0.0f) {
                 continue;
             }
             PathVertex x0;
@@ -190,7 +191,7 @@ TEST_CASE("next-event estimation has the density that others are weighed against
             // The density of the point is that of the light's own tests, but for rounding.
             const LightPoint point{.p = x0.end.p, .ng = x0.end.ng, .barycentrics = x0.barycentrics};
             const float of_point = light.pdf_incident(x1.end.p, point).value;
-            REQUIRE(next_event_density(world, x0, x1, sampling, 0.0f).value ==
+            REQUIRE(next_event_density(sample, x0, x1, sampling).value ==
                     Approx(of_point * choice->probability).epsilon(1e-5));
             ++compared;
             const Vec3 to_previous = path[t - 2].end.p - x1.end.p;

@@ -2,9 +2,9 @@
 
 #include "camera/camera.h"
 #include "catch.hpp"
-#include "math/sampler.h"
 #include "path/connect.h"
 #include "path/random_walk.h"
+#include "sample_of.h"
 #include "scene_builder.h"
 
 #include <algorithm>
@@ -34,28 +34,24 @@ SceneDesc room()
 }
 
 /// The weights of all contributions of one sample, in the order of their strategies.
-std::vector<float> weights_of(const World& world, const Camera& camera, const Subpath& light_path,
-                              const Subpath& camera_path, Sampler sampler, PathWeigher& weigher)
+std::vector<float> weights_of(SampleContext sample, const Subpath& light_path,
+                              const Subpath& camera_path, PathWeigher& weigher)
 {
-    RayCounts rays;
-    NoProbe probe;
     std::vector<float> weights;
     const auto add = [&](const std::optional<Contribution>& found) {
         weights.push_back(found ? found->weight : std::numeric_limits<float>::infinity());
     };
     for (int t = 2; t <= camera_path.size(); ++t) {
-        add(hit_light(world, camera_path.first(t), weigher, probe));
+        add(hit_light(sample, camera_path.first(t), weigher));
         if (t <= max_depth) {
-            add(connect_to_light(world, camera_path.first(t), sampler, weigher, rays, probe));
+            add(connect_to_light(sample, camera_path.first(t), weigher));
         }
         for (int s = 2; s <= std::min(light_path.size(), max_depth + 1 - t); ++s) {
-            add(connect_interior(world, light_path.first(s), camera_path.first(t),
-                                 sampler.segment_key(s, t), weigher, rays, probe));
+            add(connect_interior(sample, light_path.first(s), camera_path.first(t), weigher));
         }
     }
     for (int s = 2; s <= std::min(light_path.size(), max_depth); ++s) {
-        const auto splat =
-            connect_to_lens(world, camera, light_path.first(s), sampler, weigher, rays, probe);
+        const auto splat = connect_to_lens(sample, light_path.first(s), weigher);
         add(splat ? std::optional(splat->contribution) : std::nullopt);
     }
     return weights;
@@ -83,20 +79,19 @@ TEST_CASE("sums over subpaths weigh joins as all densities of the path do", "[mi
     PathWeigher gathers(world, camera, strategies, heuristic, max_depth + 1);
     PathWeigher sums(world, camera, strategies, heuristic, max_depth + 1);
     int compared = 0;
-    NoProbe probe;
+    RayCounts rays;
     for (int i = 0; i < 2000; ++i) {
-        const Sampler first(SamplerKind::sobol, 1, i % size, i / size % size, i);
-        Sampler sampler = first;
+        SampleContext sample = test::sample_of(
+            world, camera, {SamplerKind::sobol, 1, i % size, i / size % size, i}, rays);
         const Vec2 raster(static_cast<float>(i % size) + 0.5f,
                           static_cast<float>(i / size % size) + 0.5f);
-        trace_camera_subpath(world, camera, raster, {.max_vertices = camera_path.capacity()},
-                             sampler, camera_path, probe);
-        trace_light_subpath(world, camera, {.max_vertices = light_path.capacity()},
-                            strategies.next_event_sampling(), sampler, light_path, probe);
+        trace_camera_subpath(sample, raster, {.max_vertices = camera_path.capacity()}, camera_path);
+        trace_light_subpath(sample, {.max_vertices = light_path.capacity()},
+                            strategies.next_event_sampling(), light_path);
         sums.begin_camera_path(camera_path.all());
         sums.begin_light_path(light_path.all());
-        const auto by_sums = weights_of(world, camera, light_path, camera_path, first, sums);
-        const auto expected = weights_of(world, camera, light_path, camera_path, first, gathers);
+        const auto by_sums = weights_of(sample, light_path, camera_path, sums);
+        const auto expected = weights_of(sample, light_path, camera_path, gathers);
         REQUIRE(by_sums.size() == expected.size());
         for (std::size_t k = 0; k < expected.size(); ++k) {
             if (std::isfinite(expected[k]) && expected[k] > 1e-30f) {

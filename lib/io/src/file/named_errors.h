@@ -1,5 +1,7 @@
 #pragma once
 
+#include "file/memory_figures.h"
+
 #include <bdpt/error.h>
 
 #include <exception>
@@ -10,7 +12,8 @@
 namespace bdpt::io {
 
 /// What `read()` returns. Whatever it throws becomes an `Error` whose message begins with the name
-/// of the file: an `Error` keeps its code, std::bad_alloc is out_of_memory, all else internal.
+/// of the file: an `Error` keeps its code, std::bad_alloc is out_of_memory and gets figures, all
+/// else is internal.
 template <typename Read>
 [[nodiscard]] auto with_named_errors(const std::filesystem::path& file, const Read& read)
 {
@@ -20,7 +23,7 @@ template <typename Read>
     } catch (const Error& error) {
         throw Error(error.code(), prefix + error.what());
     } catch (const std::bad_alloc&) {
-        throw Error(ErrorCode::out_of_memory, prefix + "not enough memory");
+        throw Error(ErrorCode::out_of_memory, prefix + "not enough memory: " + memory_figures());
     } catch (const std::exception& error) {
         throw Error(ErrorCode::internal, prefix + error.what());
     }

@@ -6,6 +6,9 @@ namespace bdpt::io {
 
 void Warnings::add(const std::string& kind, const std::string& place)
 {
+    if (silent_) {
+        return;
+    }
     const auto [found, inserted] = index_.try_emplace(kind, entries_.size());
     if (inserted) {
         entries_.push_back({kind, place, 0});

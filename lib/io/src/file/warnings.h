@@ -17,6 +17,7 @@ public:
     [[nodiscard]] std::vector<std::string> lines() const;
 
 private:
+    friend class Silence;
     struct Entry {
         std::string kind;
         std::string first_place;
@@ -25,6 +26,24 @@ private:
 
     std::vector<Entry> entries_;
     std::map<std::string, std::size_t> index_;
+    bool silent_ = false;
+};
+
+/// While it lives, warnings that are added are forgotten: those of work that is done again, as its
+/// first or last time says all.
+class Silence {
+public:
+    explicit Silence(Warnings& warnings) : warnings_(warnings), before_(warnings.silent_)
+    {
+        warnings.silent_ = true;
+    }
+    ~Silence() { warnings_.silent_ = before_; }
+    Silence(const Silence&) = delete;
+    Silence& operator=(const Silence&) = delete;
+
+private:
+    Warnings& warnings_;
+    bool before_;
 };
 
 }  // namespace bdpt::io

@@ -22,11 +22,14 @@ bool starts_with(ByteView bytes, std::string_view magic)
                       [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
 }
 
+bool is_png(ByteView bytes)
+{
+    return starts_with(bytes, "\x89PNG\r\n\x1a\n");
+}
+
+/// OpenImageIO's name of the format.
 const char* find_format(ByteView bytes)
 {
-    if (starts_with(bytes, "\x89PNG\r\n\x1a\n")) {
-        return "png";
-    }
     if (starts_with(bytes, "\xff\xd8\xff")) {
         return "jpeg";
     }
@@ -62,6 +65,11 @@ EncodedPicture::EncodedPicture(const OiioLibrary& library, ByteView bytes, const
         const PictureSize size = webp_size(bytes);
         width_ = size.width;
         height_ = size.height;
+    } else if (is_png(bytes)) {
+        png_.emplace(bytes);
+        width_ = png_->width();
+        height_ = png_->height();
+        texel_bytes = static_cast<std::uint64_t>(png_->channels() * png_->value_bytes());
     } else {
         opened_.emplace(library.open(find_format(bytes), bytes));
         const BdptPictureHeader& header = opened_->header();
@@ -77,6 +85,14 @@ EncodedPicture::EncodedPicture(const OiioLibrary& library, ByteView bytes, const
 
 TexelImage EncodedPicture::decode() &&
 {
+    if (png_) {
+        TexelImage image{
+            .width = width_, .height = height_, .bytes = {}, .channels = png_->channels()};
+        image.type = png_->value_bytes() == 2 ? TexelType::unorm16 : TexelType::unorm8;
+        image.bytes.resize(decoded_bytes_);
+        png_->read(image.bytes.data());
+        return image;
+    }
     const OiioPicture picture =
         opened_ ? std::move(*opened_) : library_->open(find_format(bytes_), bytes_);
     const BdptPictureHeader& header = picture.header();

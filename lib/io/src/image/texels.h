@@ -2,6 +2,7 @@
 
 #include "file/bytes.h"
 #include "image/oiio_library.h"
+#include "image/png_picture.h"
 
 #include <bdpt/image.h>
 #include <bdpt/io/read_limits.h>
@@ -31,7 +32,8 @@ public:
 private:
     const OiioLibrary* library_;
     ByteView bytes_;
-    std::optional<OiioPicture> opened_;  // none: opening it would decode it
+    std::optional<PngPicture> png_;
+    std::optional<OiioPicture> opened_;  // none: PNG, or opening it would decode it
     int width_ = 0;
     int height_ = 0;
     std::uint64_t decoded_bytes_ = 0;

@@ -33,6 +33,7 @@ struct ExrPlacement {
     int full_height = 0;
 };
 
+/// How an EXR file is written, and what it says about the image.
 struct ExrOptions {
     ExrChannelType type = ExrChannelType::single_float;  ///< of the main layer; others have floats
     PictureMetadata metadata;

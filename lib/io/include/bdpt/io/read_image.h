@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+/// Files: glTF to `SceneDesc`, images to and from EXR, PNG and Radiance HDR.
 namespace bdpt::io {
 
 /// What to read of a picture's file, and how much at most.

@@ -15,6 +15,7 @@ struct MachineFacts {
     std::string libraries;  ///< that it was made with: "Embree 3.13.5, oneTBB 2021.8.0, ..."
 };
 
+/// Of the machine that runs this.
 [[nodiscard]] BDPT_EXPORT MachineFacts machine_facts();
 
 }  // namespace bdpt::eval

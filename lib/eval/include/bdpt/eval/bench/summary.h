@@ -63,13 +63,15 @@ struct IntegratorSummary {
 [[nodiscard]] BDPT_EXPORT std::vector<IntegratorSummary> summarize(const SceneResult& result,
                                                                    double seconds);
 
+/// When a curve has come down to an error.
+struct TimeToError {
+    double seconds = 0.0;
+    bool extrapolated = false;  ///< the time is before the first point or after the last one
+};
+
 /// The time after which a curve stays at or below `error` > 0, between its points on straight lines
 /// of a log-log plot; before the first and after the last as if the error fell with the inverse of
 /// the time. The curve has a point and rising times.
-struct TimeToError {
-    double seconds = 0.0;
-    bool extrapolated = false;
-};
 [[nodiscard]] BDPT_EXPORT TimeToError time_to_error(const std::vector<CurvePoint>& curve,
                                                     double error);
 

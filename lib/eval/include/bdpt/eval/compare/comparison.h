@@ -12,6 +12,7 @@
 
 namespace bdpt::eval {
 
+/// What a comparison measures and reports.
 struct ComparisonOptions {
     std::vector<Metric> metrics{all_metrics.begin(), all_metrics.end()};
     MetricOptions scale{};

@@ -28,6 +28,7 @@ struct Threshold {
 /// Reads "NAME=VALUE"; the name is a metric's, "bias" or "p". None for anything else.
 [[nodiscard]] BDPT_EXPORT std::optional<Threshold> parse_threshold(std::string_view text);
 
+/// Whether a threshold holds.
 struct ThresholdResult {
     std::string name;
     double limit = 0.0;

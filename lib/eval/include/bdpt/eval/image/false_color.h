@@ -8,6 +8,7 @@
 
 namespace bdpt::eval {
 
+/// How errors become colours.
 struct FalseColorOptions {
     double scale = 1.0;  ///< > 0: the error that has the last colour; greater ones have it too
     std::string title;   ///< under the colour bar: lower-case letters, digits and "_+-. "

@@ -24,12 +24,14 @@ enum class Metric : std::uint8_t {
     flip_ldr,  ///< mean of FLIP between the pictures as `io::filmic` shows them
 };
 
+/// In the order of the enumerators.
 inline constexpr std::array all_metrics{Metric::relmse, Metric::mse,     Metric::rmse,
                                         Metric::mape,   Metric::smape,   Metric::psnr,
                                         Metric::flip,   Metric::flip_ldr};
 
 /// The enumerator's own name.
 [[nodiscard]] BDPT_EXPORT std::string_view to_string(Metric metric);
+/// The enumerator of that name, if there is one.
 [[nodiscard]] BDPT_EXPORT std::optional<Metric> parse_metric(std::string_view name);
 
 /// Whether a greater value is a greater error: all but psnr.

@@ -10,7 +10,7 @@ namespace bdpt::eval {
 /// Samples a pixel of a batch. bdpt and mis have most of the time: how sharp the verdict is hangs
 /// on them, for mis is the one to check what only one strategy of bdpt can make.
 constexpr int bdpt_samples = 32;
-constexpr int mis_samples = 64;
+constexpr int mis_samples = 64;    ///< of mis
 constexpr int other_samples = 16;  ///< of pt, nee and lt
 /// Of pt for paths of one edge: a single ray each, and lamps that are seen are often small.
 constexpr int direct_samples = 64;

@@ -12,6 +12,7 @@
 
 namespace bdpt::eval {
 
+/// What `verify` says of a scene.
 enum class Verdict : std::uint8_t {
     pass,          ///< nothing disagrees, and what would bias the picture would have been seen
     fail,          ///< something disagrees

@@ -1,0 +1,97 @@
+#include "file/file_kind.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace bdpt::io {
+
+namespace {
+
+using namespace std::string_view_literals;
+
+struct Kind {
+    std::string_view start;  // in lower case
+    std::string_view name;
+};
+
+/// By the first bytes.
+constexpr Kind binary_kinds[] = {
+    {"\x89png\r\n"sv, "a PNG image"},
+    {"\xff\xd8\xff"sv, "a JPEG image"},
+    {"gif8"sv, "a GIF image"},
+    {"riff"sv, "a RIFF file (such as a WebP image)"},
+    {"\x76\x2f\x31\x01"sv, "an OpenEXR image"},
+    {"#?"sv, "a Radiance HDR image"},
+    {"\xabktx"sv, "a KTX image"},
+    {"%pdf"sv, "a PDF document"},
+    {"pk\x03\x04"sv, "a ZIP archive"},
+    {"\x1f\x8b"sv, "a gzip archive"},
+    {"7z\xbc\xaf\x27\x1c"sv, "a 7z archive"},
+    {"\x7f\x65lf"sv, "a program"},
+    {"kaydara fbx binary"sv, "an FBX file"},
+    {"blender"sv, "a Blender file"},
+    {"pxr-usdc"sv, "a USD file"},
+    {"version https://git-lfs"sv, "a Git LFS pointer: the file itself has not been fetched"},
+    {"\xff\xfe"sv, "text in UTF-16, where glTF asks for UTF-8"},
+    {"\xfe\xff"sv, "text in UTF-16, where glTF asks for UTF-8"},
+};
+
+/// By the first bytes that are no white space.
+constexpr Kind text_kinds[] = {
+    {"<!doctype html"sv, "an HTML page"}, {"<html"sv, "an HTML page"}, {"<?xml"sv, "an XML file"},
+    {"<"sv, "an HTML or XML file"},       {"#usda"sv, "a USD file"},   {"ply\n"sv, "a PLY file"},
+    {"ply\r\n"sv, "a PLY file"},          {"solid "sv, "an STL file"},
+};
+
+bool starts_with(ByteView bytes, std::string_view start)
+{
+    const auto is_same = [](char expected, std::uint8_t byte) {
+        const std::uint8_t lower =
+            byte >= 'A' && byte <= 'Z' ? static_cast<std::uint8_t>(byte + ('a' - 'A')) : byte;
+        return static_cast<std::uint8_t>(expected) == lower;
+    };
+    return bytes.size() >= start.size() &&
+           std::equal(start.begin(), start.end(), bytes.begin(), is_same);
+}
+
+std::optional<std::string_view> find(std::span<const Kind> kinds, ByteView bytes)
+{
+    const auto found = std::find_if(kinds.begin(), kinds.end(), [bytes](const Kind& kind) {
+        return starts_with(bytes, kind.start);
+    });
+    return found == kinds.end() ? std::nullopt : std::optional(found->name);
+}
+
+bool is_space(std::uint8_t byte)
+{
+    return byte == ' ' || byte == '\t' || byte == '\r' || byte == '\n';
+}
+
+}  // namespace
+
+std::optional<std::string_view> other_kind(ByteView file)
+{
+    if (file.empty()) {
+        return "an empty file";
+    }
+    if (const auto kind = find(binary_kinds, file)) {
+        return kind;
+    }
+    constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+    ByteView text =
+        starts_with(file, byte_order_mark) ? file.subspan(byte_order_mark.size()) : file;
+    const auto first = std::find_if_not(text.begin(), text.end(), is_space);
+    text = text.subspan(static_cast<std::size_t>(first - text.begin()));
+    if (text.empty()) {
+        return "a file of white space";
+    }
+    if (text.front() == 0) {
+        return "a file that starts with zeros";
+    }
+    return find(text_kinds, text);
+}
+
+}  // namespace bdpt::io

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "file/data_budget.h"
+#include "file/warnings.h"
+
+#include <bdpt/io/read_limits.h>
+
+#include <filesystem>
+#include <string>
+
+namespace bdpt::io {
+
+/// What all steps of loading one file share.
+struct LoadContext {
+    std::filesystem::path folder;  ///< that relative URIs start from
+    ReadLimits limits{};
+    DataBudget budget{limits};
+    Warnings warnings{};
+
+    /// Adds a warning.
+    void warn(const std::string& kind, const std::string& place) { warnings.add(kind, place); }
+};
+
+}  // namespace bdpt::io

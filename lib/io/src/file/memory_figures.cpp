@@ -1,0 +1,59 @@
+#include "file/memory_figures.h"
+
+#include "file/read_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <array>
+#include <charconv>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace bdpt::io {
+
+namespace {
+
+/// Line `name` of /proc/self/status [bytes]; 0 where there is none. Allocates nothing.
+std::uint64_t status_of(std::string_view name)
+{
+    const int descriptor = ::open("/proc/self/status", O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) {
+        return 0;
+    }
+    std::array<char, 4096> buffer{};
+    const ssize_t length = ::read(descriptor, buffer.data(), buffer.size());
+    ::close(descriptor);
+    const std::string_view text(buffer.data(), length > 0 ? static_cast<std::size_t>(length) : 0);
+    const std::size_t line = text.find(name);
+    const std::size_t digit = text.find_first_of("0123456789", line);
+    if (line == std::string_view::npos || digit == std::string_view::npos) {
+        return 0;
+    }
+    std::uint64_t kilobytes = 0;
+    std::from_chars(text.data() + digit, text.data() + text.size(), kilobytes);
+    return kilobytes * 1024;
+}
+
+}  // namespace
+
+std::string memory_figures()
+{
+    const auto text = [](std::uint64_t bytes) {
+        return human_bytes(static_cast<long double>(bytes));
+    };
+    rlimit limit{};
+    if (::getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) {
+        return fmt::format("the process had up to {} and needs more, but its limit is {}",
+                           text(status_of("VmPeak:")), text(limit.rlim_cur));
+    }
+    const auto machine = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
+                         static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+    return fmt::format("the process had up to {} and needs more; the machine has {}",
+                       text(status_of("VmHWM:")), text(machine));
+}
+
+}  // namespace bdpt::io

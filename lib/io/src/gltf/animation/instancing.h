@@ -1,0 +1,20 @@
+#pragma once
+
+#include "file/load_context.h"
+#include "gltf/document/tinygltf.h"
+
+#include <glm/mat4x4.hpp>
+
+#include <cstddef>
+#include <vector>
+
+namespace bdpt::io {
+
+/// Where EXT_mesh_gpu_instancing places the mesh of a node, each in the node's space; once, where
+/// it is, without the extension. Throws `Error` (invalid_input), also for more than `most` places,
+/// before any is read.
+[[nodiscard]] std::vector<glm::dmat4> instance_transforms(const tinygltf::Model& model,
+                                                          std::size_t node, std::size_t most,
+                                                          LoadContext& context);
+
+}  // namespace bdpt::io

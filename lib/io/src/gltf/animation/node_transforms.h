@@ -1,0 +1,30 @@
+#pragma once
+
+#include "file/load_context.h"
+#include "gltf/document/tinygltf.h"
+
+#include <glm/mat4x4.hpp>
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace bdpt::io {
+
+/// World transforms of all nodes, each worked out when it is first asked for.
+class NodeTransforms {
+public:
+    /// The arguments must outlive this. The nodes must be a forest (check_node_graph).
+    NodeTransforms(const tinygltf::Model& model, LoadContext& context);
+
+    /// Node space to world space. Throws `Error` (invalid_input) when it is not finite.
+    [[nodiscard]] const glm::dmat4& world(std::size_t node);
+
+private:
+    const tinygltf::Model& model_;
+    LoadContext& context_;
+    std::vector<std::size_t> parents_;
+    std::vector<std::optional<glm::dmat4>> world_;
+};
+
+}  // namespace bdpt::io

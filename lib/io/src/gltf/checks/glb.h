@@ -1,0 +1,28 @@
+#pragma once
+
+#include "file/bytes.h"
+#include "file/load_context.h"
+
+#include <cstddef>
+#include <optional>
+
+namespace bdpt::io {
+
+/// Where the chunks of a binary glTF file lie in it [glTF 2.0, sec. 4.4].
+struct GlbChunks {
+    struct Range {
+        std::size_t offset = 0;
+        std::size_t size = 0;
+    };
+    Range json;
+    std::optional<Range> bin;
+};
+
+/// Whether a file is a binary glTF file, by its first bytes.
+[[nodiscard]] bool is_glb(ByteView file);
+
+/// Finds the chunks; both lie within the file. Throws `Error`: unsupported for another container
+/// version than 2, invalid_input for lengths that do not fit.
+[[nodiscard]] GlbChunks find_glb_chunks(ByteView file, LoadContext& context);
+
+}  // namespace bdpt::io

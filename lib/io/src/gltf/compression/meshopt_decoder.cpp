@@ -1,0 +1,69 @@
+#include "gltf/compression/meshopt_decoder.h"
+
+#include <bdpt/error.h>
+
+#include <meshoptimizer.h>
+
+namespace bdpt::io {
+
+namespace {
+
+int decode(const MeshoptStream& stream, ByteView data, Bytes& decoded)
+{
+    switch (stream.mode) {
+        case MeshoptMode::triangles:
+            return meshopt_decodeIndexBuffer(decoded.data(), stream.count, stream.stride,
+                                             data.data(), data.size());
+        case MeshoptMode::indices:
+            return meshopt_decodeIndexSequence(decoded.data(), stream.count, stream.stride,
+                                               data.data(), data.size());
+        case MeshoptMode::attributes:
+            break;
+    }
+    return meshopt_decodeVertexBuffer(decoded.data(), stream.count, stream.stride, data.data(),
+                                      data.size());
+}
+
+void apply_filter(const MeshoptStream& stream, Bytes& decoded)
+{
+    switch (stream.filter) {
+        case MeshoptFilter::none:
+            return;
+        case MeshoptFilter::octahedral:
+            return meshopt_decodeFilterOct(decoded.data(), stream.count, stream.stride);
+        case MeshoptFilter::quaternion:
+            return meshopt_decodeFilterQuat(decoded.data(), stream.count, stream.stride);
+        case MeshoptFilter::exponential:
+            return meshopt_decodeFilterExp(decoded.data(), stream.count, stream.stride);
+    }
+}
+
+/// Attributes of the version that came after 0; older libraries do not read it.
+bool is_newer(const MeshoptStream& stream, ByteView data)
+{
+    return stream.mode == MeshoptMode::attributes && !data.empty() && data[0] == 0xa1;
+}
+
+}  // namespace
+
+bool has_meshopt()
+{
+    return true;
+}
+
+Bytes decode_meshopt(const MeshoptStream& stream, ByteView data)
+{
+    Bytes decoded(stream.count * stream.stride);
+    if (decode(stream, data, decoded) != 0) {
+        if (is_newer(stream, data)) {
+            throw Error(ErrorCode::unsupported,
+                        "attributes of version 1, which the meshoptimizer of this build does not "
+                        "read");
+        }
+        throw Error(ErrorCode::invalid_input, "the data is no meshopt stream of this size");
+    }
+    apply_filter(stream, decoded);
+    return decoded;
+}
+
+}  // namespace bdpt::io

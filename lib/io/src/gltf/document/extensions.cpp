@@ -1,0 +1,179 @@
+#include "gltf/document/extensions.h"
+
+#include "file/uri.h"
+#include "gltf/compression/draco_decoder.h"
+#include "gltf/compression/meshopt_decoder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace bdpt::io {
+
+namespace {
+
+using enum ExtensionStatus;
+
+constexpr std::array table{
+    ExtensionSupport{"KHR_draco_mesh_compression", supported, "where Draco is installed"},
+    ExtensionSupport{"KHR_lights_punctual", supported, "range is ignored"},
+    ExtensionSupport{"KHR_materials_anisotropy", supported, ""},
+    ExtensionSupport{"KHR_materials_clearcoat", supported, ""},
+    ExtensionSupport{"KHR_materials_diffuse_transmission", supported,
+                     "not of bodies that refract as well"},
+    ExtensionSupport{"KHR_materials_dispersion", supported, "one index for each channel"},
+    ExtensionSupport{"KHR_materials_emissive_strength", supported, ""},
+    ExtensionSupport{"KHR_materials_ior", supported, ""},
+    ExtensionSupport{"KHR_materials_iridescence", supported, ""},
+    ExtensionSupport{"KHR_materials_pbrSpecularGlossiness", supported, ""},
+    ExtensionSupport{"KHR_materials_sheen", supported, "roughness below 0.1 counts as 0.1"},
+    ExtensionSupport{"KHR_materials_specular", supported, ""},
+    ExtensionSupport{"KHR_materials_transmission", supported, ""},
+    ExtensionSupport{"KHR_materials_unlit", supported, "shines with its base colour"},
+    ExtensionSupport{"KHR_materials_variants", supported, "chosen by --variant"},
+    ExtensionSupport{"KHR_materials_volume", supported,
+                     "thickness tells solid from thin bodies only"},
+    ExtensionSupport{"KHR_mesh_quantization", supported, ""},
+    ExtensionSupport{"KHR_meshopt_compression", supported,
+                     "where meshoptimizer is installed; not the filter COLOR"},
+    ExtensionSupport{"KHR_node_visibility", supported, ""},
+    ExtensionSupport{"KHR_texture_transform", supported, ""},
+    ExtensionSupport{"EXT_lights_ies", supported, "TILT is ignored"},
+    ExtensionSupport{"EXT_lights_image_based", supported,
+                     "the sharpest pictures only; --env takes its place"},
+    ExtensionSupport{"EXT_mesh_gpu_instancing", supported, ""},
+    ExtensionSupport{"EXT_meshopt_compression", supported, "where meshoptimizer is installed"},
+    ExtensionSupport{"EXT_texture_webp", supported, ""},
+    // Supported by doing nothing: they have no influence on a picture.
+    ExtensionSupport{"FB_ngon_encoding", supported, "no influence on the picture"},
+    ExtensionSupport{"KHR_xmp", supported, "what is said about the file goes into pictures"},
+    ExtensionSupport{"KHR_xmp_json_ld", supported,
+                     "what is said about the file goes into pictures"},
+    ExtensionSupport{"KHR_animation_pointer", supported,
+                     "only what the core specification animates moves"},
+    ExtensionSupport{"MSFT_packing_normalRoughnessMetallic", supported,
+                     "the core textures are used"},
+    ExtensionSupport{"MSFT_packing_occlusionRoughnessMetallic", supported,
+                     "the core textures are used"},
+    ExtensionSupport{"MSFT_lod", supported, "the finest level is shown"},
+    // Without these the picture lacks something.
+    ExtensionSupport{"KHR_texture_basisu", ignored, "only fallback pictures are read"},
+    ExtensionSupport{"MSFT_texture_dds", ignored, "only fallback pictures are read"},
+    ExtensionSupport{"EXT_texture_avif", ignored, "only fallback pictures are read"},
+};
+
+/// Does this build lack the library for an extension?
+bool is_missing(std::string_view name)
+{
+    return (name == "KHR_draco_mesh_compression" && !has_draco()) ||
+           (name.ends_with("_meshopt_compression") && !has_meshopt());
+}
+
+ExtensionUse describe(const JsonPlace& place)
+{
+    if (!place.value().is_string()) {
+        place.fail("must be a string, but is " + brief(place.value()));
+    }
+    const auto& name = place.value().get_ref<const std::string&>();
+    const auto* found = std::find_if(table.begin(), table.end(),
+                                     [&name](const auto& known) { return known.name == name; });
+    if (found == table.end()) {
+        return {name, unknown, false, ""};
+    }
+    if (is_missing(name)) {
+        return {name, ignored, false,
+                "this build cannot decode it; only uncompressed data is read"};
+    }
+    return {name, found->status, false, std::string(found->note)};
+}
+
+}  // namespace
+
+std::span<const ExtensionSupport> known_extensions()
+{
+    return table;
+}
+
+std::vector<ExtensionUse> list_extensions(const JsonPlace& root)
+{
+    std::vector<ExtensionUse> uses;
+    for (const char* list : {"extensionsRequired", "extensionsUsed"}) {
+        if (!root.has(list)) {
+            continue;
+        }
+        const JsonPlace names = root.member(list);
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            const JsonPlace place = names.element(i);
+            if (!place.value().is_string()) {
+                continue;
+            }
+            ExtensionUse use = describe(place);
+            use.required = std::string_view(list) == "extensionsRequired";
+            if (std::none_of(uses.begin(), uses.end(),
+                             [&use](const ExtensionUse& other) { return other.name == use.name; })) {
+                uses.push_back(std::move(use));
+            }
+        }
+    }
+    return uses;
+}
+
+std::vector<ExtensionUse> check_extensions(const JsonPlace& root, LoadContext& context)
+{
+    std::vector<ExtensionUse> uses;
+    const auto find = [&uses](const std::string& name) {
+        return std::find_if(uses.begin(), uses.end(),
+                            [&name](const ExtensionUse& use) { return use.name == name; });
+    };
+    if (root.has("extensionsRequired")) {
+        const JsonPlace required = root.member("extensionsRequired");
+        for (std::size_t i = 0; i < required.size(); ++i) {
+            const JsonPlace place = required.element(i);
+            ExtensionUse use = describe(place);
+            if (use.status != supported) {
+                place.fail(fmt::format("the file requires {}, which {}", quote(use.name),
+                                       is_missing(use.name) ? "this build cannot decode"
+                                                            : "is not supported"),
+                           ErrorCode::unsupported);
+            }
+            use.required = true;
+            if (find(use.name) == uses.end()) {
+                uses.push_back(std::move(use));
+            }
+        }
+    }
+    if (root.has("extensionsUsed")) {
+        const JsonPlace used = root.member("extensionsUsed");
+        for (std::size_t i = 0; i < used.size(); ++i) {
+            ExtensionUse use = describe(used.element(i));
+            if (find(use.name) != uses.end()) {
+                continue;
+            }
+            if (use.status != supported) {
+                context.warn(
+                    fmt::format("extension {} is {}{}", use.name,
+                                use.status == ignored ? "ignored: " : "unknown and ignored",
+                                use.note),
+                    used.element(i).pointer());
+            }
+            uses.push_back(std::move(use));
+        }
+    }
+    return uses;
+}
+
+std::string_view to_string(ExtensionStatus status)
+{
+    switch (status) {
+        case supported:
+            return "supported";
+        case ignored:
+            return "ignored";
+        case unknown:
+            break;
+    }
+    return "unknown";
+}
+
+}  // namespace bdpt::io

@@ -1,0 +1,240 @@
+#include "gltf/document/model.h"
+
+#include "file/read_file.h"
+#include "file/uri.h"
+
+#include <bdpt/error.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <utility>
+
+namespace bdpt::io {
+
+namespace {
+
+/// tinygltf holds integers within extensions as `int`; greater ones become floating point.
+void widen_integers(Json& value)
+{
+    if (value.is_structured()) {
+        for (Json& element : value) {
+            widen_integers(element);
+        }
+    } else if (value.is_number_unsigned() &&
+               value.get<std::uint64_t>() > std::numeric_limits<int>::max()) {
+        value = value.get<double>();
+    } else if (value.is_number_integer() && !value.is_number_unsigned() &&
+               value.get<std::int64_t>() < std::numeric_limits<int>::min()) {
+        value = value.get<double>();
+    }
+}
+
+/// Calls `visit` with each element of a top-level array.
+template <typename Visit>
+void for_each(Json& document, const char* section, const Visit& visit)
+{
+    const auto found = document.find(section);
+    if (found == document.end()) {
+        return;
+    }
+    for (Json& element : *found) {
+        visit(element);
+    }
+}
+
+/// The images, which are taken away: tinygltf would decode the data in their URIs.
+std::vector<tinygltf::Image> take_images(Json& document)
+{
+    std::vector<tinygltf::Image> images;
+    for_each(document, "images", [&images](Json& image) {
+        tinygltf::Image& taken = images.emplace_back();
+        if (image.contains("uri")) {
+            taken.uri = std::move(image["uri"].get_ref<std::string&>());
+        } else if (image.contains("bufferView")) {
+            taken.bufferView = image["bufferView"].get<int>();
+        }
+    });
+    document.erase("images");
+    return images;
+}
+
+/// The array "lights" of an extension of the document, which is taken away.
+Json take_lights(Json& document, const char* extension)
+{
+    const auto extensions = document.find("extensions");
+    if (extensions == document.end() || !extensions->contains(extension)) {
+        return Json::array();
+    }
+    Json taken = std::move((*extensions)[extension]);
+    extensions->erase(extension);
+    return taken.contains("lights") ? std::move(taken["lights"]) : Json::array();
+}
+
+std::vector<ProfileSource> take_profiles(Json& document)
+{
+    std::vector<ProfileSource> profiles;
+    for (Json& profile : take_lights(document, "EXT_lights_ies")) {
+        ProfileSource& taken = profiles.emplace_back();
+        if (profile.contains("uri")) {
+            taken.uri = std::move(profile["uri"].get_ref<std::string&>());
+        } else if (profile.contains("bufferView")) {
+            taken.buffer_view = profile["bufferView"].get<int>();
+        }
+    }
+    return profiles;
+}
+
+Json take_motion(Json& document)
+{
+    const auto found = document.find("animations");
+    Json motion = Json::object();
+    motion["animations"] = found != document.end() ? std::move(*found) : Json::array();
+    document.erase("animations");
+    return motion;
+}
+
+/// What tinygltf sees: buffers are named by their index and come from memory; what the loader does
+/// not read is taken away; what tinygltf insists on, but the loader does not need, is put in.
+void simplify(Json& document)
+{
+    std::size_t index = 0;
+    for_each(document, "buffers",
+             [&index](Json& buffer) { buffer["uri"] = std::to_string(index++); });
+    for_each(document, "meshes", [](Json& mesh) {
+        for (Json& primitive : mesh["primitives"]) {
+            Json& attributes = primitive["attributes"];
+            attributes.erase(indices_attribute);
+            if (primitive.contains("indices")) {
+                attributes[indices_attribute] = primitive["indices"];
+                primitive.erase("indices");
+            }
+        }
+    });
+    for_each(document, "cameras", [](Json& camera) {
+        if (camera.contains("perspective")) {
+            camera["perspective"].emplace("znear", 0.1);
+        }
+        if (camera.contains("orthographic")) {
+            for (const char* name : {"xmag", "ymag", "znear", "zfar"}) {
+                camera["orthographic"].emplace(name, 1.0);
+            }
+        }
+    });
+    for_each(document, "nodes", [](Json& node) {
+        if (node.contains("extensions") && node["extensions"].contains("EXT_lights_ies")) {
+            widen_integers(node["extensions"]["EXT_lights_ies"]);
+        }
+    });
+    for_each(document, "materials", [](Json& material) {
+        if (material.contains("extensions")) {
+            widen_integers(material["extensions"]);
+        }
+    });
+}
+
+/// Gives tinygltf the buffers that have been read. Each is taken once.
+tinygltf::FsCallbacks memory_files(std::vector<Bytes>& buffers)
+{
+    tinygltf::FsCallbacks callbacks{};
+    callbacks.FileExists = [](const std::string&, void*) { return true; };
+    callbacks.ExpandFilePath = [](const std::string& path, void*) { return path; };
+    callbacks.ReadWholeFile = [](Bytes* bytes, std::string*, const std::string& path, void* user) {
+        auto& all = *static_cast<std::vector<Bytes>*>(user);
+        // The names are those that simplify() gave.
+        *bytes = std::move(all.at(std::stoul(path.substr(path.rfind('/') + 1))));
+        return true;
+    };
+    callbacks.WriteWholeFile = [](std::string*, const std::string&, const Bytes&, void*) {
+        return false;
+    };
+    // Newer versions ask for the size first.
+    const auto add_size_callback = [](auto& newer) {
+        if constexpr (requires { newer.GetFileSizeInBytes; }) {
+            newer.GetFileSizeInBytes = [](std::size_t* size, std::string*, const std::string& path,
+                                          void* user) {
+                const auto& all = *static_cast<std::vector<Bytes>*>(user);
+                *size = all.at(std::stoul(path.substr(path.rfind('/') + 1))).size();
+                return true;
+            };
+        }
+    };
+    add_size_callback(callbacks);
+    callbacks.user_data = &buffers;
+    return callbacks;
+}
+
+std::string one_line(std::string text)
+{
+    while (!text.empty() && text.back() == '\n') {
+        text.pop_back();
+    }
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+}
+
+}  // namespace
+
+Bytes read_source(const tinygltf::Model& model, const std::string& uri, int buffer_view,
+                  std::uint64_t limit, const LoadContext& context)
+{
+    if (uri.empty() && buffer_view >= 0) {
+        const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(buffer_view)];
+        if (view.byteLength > limit) {
+            throw Error(
+                ErrorCode::invalid_input,
+                fmt::format("a view of {} bytes, but the limit is {}", view.byteLength, limit));
+        }
+        const Bytes& data = model.buffers[static_cast<std::size_t>(view.buffer)].data;
+        const ByteView bytes = ByteView(data).subspan(view.byteOffset, view.byteLength);
+        return {bytes.begin(), bytes.end()};
+    }
+    if (uri.empty()) {
+        throw Error(ErrorCode::invalid_input, "neither \"uri\" nor \"bufferView\"");
+    }
+    if (is_data_uri(uri)) {
+        return decode_data_uri(uri, limit);
+    }
+    const std::filesystem::path file = resolve_uri(context.folder, uri);
+    try {
+        return read_file(file, limit);
+    } catch (const Error& error) {
+        throw Error(error.code(), quote(uri) + ": " + error.what());
+    }
+}
+
+GltfModel build_model(CheckedGltf checked)
+{
+    GltfModel model;
+    std::vector<tinygltf::Image> images = take_images(checked.document);
+    model.light_profiles = take_profiles(checked.document);
+    model.environments = take_lights(checked.document, "EXT_lights_image_based");
+    model.motion = take_motion(checked.document);
+    std::size_t index = 0;
+    for_each(checked.document, "buffers", [&](const Json& buffer) {
+        checked.buffers[index++].resize(buffer["byteLength"].get<std::size_t>());
+    });
+    simplify(checked.document);
+    const std::string text = checked.document.dump(-1, ' ', false, Json::error_handler_t::replace);
+    checked.document = nullptr;
+    if (text.size() > std::numeric_limits<unsigned>::max()) {
+        throw Error(ErrorCode::invalid_input,
+                    fmt::format("JSON of {} bytes is too long", text.size()));
+    }
+    tinygltf::TinyGLTF parser;
+    parser.SetFsCallbacks(memory_files(checked.buffers));
+    std::string error;
+    std::string warning;
+    if (!parser.LoadASCIIFromString(&model.structs, &error, &warning, text.data(),
+                                    static_cast<unsigned>(text.size()), "",
+                                    tinygltf::REQUIRE_VERSION)) {
+        throw Error(ErrorCode::invalid_input, "glTF: " + one_line(error));
+    }
+    model.structs.images = std::move(images);
+    return model;
+}
+
+}  // namespace bdpt::io

@@ -1,0 +1,191 @@
+#include "gltf/document/prepass.h"
+
+#include "file/file_kind.h"
+#include "file/read_file.h"
+#include "file/uri.h"
+#include "gltf/checks/glb.h"
+#include "gltf/checks/layout.h"
+#include "gltf/checks/node_graph.h"
+#include "gltf/checks/schema.h"
+#include "gltf/compression/draco_primitives.h"
+#include "gltf/compression/meshopt_views.h"
+#include "gltf/document/extensions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace bdpt::io {
+
+namespace {
+
+/// Major and minor must be what we know: 2.x, and a minimum of 2.0 at most [glTF 2.0, sec. 3.2].
+/// Comes first, as glTF 1.0 breaks about every rule of 2.0.
+void check_version(const JsonPlace& root)
+{
+    if (!root.has("asset")) {
+        return;
+    }
+    const JsonPlace asset = root.member("asset");
+    if (asset.has("version")) {
+        const JsonPlace version = asset.member("version");
+        if (version.value().is_string() &&
+            !version.value().get_ref<const std::string&>().starts_with("2.")) {
+            version.fail("glTF " + brief(version.value()) + "; only 2.x is supported",
+                         ErrorCode::unsupported);
+        }
+    }
+    if (asset.has("minVersion")) {
+        const JsonPlace minimum = asset.member("minVersion");
+        if (minimum.value() != "2.0") {
+            minimum.fail("requires glTF " + brief(minimum.value()) + "; 2.0 is supported",
+                         ErrorCode::unsupported);
+        }
+    }
+}
+
+/// `length` bytes of what the URI names, and one more if there are more. Many buffers may share one
+/// large file.
+Bytes read_buffer(const JsonPlace& buffer, std::uint64_t length, const LoadContext& context)
+{
+    const JsonPlace place = buffer.member("uri");
+    const auto& uri = place.value().get_ref<const std::string&>();
+    try {
+        if (is_data_uri(uri)) {
+            return decode_data_uri(uri, context.limits.file_bytes);
+        }
+        const std::filesystem::path file = resolve_uri(context.folder, uri);
+        try {
+            return read_file(file, context.limits.file_bytes, length + 1);
+        } catch (const Error& error) {
+            throw Error(error.code(), quote(uri) + ": " + error.what());
+        }
+    } catch (const Error& error) {
+        place.fail(error.what(), error.code());
+    }
+}
+
+/// Buffer 0 of a binary file is its BIN chunk, unless it has a URI [glTF 2.0, sec. 4.4.3.3].
+std::vector<Bytes> read_buffers(const JsonPlace& root, std::optional<Bytes> bin,
+                                LoadContext& context)
+{
+    std::vector<Bytes> buffers;
+    const std::vector<bool> fallback = find_fallback_buffers(root);
+    const std::size_t count = root.has("buffers") ? root.member("buffers").size() : 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const JsonPlace all = root.member("buffers");
+        const JsonPlace buffer = all.element(i);
+        if (fallback[i]) {
+            buffers.emplace_back();
+            continue;
+        }
+        const bool in_bin = i == 0 && bin && !buffer.has("uri");
+        if (!in_bin && !buffer.has("uri")) {
+            buffer.fail(i == 0 ? "no \"uri\", and there is no BIN chunk" : "no \"uri\"");
+        }
+        const std::uint64_t length = buffer.member("byteLength").as_unsigned();
+        Bytes bytes = in_bin ? std::move(*bin) : read_buffer(buffer, length, context);
+        if (bytes.size() < length) {
+            buffer.member("byteLength")
+                .fail(fmt::format("{} bytes, but there are {}", length, bytes.size()));
+        }
+        // The BIN chunk may have up to three bytes of padding.
+        if (bytes.size() > length + (in_bin ? 3 : 0)) {
+            context.warn("the buffer holds more bytes than it says; they are ignored",
+                         fmt::format("{}: {}", buffer.member("byteLength").pointer(), length));
+        }
+        buffers.push_back(std::move(bytes));
+    }
+    return buffers;
+}
+
+/// The URIs of all images or light profiles, also of those that nothing uses: a file that points
+/// outside of its folder is refused as a whole.
+void check_uris(const JsonPlace& holders, const std::filesystem::path& folder)
+{
+    for (std::size_t i = 0; i < holders.size(); ++i) {
+        const JsonPlace holder = holders.element(i);
+        if (holder.has("uri") && holder.has("bufferView")) {
+            holder.fail("both \"uri\" and \"bufferView\"");
+        }
+        if (!holder.has("uri")) {
+            continue;
+        }
+        const JsonPlace place = holder.member("uri");
+        const auto& uri = place.value().get_ref<const std::string&>();
+        if (is_data_uri(uri)) {
+            continue;
+        }
+        try {
+            static_cast<void>(resolve_uri(folder, uri));
+        } catch (const Error& error) {
+            place.fail(error.what(), error.code());
+        }
+    }
+}
+
+void check_uris_of_all(const JsonPlace& root, const std::filesystem::path& folder)
+{
+    if (root.has("images")) {
+        check_uris(root.member("images"), folder);
+    }
+    if (!root.has("extensions")) {
+        return;
+    }
+    const JsonPlace extensions = root.member("extensions");
+    if (!extensions.has("EXT_lights_ies")) {
+        return;
+    }
+    const JsonPlace profiles = extensions.member("EXT_lights_ies");
+    if (profiles.has("lights")) {
+        check_uris(profiles.member("lights"), folder);
+    }
+}
+
+}  // namespace
+
+CheckedGltf read_checked_gltf(const std::filesystem::path& file, LoadContext& context)
+{
+    Bytes bytes = read_file(file, context.limits.file_bytes);
+    CheckedGltf result;
+    std::optional<Bytes> bin;
+    if (is_glb(bytes)) {
+        const GlbChunks chunks = find_glb_chunks(bytes, context);
+        result.document = parse_json(ByteView(bytes).subspan(chunks.json.offset, chunks.json.size),
+                                     context.limits);
+        if (chunks.bin) {
+            // In place: a scene's vertices should not be in memory twice.
+            bytes.resize(chunks.bin->offset + chunks.bin->size);
+            bytes.erase(bytes.begin(),
+                        bytes.begin() + static_cast<std::ptrdiff_t>(chunks.bin->offset));
+            bin = std::move(bytes);
+        }
+    } else {
+        if (const std::optional<std::string_view> kind = other_kind(bytes)) {
+            throw Error(ErrorCode::invalid_input, fmt::format("not a glTF file but {}", *kind));
+        }
+        result.document = parse_json(bytes, context.limits);
+    }
+    const JsonPlace root(result.document);
+    if (!root.value().is_object()) {
+        root.fail("a glTF document must be a JSON object, but is " + brief(root.value()));
+    }
+    check_version(root);
+    result.extensions = check_extensions(root, context);
+    check_schema(root, context);
+    check_layout(root, context);
+    check_node_graph(root, context.limits);
+    check_uris_of_all(root, context.folder);
+    result.buffers = read_buffers(root, std::move(bin), context);
+    decode_meshopt_views(result.document, result.buffers, context.limits);
+    decode_draco_primitives(result.document, result.buffers, context.limits);
+    // What was decoded is trusted no more than what was read.
+    const Silence silence(context.warnings);
+    check_layout(JsonPlace(result.document), context);
+    return result;
+}
+
+}  // namespace bdpt::io

@@ -1,0 +1,75 @@
+#pragma once
+
+#include "file/load_context.h"
+#include "gltf/animation/node_motion.h"
+#include "gltf/animation/node_transforms.h"
+#include "gltf/document/model.h"
+#include "gltf/geometry/mesh.h"
+
+#include <bdpt/scene_desc.h>
+
+#include <glm/mat4x4.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <tuple>
+#include <vector>
+
+namespace bdpt::io {
+
+/// A mesh as a node shows it.
+struct ShownMesh {
+    MeshId mesh{};
+    bool in_world = false;  ///< skinned: where it is, no node moves it
+};
+
+/// Reads primitives, each deformation of each only once.
+class MeshTable {
+public:
+    /// The arguments must outlive the table. Meshes are added to `meshes`.
+    MeshTable(const GltfModel& model, NodeTransforms& transforms, const NodeMotion& motion,
+              std::vector<MeshDesc>& meshes, LoadContext& context)
+        : model_(model),
+          transforms_(transforms),
+          motion_(motion),
+          meshes_(meshes),
+          context_(context)
+    {}
+
+    /// Primitive `primitive` of the mesh that `node` has, with the node's skin and weights of morph
+    /// targets; none if it has no triangles. If these move it has a motion of as many steps as the
+    /// nodes have. Throws `Error` (invalid_input).
+    [[nodiscard]] std::optional<ShownMesh> get(std::size_t node, std::size_t primitive);
+
+    /// A mesh in world space, for transforms that have no inverse; one for each time, or one for
+    /// all. None if nothing is left to see of it. Throws `Error` (invalid_input) over the limits.
+    [[nodiscard]] std::optional<MeshId> flatten(MeshId mesh, PrimitiveId id,
+                                                std::span<const glm::dmat4> world_from_object);
+
+private:
+    using Weights = std::vector<double>;
+    /// Mesh, primitive, skin (-1: none), weights of morph targets at one time or at each.
+    using Key = std::tuple<std::size_t, std::size_t, int, std::vector<Weights>>;
+    /// The matrices of a skin at one time or at each.
+    using Joints = std::vector<std::vector<glm::dmat4>>;
+
+    [[nodiscard]] MeshId add(MeshDesc mesh, PrimitiveId id);
+    [[nodiscard]] const Joints& joints(int skin);
+    /// `weights` and `joints` are for one time or for each; no joints: no skin.
+    [[nodiscard]] std::optional<MeshDesc> read(PrimitiveId id, const std::vector<Weights>& weights,
+                                               const Joints& joints);
+
+    const GltfModel& model_;
+    NodeTransforms& transforms_;
+    const NodeMotion& motion_;
+    std::vector<MeshDesc>& meshes_;
+    LoadContext& context_;
+    std::map<Key, std::optional<MeshId>> known_;
+    std::map<int, Joints> joints_;  // by skin
+    std::uint64_t triangles_ = 0;
+};
+
+}  // namespace bdpt::io

@@ -1,0 +1,228 @@
+#include "gltf/light_camera/image_based_light.h"
+
+#include "file/read_file.h"
+#include "gltf/animation/transform.h"
+#include "image/cube_map.h"
+#include "image/texels.h"
+
+#include <bdpt/error.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace bdpt::io {
+
+namespace {
+
+/// A failure that costs the environment only, unlike `Error`.
+struct UnreadableCube : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// The electro-optical function of IEC 61966-2-1, without the C library.
+constexpr std::array<float, 256> srgb_table = [] {
+    std::array<float, 256> table{};
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        const double code = static_cast<double>(i) / 255.0;
+        const double base = (code + 0.055) / 1.055;
+        double root = 1.0;  // the fifth root of base^2, by Newton's method
+        for (int step = 0; step < 40; ++step) {
+            const double power = root * root * root * root;
+            root -= (root * power - base * base) / (5.0 * power);
+        }
+        table[i] = static_cast<float>(code <= 0.04045 ? code / 12.92 : base * base * root);
+    }
+    return table;
+}();
+
+std::size_t texel_count(const TexelImage& texels)
+{
+    return static_cast<std::size_t>(texels.width) * static_cast<std::size_t>(texels.height);
+}
+
+/// The upper eight bits of an integer, which is all that RGBD has.
+std::uint8_t code_of(const TexelImage& texels, std::size_t texel, int channel)
+{
+    const auto value =
+        texel * static_cast<std::size_t>(texels.channels) + static_cast<std::size_t>(channel);
+    if (texels.type == TexelType::unorm8) {
+        return texels.bytes[value];
+    }
+    std::uint16_t wide = 0;
+    std::memcpy(&wide, texels.bytes.data() + 2 * value, sizeof wide);
+    return static_cast<std::uint8_t>(wide >> 8U);
+}
+
+/// Radiance from RGBD: colours are sRGB, and alpha divides them. A picture without alpha has 255.
+Image decode_rgbd(const TexelImage& texels, const std::string& place, LoadContext& context)
+{
+    Image image{texels.width, texels.height, {}};
+    if (texels.type != TexelType::unorm8 && texels.type != TexelType::unorm16) {
+        throw UnreadableCube(place + ": its pixels are no integers, as those of RGBD are");
+    }
+    image.pixels.reserve(texel_count(texels));
+    const bool is_grey = texels.channels < 3;
+    const bool has_alpha = texels.channels % 2 == 0;
+    bool is_divided_by_zero = false;
+    for (std::size_t i = 0; i < texel_count(texels); ++i) {
+        const auto color_of = [&](int channel) {
+            return srgb_table[code_of(texels, i, is_grey ? 0 : channel)];
+        };
+        const float divisor =
+            has_alpha ? static_cast<float>(code_of(texels, i, texels.channels - 1)) / 255.0f : 1.0f;
+        is_divided_by_zero = is_divided_by_zero || divisor == 0.0f;
+        const Rgb color(color_of(0), color_of(1), color_of(2));
+        image.pixels.push_back(divisor > 0.0f ? color / divisor : Rgb(0.0f));
+    }
+    if (is_divided_by_zero) {
+        context.warn("texels of an environment whose alpha is 0 are black", place);
+    }
+    return image;
+}
+
+TexelImage read_face(const GltfModel& model, std::size_t image, const LoadContext& context)
+{
+    const tinygltf::Image& source = model.structs.images[image];
+    try {
+        return decode_texels(read_source(model.structs, source.uri, source.bufferView,
+                                         context.limits.file_bytes, context),
+                             context.limits);
+    } catch (const Error& error) {
+        if (error.code() == ErrorCode::not_found) {
+            throw UnreadableCube(error.what());
+        }
+        throw;
+    }
+}
+
+CubeMap read_cube(const GltfModel& model, const Json& images, const std::string& place,
+                  LoadContext& context)
+{
+    CubeMap cube;
+    std::uint64_t bytes = 0;
+    for (std::size_t side = 0; side < cube.faces.size(); ++side) {
+        const std::string face_place = fmt::format("{}/{}", place, side);
+        const auto same = std::find(
+            images.begin(), images.begin() + static_cast<std::ptrdiff_t>(side), images[side]);
+        if (const auto earlier = static_cast<std::size_t>(same - images.begin()); earlier < side) {
+            cube.faces[side] = cube.faces[earlier];
+            continue;
+        }
+        try {
+            const TexelImage texels = read_face(model, images[side].get<std::size_t>(), context);
+            Image& face = cube.faces[side];
+            bytes += texel_count(texels) * sizeof(Rgb);
+            if (bytes > context.limits.texture_bytes) {
+                throw Error(
+                    ErrorCode::invalid_input,
+                    fmt::format(
+                        "all sides together need more than {}",
+                        human_bytes(static_cast<long double>(context.limits.texture_bytes))));
+            }
+            face = decode_rgbd(texels, face_place, context);
+            if (face.width != face.height || face.width != cube.faces[0].width) {
+                context.warn(
+                    "the sides of an environment should be square and of one size",
+                    fmt::format("{}: {} x {} pixels", face_place, face.width, face.height));
+            }
+        } catch (const Error& error) {
+            throw Error(error.code(), face_place + ": " + error.what());
+        } catch (const std::runtime_error& error) {
+            throw UnreadableCube(face_place + ": " + error.what());
+        }
+    }
+    return cube;
+}
+
+int longest_side(const CubeMap& cube)
+{
+    int longest = 0;
+    for (const Image& face : cube.faces) {
+        longest = std::max({longest, face.width, face.height});
+    }
+    return longest;
+}
+
+/// Four texels along a full circle for each of a side keep their detail, if the limits let them.
+Image flatten(CubeMap cube, const std::string& place, LoadContext& context)
+{
+    constexpr int least = 32;  // so that even sides of one texel have edges
+    constexpr double most =
+        2048;  // more takes seconds and gigabytes, which a small file may ask for
+    const double affordable =
+        std::sqrt(static_cast<double>(context.limits.image_bytes / sizeof(Rgb)) / 2.0);
+    const int highest = std::max(
+        1, static_cast<int>(std::min({most, affordable, context.limits.image_side / 2.0})));
+    const int wanted = std::max(2 * longest_side(cube), least);
+    if (wanted > highest) {
+        context.warn("an environment loses detail, as a picture of all of it would be too large",
+                     fmt::format("{}: {} x {} pixels", place, 2 * wanted, wanted));
+    }
+    while (longest_side(cube) > 1 && 2 * longest_side(cube) > highest) {
+        cube = halved(cube);
+    }
+    return to_equirectangular(cube, std::min(std::max(2 * longest_side(cube), least), highest));
+}
+
+float read_intensity(const Json& light, const std::string& place, LoadContext& context)
+{
+    // What alpha divides is 255 at most.
+    constexpr double most = std::numeric_limits<float>::max() / 256.0;
+    const double intensity = light.value("intensity", 1.0);
+    if (!(intensity >= 0.0 && intensity <= most)) {
+        context.warn("the intensity of an environment is brought into its range",
+                     fmt::format("{}/intensity: {}", place, intensity));
+    }
+    return static_cast<float>(std::clamp(intensity, 0.0, most));
+}
+
+}  // namespace
+
+std::optional<EnvironmentLightDesc> read_image_based_light(const GltfModel& model,
+                                                           std::size_t scene, LoadContext& context)
+{
+    const auto& extensions = model.structs.scenes[scene].extensions;
+    const auto found = extensions.find("EXT_lights_image_based");
+    if (found == extensions.end()) {
+        return std::nullopt;
+    }
+    const auto index = static_cast<std::size_t>(found->second.Get("light").GetNumberAsInt());
+    const Json& light = model.environments[index];
+    const std::string place = fmt::format("/extensions/EXT_lights_image_based/lights/{}", index);
+    const Json& levels = light["specularImages"];
+    if (levels.empty() || levels[0].size() != 6) {
+        throw Error(ErrorCode::invalid_input,
+                    fmt::format("{}/specularImages: a cube of {} sides, but it must have 6", place,
+                                levels.empty() ? 0 : levels[0].size()));
+    }
+    EnvironmentLightDesc desc;
+    try {
+        CubeMap cube = read_cube(model, levels[0], place + "/specularImages/0", context);
+        desc.radiance = flatten(std::move(cube), place, context);
+    } catch (const UnreadableCube& error) {
+        context.warn("a picture of the environment cannot be read; the scene does without it",
+                     error.what());
+        return std::nullopt;
+    }
+    const float intensity = read_intensity(light, place, context);
+    for (Rgb& pixel : desc.radiance.pixels) {
+        pixel *= intensity;
+    }
+    if (light.contains("rotation")) {
+        const auto xyzw = light["rotation"].get<std::vector<double>>();
+        desc.world_from_environment = Mat3(glm::dmat3(rotation(xyzw, place, context)));
+    }
+    return desc;
+}
+
+}  // namespace bdpt::io

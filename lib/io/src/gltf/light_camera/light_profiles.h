@@ -1,0 +1,44 @@
+#pragma once
+
+#include "file/load_context.h"
+#include "gltf/document/model.h"
+
+#include <bdpt/scene_desc.h>
+
+#include <glm/mat4x4.hpp>
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <vector>
+
+namespace bdpt::io {
+
+/// Reads the light profiles of a document [EXT_lights_ies], each when a node first holds it.
+class LightProfiles {
+public:
+    /// The arguments must outlive this. Profiles are added to `profiles`.
+    LightProfiles(const GltfModel& model, std::vector<LightProfile>& profiles, LoadContext& context)
+        : model_(model), profiles_(profiles), context_(context)
+    {}
+
+    /// The light that a node holds, if any. Throws `Error`: not_found for a file that is missing,
+    /// invalid_input for one that is broken.
+    [[nodiscard]] std::optional<LightDesc> read(std::size_t node,
+                                                const glm::dmat4& world_from_node);
+
+private:
+    /// Where a profile is among those that have been read, and its axes in a node's.
+    struct Known {
+        ProfileId id{};
+        Mat3 node_from_profile{1.0f};
+    };
+    [[nodiscard]] const Known& get(std::size_t index);
+
+    const GltfModel& model_;
+    std::vector<LightProfile>& profiles_;
+    LoadContext& context_;
+    std::map<std::size_t, Known> known_;
+};
+
+}  // namespace bdpt::io

@@ -1,0 +1,192 @@
+#include "gltf/material/image_table.h"
+
+#include "file/read_file.h"
+#include "file/uri.h"
+
+#include <bdpt/error.h>
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <exception>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace bdpt::io {
+
+namespace {
+
+/// A failure that costs one picture only, unlike `Error`.
+struct UnreadablePicture : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+Bytes read_picture_file(const std::string& uri, const LoadContext& context)
+{
+    const std::filesystem::path file = resolve_uri(context.folder, uri);
+    try {
+        return read_file(file, context.limits.file_bytes);
+    } catch (const Error& error) {
+        if (error.code() == ErrorCode::not_found) {
+            throw UnreadablePicture(quote(uri) + ": " + error.what());
+        }
+        throw;
+    }
+}
+
+}  // namespace
+
+/// A picture on its way; what goes wrong with it is kept until its turn.
+struct ImageTable::Job {
+    std::size_t index = 0;
+    Bytes own_bytes{};  // if it is not in a buffer
+    ByteView bytes{};
+    std::optional<EncodedPicture> encoded{};
+    TexelImage image{};
+    std::exception_ptr failure{};
+    bool fatal = false;  // does it end more than this picture?
+
+    template <typename Work>
+    void attempt(const Work& work)
+    {
+        try {
+            work();
+        } catch (const Error&) {
+            failure = std::current_exception();
+            fatal = true;
+        } catch (const std::runtime_error&) {
+            failure = std::current_exception();
+        } catch (...) {
+            failure = std::current_exception();
+            fatal = true;
+        }
+    }
+
+    [[nodiscard]] std::uint64_t memory() const
+    {
+        return own_bytes.size() + (encoded ? encoded->decoded_bytes() : 0);
+    }
+};
+
+/// Reads the bytes and the header. What a picture takes is counted even if it turns out to be
+/// broken, so that the verdict does not depend on the order in which pictures are decoded.
+void ImageTable::open(const OiioLibrary& library, Job& job)
+{
+    const tinygltf::Image& source = model_.structs.images[job.index];
+    if (source.bufferView >= 0) {
+        const tinygltf::BufferView& view =
+            model_.structs.bufferViews[static_cast<std::size_t>(source.bufferView)];
+        const auto& data = model_.structs.buffers[static_cast<std::size_t>(view.buffer)].data;
+        job.bytes = ByteView(data).subspan(view.byteOffset, view.byteLength);
+    } else if (source.uri.empty()) {
+        throw UnreadablePicture("neither \"uri\" nor \"bufferView\"");
+    } else {
+        job.own_bytes = is_data_uri(source.uri)
+                            ? decode_data_uri(source.uri, context_.limits.file_bytes)
+                            : read_picture_file(source.uri, context_);
+        job.bytes = job.own_bytes;
+    }
+    job.encoded.emplace(library, job.bytes, context_.limits);
+    total_bytes_ += job.encoded->decoded_bytes();
+    if (total_bytes_ > context_.limits.texture_bytes) {
+        throw Error(
+            ErrorCode::invalid_input,
+            fmt::format("all pictures together need more than {}",
+                        human_bytes(static_cast<long double>(context_.limits.texture_bytes))));
+    }
+    context_.budget.spend_memory(job.encoded->decoded_bytes());
+}
+
+/// Decodes the pictures of a batch at once, and adds them in their order.
+void ImageTable::finish(std::deque<Job>& batch, const std::function<void()>& tell)
+{
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, batch.size(), 1),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+            for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                Job& job = batch[i];
+                if (!job.failure) {
+                    job.attempt([&job] { job.image = std::move(*job.encoded).decode(); });
+                }
+                job.encoded.reset();
+                job.own_bytes = {};
+                tell();
+            }
+        },
+        tbb::simple_partitioner{});
+    for (Job& job : batch) {
+        add(job);
+    }
+    batch.clear();
+}
+
+void ImageTable::add(Job& job)
+{
+    const std::string place = fmt::format("/images/{}", job.index);
+    std::optional<ImageId>& id = known_[job.index];
+    try {
+        if (job.failure) {
+            std::rethrow_exception(job.failure);
+        }
+        id = static_cast<ImageId>(images_.size());
+        images_.push_back(std::move(job.image));
+    } catch (const Error& error) {
+        throw Error(error.code(), place + ": " + error.what());
+    } catch (const std::runtime_error& error) {
+        context_.warn("the picture cannot be read; the texture does without it",
+                      place + ": " + error.what());
+    }
+}
+
+void ImageTable::decode(const std::vector<std::size_t>& indices,
+                        const std::function<void(const LoadProgress&)>& on_progress)
+{
+    if (indices.empty()) {
+        return;
+    }
+    const OiioLibrary library;
+    LoadProgress progress{.pictures_done = 0, .pictures_total = indices.size()};
+    std::mutex mutex;
+    const auto tell = [&] {
+        const std::lock_guard lock(mutex);
+        ++progress.pictures_done;
+        if (on_progress) {
+            on_progress(progress);
+        }
+    };
+    // Pictures are opened one after the other and decoded in batches, which take no more memory
+    // together than one picture may.
+    std::deque<Job> batch;
+    std::uint64_t batch_memory = 0;
+    for (const std::size_t index : indices) {
+        Job job{.index = index};
+        job.attempt([&] { open(library, job); });
+        if (!batch.empty() && job.memory() > context_.limits.image_bytes - batch_memory) {
+            finish(batch, tell);
+            batch_memory = 0;
+        }
+        batch_memory = std::min(context_.limits.image_bytes, batch_memory + job.memory());
+        const bool last = job.fatal;
+        batch.push_back(std::move(job));
+        if (last) {
+            break;
+        }
+    }
+    finish(batch, tell);
+}
+
+std::optional<ImageId> ImageTable::get(std::size_t index)
+{
+    const auto found = known_.find(index);
+    if (found != known_.end()) {
+        return found->second;
+    }
+    decode({index}, {});
+    return known_.at(index);
+}
+
+}  // namespace bdpt::io

@@ -1,0 +1,52 @@
+#pragma once
+
+#include "file/bytes.h"
+#include "file/load_context.h"
+#include "gltf/document/model.h"
+#include "image/texels.h"
+
+#include <bdpt/io/gltf.h>
+#include <bdpt/scene_desc.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <optional>
+#include <vector>
+
+namespace bdpt::io {
+
+/// Decodes the pictures of a document, several at once and each only once.
+class ImageTable {
+public:
+    /// The arguments must outlive the table. Pictures are added to `images`.
+    ImageTable(const GltfModel& model, std::vector<TexelImage>& images, LoadContext& context)
+        : model_(model), images_(images), context_(context)
+    {}
+
+    /// Decodes these pictures of the document and adds them in that order; those that cannot be
+    /// read or decoded are left out, with a warning. `on_progress` may be empty. Throws `Error`
+    /// (invalid_input) about the first that is beyond the limits, whichever thread was first.
+    void decode(const std::vector<std::size_t>& indices,
+                const std::function<void(const LoadProgress&)>& on_progress);
+
+    /// Picture `index` of the document, which is decoded now if it has not been; none if it cannot
+    /// be read or decoded.
+    [[nodiscard]] std::optional<ImageId> get(std::size_t index);
+
+private:
+    struct Job;
+    void open(const OiioLibrary& library, Job& job);
+    void finish(std::deque<Job>& batch, const std::function<void()>& tell);
+    void add(Job& job);
+
+    const GltfModel& model_;
+    std::vector<TexelImage>& images_;
+    LoadContext& context_;
+    std::map<std::size_t, std::optional<ImageId>> known_;
+    std::uint64_t total_bytes_ = 0;
+};
+
+}  // namespace bdpt::io

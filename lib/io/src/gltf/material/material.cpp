@@ -1,0 +1,205 @@
+#include "gltf/material/material.h"
+
+#include "gltf/material/material_layers.h"
+#include "gltf/material/material_values.h"
+#include "gltf/material/specular_glossiness.h"
+
+#include <fmt/format.h>
+
+#include <string>
+
+namespace bdpt::io {
+
+namespace {
+
+/// Reads one material; the base of all pointers in messages is its own.
+class MaterialReader {
+public:
+    MaterialReader(const tinygltf::Material& source, std::size_t index, TextureResolver& textures,
+                   LoadContext& context)
+        : source_(source),
+          place_(fmt::format("/materials/{}", index)),
+          textures_(textures),
+          context_(context),
+          values_(source, place_, textures, context)
+    {}
+
+    [[nodiscard]] MaterialDesc read()
+    {
+        desc_.name = source_.name;
+        desc_.double_sided = source_.doubleSided;
+        read_base_color();
+        read_alpha();
+        read_specular_glossiness(values_, desc_);
+        if (values_.extension("KHR_materials_unlit") != nullptr) {
+            desc_.unlit = true;  // all else is for viewers that do not know the extension
+            return std::move(desc_);
+        }
+        read_emission();
+        if (values_.extension("KHR_materials_pbrSpecularGlossiness") == nullptr) {
+            read_metallic_roughness();
+            read_ior();
+            read_specular();
+        }
+        read_transmission();
+        read_volume();
+        read_layers(values_, desc_);
+        if (source_.normalTexture.index >= 0) {
+            desc_.normal_scale = static_cast<float>(source_.normalTexture.scale);
+            desc_.normal_texture =
+                textures_.resolve(texture_info(source_.normalTexture), place_ + "/normalTexture");
+        }
+        return std::move(desc_);
+    }
+
+private:
+    void read_base_color()
+    {
+        const auto& pbr = source_.pbrMetallicRoughness;
+        for (int c = 0; c < 4; ++c) {
+            desc_.base_color[c] =
+                values_.in_range(pbr.baseColorFactor[static_cast<std::size_t>(c)], 0.0, 1.0,
+                                 "pbrMetallicRoughness/baseColorFactor");
+        }
+        desc_.base_color_texture = textures_.resolve(
+            texture_info(pbr.baseColorTexture), place_ + "/pbrMetallicRoughness/baseColorTexture");
+    }
+
+    void read_alpha()
+    {
+        const std::string& mode = source_.alphaMode;
+        if (mode == "MASK") {
+            desc_.alpha_mode = AlphaMode::mask;
+            desc_.alpha_cutoff =
+                values_.in_range(source_.alphaCutoff, 0.0, no_limit, "alphaCutoff");
+        } else if (mode == "BLEND") {
+            desc_.alpha_mode = AlphaMode::blend;
+        } else if (mode != "OPAQUE" && !mode.empty()) {
+            context_.warn("an unknown alpha mode counts as OPAQUE", place_ + "/alphaMode: " + mode);
+        }
+    }
+
+    void read_metallic_roughness()
+    {
+        const auto& pbr = source_.pbrMetallicRoughness;
+        desc_.metallic =
+            values_.in_range(pbr.metallicFactor, 0.0, 1.0, "pbrMetallicRoughness/metallicFactor");
+        desc_.roughness =
+            values_.in_range(pbr.roughnessFactor, 0.0, 1.0, "pbrMetallicRoughness/roughnessFactor");
+        if (desc_.metallic > 0.0f || desc_.roughness > 0.0f) {
+            desc_.metallic_roughness_texture =
+                textures_.resolve(texture_info(pbr.metallicRoughnessTexture),
+                                  place_ + "/pbrMetallicRoughness/metallicRoughnessTexture");
+        }
+    }
+
+    void read_emission()
+    {
+        double strength = 1.0;
+        if (const auto* value = values_.extension("KHR_materials_emissive_strength")) {
+            strength =
+                values_.in_range(number_or(*value, "emissiveStrength", 1.0), 0.0, no_limit,
+                                 "extensions/KHR_materials_emissive_strength/emissiveStrength");
+        }
+        for (int c = 0; c < 3; ++c) {
+            const double factor = source_.emissiveFactor[static_cast<std::size_t>(c)];
+            // Factors above 1 were common before there was an extension for the strength.
+            desc_.emission[c] = values_.in_range(
+                values_.in_range(factor, 0.0, no_limit, "emissiveFactor") * strength, 0.0, no_limit,
+                "emissiveFactor");
+        }
+        if (desc_.emission != Rgb(0.0f)) {
+            desc_.emission_texture = textures_.resolve(texture_info(source_.emissiveTexture),
+                                                       place_ + "/emissiveTexture");
+        }
+    }
+
+    void read_ior()
+    {
+        const auto* value = values_.extension("KHR_materials_ior");
+        if (value == nullptr) {
+            return;
+        }
+        const double ior = number_or(*value, "ior", 1.5);
+        // 0 stands for a Fresnel term of one, that of an infinite index [KHR_materials_ior].
+        constexpr double nearly_infinite = 1e4;
+        desc_.ior = ior == 0.0
+                        ? static_cast<float>(nearly_infinite)
+                        : values_.in_range(ior, 1.0, no_limit, "extensions/KHR_materials_ior/ior");
+    }
+
+    void read_specular()
+    {
+        const auto* value = values_.extension("KHR_materials_specular");
+        if (value == nullptr) {
+            return;
+        }
+        const std::string at = place_ + "/extensions/KHR_materials_specular/";
+        desc_.specular = values_.in_range(number_or(*value, "specularFactor", 1.0), 0.0, 1.0,
+                                          "extensions/KHR_materials_specular/specularFactor");
+        desc_.specular_color = values_.color(*value, "specularColorFactor", no_limit);
+        if (desc_.specular > 0.0f) {
+            desc_.specular_texture =
+                textures_.resolve(texture_info(*value, "specularTexture"), at + "specularTexture");
+            desc_.specular_color_texture = textures_.resolve(
+                texture_info(*value, "specularColorTexture"), at + "specularColorTexture");
+        }
+    }
+
+    void read_transmission()
+    {
+        const auto* value = values_.extension("KHR_materials_transmission");
+        if (value == nullptr) {
+            return;
+        }
+        desc_.transmission =
+            values_.in_range(number_or(*value, "transmissionFactor", 0.0), 0.0, 1.0,
+                             "extensions/KHR_materials_transmission/transmissionFactor");
+        if (desc_.transmission > 0.0f) {
+            desc_.transmission_texture =
+                textures_.resolve(texture_info(*value, "transmissionTexture"),
+                                  place_ +
+                                      "/extensions/KHR_materials_transmission/"
+                                      "transmissionTexture");
+        }
+    }
+
+    void read_volume()
+    {
+        const auto* value = values_.extension("KHR_materials_volume");
+        if (value == nullptr) {
+            return;
+        }
+        desc_.thickness = values_.in_range(number_or(*value, "thicknessFactor", 0.0), 0.0, no_limit,
+                                           "extensions/KHR_materials_volume/thicknessFactor");
+        desc_.attenuation_color = values_.color(*value, "attenuationColor", 1.0);
+        if (!value->Has("attenuationDistance")) {
+            return;
+        }
+        const double distance = value->Get("attenuationDistance").GetNumberAsDouble();
+        if (static_cast<float>(distance) > 0.0f) {
+            desc_.attenuation_distance = static_cast<float>(distance);
+        } else {
+            context_.warn("an attenuation distance must be above 0; nothing is attenuated",
+                          fmt::format("{}/extensions/KHR_materials_volume/attenuationDistance: {}",
+                                      place_, distance));
+        }
+    }
+
+    const tinygltf::Material& source_;
+    std::string place_;
+    TextureResolver& textures_;
+    LoadContext& context_;
+    MaterialValues values_;
+    MaterialDesc desc_;
+};
+
+}  // namespace
+
+MaterialDesc read_material(const tinygltf::Model& model, std::size_t index,
+                           TextureResolver& textures, LoadContext& context)
+{
+    return MaterialReader(model.materials[index], index, textures, context).read();
+}
+
+}  // namespace bdpt::io

@@ -1,0 +1,134 @@
+#include "gltf/material/material_layers.h"
+
+#include <string>
+
+namespace bdpt::io {
+
+namespace {
+
+/// One extension of a material.
+struct Extension {
+    const MaterialValues& values;
+    const tinygltf::Value& object;
+    std::string name;
+
+    [[nodiscard]] float number(const std::string& key, double fallback, double low,
+                               double high) const
+    {
+        return values.in_range(number_or(object, key, fallback), low, high,
+                               "extensions/" + name + "/" + key);
+    }
+    [[nodiscard]] std::optional<TextureRef> texture(const std::string& key) const
+    {
+        return values.texture(object, name, key);
+    }
+};
+
+ClearcoatDesc read_clearcoat(const Extension& from)
+{
+    ClearcoatDesc coat;
+    coat.factor = from.number("clearcoatFactor", 0.0, 0.0, 1.0);
+    if (coat.factor == 0.0f) {
+        return coat;
+    }
+    coat.texture = from.texture("clearcoatTexture");
+    coat.roughness = from.number("clearcoatRoughnessFactor", 0.0, 0.0, 1.0);
+    if (coat.roughness > 0.0f) {
+        coat.roughness_texture = from.texture("clearcoatRoughnessTexture");
+    }
+    coat.normal_texture = from.texture("clearcoatNormalTexture");
+    if (coat.normal_texture) {
+        coat.normal_scale =
+            static_cast<float>(number_or(from.object.Get("clearcoatNormalTexture"), "scale", 1.0));
+    }
+    return coat;
+}
+
+SheenDesc read_sheen(const Extension& from)
+{
+    SheenDesc sheen;
+    sheen.color = from.values.color(from.object, "sheenColorFactor", 1.0, Rgb(0.0f));
+    if (sheen.color == Rgb(0.0f)) {
+        return sheen;
+    }
+    sheen.color_texture = from.texture("sheenColorTexture");
+    sheen.roughness = from.number("sheenRoughnessFactor", 0.0, 0.0, 1.0);
+    if (sheen.roughness > 0.0f) {
+        sheen.roughness_texture = from.texture("sheenRoughnessTexture");
+    }
+    return sheen;
+}
+
+AnisotropyDesc read_anisotropy(const Extension& from)
+{
+    AnisotropyDesc anisotropy;
+    anisotropy.strength = from.number("anisotropyStrength", 0.0, 0.0, 1.0);
+    if (anisotropy.strength == 0.0f) {
+        return anisotropy;
+    }
+    anisotropy.rotation = from.number("anisotropyRotation", 0.0, -no_limit, no_limit);
+    anisotropy.texture = from.texture("anisotropyTexture");
+    return anisotropy;
+}
+
+IridescenceDesc read_iridescence(const Extension& from)
+{
+    IridescenceDesc film;
+    film.factor = from.number("iridescenceFactor", 0.0, 0.0, 1.0);
+    if (film.factor == 0.0f) {
+        return film;
+    }
+    film.ior = from.number("iridescenceIor", 1.3, 1.0, no_limit);
+    film.thickness_minimum = from.number("iridescenceThicknessMinimum", 100.0, 0.0, no_limit);
+    film.thickness_maximum = from.number("iridescenceThicknessMaximum", 400.0, 0.0, no_limit);
+    film.texture = from.texture("iridescenceTexture");
+    if (film.thickness_minimum != film.thickness_maximum) {
+        film.thickness_texture = from.texture("iridescenceThicknessTexture");
+    }
+    return film;
+}
+
+DiffuseTransmissionDesc read_diffuse_transmission(const Extension& from)
+{
+    DiffuseTransmissionDesc through;
+    through.factor = from.number("diffuseTransmissionFactor", 0.0, 0.0, 1.0);
+    if (through.factor == 0.0f) {
+        return through;
+    }
+    through.texture = from.texture("diffuseTransmissionTexture");
+    through.color = from.values.color(from.object, "diffuseTransmissionColorFactor", 1.0);
+    if (through.color != Rgb(0.0f)) {
+        through.color_texture = from.texture("diffuseTransmissionColorTexture");
+    }
+    return through;
+}
+
+float read_dispersion(const Extension& from)
+{
+    return from.number("dispersion", 0.0, 0.0, no_limit);
+}
+
+/// The value that `read` makes of an extension, where the material has it.
+template <typename Desc>
+void read_extension(const MaterialValues& values, const std::string& name,
+                    Desc (*read)(const Extension&), Desc& desc)
+{
+    if (const auto* object = values.extension(name)) {
+        desc = read({values, *object, name});
+    }
+}
+
+}  // namespace
+
+void read_layers(const MaterialValues& values, MaterialDesc& desc)
+{
+    read_extension(values, "KHR_materials_clearcoat", read_clearcoat, desc.clearcoat);
+    read_extension(values, "KHR_materials_sheen", read_sheen, desc.sheen);
+    read_extension(values, "KHR_materials_anisotropy", read_anisotropy, desc.anisotropy);
+    read_extension(values, "KHR_materials_iridescence", read_iridescence, desc.iridescence);
+    read_extension(values, "KHR_materials_diffuse_transmission", read_diffuse_transmission,
+                   desc.diffuse_transmission);
+    read_extension(values, "KHR_materials_dispersion", read_dispersion, desc.dispersion);
+}
+
+}  // namespace bdpt::io

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "gltf/document/tinygltf.h"
+
+#include <cstddef>
+
+namespace bdpt::io {
+
+/// The material of a primitive in a variant of KHR_materials_variants: the one that is mapped to it
+/// or, if there is none, that of the primitive; -1: the default material.
+[[nodiscard]] int variant_material(const tinygltf::Primitive& primitive, std::size_t variant);
+
+}  // namespace bdpt::io

@@ -1,0 +1,285 @@
+#include "gltf/scene/scene_builder.h"
+
+#include "gltf/animation/animation.h"
+#include "gltf/animation/instancing.h"
+#include "gltf/animation/node_motion.h"
+#include "gltf/animation/node_transforms.h"
+#include "gltf/animation/steps.h"
+#include "gltf/animation/transform.h"
+#include "gltf/document/model.h"
+#include "gltf/geometry/mesh_table.h"
+#include "gltf/light_camera/camera.h"
+#include "gltf/light_camera/image_based_light.h"
+#include "gltf/light_camera/light.h"
+#include "gltf/light_camera/light_profiles.h"
+#include "gltf/light_camera/motion.h"
+#include "gltf/material/image_table.h"
+#include "gltf/material/material_table.h"
+#include "gltf/material/variants.h"
+
+#include <bdpt/error.h>
+#include <bdpt/motion.h>
+
+#include <fmt/format.h>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <iterator>
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace bdpt::io {
+
+namespace {
+
+/// Is the node and what is below it to be seen [KHR_node_visibility]?
+bool is_visible(const tinygltf::Node& node)
+{
+    const auto found = node.extensions.find("KHR_node_visibility");
+    return found == node.extensions.end() || !found->second.Has("visible") ||
+           found->second.Get("visible").Get<bool>();
+}
+
+/// Flattens the node hierarchy of one scene.
+class SceneBuilder {
+public:
+    SceneBuilder(const GltfModel& model, const NodeMotion& motion,
+                 std::optional<std::size_t> variant, LoadContext& context)
+        : model_(model.structs),
+          motion_(motion),
+          variant_(variant),
+          context_(context),
+          images_(model, result_.scene.images, context),
+          profiles_(model, result_.scene.profiles, context),
+          transforms_(model.structs, context),
+          meshes_(model, transforms_, motion, result_.scene.meshes, context),
+          visited_(model.structs.nodes.size(), false)
+    {}
+
+    [[nodiscard]] LoadedScene build(const std::vector<std::size_t>& roots,
+                                    const std::function<void(const LoadProgress&)>& on_progress)
+    {
+        struct Pending {
+            std::size_t node;
+            bool visible;
+        };
+        std::vector<Pending> stack;
+        for (std::size_t i = roots.size(); i-- > 0;) {
+            stack.push_back({roots[i], true});
+        }
+        while (!stack.empty()) {
+            const Pending next = stack.back();
+            stack.pop_back();
+            if (visited_[next.node]) {
+                context_.warn("the scene lists a node that it has already; it is shown once",
+                              fmt::format("/nodes/{}", next.node));
+                continue;
+            }
+            visited_[next.node] = true;
+            const tinygltf::Node& source = model_.nodes[next.node];
+            const bool visible = next.visible && is_visible(source);
+            add_camera(next.node);
+            if (visible) {
+                add_visible(next.node);
+            }
+            const std::vector<int>& children = source.children;
+            for (std::size_t i = children.size(); i-- > 0;) {
+                stack.push_back({static_cast<std::size_t>(children[i]), visible});
+            }
+        }
+        result_.scene.materials =
+            read_materials(model_, wanted_materials_, images_, on_progress, context_);
+        return std::move(result_);
+    }
+
+private:
+    /// Cameras can be looked through even when their nodes are not seen.
+    void add_camera(std::size_t node)
+    {
+        if (std::optional<CameraDesc> camera =
+                read_camera(model_, node, transforms_.world(node), context_)) {
+            camera->motion = camera_motion(motion_.world(node), node, context_);
+            result_.cameras.push_back(std::move(*camera));
+        }
+    }
+
+    void add_visible(std::size_t node)
+    {
+        const glm::dmat4& world = transforms_.world(node);
+        if (std::optional<LightDesc> light = read_light(model_, node, world, context_)) {
+            move_light(*light, motion_.world(node), node, context_);
+            result_.scene.lights.push_back(std::move(*light));
+        }
+        if (std::optional<LightDesc> light = profiles_.read(node, world)) {
+            move_light(*light, motion_.world(node), node, context_);
+            result_.scene.lights.push_back(std::move(*light));
+        }
+        const tinygltf::Node& source = model_.nodes[node];
+        if (source.mesh < 0) {
+            return;
+        }
+        const std::vector<glm::dmat4> places = instance_transforms(
+            model_, node, context_.limits.instances - result_.scene.instances.size(), context_);
+        const auto mesh = static_cast<std::size_t>(source.mesh);
+        for (std::size_t i = 0; i < model_.meshes[mesh].primitives.size(); ++i) {
+            const std::optional<ShownMesh> shown = meshes_.get(node, i);
+            if (!shown) {
+                continue;
+            }
+            if (shown->in_world) {
+                add_instance(node, {mesh, i}, shown->mesh, {glm::dmat4(1.0)});
+                continue;
+            }
+            for (const glm::dmat4& place : places) {
+                add_instance(node, {mesh, i}, shown->mesh, worlds_of(node, place, shown->mesh));
+            }
+        }
+    }
+
+    /// Where the node puts something at each time, or at all times.
+    [[nodiscard]] std::vector<glm::dmat4> worlds_of(std::size_t node, const glm::dmat4& place,
+                                                    MeshId mesh)
+    {
+        const std::span<const glm::dmat4> moving = motion_.world(node);
+        if (moving.empty()) {
+            return {transforms_.world(node) * place};
+        }
+        std::vector<glm::dmat4> worlds;
+        worlds.reserve(moving.size());
+        for (const glm::dmat4& world : moving) {
+            worlds.push_back(world * place);
+        }
+        // A mesh that deforms has all steps, and so must its instances.
+        const bool deforms = !result_.scene.meshes[static_cast<std::size_t>(mesh)].motion.empty();
+        return deforms ? worlds : thinned(std::span<const glm::dmat4>(worlds));
+    }
+
+    /// `worlds`: one transform for each time, or one for all.
+    void add_instance(std::size_t node, PrimitiveId id, MeshId mesh,
+                      const std::vector<glm::dmat4>& worlds)
+    {
+        if (result_.scene.instances.size() >= context_.limits.instances) {
+            throw Error(ErrorCode::invalid_input,
+                        fmt::format("/nodes: more than {} instances", context_.limits.instances));
+        }
+        const tinygltf::Node& source = model_.nodes[node];
+        InstanceDesc instance;
+        instance.name = source.name.empty() ? model_.meshes[id.mesh].name : source.name;
+        // Thousands of instances have one name, which may be of any length.
+        context_.budget.spend(fmt::format("/nodes/{}", node), 1,
+                              sizeof instance + instance.name.size());
+        instance.mesh = mesh;
+        instance.material = get_material(id);
+        for (const glm::dmat4& world : worlds) {
+            if (!is_finite(Mat4(world))) {
+                throw Error(
+                    ErrorCode::invalid_input,
+                    fmt::format("/nodes/{}: the transform of an instance is not finite", node));
+            }
+        }
+        instance.world_from_object = Mat4(worlds.front());
+        instance.motion.assign(worlds.begin() + 1, worlds.end());
+        const float determinant = glm::determinant(Mat3(instance.world_from_object));
+        if (!std::isnormal(determinant) || !can_move(instance.world_from_object, instance.motion)) {
+            // A scale of zero flattens the mesh: its triangles may still be seen.
+            const std::optional<MeshId> flat = meshes_.flatten(mesh, id, worlds);
+            if (!flat) {
+                context_.warn("a mesh that is scaled to nothing is left out",
+                              fmt::format("/nodes/{}", node));
+                return;
+            }
+            context_.warn("a mesh that is scaled flat gets the normals of its faces",
+                          fmt::format("/nodes/{}", node));
+            instance.mesh = *flat;
+            instance.world_from_object = Mat4(1.0f);
+            instance.motion.clear();
+        }
+        result_.scene.instances.push_back(std::move(instance));
+    }
+
+    [[nodiscard]] MaterialId get_material(PrimitiveId id)
+    {
+        const tinygltf::Primitive& primitive = model_.meshes[id.mesh].primitives[id.primitive];
+        const int index = variant_ ? variant_material(primitive, *variant_) : primitive.material;
+        const auto next = static_cast<MaterialId>(wanted_materials_.size());
+        const auto [found, is_new] = materials_.try_emplace(index, next);
+        if (is_new) {
+            wanted_materials_.push_back(index);
+        }
+        return found->second;
+    }
+
+    const tinygltf::Model& model_;
+    const NodeMotion& motion_;
+    std::optional<std::size_t> variant_;
+    LoadContext& context_;
+    LoadedScene result_;
+    ImageTable images_;
+    LightProfiles profiles_;
+    NodeTransforms transforms_;
+    MeshTable meshes_;
+    std::vector<bool> visited_;
+    std::map<int, MaterialId> materials_;  // by their index in the document
+    std::vector<int> wanted_materials_;    // these indices, in the order of the scene's materials
+};
+
+std::vector<std::size_t> find_roots(const tinygltf::Model& model, std::optional<std::size_t> scene)
+{
+    if (scene) {
+        const std::vector<int>& nodes = model.scenes[*scene].nodes;
+        return {nodes.begin(), nodes.end()};
+    }
+    std::vector<bool> has_parent(model.nodes.size(), false);
+    for (const tinygltf::Node& node : model.nodes) {
+        for (const int child : node.children) {
+            has_parent[static_cast<std::size_t>(child)] = true;
+        }
+    }
+    std::vector<std::size_t> roots;
+    for (std::size_t i = 0; i < has_parent.size(); ++i) {
+        if (!has_parent[i]) {
+            roots.push_back(i);
+        }
+    }
+    return roots;
+}
+
+}  // namespace
+
+LoadedScene build_scene(CheckedGltf checked, const SceneChoice& choice,
+                        const std::function<void(const LoadProgress&)>& on_progress,
+                        LoadContext& context)
+{
+    for (const Bytes& buffer : checked.buffers) {
+        context.budget.hold(buffer.size());
+    }
+    GltfModel model = build_model(std::move(checked));
+    std::vector<AnimatedProperty> properties;
+    for (const std::size_t animation : choice.animations) {
+        std::vector<AnimatedProperty> more = read_animation(model, animation, context);
+        std::move(more.begin(), more.end(), std::back_inserter(properties));
+    }
+    const double open = choice.time + choice.shutter.open;
+    const double close = choice.time + choice.shutter.close;
+    const NodeMotion motion(model.structs, properties, open, close, context);
+    if (open < close && motion.steps() == 0 && !choice.animations.empty()) {
+        context.warn("nothing moves while the shutter is open",
+                     fmt::format("/animations: from {} s to {} s", open, close));
+    }
+    LoadedScene loaded = SceneBuilder(model, motion, choice.variant, context)
+                             .build(find_roots(model.structs, choice.scene), on_progress);
+    if (choice.scene) {
+        if (std::optional<EnvironmentLightDesc> environment =
+                read_image_based_light(model, *choice.scene, context)) {
+            loaded.scene.lights.emplace_back(std::move(*environment));
+        }
+    }
+    return loaded;
+}
+
+}  // namespace bdpt::io

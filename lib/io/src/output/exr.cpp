@@ -1,0 +1,256 @@
+#include <bdpt/io/exr.h>
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFloatAttribute.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfIntAttribute.h>
+#include <OpenEXR/ImfMatrixAttribute.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStandardAttributes.h>
+#include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfTileDescription.h>
+#include <OpenEXR/ImfTiledOutputFile.h>
+#include <bdpt/error.h>
+#include <bdpt/io/output_file.h>
+#include <fmt/chrono.h>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <limits>
+#include <list>
+#include <new>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "output/camera_matrices.h"
+#include "output/check_pixels.h"
+
+namespace bdpt::io {
+namespace {
+
+constexpr float largest_half = 65504.0f;
+
+/// Lets OpenEXR write into an `OutputFile`, which reports errors that it would swallow.
+class OutputStream : public Imf::OStream {
+public:
+    OutputStream(OutputFile& file, const std::string& name)
+        : Imf::OStream(name.c_str()), file_(file)
+    {}
+    void write(const char bytes[], int count) override
+    {
+        file_.write({bytes, static_cast<std::size_t>(count)});
+    }
+    uint64_t tellp() override { return file_.position(); }
+    void seekp(uint64_t position) override { file_.seek(position); }
+
+private:
+    OutputFile& file_;
+};
+
+/// GLM has v' = M v in columns, Imath v' = v M in rows: the same numbers in the same places.
+Imath::M44f to_imath(const Mat4& matrix)
+{
+    Imath::M44f result;
+    for (int i = 0; i < 4; ++i) {
+        for (int j = 0; j < 4; ++j) {
+            result[i][j] = matrix[i][j];
+        }
+    }
+    return result;
+}
+
+void add_metadata(Imf::Header& header, const PictureMetadata& metadata, float aspect)
+{
+    const float seconds = static_cast<float>(metadata.render_seconds);
+    const int samples = static_cast<int>(
+        std::min<std::int64_t>(metadata.samples_per_pixel, std::numeric_limits<int>::max()));
+
+    Imf::addChromaticities(header, Imf::Chromaticities{});  // whose default is Rec. 709
+    Imf::addWhiteLuminance(header, 1.0f);                   // pixels are in nit
+    const std::time_t created = std::chrono::system_clock::to_time_t(metadata.created);
+    Imf::addCapDate(header, fmt::format("{:%Y:%m:%d %H:%M:%S}", fmt::gmtime(created)));
+    Imf::addUtcOffset(header, 0.0f);
+    Imf::addWorldToCamera(header, to_imath(camera_from_world(metadata.camera)));
+    Imf::addWorldToNDC(header, to_imath(ndc_from_world(metadata.camera, aspect)));
+
+    header.insert("software", Imf::StringAttribute(software_name(metadata)));
+    for (const auto& [name, text] : text_entries(metadata)) {
+        header.insert(name.c_str(), Imf::StringAttribute(text));
+    }
+    header.insert("bdpt.spp", Imf::IntAttribute(samples));
+    header.insert("bdpt.renderTimeSeconds", Imf::FloatAttribute(seconds));
+    header.insert("samplesPerPixel", Imf::IntAttribute(samples));
+    header.insert("renderTimeSeconds", Imf::FloatAttribute(seconds));
+}
+
+/// The picture in the whole image; Imath's boxes hold their upper corner.
+Imath::Box2i data_window(const Image& image, const ExrPlacement& placement)
+{
+    return {{placement.x, placement.y},
+            {placement.x + image.width - 1, placement.y + image.height - 1}};
+}
+
+/// One channel of a file: where its values lie in memory.
+struct Channel {
+    std::string name;
+    Imf::PixelType type;
+    const void* first;
+    std::size_t pixel_stride;  // [bytes]
+};
+
+/// What is written: the channels, and the halves that some of them point to.
+class Content {
+public:
+    explicit Content(Imf::PixelType main_type) : main_type_(main_type) {}
+
+    /// Refers to `values`: a float a pixel for each of `names`, which are letters.
+    void add(const std::string& layer, const std::string& names, const float* values,
+             std::size_t pixels)
+    {
+        const std::size_t count = names.size();
+        const bool halves = layer.empty() && main_type_ == Imf::HALF;
+        const half* converted = halves ? to_half({values, pixels * count}) : nullptr;
+        for (std::size_t c = 0; c < count; ++c) {
+            std::string name = (layer.empty() ? "" : layer + ".") + names[c];
+            if (!names_.insert(name).second) {
+                throw Error(ErrorCode::usage,
+                            fmt::format("two layers have a channel \"{}\"", name));
+            }
+            channels_.push_back(
+                halves ? Channel{std::move(name), Imf::HALF, converted + c, count * sizeof(half)}
+                       : Channel{std::move(name), Imf::FLOAT, values + c, count * sizeof(float)});
+        }
+    }
+    [[nodiscard]] const std::vector<Channel>& channels() const { return channels_; }
+
+private:
+    const half* to_half(std::span<const float> values)
+    {
+        std::vector<half>& result = halves_.emplace_back();
+        result.reserve(values.size());
+        for (const float value : values) {
+            result.push_back(half(std::min(value, largest_half)));
+        }
+        return result.data();
+    }
+
+    Imf::PixelType main_type_;
+    std::vector<Channel> channels_;
+    std::set<std::string> names_;
+    std::list<std::vector<half>> halves_;  // a list: channels point into its elements
+};
+
+Imf::Header make_header(const Imath::Box2i& window, const ExrPlacement& placement,
+                        const Content& content, const ExrOptions& options)
+{
+    const Imath::Box2i display({0, 0}, {placement.full_width - 1, placement.full_height - 1});
+    Imf::Header header(display, window);
+    header.compression() = Imf::ZIP_COMPRESSION;
+    if (options.storage == ExrStorage::tiles) {
+        constexpr unsigned tile_size = 64;
+        header.setTileDescription(Imf::TileDescription(tile_size, tile_size, Imf::ONE_LEVEL));
+    }
+    for (const Channel& channel : content.channels()) {
+        header.channels().insert(channel.name, Imf::Channel(channel.type));
+    }
+    add_metadata(
+        header, options.metadata,
+        static_cast<float>(placement.full_width) / static_cast<float>(placement.full_height));
+    return header;
+}
+
+Imf::FrameBuffer make_frame_buffer(const Imath::Box2i& window, const Content& content)
+{
+    const auto width = static_cast<std::size_t>(window.max.x - window.min.x + 1);
+    Imf::FrameBuffer buffer;
+    for (const Channel& channel : content.channels()) {
+        buffer.insert(channel.name,
+                      Imf::Slice::Make(channel.type, channel.first, window, channel.pixel_stride,
+                                       channel.pixel_stride * width));
+    }
+    return buffer;
+}
+
+void write_to(OutputStream& stream, const Imf::Header& header, const Imf::FrameBuffer& buffer)
+{
+    if (header.hasTileDescription()) {
+        Imf::TiledOutputFile exr(stream, header);
+        exr.setFrameBuffer(buffer);
+        exr.writeTiles(0, exr.numXTiles() - 1, 0, exr.numYTiles() - 1);
+        return;
+    }
+    Imf::OutputFile exr(stream, header);
+    exr.setFrameBuffer(buffer);
+    exr.writePixels(header.dataWindow().max.y - header.dataWindow().min.y + 1);
+}
+
+Content make_content(const Image& image, std::span<const Layer> layers, const ExrOptions& options)
+{
+    Content content(options.type == ExrChannelType::half_float ? Imf::HALF : Imf::FLOAT);
+    static_assert(sizeof(Rgb) == 3 * sizeof(float));
+    content.add("", "RGB", &image.pixels.front().x, image.pixels.size());
+    for (const Layer& layer : layers) {
+        const std::size_t expected = image.pixels.size() * layer.channels.size();
+        if (layer.width != image.width || layer.height != image.height ||
+            layer.values.size() != expected) {
+            throw Error(ErrorCode::usage,
+                        fmt::format("layer \"{}\" has {}x{} pixels and {} values, the picture "
+                                    "{}x{} pixels",
+                                    layer.name, layer.width, layer.height, layer.values.size(),
+                                    image.width, image.height));
+        }
+        content.add(layer.name, layer.channels, layer.values.data(), image.pixels.size());
+    }
+    return content;
+}
+
+ExrReport make_report(const Image& image, const ExrOptions& options)
+{
+    ExrReport report;
+    if (options.type == ExrChannelType::half_float) {
+        for (const Rgb& pixel : image.pixels) {
+            const float greatest = std::max({pixel.r, pixel.g, pixel.b});
+            report.clamped_pixels += greatest > largest_half ? 1u : 0u;
+        }
+    }
+    return report;
+}
+
+}  // namespace
+
+ExrReport write_exr(const std::filesystem::path& file, const Image& image,
+                    const ExrOptions& options)
+{
+    return write_exr(file, image, {}, options);
+}
+
+ExrReport write_exr(const std::filesystem::path& file, const Image& image,
+                    std::span<const Layer> layers, const ExrOptions& options)
+{
+    check_pixels(file, image.width, image.height, image.pixels.size());
+    const Content content = make_content(image, layers, options);
+    const ExrPlacement placement = options.placement.value_or(
+        ExrPlacement{.x = 0, .y = 0, .full_width = image.width, .full_height = image.height});
+    const Imath::Box2i window = data_window(image, placement);
+    OutputFile output(file);
+    OutputStream stream(output, file.string());
+    try {
+        write_to(stream, make_header(window, placement, content, options),
+                 make_frame_buffer(window, content));
+    } catch (const Error&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& failure) {
+        throw Error(ErrorCode::output,
+                    fmt::format("{}: cannot write: {}", file.string(), failure.what()));
+    }
+    output.commit();
+    return make_report(image, options);
+}
+
+}  // namespace bdpt::io

@@ -1,0 +1,144 @@
+#include <bdpt/io/png.h>
+
+#include <bdpt/error.h>
+#include <bdpt/io/output_file.h>
+#include <fmt/chrono.h>
+#include <fmt/core.h>
+#include <png.h>
+
+#include <csetjmp>
+#include <cstddef>
+#include <cstring>
+#include <new>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "output/check_pixels.h"
+
+namespace bdpt::io {
+namespace {
+
+using Text = std::vector<std::pair<std::string, std::string>>;
+
+Text all_text(const PngOptions& options)
+{
+    const PictureMetadata& metadata = options.metadata;
+    const std::time_t created = std::chrono::system_clock::to_time_t(metadata.created);
+    Text text{{"Software", software_name(metadata)},
+              {"Creation Time", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(created))},
+              {"bdpt.spp", std::to_string(metadata.samples_per_pixel)},
+              {"bdpt.renderTimeSeconds", fmt::format("{}", metadata.render_seconds)},
+              {"bdpt.exposure", fmt::format("{}", options.exposure)}};
+    for (auto& entry : text_entries(metadata)) {
+        text.push_back(std::move(entry));
+    }
+    return text;
+}
+
+/// Uncompressed UTF-8 entries that point into `text`.
+std::vector<png_text> to_png_text(Text& text)
+{
+    std::vector<png_text> result;
+    for (auto& [key, value] : text) {
+        png_text entry{};
+        entry.compression = PNG_ITXT_COMPRESSION_NONE;
+        entry.key = key.data();
+        entry.text = value.data();
+        entry.itxt_length = value.size();
+        result.push_back(entry);
+    }
+    return result;
+}
+
+/// What libpng's callbacks work on. They are called from C, so no exception may leave them.
+struct Sink {
+    std::vector<char> bytes;
+    std::string error;
+    bool out_of_memory = false;
+};
+
+void append(png_structp png, png_bytep data, png_size_t size)
+{
+    auto& sink = *static_cast<Sink*>(png_get_io_ptr(png));
+    try {
+        const char* begin = reinterpret_cast<const char*>(data);
+        sink.bytes.insert(sink.bytes.end(), begin, begin + size);
+        return;
+    } catch (const std::bad_alloc&) {
+        sink.out_of_memory = true;
+    }
+    png_error(png, "out of memory");
+}
+
+void flush(png_structp) {}
+
+[[noreturn]] void on_error(png_structp png, png_const_charp message)
+{
+    auto& sink = *static_cast<Sink*>(png_get_error_ptr(png));
+    try {
+        sink.error = message;
+    } catch (const std::bad_alloc&) {
+        sink.out_of_memory = true;
+    }
+    png_longjmp(png, 1);
+}
+
+void ignore_warning(png_structp, png_const_charp) {}
+
+/// libpng reports errors by longjmp, so nothing with a destructor lives in here. Returns whether
+/// all went well.
+bool encode(png_structp png, png_infop info, const DisplayImage& image,
+            const std::vector<png_text>& text)
+{
+    if (setjmp(png_jmpbuf(png)) != 0) {
+        return false;
+    }
+    png_set_IHDR(png, info, static_cast<png_uint_32>(image.width),
+                 static_cast<png_uint_32>(image.height), 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+    png_set_text(png, info, text.data(), static_cast<int>(text.size()));
+    png_write_info(png, info);
+    const std::size_t stride = 3 * static_cast<std::size_t>(image.width);
+    for (int y = 0; y < image.height; ++y) {
+        png_write_row(png, image.rgb.data() + stride * static_cast<std::size_t>(y));
+    }
+    png_write_end(png, nullptr);
+    return true;
+}
+
+}  // namespace
+
+void write_png(const std::filesystem::path& file, const DisplayImage& image,
+               const PngOptions& options)
+{
+    // Part of a pixel is as wrong as one too many.
+    const std::size_t pixels = image.rgb.size() % 3 == 0 ? image.rgb.size() / 3 : 0;
+    check_pixels(file, image.width, image.height, pixels);
+    Text text = all_text(options);
+    const std::vector<png_text> entries = to_png_text(text);
+    Sink sink;
+    png_structp png =
+        png_create_write_struct(PNG_LIBPNG_VER_STRING, &sink, &on_error, &ignore_warning);
+    png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
+    if (info == nullptr) {
+        png_destroy_write_struct(&png, nullptr);
+        throw std::bad_alloc();
+    }
+    png_set_write_fn(png, &sink, &append, &flush);
+    const bool encoded = encode(png, info, image, entries);
+    png_destroy_write_struct(&png, &info);
+    if (sink.out_of_memory) {
+        throw std::bad_alloc();
+    }
+    if (!encoded) {
+        throw Error(ErrorCode::output,
+                    fmt::format("{}: cannot write: {}", file.string(), sink.error));
+    }
+    OutputFile output(file);
+    output.write(sink.bytes);
+    output.commit();
+}
+
+}  // namespace bdpt::io

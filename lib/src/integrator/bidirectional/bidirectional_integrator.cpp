@@ -1,0 +1,185 @@
+#include "integrator/bidirectional/bidirectional_integrator.h"
+
+#include "camera/moving_camera.h"
+#include "integrator/sample_start.h"
+#include "profile/sample_timer.h"
+
+#include <algorithm>
+
+namespace bdpt {
+
+struct BidirectionalIntegrator::Scratch {
+    Subpath light_path;
+    Subpath camera_path;
+    PathWeigher weigher;
+    ContributionSink sink;
+    RenderStats stats{};
+};
+
+namespace {
+
+/// Light paths of one sample after the first have random numbers of their own.
+Sampler light_sampler(const RenderOptions& options, int x, int y, std::int64_t index,
+                      int light_path)
+{
+    constexpr std::uint64_t odd = 0xd1342543de82ef95U;  // spreads consecutive seeds
+    return {options.sampler, options.seed + static_cast<std::uint64_t>(light_path) * odd, x, y,
+            index};
+}
+
+}  // namespace
+
+BidirectionalIntegrator::BidirectionalIntegrator(const World& world, const MovingCamera& camera,
+                                                 const RenderOptions& options)
+    : world_(world),
+      camera_(camera),
+      options_(options),
+      filter_(options.filter),
+      strategies_(options)
+{}
+
+RenderStats BidirectionalIntegrator::render_tile(const Tile& tile, SampleRange samples,
+                                                 const Films& films) const
+{
+    // One splat for each strategy with t <= 1.
+    const int most_splats = 2 * strategies_.light_vertices() * options_.light_paths + 2;
+    PathWeigher weigher(world_, camera_.first(), strategies_, options_.heuristic,
+                        options_.max_depth + 1);
+    if (films.on_path) {
+        weigher.keep_paths();
+    }
+    Scratch scratch{.light_path = Subpath(strategies_.light_vertices()),
+                    .camera_path = Subpath(strategies_.camera_vertices()),
+                    .weigher = std::move(weigher),
+                    .sink = ContributionSink(films, filter_, &scratch.weigher,
+                                             static_cast<std::size_t>(most_splats))};
+    for (int y = tile.y_begin; y < tile.y_end; ++y) {
+        for (int x = tile.x_begin; x < tile.x_end; ++x) {
+            for (std::int64_t index = samples.begin; index < samples.end; ++index) {
+                SampleTimer timer(films.times, x, y, index);
+                add_sample(x, y, index, timer.clock(), scratch);
+            }
+        }
+    }
+    return scratch.stats;
+}
+
+void BidirectionalIntegrator::add_sample(int x, int y, std::int64_t index, PhaseClock* clock,
+                                         Scratch& scratch) const
+{
+    auto& [light_path, camera_path, weigher, sink, stats] = scratch;
+    const SampleStart start(options_, filter_, world_, camera_, x, y, index);
+    const TimedCamera camera(camera_, start.time);
+    SampleContext sample{.world = world_,
+                         .camera = camera.get(),
+                         .sampler = start.sampler,
+                         .time = start.time,
+                         .wavelength = start.wavelength,
+                         .rays = stats.rays,
+                         .clock = clock};
+    sink.begin_sample(x, y, index);
+
+    // Light paths outside of a crop can splat into it.
+    const bool wanted = sink.holds_pixel();
+    trace_camera_subpath(
+        sample, start.raster,
+        {.max_vertices = wanted ? strategies_.camera_vertices() : 1, .rr_start = options_.rr_start},
+        camera_path);
+    sample.enter(Phase::weigh);
+    weigher.begin_camera_path(camera_path.all());
+    sample.enter(Phase::connect);
+    join_camera_path(sample, scratch);
+    if (strategies_.uses(1, 1) && sample.camera.is_perspective()) {
+        if (const auto splat = connect_light_to_lens(sample, weigher)) {
+            sink.splat(sample, {.s = 1, .t = 1}, *splat, strategies_.count(1, 1), 1);
+        }
+    }
+    for (int i = 0; i < options_.light_paths; ++i) {
+        if (i > 0) {
+            sample.sampler = light_sampler(options_, x, y, index, i);
+        }
+        sample.enter(Phase::walk);
+        trace_light_subpath(
+            sample, {.max_vertices = strategies_.light_vertices(), .rr_start = options_.rr_start},
+            strategies_.next_event_sampling(), light_path);
+        ++stats.paths.light;
+        sample.enter(Phase::weigh);
+        weigher.begin_light_path(light_path.all());
+        sample.enter(Phase::connect);
+        join_light_path(sample, scratch);
+        join_paths(sample, scratch);
+    }
+    sample.enter(Phase::splat);
+    stats.paths.camera += wanted ? 1U : 0U;
+    sink.end_sample();
+}
+
+void BidirectionalIntegrator::join_camera_path(SampleContext& sample, Scratch& scratch) const
+{
+    for (int t = 2; t <= scratch.camera_path.size(); ++t) {
+        const auto camera = scratch.camera_path.first(t);
+        if (strategies_.uses(0, t)) {
+            if (const auto found = hit_light(sample, camera, scratch.weigher)) {
+                scratch.sink.add(sample, {.s = 0, .t = t}, *found, strategies_.count(0, t));
+                sample.enter(Phase::connect);
+            }
+        }
+        if (t <= options_.max_depth && strategies_.uses(1, t)) {
+            if (const auto found = connect_to_light(sample, camera, scratch.weigher)) {
+                scratch.sink.add(sample, {.s = 1, .t = t}, *found, strategies_.count(1, t));
+                sample.enter(Phase::connect);
+            }
+        }
+    }
+    scratch.sink.end_part();
+}
+
+void BidirectionalIntegrator::join_light_path(SampleContext& sample, Scratch& scratch) const
+{
+    const Subpath& path = scratch.light_path;
+    const int longest_s = std::min(path.size(), options_.max_depth);
+    for (int s = 2; s <= longest_s; ++s) {
+        if (!strategies_.uses(s, 1)) {
+            continue;
+        }
+        if (const auto splat = connect_to_lens(sample, path.first(s), scratch.weigher)) {
+            scratch.sink.splat(sample, {.s = s, .t = 1}, *splat, strategies_.count(s, 1),
+                               static_cast<std::uint32_t>(2 * s));
+            sample.enter(Phase::connect);
+        }
+    }
+    for (const LensCrossing& crossing : path.crossings()) {
+        const int s = crossing.light_vertices + 1;
+        if (s > options_.max_depth + 1 || !strategies_.uses(s, 0)) {
+            continue;
+        }
+        if (const auto splat = hit_lens(sample, path, crossing, scratch.weigher)) {
+            scratch.sink.splat(sample, {.s = s, .t = 0}, *splat, strategies_.count(s, 0),
+                               static_cast<std::uint32_t>(2 * s + 1));
+            sample.enter(Phase::connect);
+        }
+    }
+}
+
+void BidirectionalIntegrator::join_paths(const SampleContext& sample, Scratch& scratch) const
+{
+    const Subpath& light = scratch.light_path;
+    const Subpath& camera = scratch.camera_path;
+    for (int t = 2; t <= camera.size(); ++t) {
+        const int longest_s = std::min(light.size(), options_.max_depth + 1 - t);
+        for (int s = 2; s <= longest_s; ++s) {
+            if (!strategies_.uses(s, t)) {
+                continue;
+            }
+            const auto found =
+                connect_interior(sample, light.first(s), camera.first(t), scratch.weigher);
+            if (found) {
+                scratch.sink.add(sample, {.s = s, .t = t}, *found, strategies_.count(s, t));
+                sample.enter(Phase::connect);
+            }
+        }
+    }
+    scratch.sink.end_part();
+}
+
+}  // namespace bdpt

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "film/pixel_filter.h"
+#include "integrator/contribution_sink.h"
+#include "integrator/integrator.h"
+#include "path/random_walk.h"
+
+namespace bdpt {
+
+class SampleTimer;
+
+/// Bidirectional path tracing [Veach 1997, ch. 10]: each sample joins every prefix of a camera
+/// subpath to every prefix of one or more light subpaths. Light tracing is the same with the
+/// strategies t <= 1 alone.
+class BidirectionalIntegrator final : public Integrator {
+public:
+    BidirectionalIntegrator(const World& world, const MovingCamera& camera,
+                            const RenderOptions& options);
+    [[nodiscard]] RenderStats render_tile(const Tile& tile, SampleRange samples,
+                                          const Films& films) const override;
+
+private:
+    /// The storage of one thread.
+    struct Scratch;
+
+    void add_sample(int x, int y, std::int64_t index, PhaseClock* clock, Scratch& scratch) const;
+    /// s <= 1: what the camera path brings by itself.
+    void join_camera_path(SampleContext& sample, Scratch& scratch) const;
+    /// t <= 1: what the light path brings to any pixel.
+    void join_light_path(SampleContext& sample, Scratch& scratch) const;
+    /// s >= 2, t >= 2
+    void join_paths(const SampleContext& sample, Scratch& scratch) const;
+
+    const World& world_;
+    const MovingCamera& camera_;
+    RenderOptions options_;
+    PixelFilter filter_;
+    StrategySet strategies_;
+};
+
+}  // namespace bdpt

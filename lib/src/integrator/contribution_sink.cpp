@@ -1,0 +1,102 @@
+#include "integrator/contribution_sink.h"
+
+#include <cmath>
+
+namespace bdpt {
+namespace {
+
+/// What `found` would be if its strategy were alone; light of a path that has met dispersion counts
+/// in one channel.
+Rgb unweighted_of(const SampleContext& sample, const Contribution& found)
+{
+    return found.dispersed ? found.unweighted * spectral_weight(sample.wavelength)
+                           : found.unweighted;
+}
+
+}  // namespace
+
+ContributionSink::ContributionSink(const Films& films, const PixelFilter& filter,
+                                   PathWeigher* weigher, std::size_t most_splats)
+    : films_(films), filter_(filter), weigher_(weigher)
+{
+    splats_.reserve(most_splats);
+}
+
+void ContributionSink::begin_sample(int x, int y, std::int64_t index)
+{
+    x_ = x;
+    y_ = y;
+    index_ = index;
+    center_ = Vec2(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+    radiance_ = Rgb(0.0f);
+    part_ = Rgb(0.0f);
+}
+
+void ContributionSink::add(const SampleContext& sample, Strategy strategy,
+                           const Contribution& found, float count)
+{
+    const Rgb unweighted = unweighted_of(sample, found);
+    const Rgb weighted = found.weight / count * unweighted;
+    part_ += weighted;
+    if (!films_.strategies.empty() || films_.on_path) [[unlikely]] {
+        sample.enter(Phase::splat);
+        report(strategy, center_, weighted, unweighted / count, found.weight);
+    }
+}
+
+void ContributionSink::splat(SampleContext& sample, Strategy strategy, const Splat& splat,
+                             float count, std::uint32_t dimension)
+{
+    sample.enter(Phase::splat);
+    SplatTarget target{.raster = splat.raster};
+    if (!filter_.is_pixel()) {
+        sample.sampler.start(SampleUse::film, dimension);
+        target = filter_.choose_pixel(splat.raster, sample.sampler.next_2d());
+    }
+    const Rgb unweighted = unweighted_of(sample, splat.contribution);
+    const Rgb weighted = target.weight * splat.contribution.weight / count * unweighted;
+    films_.film.prefetch_splat(target.raster, index_);
+    splats_.push_back({.raster = target.raster, .radiance = weighted});
+    if (!films_.strategies.empty() || films_.on_path) [[unlikely]] {
+        report(strategy, target.raster, weighted, target.weight / count * unweighted,
+               splat.contribution.weight);
+    }
+}
+
+void ContributionSink::report(Strategy strategy, Vec2 raster, Rgb weighted, Rgb unweighted,
+                              float weight)
+{
+    if (!films_.strategies.empty()) {
+        films_.strategies.add(strategy, raster, {.weighted = weighted, .unweighted = unweighted});
+    }
+    const auto x = static_cast<int>(std::floor(raster.x));
+    const auto y = static_cast<int>(std::floor(raster.y));
+    if (films_.on_path && films_.film.region().contains(x, y)) {
+        films_.on_path(
+            {.strategy = strategy,
+             .raster = raster,
+             .unweighted = unweighted,
+             .weight = weight,
+             .shares = weigher_ != nullptr ? weigher_->shares() : std::span<const float>{}});
+    }
+}
+
+void ContributionSink::end_part()
+{
+    radiance_ += part_;
+    part_ = Rgb(0.0f);
+}
+
+void ContributionSink::end_sample()
+{
+    end_part();
+    if (holds_pixel()) {
+        films_.film.add_sample(x_, y_, index_, radiance_);
+    }
+    for (const PendingSplat& splat : splats_) {
+        films_.film.add_splat(splat.raster, index_, splat.radiance);
+    }
+    splats_.clear();
+}
+
+}  // namespace bdpt

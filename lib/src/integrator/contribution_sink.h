@@ -1,0 +1,58 @@
+#pragma once
+
+#include "film/pixel_filter.h"
+#include "integrator/integrator.h"
+#include "path/connect.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace bdpt {
+
+/// Where a thread's integrator delivers every contribution that it finds: film, images of
+/// strategies and observers get it from here alone.
+class ContributionSink {
+public:
+    /// `weigher` tells observers the shares of strategies; null if the integrator has none. At most
+    /// `most_splats` come in one sample. All must outlive this.
+    ContributionSink(const Films& films, const PixelFilter& filter, PathWeigher* weigher,
+                     std::size_t most_splats);
+
+    /// What comes until `end_sample` belongs to this sample of pixel (x, y).
+    void begin_sample(int x, int y, std::int64_t index);
+    /// Does the film hold that pixel?
+    [[nodiscard]] bool holds_pixel() const { return films_.film.region().contains(x_, y_); }
+    /// A contribution to that pixel; the strategy takes `count` samples for each camera path.
+    void add(const SampleContext& sample, Strategy strategy, const Contribution& found,
+             float count);
+    /// A contribution to the pixel at `splat.raster`, or to one near it by the pixel filter;
+    /// `dimension` tells the splats of one light path apart.
+    void splat(SampleContext& sample, Strategy strategy, const Splat& splat, float count,
+               std::uint32_t dimension);
+    /// Sums up what was added since the last call by itself.
+    void end_part();
+    /// Adds the sample to the film.
+    void end_sample();
+
+private:
+    struct PendingSplat {
+        Vec2 raster;
+        Rgb radiance;
+    };
+    /// To images of strategies and to observers.
+    void report(Strategy strategy, Vec2 raster, Rgb weighted, Rgb unweighted, float weight);
+
+    Films films_;
+    const PixelFilter& filter_;
+    PathWeigher* weigher_;
+    std::vector<PendingSplat> splats_;  ///< wait for their pixels to come from memory
+    int x_ = 0;
+    int y_ = 0;
+    std::int64_t index_ = 0;
+    Vec2 center_{0.0f};  ///< of the pixel
+    Rgb radiance_{0.0f};
+    Rgb part_{0.0f};
+};
+
+}  // namespace bdpt

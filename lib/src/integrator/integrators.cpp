@@ -1,0 +1,94 @@
+#include <bdpt/integrators.h>
+
+#include "integrator/bidirectional/bidirectional_integrator.h"
+#include "integrator/integrator.h"
+#include "integrator/path/path_integrator.h"
+
+#include <algorithm>
+#include <array>
+
+namespace bdpt {
+namespace {
+
+using Factory = std::unique_ptr<Integrator> (*)(const World&, const MovingCamera&,
+                                                const RenderOptions&);
+
+template <typename T>
+std::unique_ptr<Integrator> make(const World& world, const MovingCamera& camera,
+                                 const RenderOptions& options)
+{
+    return std::make_unique<T>(world, camera, options);
+}
+
+/// What users see of an integrator, and how it is made.
+struct Row {
+    IntegratorInfo info;
+    Factory make;
+};
+
+constexpr std::array table{
+    Row{{.kind = IntegratorKind::bdpt,
+         .name = "bdpt",
+         .summary = "bidirectional path tracing",
+         .traces_light_paths = true,
+         .has_strategies = true},
+        &make<BidirectionalIntegrator>},
+    Row{{.kind = IntegratorKind::mis,
+         .name = "mis",
+         .summary = "path tracing, light and BSDF sampling",
+         .traces_light_paths = false,
+         .has_strategies = false},
+        &make<PathIntegrator>},
+    Row{{.kind = IntegratorKind::pt,
+         .name = "pt",
+         .summary = "path tracing, BSDF sampling only",
+         .traces_light_paths = false,
+         .has_strategies = false},
+        &make<PathIntegrator>},
+    Row{{.kind = IntegratorKind::nee,
+         .name = "nee",
+         .summary = "path tracing, light sampling only",
+         .traces_light_paths = false,
+         .has_strategies = false},
+        &make<PathIntegrator>},
+    Row{{.kind = IntegratorKind::lt,
+         .name = "lt",
+         .summary = "light tracing",
+         .traces_light_paths = true,
+         .has_strategies = true},
+        &make<BidirectionalIntegrator>},
+};
+
+const Row& row_of(IntegratorKind kind)
+{
+    return *std::find_if(table.begin(), table.end(),
+                         [kind](const Row& row) { return row.info.kind == kind; });
+}
+
+/// What the rows tell.
+constexpr auto infos = [] {
+    std::array<IntegratorInfo, table.size()> result{};
+    std::transform(table.begin(), table.end(), result.begin(),
+                   [](const Row& row) { return row.info; });
+    return result;
+}();
+
+}  // namespace
+
+std::span<const IntegratorInfo> integrators()
+{
+    return infos;
+}
+
+const IntegratorInfo& info(IntegratorKind kind)
+{
+    return row_of(kind).info;
+}
+
+std::unique_ptr<Integrator> make_integrator(const World& world, const MovingCamera& camera,
+                                            const RenderOptions& options)
+{
+    return row_of(options.integrator).make(world, camera, options);
+}
+
+}  // namespace bdpt

@@ -1,0 +1,249 @@
+#include "integrator/path/path_integrator.h"
+
+#include "camera/moving_camera.h"
+#include "integrator/sample_start.h"
+#include "math/rgb.h"
+#include "profile/sample_timer.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace bdpt {
+
+struct PathIntegrator::Ray {
+    SegmentEnd origin;
+    Vec3 direction{0.0f};
+    SolidAnglePdf pdf;
+    /// Light sampling at the origin, which is that receiver, could have found what this ray hits.
+    bool competes = false;
+    LightReceiver receiver{};
+};
+
+PathIntegrator::PathIntegrator(const World& world, const MovingCamera& camera,
+                               const RenderOptions& options)
+    : world_(world),
+      camera_(camera),
+      options_(options),
+      filter_(options.filter),
+      // What light sampling leaves out is found by BSDF sampling in `mis` alone.
+      next_event_sampling_{.environments = options.integrator == IntegratorKind::mis
+                                               ? options.environment_sampling
+                                               : EnvironmentSampling::plain,
+                           .lights = options.light_sampling}
+{}
+
+RenderStats PathIntegrator::render_tile(const Tile& tile, SampleRange samples,
+                                        const Films& films) const
+{
+    RenderStats stats;
+    ContributionSink sink(films, filter_, nullptr, 0);
+    for (int y = tile.y_begin; y < tile.y_end; ++y) {
+        for (int x = tile.x_begin; x < tile.x_end; ++x) {
+            for (std::int64_t index = samples.begin; index < samples.end; ++index) {
+                SampleTimer timer(films.times, x, y, index);
+                const SampleStart start(options_, filter_, world_, camera_, x, y, index);
+                const TimedCamera camera(camera_, start.time);
+                SampleContext sample{.world = world_,
+                                     .camera = camera.get(),
+                                     .sampler = start.sampler,
+                                     .time = start.time,
+                                     .wavelength = start.wavelength,
+                                     .rays = stats.rays,
+                                     .clock = timer.clock()};
+                sink.begin_sample(x, y, index);
+                trace_path(sample, start.raster, sink);
+                sample.enter(Phase::splat);
+                sink.end_sample();
+                ++stats.paths.camera;
+            }
+        }
+    }
+    return stats;
+}
+
+void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, ContributionSink& sink) const
+{
+    Sampler& sampler = sample.sampler;
+    const Camera& camera = sample.camera;
+    sampler.start(SampleUse::lens);
+    const Vec2 u_lens = camera.has_finite_lens() ? sampler.next_2d() : Vec2(0.0f);
+    const CameraRay first = camera.generate_ray(raster, u_lens);
+    Ray ray{.origin = first.lens, .direction = first.direction, .pdf = first.pdf_direction};
+    Rgb beta(1.0f);
+    bool dispersed = false;
+    const auto add = [&](Strategy strategy, Rgb found) {
+        if (strategy.s + strategy.t > options_.min_depth && !is_black(found)) {
+            sink.add(sample, strategy, {.unweighted = found, .dispersed = dispersed}, 1.0f);
+        }
+    };
+    for (int depth = 1; depth <= options_.max_depth; ++depth) {
+        ++sample.rays.camera;
+        const SegmentKey segment = sample.segment(0, depth);
+        const auto hit = world_.first_hit(ray.origin, ray.direction, segment);
+        if (!hit) {
+            if (const auto id = world_.lights().environment()) {
+                const PhaseScope scope(sample.clock, Phase::weigh);
+                const auto& light = std::get<EnvironmentLight>(world_.lights()[*id].model());
+                const Rgb open = medium_transmittance(ray.origin, {}, ray.direction,
+                                                      std::numeric_limits<float>::max());
+                add({.s = 0, .t = depth + 1},
+                    beta * open *
+                        emission(ray, *id, {.p = ray.direction}, light.radiance(ray.direction)));
+            }
+            break;
+        }
+        sample.enter(Phase::shade);
+        const SurfacePoint point =
+            world_.surface_at(*hit, ray.direction, segment, camera.pixel_cone());
+        sample.enter(Phase::walk);
+        const Vec3 along = point.end.p - ray.origin.p;
+        const float distance_squared = dot(along, along);
+        if (distance_squared < coincident) {
+            break;
+        }
+        beta *=
+            medium_transmittance(ray.origin, point.end, ray.direction, std::sqrt(distance_squared));
+        if (point.light) {
+            const PhaseScope scope(sample.clock, Phase::weigh);
+            const LightPoint on_light{.p = point.end.p,
+                                      .ng = point.end.ng,
+                                      .barycentrics = point.barycentrics,
+                                      .time = sample.time};
+            add({.s = 0, .t = depth + 1},
+                beta * emission(ray, *point.light, on_light, point.emission));
+        }
+        if (depth == options_.max_depth) {
+            break;
+        }
+        dispersed = dispersed || point.disperses;
+        const auto vertex = static_cast<std::uint32_t>(depth + 1);
+        sampler.start(SampleUse::camera_walk, vertex);
+        const Vec2 u_direction = sampler.next_2d();
+        if (point.bsdf.connectible() && depth + 1 >= options_.min_depth) {
+            const PhaseScope scope(sample.clock, Phase::connect);
+            add({.s = 1, .t = depth + 1}, beta * sample_light(sample, point, depth));
+        }
+        sampler.start(SampleUse::camera_choice, vertex);
+        const float u_lobe = point.bsdf.has_one_lobe() ? 0.0f : sampler.next_1d();
+        const auto scattered = point.bsdf.sample(u_lobe, u_direction, TransportMode::radiance);
+        if (!scattered || is_black(scattered->weight)) {
+            break;
+        }
+        beta *= scattered->weight;
+        ray = {.origin = point.end,
+               .direction = scattered->wi,
+               .pdf = scattered->pdf_fwd,
+               .competes = !scattered->delta && options_.integrator != IntegratorKind::pt};
+        if (ray.competes && world_.lights().uses_tree(next_event_sampling_.lights)) {
+            ray.receiver = {.p = point.end.p, .normal = point.bsdf.opaque_normal()};
+        }
+        if (depth >= options_.rr_start) {
+            const float survival = max_component(beta);
+            if (survival < 1.0f) {
+                if (sampler.next_1d() >= survival) {
+                    break;
+                }
+                beta /= survival;
+            }
+        }
+    }
+}
+
+float PathIntegrator::light_weight(float light_pdf, float bsdf_pdf) const
+{
+    if (options_.integrator != IntegratorKind::mis) {
+        return 1.0f;  // nee; and pt, which takes the lights that no BSDF sample can hit
+    }
+    const float ratio = bsdf_pdf / light_pdf;
+    switch (options_.heuristic) {
+        case Heuristic::balance:
+            return 1.0f / (1.0f + ratio);
+        case Heuristic::power:
+            return 1.0f / (1.0f + ratio * ratio);
+        case Heuristic::cutoff:
+            return ratio > 10.0f ? 0.0f : ratio < 0.1f ? 1.0f : 1.0f / (1.0f + ratio);
+        case Heuristic::maximum:
+            return ratio > 1.0f ? 0.0f : 1.0f;
+        case Heuristic::uniform:
+            return ratio > 0.0f ? 0.5f : 1.0f;
+    }
+    return 0.0f;
+}
+
+float PathIntegrator::bsdf_weight(float bsdf_pdf, float light_pdf) const
+{
+    if (light_pdf == 0.0f) {
+        return 1.0f;
+    }
+    return options_.integrator == IntegratorKind::nee ? 0.0f
+                                                      : 1.0f - light_weight(light_pdf, bsdf_pdf);
+}
+
+Rgb PathIntegrator::emission(const Ray& ray, LightId light, const LightPoint& hit,
+                             Rgb radiance) const
+{
+    if (!ray.competes || is_black(radiance)) {
+        return radiance;
+    }
+    const LightSet& lights = world_.lights();
+    const float probability =
+        lights.receiver_probability(light, ray.receiver, next_event_sampling_.lights);
+    const AreaPdf pdf =
+        lights[light].pdf_incident(ray.origin.p, hit, next_event_sampling_.environments) *
+        probability;
+    if (lights[light].is_infinite()) {
+        return radiance * bsdf_weight(ray.pdf.value, pdf.value);
+    }
+    const Vec3 along = hit.p - ray.origin.p;
+    const AreaPdf used = to_area(ray.pdf, std::abs(dot(hit.ng, ray.direction)), dot(along, along));
+    return radiance * bsdf_weight(used.value, pdf.value);
+}
+
+Rgb PathIntegrator::sample_light(SampleContext& sample, const SurfacePoint& point, int depth) const
+{
+    Sampler& sampler = sample.sampler;
+    const Vec2 u = sampler.next_2d();
+    const auto draw_fine = [&] {
+        sampler.start(SampleUse::camera_choice, static_cast<std::uint32_t>(depth + 1));
+        static_cast<void>(sampler.next_1d());  // chooses the lobe
+        return sampler.next_fine();
+    };
+    const auto receiver = [&point] {
+        return LightReceiver{.p = point.end.p, .normal = point.bsdf.opaque_normal()};
+    };
+    const auto choice =
+        world_.lights().choose_for_receiver(receiver, u, draw_fine, next_event_sampling_.lights);
+    if (!choice) {
+        return Rgb(0.0f);
+    }
+    const Light& light = world_.lights()[choice->id];
+    if (options_.integrator == IntegratorKind::pt && !light.is_delta()) {
+        return Rgb(0.0f);
+    }
+    const auto incident = light.sample_incident(point.end.p, choice->u,
+                                                next_event_sampling_.environments, sample.time);
+    if (!incident) {
+        return Rgb(0.0f);
+    }
+    const BsdfEval f = point.bsdf.eval(incident->wi, TransportMode::radiance);
+    Rgb value = f.f_cos * incident->weight / choice->probability;
+    if (is_black(value)) {
+        return Rgb(0.0f);
+    }
+    ++sample.rays.shadow;
+    const SegmentKey segment = sample.segment(1, depth + 1);
+    value *= light.is_infinite()
+                 ? world_.transmittance_to_infinity(point.end, incident->wi, segment)
+                 : world_.transmittance(point.end, incident->end, segment);
+    if (light.is_delta()) {
+        return value;
+    }
+    sample.enter(Phase::weigh);
+    return value *
+           light_weight(incident->pdf_solid_angle.value * choice->probability, f.pdf_fwd.value);
+}
+
+}  // namespace bdpt

@@ -1,0 +1,113 @@
+#pragma once
+
+#include "material/bsdf_model.h"
+#include "material/lobes/fresnel.h"
+#include "material/lobes/thin_film.h"
+#include "material/small_numbers.h"
+#include "material/specular_albedo.h"
+#include "math/rgb.h"
+
+#include <bdpt/types.h>
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+
+namespace bdpt {
+
+/// What becomes of light at one microfacet.
+struct BoundaryShares {
+    Rgb reflected;
+    Rgb transmitted;
+    float reflect_choice;  ///< probability of reflection; equal from both sides
+};
+
+/// The boundary of a dielectric, metal, or a mix of them, maybe under a film: what each of its
+/// microfacets reflects and lets through. The lobes of GGX and `SmoothBoundary` are made of it. z
+/// is above 0 outside a solid body.
+template <typename Film>
+struct Boundary {
+    /// Marks light that is reflected in full where a cosine on the outer side would stand.
+    static constexpr float total_reflection = -1.0f;
+
+    Rgb base_color{0.0f};  ///< of metal, and of what is transmitted
+    Rgb f0{0.0f};          ///< of the dielectric
+    float f90 = 0.0f;
+    float metallic = 0.0f;
+    float transmission = 0.0f;  ///< of the dielectric part
+    float ior = 1.0f;           ///< of the inside of a solid body
+    bool is_solid = false;
+    bool exists = false;  ///< can be seen at all
+    PackedPointer<const SpecularAlbedo> albedo{};
+    [[no_unique_address]] Film film{};
+
+    [[nodiscard]] bool transmits() const noexcept { return transmission > 0.0f; }
+    [[nodiscard]] bool is_inside(float z) const noexcept { return is_solid && z < 0.0f; }
+    [[nodiscard]] float index_at(float z) const noexcept { return is_inside(z) ? ior : 1.0f; }
+
+    /// The share of light that the dielectric reflects, in the brightest channel.
+    [[nodiscard]] float reflected(SpecularAlbedo::Split split) const noexcept
+    {
+        return film.bound(max_component(f0) * split.f0 + f90 * split.f90, split.f0, split.f90);
+    }
+
+    /// The cosine at a microfacet on the side of the lower index, from that on the side of `z`.
+    [[nodiscard]] float cos_outer(float cos_microfacet, float z) const noexcept
+    {
+        if (!is_inside(z)) {
+            return cos_microfacet;
+        }
+        const float scaled = ior * cos_microfacet;
+        const float cos2 = scaled * scaled - (ior - 1.0f) * (ior + 1.0f);
+        return cos2 > 0.0f ? std::sqrt(cos2) : total_reflection;
+    }
+
+    /// Of a microfacet with this cosine on the side of `z`.
+    [[nodiscard]] float reflect_choice(float cos_microfacet, float z) const noexcept
+    {
+        return transmits() ? shares(cos_outer(cos_microfacet, z)).reflect_choice : 1.0f;
+    }
+
+    /// Metal follows the cosine on the outer side too, so that light sees the same microfacet
+    /// whichever way it comes.
+    [[nodiscard]] BoundaryShares shares(float cos_outer) const noexcept
+    {
+        const float dielectric = 1.0f - metallic;
+        Rgb reflectance{1.0f};
+        Rgb reflected{dielectric};
+        if (cos_outer != total_reflection) {
+            reflectance = f0 + (f90 - f0) * albedo->fresnel_course(cos_outer);
+            reflectance = film.over(reflectance, f0, cos_outer);
+            reflected = dielectric * reflectance;
+        }
+        if (metallic > 0.0f) {
+            const Rgb bare = base_color + (1.0f - base_color) * schlick_weight(cos_outer);
+            reflected += metallic * film.over(bare, base_color, std::max(cos_outer, 0.0f));
+        }
+        if (transmission == 0.0f) {
+            return {reflected, Rgb{0.0f}, 1.0f};
+        }
+        const Rgb transmitted = transmission * base_color * (1.0f - reflectance);
+        const float reflected_max = max_component(reflected);
+        const float sum = reflected_max + max_component(transmitted);
+        return {reflected, transmitted, sum > 0.0f ? reflected_max / sum : 1.0f};
+    }
+};
+
+/// The refraction of `wo` at a microfacet that does not reflect in full; `eta` is the index on wo's
+/// side over that on the other.
+[[nodiscard]] inline Vec3 refracted(Vec3 wo, Vec3 h, float cos_microfacet, float eta)
+{
+    const float scaled = eta * cos_microfacet;
+    const float cos2_far = (1.0f - eta) * (1.0f + eta) + scaled * scaled;
+    return normalize((scaled - std::sqrt(std::max(0.0f, cos2_far))) * h - eta * wo);
+}
+
+/// Radiance is compressed where it goes into the denser medium, importance is not [Veach 1997,
+/// sec. 5.2].
+[[nodiscard]] inline float compression(float n_o, float n_i, TransportMode mode)
+{
+    return mode == TransportMode::radiance ? n_o * n_o / (n_i * n_i) : 1.0f;
+}
+
+}  // namespace bdpt

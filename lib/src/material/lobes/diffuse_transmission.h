@@ -1,0 +1,41 @@
+#pragma once
+
+#include "material/lobes/lobe.h"
+#include "math/warp.h"
+
+#include <cmath>
+
+namespace bdpt {
+
+/// Lambertian on the other side of a thin surface, as paper and leaves are
+/// [KHR_materials_diffuse_transmission]; alike from both sides.
+class DiffuseTransmission {
+public:
+    /// As `DiffuseReflection`.
+    explicit DiffuseTransmission(Rgb f, float coupling = 1.0f) : f_(f), coupling_(coupling) {}
+
+    [[nodiscard]] BsdfEval eval(Vec3 wo, Vec3 wi, TransportMode) const noexcept
+    {
+        if (same_side(wo, wi)) {
+            return {};
+        }
+        const float cos_i = std::abs(wi.z);
+        return {f_ * (coupling_ * cos_i), cosine_hemisphere_pdf(cos_i),
+                cosine_hemisphere_pdf(std::abs(wo.z))};
+    }
+    [[nodiscard]] std::optional<BsdfSample> sample(Vec3 wo, float, Vec2 u,
+                                                   TransportMode) const noexcept
+    {
+        const Vec3 above = square_to_cosine_hemisphere(u);
+        return towards(wo.z > 0.0f ? mirrored(above) : above);
+    }
+    [[nodiscard]] bool is_delta() const noexcept { return false; }
+
+private:
+    Rgb f_;
+    float coupling_;
+};
+
+static_assert(Lobe<DiffuseTransmission>);
+
+}  // namespace bdpt

@@ -1,0 +1,62 @@
+#pragma once
+
+#include "material/layers.h"
+#include "material/lobes/coat.h"
+#include "material/lobes/sheen.h"
+#include "material/models/metallic_roughness.h"
+
+#include <optional>
+
+namespace bdpt {
+
+/// Layers over the glTF material model: KHR_materials_{clearcoat, sheen}, and a base with
+/// KHR_materials_{anisotropy, diffuse_transmission, iridescence}. Directions are as those of all
+/// models; +x is the rougher direction. Layers cover the outside of solid bodies, and both
+/// sides of all else.
+///
+/// What lies below a layer is multiplied by min(T(wo), T(wi)), where T is what the layer does not
+/// reflect: so no energy is made, and the way of light does not matter. That is the rule that
+/// KHR_materials_sheen gives for its layer.
+class LayeredBsdf {
+public:
+    explicit LayeredBsdf(const LayeredParameters& parameters);
+
+    [[nodiscard]] BsdfEval eval(Vec3 wo, Vec3 wi, TransportMode mode) const noexcept;
+    /// `u_lobe` and `u` are uniform in [0, 1).
+    [[nodiscard]] std::optional<BsdfSample> sample(Vec3 wo, float u_lobe, Vec2 u,
+                                                   TransportMode mode) const noexcept;
+    /// Scatters into a lobe that is not delta.
+    [[nodiscard]] bool has_smooth_lobe() const noexcept;
+    /// Roughly the albedo of the base, > 0.
+    [[nodiscard]] float base_weight() const noexcept { return base_weight_; }
+
+private:
+    /// What follows from one direction alone.
+    struct Side {
+        LayerBase::Side base;
+        // Probabilities of the lobes.
+        float coat_choice = 0.0f;
+        float sheen_choice = 0.0f;
+        float base_choice = 1.0f;
+        // What is left of light below each layer.
+        float below_coat = 1.0f;
+        float below_sheen = 1.0f;
+    };
+
+    [[nodiscard]] Side side(Vec3 w) const noexcept;
+    [[nodiscard]] bool is_covered(Vec3 w) const noexcept { return !solid_ || w.z > 0.0f; }
+    [[nodiscard]] BsdfEval eval_lobes(const Side& from, Vec3 wo, Vec3 wi,
+                                      TransportMode mode) const noexcept;
+    [[nodiscard]] std::optional<BsdfSample> sample_coat(const Side& from, Vec3 wo, float u_lobe,
+                                                        Vec2 u, TransportMode mode) const noexcept;
+    [[nodiscard]] std::optional<BsdfSample> sample_base(const Side& from, Vec3 wo, float u_lobe,
+                                                        Vec2 u, TransportMode mode) const noexcept;
+
+    LayerBase base_;
+    Coat coat_;
+    Sheen sheen_;
+    float base_weight_;
+    bool solid_;
+};
+
+}  // namespace bdpt

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "material/models/lambertian.h"
+#include "material/models/layered.h"
+#include "material/models/metallic_roughness.h"
+#include "material/small_numbers.h"
+
+#include <glm/geometric.hpp>
+
+namespace bdpt {
+
+/// A model on the facet of a normal map (`MappedBsdf`), whose normal is +z; a coat lies even on the
+/// surface or has a map of its own (`CoatedFacet`).
+template <ScatteringModel Model>
+class Mapped {
+public:
+    /// `ns`, local: the unit normal of the surface without the map, above the facet.
+    Mapped(const Model& model, Vec3 ns) noexcept : model_(model), ns_(ns) {}
+
+    [[nodiscard]] BsdfEval eval(Vec3 wo, Vec3 wi, TransportMode mode) const noexcept;
+    [[nodiscard]] std::optional<BsdfSample> sample(Vec3 wo, float u_lobe, Vec2 u,
+                                                   TransportMode mode) const noexcept;
+    [[nodiscard]] bool has_smooth_lobe() const noexcept { return model_.has_smooth_lobe(); }
+    [[nodiscard]] bool transmits() const noexcept { return model_.transmits(); }
+    [[nodiscard]] Rgb base_color() const noexcept { return model_.base_color(); }
+    /// The cosine to the normal of the surface without the map.
+    [[nodiscard]] float height(Vec3 w) const noexcept { return dot(w, ns_.value()); }
+
+private:
+    Model model_;
+    Direction16 ns_;
+};
+
+extern template class Mapped<Lambertian>;
+extern template class Mapped<MetallicRoughness>;
+extern template class Mapped<Layered>;
+
+static_assert(ScatteringModel<Mapped<Lambertian>>);
+
+}  // namespace bdpt

@@ -1,0 +1,130 @@
+#include "material/models/metallic_roughness.h"
+
+#include "material/lobes/ggx_boundary.h"
+#include "material/lobes/smooth_boundary.h"
+
+#include <glm/common.hpp>
+
+#include <cmath>
+
+namespace bdpt {
+
+/// Rough refraction into an index this close to the outer one has no half vector.
+constexpr float least_refraction = 1.001f;
+
+template <typename Film, typename Roughness, typename Base>
+BasicMetallicRoughness<Film, Roughness, Base>::BasicMetallicRoughness(
+    const GltfParameters& parameters, const SpecularAlbedo& albedo, const Roughness& roughness,
+    const Film& film, const Base& base)
+    : roughness_(roughness), base_(base)
+{
+    const float metallic = std::clamp(parameters.metallic, 0.0f, 1.0f);
+    const float dielectric = 1.0f - metallic;
+    const float transmission = std::clamp(parameters.transmission, 0.0f, 1.0f);
+    const float f90 = std::clamp(parameters.specular, 0.0f, 1.0f);
+    boundary_ = {
+        .base_color = clamp(parameters.base_color, 0.0f, 1.0f),
+        .f0 = clamp(albedo.normal_reflectance() * parameters.specular_color, 0.0f, 1.0f) * f90,
+        .f90 = f90,
+        .metallic = metallic,
+        .transmission = dielectric * transmission,
+        .ior = albedo.ior(),
+        .is_solid = parameters.body == Body::solid,
+        .exists = parameters.has_boundary() || film.exists(),
+        .albedo = PackedPointer(&albedo),
+        .film = film};
+    boundary_.film.bind(boundary_.f0);
+    if (boundary_.is_solid && roughness_.is_rough() && boundary_.ior < least_refraction) {
+        // Equal indices: a dielectric boundary cannot be seen, however rough; where it is mixed
+        // with metal, a refraction too weak to be noticed keeps the metal's roughness.
+        if (metallic == 0.0f) {
+            roughness_.make_smooth();
+        } else {
+            boundary_.ior = least_refraction;
+        }
+    }
+    constexpr float least_loss = 1e-6f;  // a base below a perfect mirror gets no light at all
+    const float average = roughness_.average(
+        [&](SpecularAlbedo::Roughness row) { return boundary_.reflected(albedo.average(row)); });
+    const float diffuse = dielectric * (1.0f - transmission);
+    base_weight_ = base_.set_up(boundary_.base_color, diffuse, std::max(1.0f - average, least_loss),
+                                parameters);
+    const float base_max = max_component(boundary_.base_color);
+    transmission_weight_ = boundary_.transmission * base_max;
+    // 1/21 is the cosine-weighted average of Schlick's (1 - cos)^5.
+    metal_weight_ = metallic * (base_max + (1.0f - base_max) / 21.0f);
+}
+
+template <typename Film, typename Roughness, typename Base>
+auto BasicMetallicRoughness<Film, Roughness, Base>::side(float z) const noexcept -> Side
+{
+    if (base_weight_ == 0.0f || boundary_.is_inside(z)) {
+        return {boundary_.exists ? 1.0f : 0.0f, 0.0f};
+    }
+    if (!boundary_.exists) {
+        return {0.0f, 1.0f};
+    }
+    const float cosine = std::abs(z);
+    const float bare = roughness_.directional([&](SpecularAlbedo::Roughness row) {
+        return boundary_.reflected(boundary_.albedo->directional(cosine, row));
+    });
+    const float reflected = boundary_.film.greatest_over(bare, cosine, boundary_.f0);
+    const float rest = std::max(0.0f, 1.0f - reflected);
+    const float specular =
+        (1.0f - boundary_.metallic) * reflected + transmission_weight_ * rest + metal_weight_;
+    const float diffuse = base_weight_ * rest;
+    const float sum = specular + diffuse;
+    return {sum > 0.0f ? specular / sum : 0.0f, rest};
+}
+
+template <typename Film, typename Roughness, typename Base>
+BsdfEval BasicMetallicRoughness<Film, Roughness, Base>::eval_lobes(
+    const Side& from, Vec3 wo, Vec3 wi, TransportMode mode) const noexcept
+{
+    BsdfEval sum;
+    const Side to = side(wi.z);
+    if (boundary_.exists && roughness_.is_rough()) {
+        sum = chosen(GgxBoundary(boundary_, roughness_.alpha()).eval(wo, wi, mode),
+                     from.boundary_choice, to.boundary_choice);
+    }
+    if (base_weight_ > 0.0f) {
+        base_.add_to(sum, boundary_.base_color, from.base_transmitted * to.base_transmitted,
+                     1.0f - from.boundary_choice, 1.0f - to.boundary_choice, wo, wi, mode);
+    }
+    return sum;
+}
+
+template <typename Film, typename Roughness, typename Base>
+BsdfEval BasicMetallicRoughness<Film, Roughness, Base>::eval(const Side& from, Vec3 wo, Vec3 wi,
+                                                             TransportMode mode) const noexcept
+{
+    return grazes(wo) || grazes(wi) ? BsdfEval{} : eval_lobes(from, wo, wi, mode);
+}
+
+template <typename Film, typename Roughness, typename Base>
+std::optional<BsdfSample> BasicMetallicRoughness<Film, Roughness, Base>::sample(
+    const Side& from, Vec3 wo, float u_lobe, Vec2 u, TransportMode mode) const noexcept
+{
+    if (grazes(wo)) {
+        return std::nullopt;
+    }
+    const float choice = from.boundary_choice;
+    std::optional<BsdfSample> sampled;
+    if (u_lobe >= choice) {
+        sampled = base_.sample(wo, (u_lobe - choice) / (1.0f - choice), u, mode);
+    } else if (roughness_.is_rough()) {
+        sampled = GgxBoundary(boundary_, roughness_.alpha()).sample(wo, u_lobe / choice, u, mode);
+    } else {
+        const auto choice_at = [this](float z) { return side(z).boundary_choice; };
+        return SmoothBoundary(boundary_, choice, choice_at).sample(wo, u_lobe / choice, u, mode);
+    }
+    if (!sampled || grazes(sampled->wi)) {
+        return std::nullopt;
+    }
+    return smooth_sample(sampled->wi, eval_lobes(from, wo, sampled->wi, mode));
+}
+
+template class BasicMetallicRoughness<NoFilm, IsotropicRoughness, DiffuseBase>;
+template class BasicMetallicRoughness<ThinFilm, AnisotropicRoughness, TranslucentBase>;
+
+}  // namespace bdpt

@@ -1,0 +1,199 @@
+#pragma once
+
+#include "material/lobes/boundary.h"
+#include "material/lobes/diffuse_reflection.h"
+#include "material/lobes/diffuse_transmission.h"
+#include "material/lobes/roughness.h"
+#include "material/lobes/thin_film.h"
+#include "material/models/scattering_model.h"
+#include "math/elementary.h"
+#include "math/rgb.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <cstdint>
+
+namespace bdpt {
+
+/// What a surface that transmits light is part of.
+enum class Body : std::uint8_t {
+    thin_walled,  ///< a sheet: light passes without changing its course
+    solid,        ///< the boundary of a closed body: light is refracted
+};
+
+/// The parameters of the glTF material model at one surface point; see `MaterialDesc`.
+struct GltfParameters {
+    Rgb base_color{1.0f};
+    float metallic = 0.0f;
+    float roughness = 1.0f;  ///< perceptual
+    float specular = 1.0f;
+    Rgb specular_color{1.0f};
+    float transmission = 0.0f;
+    Body body = Body::thin_walled;
+
+    /// Is there a boundary above the base that can be seen?
+    [[nodiscard]] bool has_boundary() const
+    {
+        return specular > 0.0f || metallic > 0.0f || transmission > 0.0f || body == Body::solid;
+    }
+    [[nodiscard]] bool is_lambertian() const { return !has_boundary(); }
+};
+
+// The base, below the boundary, is one of these.
+// - `set_up`: `diffuse` is the share of light for which there is a base, `reaches_base` the average
+//   of what the boundary lets through. Returns the greatest component of the albedo.
+// - `add_to`: adds the lobes; `coupling` is the share of light that the boundary lets through, in
+//   and out, and `choice_fwd` and `choice_rev` are the probabilities of the base from wo and wi.
+
+/// A Lambertian base.
+class DiffuseBase {
+public:
+    [[nodiscard]] float set_up(Rgb base_color, float diffuse, float reaches_base,
+                               const GltfParameters&)
+    {
+        per_color_ = diffuse * inv_pi / reaches_base;
+        return diffuse * max_component(base_color);
+    }
+    void add_to(BsdfEval& sum, Rgb base_color, float coupling, float choice_fwd, float choice_rev,
+                Vec3 wo, Vec3 wi, TransportMode mode) const noexcept
+    {
+        const DiffuseReflection lobe(base_color * per_color_, coupling);
+        add(sum, chosen(lobe.eval(wo, wi, mode), choice_fwd, choice_rev));
+    }
+    [[nodiscard]] std::optional<BsdfSample> sample(Vec3 wo, float u_base, Vec2 u,
+                                                   TransportMode mode) const noexcept
+    {
+        return DiffuseReflection(Rgb(0.0f)).sample(wo, u_base, u, mode);
+    }
+
+private:
+    float per_color_ = 0.0f;  ///< f over base colour [1/sr]
+};
+
+/// A Lambertian base of which a share is on the other side, if the body is thin.
+class TranslucentBase {
+public:
+    TranslucentBase() = default;
+    /// Clamped to [0, 1].
+    TranslucentBase(float share, Rgb color) : transmitted_(color), transmitted_choice_(share) {}
+
+    [[nodiscard]] float set_up(Rgb base_color, float diffuse, float reaches_base,
+                               const GltfParameters& parameters)
+    {
+        const float all = diffuse * max_component(base_color);
+        reflected_ = base_color * (diffuse * inv_pi / reaches_base);
+        const float share =
+            parameters.body == Body::solid ? 0.0f : std::clamp(transmitted_choice_, 0.0f, 1.0f);
+        transmitted_choice_ = 0.0f;
+        if (share == 0.0f) {
+            return all;
+        }
+        const Rgb color = glm::clamp(transmitted_, 0.0f, 1.0f);
+        transmitted_ = color * (share * diffuse * inv_pi / reaches_base);
+        reflected_ *= 1.0f - share;
+        const float transmitted = share * diffuse * max_component(color);
+        const float weight = (1.0f - share) * all + transmitted;
+        transmitted_choice_ = weight > 0.0f ? transmitted / weight : 0.0f;
+        return weight;
+    }
+    void add_to(BsdfEval& sum, Rgb, float coupling, float choice_fwd, float choice_rev, Vec3 wo,
+                Vec3 wi, TransportMode mode) const noexcept
+    {
+        const float reflected_choice = 1.0f - transmitted_choice_;
+        add(sum, chosen(DiffuseReflection(reflected_, coupling).eval(wo, wi, mode),
+                        reflected_choice * choice_fwd, reflected_choice * choice_rev));
+        if (transmitted_choice_ > 0.0f) {
+            add(sum, chosen(DiffuseTransmission(transmitted_, coupling).eval(wo, wi, mode),
+                            transmitted_choice_ * choice_fwd, transmitted_choice_ * choice_rev));
+        }
+    }
+    [[nodiscard]] std::optional<BsdfSample> sample(Vec3 wo, float u_base, Vec2 u,
+                                                   TransportMode mode) const noexcept
+    {
+        return u_base < transmitted_choice_
+                   ? DiffuseTransmission(transmitted_).sample(wo, u_base, u, mode)
+                   : DiffuseReflection(reflected_).sample(wo, u_base, u, mode);
+    }
+
+private:
+    Rgb reflected_{0.0f};              ///< f [1/sr]
+    Rgb transmitted_{0.0f};            ///< f on the other side [1/sr]
+    float transmitted_choice_ = 0.0f;  ///< probability of the other side
+};
+
+/// The scattering model of glTF 2.0 metallic-roughness with KHR_materials_{ior, specular,
+/// transmission, volume}: the lobes of a boundary above a base.
+///
+/// The boundary is that of a dielectric, or metal, or a mix; it reflects and transmits at the same
+/// microfacets. The base gets what the boundary lets through in both directions, so that it is
+/// reciprocal and no energy is lost or made [Kelemen and Szirmay-Kalos 2001, "A Microfacet Based
+/// Coupled Specular-Matte BRDF Model"]. All but solid transmitters scatter alike from both sides.
+/// From inside a solid transmitter there is no base: the pigment lies below the boundary for light
+/// from outside only, and a base seen from within would add to the light that is already reflected
+/// in full.
+template <typename Film, typename Roughness, typename Base>
+class BasicMetallicRoughness {
+public:
+    /// Parameters are clamped to [0, 1]. `albedo` has the refractive index; it must outlive this.
+    BasicMetallicRoughness(const GltfParameters& parameters, const SpecularAlbedo& albedo,
+                           const Roughness& roughness, const Film& film, const Base& base);
+    BasicMetallicRoughness(const GltfParameters& parameters, const SpecularAlbedo& albedo)
+        : BasicMetallicRoughness(parameters, albedo, Roughness(parameters.roughness), Film(),
+                                 Base())
+    {}
+
+    /// What follows from one direction alone.
+    struct Side {
+        float boundary_choice = 0.0f;   ///< probability of the lobes of the boundary
+        float base_transmitted = 0.0f;  ///< share of light that reaches the base, 1 - E
+    };
+    /// `z` is that of the direction.
+    [[nodiscard]] Side side(float z) const noexcept;
+
+    /// `from` is the side of wo.
+    [[nodiscard]] BsdfEval eval(const Side& from, Vec3 wo, Vec3 wi,
+                                TransportMode mode) const noexcept;
+    [[nodiscard]] std::optional<BsdfSample> sample(const Side& from, Vec3 wo, float u_lobe, Vec2 u,
+                                                   TransportMode mode) const noexcept;
+    [[nodiscard]] BsdfEval eval(Vec3 wo, Vec3 wi, TransportMode mode) const noexcept
+    {
+        return eval(side(wo.z), wo, wi, mode);
+    }
+    [[nodiscard]] std::optional<BsdfSample> sample(Vec3 wo, float u_lobe, Vec2 u,
+                                                   TransportMode mode) const noexcept
+    {
+        return sample(side(wo.z), wo, u_lobe, u, mode);
+    }
+
+    [[nodiscard]] bool has_smooth_lobe() const noexcept
+    {
+        return base_weight_ > 0.0f || (boundary_.exists && roughness_.is_rough());
+    }
+    [[nodiscard]] bool transmits() const noexcept { return boundary_.transmits(); }
+    [[nodiscard]] Rgb base_color() const noexcept { return boundary_.base_color; }
+
+private:
+    [[nodiscard]] BsdfEval eval_lobes(const Side& from, Vec3 wo, Vec3 wi,
+                                      TransportMode mode) const noexcept;
+
+    Boundary<Film> boundary_;
+    Roughness roughness_;
+    Base base_;
+    // The largest components of albedos, for choosing among the lobes.
+    float base_weight_ = 0.0f;
+    float transmission_weight_ = 0.0f;
+    float metal_weight_ = 0.0f;
+};
+
+/// The plain model, which lives in path vertices.
+using MetallicRoughness = BasicMetallicRoughness<NoFilm, IsotropicRoughness, DiffuseBase>;
+/// The base of layered models.
+using LayerBase = BasicMetallicRoughness<ThinFilm, AnisotropicRoughness, TranslucentBase>;
+
+extern template class BasicMetallicRoughness<NoFilm, IsotropicRoughness, DiffuseBase>;
+extern template class BasicMetallicRoughness<ThinFilm, AnisotropicRoughness, TranslucentBase>;
+
+static_assert(ScatteringModel<MetallicRoughness> && ScatteringModel<LayerBase>);
+
+}  // namespace bdpt

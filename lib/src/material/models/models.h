@@ -1,0 +1,74 @@
+#pragma once
+
+#include "material/models/black.h"
+#include "material/models/lambertian.h"
+#include "material/models/layered.h"
+#include "material/models/mapped.h"
+#include "material/models/metallic_roughness.h"
+#include "material/models/seen_from.h"
+
+#include <variant>
+
+namespace bdpt {
+
+/// The list of all models that a `Bsdf` may be, cheap and common ones first. Whoever visits it has
+/// no default case: the compiler names each place that does not know a model.
+using AnyModel = std::variant<Black, Lambertian, SeenFrom<MetallicRoughness>, Layered,
+                              Mapped<Lambertian>, Mapped<MetallicRoughness>, Mapped<Layered>>;
+
+/// A material without layers.
+using PlainModel = std::variant<Black, Lambertian, MetallicRoughness>;
+
+/// The simplest model of these parameters. `albedo` has the refractive index; it must outlive the
+/// model.
+[[nodiscard]] inline PlainModel plain_model(const GltfParameters& parameters,
+                                            const SpecularAlbedo& albedo)
+{
+    if (!parameters.is_lambertian()) {
+        return MetallicRoughness(parameters, albedo);
+    }
+    const Rgb color = glm::clamp(parameters.base_color, 0.0f, 1.0f);
+    if (is_black(color)) {
+        return Black(color);
+    }
+    return Lambertian(color);
+}
+
+// How models are held, seen from a local wo.
+
+template <ScatteringModel Model>
+[[nodiscard]] Model placed(const Model& model, Vec3) noexcept
+{
+    return model;
+}
+[[nodiscard]] inline SeenFrom<MetallicRoughness> placed(const MetallicRoughness& model,
+                                                        Vec3 wo) noexcept
+{
+    return {model, wo};
+}
+
+// And on the facet of a normal map, where `ns` is the local normal of the surface without it.
+
+template <ScatteringModel Model>
+[[nodiscard]] Mapped<Model> mapped(const Model& model, Vec3 ns) noexcept
+{
+    return {model, ns};
+}
+[[nodiscard]] inline Black mapped(const Black& model, Vec3) noexcept
+{
+    return model;
+}
+
+/// The cosine by which a model sees a direction above or below the surface.
+template <ScatteringModel Model>
+[[nodiscard]] float height(const Model&, Vec3 w) noexcept
+{
+    return w.z;
+}
+template <ScatteringModel Model>
+[[nodiscard]] float height(const Mapped<Model>& model, Vec3 w) noexcept
+{
+    return model.height(w);
+}
+
+}  // namespace bdpt

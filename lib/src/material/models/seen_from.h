@@ -1,0 +1,32 @@
+#pragma once
+
+#include "material/models/scattering_model.h"
+
+namespace bdpt {
+
+/// A model and what follows from wo alone, worked out once for all the joins of a path vertex. The
+/// wo of all calls must be that one.
+template <typename Model>
+class SeenFrom {
+public:
+    SeenFrom(const Model& model, Vec3 wo) noexcept : model_(model), from_(model.side(wo.z)) {}
+
+    [[nodiscard]] BsdfEval eval(Vec3 wo, Vec3 wi, TransportMode mode) const noexcept
+    {
+        return model_.eval(from_, wo, wi, mode);
+    }
+    [[nodiscard]] std::optional<BsdfSample> sample(Vec3 wo, float u_lobe, Vec2 u,
+                                                   TransportMode mode) const noexcept
+    {
+        return model_.sample(from_, wo, u_lobe, u, mode);
+    }
+    [[nodiscard]] bool has_smooth_lobe() const noexcept { return model_.has_smooth_lobe(); }
+    [[nodiscard]] bool transmits() const noexcept { return model_.transmits(); }
+    [[nodiscard]] Rgb base_color() const noexcept { return model_.base_color(); }
+
+private:
+    Model model_;
+    typename Model::Side from_;
+};
+
+}  // namespace bdpt

@@ -1,0 +1,138 @@
+#include "path/path_weigher.h"
+
+#include "camera/camera.h"
+#include "path/densities.h"
+
+namespace bdpt {
+
+PathWeigher::PathWeigher(const World& world, const Camera& camera, const StrategySet& strategies,
+                         Heuristic heuristic, int max_vertices)
+    : world_(world),
+      camera_(camera),
+      strategies_(strategies),
+      heuristic_(heuristic),
+      from_light_(static_cast<std::size_t>(max_vertices)),
+      from_camera_(static_cast<std::size_t>(max_vertices)),
+      sample_counts_(static_cast<std::size_t>(max_vertices) + 1),
+      shares_(static_cast<std::size_t>(max_vertices) + 1)
+{
+    if (WeightSums::applies(strategies, heuristic)) {
+        sums_.emplace(world, camera, strategies, heuristic);
+    }
+}
+
+void PathWeigher::begin_camera_path(std::span<const PathVertex> path)
+{
+    if (sums_) {
+        sums_->begin_camera_path(path);
+        uses_sums_ = true;
+    }
+}
+
+void PathWeigher::begin_light_path(std::span<const PathVertex> path)
+{
+    if (sums_) {
+        sums_->begin_light_path(path);
+    }
+}
+
+float PathWeigher::weight(std::span<const PathVertex> light, std::span<const PathVertex> camera,
+                          const JoinDensities& join)
+{
+    size_ = light.size() + camera.size();
+    const bool summed = uses_sums_ && size_ > 2;
+    if (!summed || keeps_paths_) {
+        gather_densities(light, camera, join);
+        gather_sample_counts(light, camera, light.empty() ? Joined::no : Joined::yes);
+        next_event_ = join.next_event;
+    }
+    if (summed) {
+        return sums_->weight(light, camera, join);
+    }
+    return mis_weight(last_path(), static_cast<int>(light.size()), heuristic_);
+}
+
+float PathWeigher::weight_of_hit(std::span<const PathVertex> light, const PathVertex& lens,
+                                 const JoinDensities& join)
+{
+    size_ = light.size() + 1;
+    gather_densities(light, std::span(&lens, 1), join);
+    gather_sample_counts(light, std::span(&lens, 1), Joined::no);
+    next_event_ = join.next_event;
+    return mis_weight(last_path(), static_cast<int>(size_), heuristic_);
+}
+
+PathDensities PathWeigher::last_path() const
+{
+    return {.from_light = std::span(from_light_).first(size_),
+            .from_camera = std::span(from_camera_).first(size_),
+            .next_event = next_event_,
+            .sample_counts = std::span(sample_counts_).first(size_ + 1)};
+}
+
+std::span<const float> PathWeigher::shares()
+{
+    const PathDensities path = last_path();
+    long double sum = 0.0L;
+    for (std::size_t s = 0; s <= size_; ++s) {
+        sum += strategy_density(path, s);
+    }
+    for (std::size_t s = 0; s <= size_; ++s) {
+        shares_[s] = sum > 0.0L ? static_cast<float>(strategy_density(path, s) / sum) : 0.0f;
+    }
+    return std::span(shares_).first(size_ + 1);
+}
+
+void PathWeigher::gather_densities(std::span<const PathVertex> light,
+                                   std::span<const PathVertex> camera, const JoinDensities& join)
+{
+    const std::size_t s = light.size();
+    const std::size_t t = camera.size();
+    for (std::size_t i = 0; i < s; ++i) {
+        from_light_[i] = light[i].pdf_fwd;
+        from_camera_[i] = light[i].pdf_rev;
+    }
+    for (std::size_t j = 0; j < t; ++j) {
+        from_light_[size_ - 1 - j] = camera[j].pdf_rev;
+        from_camera_[size_ - 1 - j] = camera[j].pdf_fwd;
+    }
+    from_light_[s] = join.light_at_camera_end;
+    if (t > 1) {
+        from_light_[s + 1] = join.light_at_camera_neighbor;
+    }
+    if (s > 0) {
+        from_camera_[s - 1] = join.camera_at_light_end;
+    }
+    if (s > 1) {
+        from_camera_[s - 2] = join.camera_at_light_neighbor;
+    }
+}
+
+void PathWeigher::gather_sample_counts(std::span<const PathVertex> light,
+                                       std::span<const PathVertex> camera, Joined joined)
+{
+    const std::size_t s = light.size();
+    const int n = static_cast<int>(size_);
+    // Is vertex i an end that a strategy can join? The two ends of a join are known to be, and so
+    // is the light that a path has hit.
+    const auto is_joinable = [&](std::size_t i) {
+        const bool end = joined == Joined::yes ? i == s || i + 1 == s : i == 0;
+        return end || joinable(i < s ? light[i] : camera[size_ - 1 - i]);
+    };
+    const PathVertex& x0 = s > 0 ? light[0] : camera[size_ - 1];
+    const Light& source = world_.lights()[*x0.light];
+    sample_counts_[0] = source.is_delta() ? 0.0f : strategies_.count(0, n);
+    bool left = is_joinable(0);
+    for (std::size_t i = 1; i < size_; ++i) {
+        const bool right = is_joinable(i);
+        const int from_light = static_cast<int>(i);
+        sample_counts_[i] = left && right ? strategies_.count(from_light, n - from_light) : 0.0f;
+        left = right;
+    }
+    sample_counts_[size_] = camera_.has_finite_lens() ? strategies_.count(n, 0) : 0.0f;
+    if (size_ == 2 && !can_be_seen_directly(source, camera_)) {
+        sample_counts_[1] = 0.0f;
+    }
+}
+
+}  // namespace bdpt

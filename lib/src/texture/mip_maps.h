@@ -1,0 +1,40 @@
+#pragma once
+
+#include "texture/texel_coding.h"
+
+#include <bdpt/image.h>
+
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace bdpt {
+
+/// Calls its second argument for parts [begin, end) that make up [0, count), on as many threads as
+/// it likes, and returns when all is done.
+using ForRows = std::function<void(int count, const std::function<void(int begin, int end)>&)>;
+
+/// A copy of half the width and height, rounded down but at least 1, of the same type and channels:
+/// each texel is the mean of what it covers, in linear values.
+[[nodiscard]] TexelImage half_size(const TexelImage& image, Encoding encoding,
+                                   const ForRows& for_rows);
+
+/// Smaller copies of pictures, each made when it is first asked for.
+class MipMaps {
+public:
+    explicit MipMaps(ForRows for_rows) : for_rows_(std::move(for_rows)) {}
+
+    /// Copies of picture number `index`, from half the size down to one texel; none of a picture of
+    /// one texel. They stay where they are.
+    [[nodiscard]] std::span<const TexelImage> of(std::size_t index, const TexelImage& image,
+                                                 Encoding encoding);
+
+private:
+    ForRows for_rows_;
+    std::map<std::pair<std::size_t, Encoding>, std::vector<TexelImage>> copies_;
+};
+
+}  // namespace bdpt

@@ -1,0 +1,159 @@
+#include "texture/texture.h"
+
+#include "math/elementary.h"
+#include "texture/texel_access.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace bdpt {
+namespace {
+
+/// The two texels that a coordinate lies between, and how far it is from the first.
+struct Span {
+    int first;
+    int second;
+    float fraction;
+};
+
+[[nodiscard]] int floor_to_int(float x)
+{
+    const int truncated = static_cast<int>(x);
+    return truncated - (static_cast<float>(truncated) > x ? 1 : 0);
+}
+
+[[nodiscard]] Span span_of(float coordinate, int size, Wrap wrap)
+{
+    constexpr float limit = 0x1p22f;  // beyond it a float has less than two bits of fraction
+    float t = std::abs(coordinate) < limit ? coordinate : 0.0f;
+    if (wrap == Wrap::repeat) {
+        t -= static_cast<float>(floor_to_int(t));
+    } else if (wrap == Wrap::mirrored_repeat) {
+        t -= 2.0f * static_cast<float>(floor_to_int(0.5f * t));
+        t = t > 1.0f ? 2.0f - t : t;
+    } else {
+        t = std::clamp(t, 0.0f, 1.0f);
+    }
+    const float position = t * static_cast<float>(size) - 0.5f;
+    const int below = floor_to_int(position);
+    const int last = size - 1;
+    const float fraction = position - static_cast<float>(below);
+    if (wrap == Wrap::repeat) {
+        return {below < 0 ? last : std::min(below, last), below >= last ? 0 : below + 1, fraction};
+    }
+    return {std::clamp(below, 0, last), std::clamp(below + 1, 0, last), fraction};
+}
+
+}  // namespace
+
+// KHR_texture_transform scales first, then rotates, then offsets. It turns the coordinates counter-
+// clockwise as seen on the picture, whose v points down: its example of the lower left quadrant and
+// Khronos's TextureTransformTest agree on that, while the signs in its GLSL listing do not.
+Texture::Texture(const TextureRef& ref, const TexelImage& image, Encoding encoding,
+                 std::span<const TexelImage> coarser)
+    : image_(&image),
+      coarser_(coarser),
+      coding_(coding_of(image.type, encoding)),
+      uv_set_(ref.uv_set),
+      wrap_u_(ref.wrap_u),
+      wrap_v_(ref.wrap_v),
+      offset_(ref.offset)
+{
+    const SinCos turn = sin_cos(ref.rotation);
+    u_axis_ = Vec2{turn.cos, -turn.sin} * ref.scale.x;
+    v_axis_ = Vec2{turn.sin, turn.cos} * ref.scale.y;
+}
+
+Vec2 Texture::transformed(const std::array<Vec2, 2>& uv) const noexcept
+{
+    const Vec2 own = uv[static_cast<std::size_t>(uv_set_)];
+    return own.x * u_axis_ + own.y * v_axis_ + offset_;
+}
+
+Vec2 Texture::texel_position(const std::array<Vec2, 2>& uv) const noexcept
+{
+    return transformed(uv) * Vec2(image_->width, image_->height);
+}
+
+const TexelImage& Texture::level(const UvFootprint& footprint) const noexcept
+{
+    const UvSteps& pixel = footprint[static_cast<std::size_t>(uv_set_)];
+    const Vec2 size(image_->width, image_->height);
+    const Vec2 along = (pixel.along.x * u_axis_ + pixel.along.y * v_axis_) * size;
+    const Vec2 across = (pixel.across.x * u_axis_ + pixel.across.y * v_axis_) * size;
+    // The smaller singular value, squared, of the matrix with these columns: the footprint's
+    // narrowest width in texels.
+    const float sum = dot(along, along) + dot(across, across);
+    const float area = along.x * across.y - along.y * across.x;
+    const float root = std::sqrt(std::max(0.0f, sum * sum - 4.0f * area * area));
+    const float width_squared = 2.0f * area * area / (sum + root);
+    constexpr float two_levels = 16.0f;  // four texels: two of the next level, half of the width
+    if (!(width_squared >= two_levels)) {
+        return *image_;  // also where coordinates do not change, or not finitely
+    }
+    const int exponent = static_cast<int>(std::bit_cast<std::uint32_t>(width_squared) >> 23U) - 127;
+    const auto halvings = static_cast<std::size_t>(exponent / 2 - 1);
+    return coarser_[std::min(halvings, coarser_.size()) - 1];
+}
+
+Vec4 Texture::bilinear(const TexelImage& image, const std::array<Vec2, 2>& uv) const noexcept
+{
+    const Vec2 p = transformed(uv);
+    const Span x = span_of(p.x, image.width, wrap_u_);
+    const Span y = span_of(p.y, image.height, wrap_v_);
+    const auto width = static_cast<std::size_t>(image.width);
+    const std::size_t first_row = static_cast<std::size_t>(y.first) * width;
+    const std::size_t second_row = static_cast<std::size_t>(y.second) * width;
+    const auto first = static_cast<std::size_t>(x.first);
+    const auto second = static_cast<std::size_t>(x.second);
+    return with_layout(image.type, image.channels, [&]<TexelType type, int channels>() {
+        const TexelReader<type, channels> texel(image.bytes.data(), coding_);
+        const Vec4 upper =
+            (1.0f - x.fraction) * texel(first_row + first) + x.fraction * texel(first_row + second);
+        const Vec4 lower = (1.0f - x.fraction) * texel(second_row + first) +
+                           x.fraction * texel(second_row + second);
+        return (1.0f - y.fraction) * upper + y.fraction * lower;
+    });
+}
+
+template <typename Visit>
+void Texture::for_each_texel(const Visit& visit) const
+{
+    const std::size_t count =
+        static_cast<std::size_t>(image_->width) * static_cast<std::size_t>(image_->height);
+    with_layout(image_->type, image_->channels, [&]<TexelType type, int channels>() {
+        const TexelReader<type, channels> texel(image_->bytes.data(), coding_);
+        for (std::size_t i = 0; i < count; ++i) {
+            visit(texel(i));
+        }
+    });
+}
+
+Vec4 Texture::mean() const
+{
+    std::array<double, 4> sum{};
+    for_each_texel([&sum](Vec4 value) {
+        for (int channel = 0; channel < 4; ++channel) {
+            sum[static_cast<std::size_t>(channel)] += static_cast<double>(value[channel]);
+        }
+    });
+    const double count = static_cast<double>(image_->width) * static_cast<double>(image_->height);
+    return {static_cast<float>(sum[0] / count), static_cast<float>(sum[1] / count),
+            static_cast<float>(sum[2] / count), static_cast<float>(sum[3] / count)};
+}
+
+std::pair<float, float> Texture::alpha_range() const
+{
+    float least = 1.0f;
+    float greatest = 0.0f;
+    for_each_texel([&](Vec4 value) {
+        least = std::min(least, value.w);
+        greatest = std::max(greatest, value.w);
+    });
+    return {least, greatest};
+}
+
+}  // namespace bdpt

@@ -1,0 +1,106 @@
+#pragma once
+
+#include "math/footprint.h"
+#include "texture/mip_maps.h"
+#include "texture/texel_coding.h"
+
+#include <bdpt/scene_desc.h>
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace bdpt {
+
+/// A picture as one material slot sees it: transform, wrap modes, decoding, bilinear filter. Refers
+/// to the image, which must outlive it and have at least one texel.
+class Texture {
+public:
+    /// `coarser`: copies of the picture, each half as wide as the one before, for lookups with a
+    /// footprint; may be empty.
+    Texture(const TextureRef& ref, const TexelImage& image, Encoding encoding,
+            std::span<const TexelImage> coarser = {});
+
+    /// Linear RGBA in [0, 1], radiance of any size, at the surface's own coordinates. (0, 0) is the
+    /// picture's upper left corner and v grows downwards; texel centres lie at (i + 0.5) / size;
+    /// texels are decoded before they are mixed. A coordinate that is not finite or beyond 4e6
+    /// counts as 0.
+    [[nodiscard]] Vec4 lookup(const std::array<Vec2, 2>& uv) const noexcept
+    {
+        return bilinear(*image_, uv);
+    }
+    /// The same in the coarsest copy whose texels are at most half as wide as the footprint is
+    /// where it is narrowest. Null is a footprint without extent.
+    [[nodiscard]] Vec4 lookup(const std::array<Vec2, 2>& uv,
+                              const UvFootprint* footprint) const noexcept
+    {
+        return bilinear(footprint == nullptr || coarser_.empty() ? *image_ : level(*footprint), uv);
+    }
+
+    /// Where `lookup` looks, in texels of the picture repeated without end.
+    [[nodiscard]] Vec2 texel_position(const std::array<Vec2, 2>& uv) const noexcept;
+
+    /// Average over the whole picture.
+    [[nodiscard]] Vec4 mean() const;
+
+    /// The least and the greatest alpha of the picture.
+    [[nodiscard]] std::pair<float, float> alpha_range() const;
+
+    /// 0 or 1
+    [[nodiscard]] int uv_set() const noexcept { return uv_set_; }
+
+private:
+    [[nodiscard]] Vec2 transformed(const std::array<Vec2, 2>& uv) const noexcept;
+    [[nodiscard]] const TexelImage& level(const UvFootprint& footprint) const noexcept;
+    [[nodiscard]] Vec4 bilinear(const TexelImage& image,
+                                const std::array<Vec2, 2>& uv) const noexcept;
+    template <typename Visit>
+    void for_each_texel(const Visit& visit) const;
+
+    const TexelImage* image_;
+    std::span<const TexelImage> coarser_;
+    TexelCoding coding_;
+    int uv_set_;
+    Wrap wrap_u_;
+    Wrap wrap_v_;
+    Vec2 u_axis_;  ///< column of the transform that multiplies u
+    Vec2 v_axis_;
+    Vec2 offset_;
+};
+
+/// The pictures of a scene, and their smaller copies if there are to be any. Refers to both.
+struct Pictures {
+    Pictures() = default;
+    Pictures(std::span<const TexelImage> all, MipMaps* copies = nullptr)
+        : images(all), mip_maps(copies)
+    {}
+    Pictures(const std::vector<TexelImage>& all, MipMaps* copies = nullptr)
+        : images(all), mip_maps(copies)
+    {}
+
+    /// Without the copies.
+    [[nodiscard]] Pictures at_full_size() const { return {images}; }
+
+    std::span<const TexelImage> images;
+    MipMaps* mip_maps = nullptr;
+};
+
+/// The texture of a slot, if it has one.
+[[nodiscard]] inline std::optional<Texture> make_texture(const std::optional<TextureRef>& ref,
+                                                         const Pictures& pictures,
+                                                         Encoding encoding)
+{
+    if (!ref) {
+        return std::nullopt;
+    }
+    const auto index = static_cast<std::size_t>(ref->image);
+    const TexelImage& image = pictures.images[index];
+    return pictures.mip_maps == nullptr
+               ? Texture(*ref, image, encoding)
+               : Texture(*ref, image, encoding, pictures.mip_maps->of(index, image, encoding));
+}
+
+}  // namespace bdpt

@@ -1,0 +1,47 @@
+#!/usr/bin/env python3
+"""Fails when Doxygen warns about the public headers, or a type, function or constant of a namespace has no comment:
+check_api_reference.py DOXYFILE. The exit code is 77 without Doxygen.
+
+Members of classes may speak for themselves: `int width`.
+"""
+
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+SKIPPED = 77
+MEMBER = re.compile(r"Member .* of (struct|class|union) \S+ is not documented|No output formats selected")
+
+
+def warnings_of(doxyfile, extract_all):
+    """`extract_all`: YES, as the target `docs` has it, or NO, for warnings about missing comments."""
+    with tempfile.TemporaryDirectory() as folder:
+        settings = (f'@INCLUDE = "{doxyfile}"\nOUTPUT_DIRECTORY = "{folder}"\nEXTRACT_ALL = {extract_all}\n'
+                    "GENERATE_HTML = NO\nGENERATE_XML = YES\nWARN_AS_ERROR = NO\n")
+        done = subprocess.run(["doxygen", "-"], input=settings, capture_output=True, text=True, check=False)
+        made = list(pathlib.Path(folder, "xml").glob("*.xml"))
+    lines = [line for line in done.stderr.splitlines() if ": warning:" in line or ": error:" in line]
+    if done.returncode or len(made) < 2:
+        lines.append(f"doxygen: exit code {done.returncode}, {len(made)} files: {done.stderr[-500:]}")
+    return [line for line in lines if not MEMBER.search(line)], len(made)
+
+
+def main():
+    if not shutil.which("doxygen"):
+        print("doxygen is not installed")
+        sys.exit(SKIPPED)
+    doxyfile = pathlib.Path(sys.argv[1])
+    if not doxyfile.is_file():
+        print("doxygen was not installed when the project was configured")
+        sys.exit(SKIPPED)
+    results = [warnings_of(doxyfile.resolve(), extract_all) for extract_all in ("YES", "NO")]
+    found = sorted({line for lines, _ in results for line in lines})
+    print("\n".join(found) or f"{results[0][1]} pages without a warning")
+    sys.exit(bool(found))
+
+
+if __name__ == "__main__":
+    main()

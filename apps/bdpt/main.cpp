@@ -37,7 +37,7 @@ constexpr const char* footer = R"(Examples:
   bdpt bench scene.gltf -o bench --quick
   bdpt verify scene.gltf
 
-"bdpt render --help" has all options and the exit codes.)";
+"bdpt help render", or "bdpt render --help", has all options and the exit codes.)";
 
 /// The words of a command line and what they fill in.
 struct CommandLine {
@@ -47,12 +47,25 @@ struct CommandLine {
     CompareWords compare_words;
     BenchWords bench_words;
     VerifyWords verify_words;
+    std::string topic;  // what to help with
     CLI::App* render = nullptr;
     CLI::App* info = nullptr;
     CLI::App* compare = nullptr;
     CLI::App* bench = nullptr;
     CLI::App* verify = nullptr;
+    CLI::App* help = nullptr;
+    CLI::App* version = nullptr;
 };
+
+/// Of an option that takes one value, the last one counts if it is given more than once.
+void let_the_last_count(CLI::App& command)
+{
+    for (CLI::Option* option : command.get_options()) {
+        if (!option->get_positional() && option->get_items_expected_max() <= 1) {
+            option->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+        }
+    }
+}
 
 void describe(CommandLine& line)
 {
@@ -70,6 +83,13 @@ void describe(CommandLine& line)
     add_bench_options(*line.bench, line.bench_words);
     line.verify = line.app.add_subcommand("verify", "Prove the estimators on a scene");
     add_verify_options(*line.verify, line.verify_words);
+    line.help = line.app.add_subcommand("help", "Say how a command is used");
+    line.help->add_option("command", line.topic, "The command; all of them if not given")
+        ->type_name("COMMAND");
+    line.version = line.app.add_subcommand("version", "Say which version this is");
+    for (CLI::App* command : {line.render, line.info, line.compare, line.bench, line.verify}) {
+        let_the_last_count(*command);
+    }
 }
 
 /// All long names of the options of `command`.
@@ -84,26 +104,39 @@ std::vector<std::string> option_names(const CLI::App& command)
     return names;
 }
 
+/// The command that was given, or null.
+const CLI::App* command_of(const CommandLine& line)
+{
+    const std::vector<CLI::App*> commands = line.app.get_subcommands();
+    return commands.empty() ? nullptr : commands.front();
+}
+
+/// Where all about the command is told.
+std::string help_of(const CommandLine& line)
+{
+    const CLI::App* command = command_of(line);
+    return command != nullptr ? fmt::format("bdpt {} --help", command->get_name()) : "bdpt --help";
+}
+
+std::string unknown_command(const std::string& word, const std::string& help)
+{
+    return fmt::format(
+        "unknown command \"{}\": there are render, info, compare, bench and verify; see \"{}\"",
+        word, help);
+}
+
 /// One line for what the parser did not like, with a hint.
 std::string explain(const CommandLine& line, const CLI::ParseError& error)
 {
-    const CLI::App* command = line.render->parsed()    ? line.render
-                              : line.info->parsed()    ? line.info
-                              : line.compare->parsed() ? line.compare
-                              : line.bench->parsed()   ? line.bench
-                              : line.verify->parsed()  ? line.verify
-                                                       : nullptr;
-    const std::string help =
-        command != nullptr ? fmt::format("bdpt {} --help", command->get_name()) : "bdpt --help";
+    const CLI::App* command = command_of(line);
+    const std::string help = help_of(line);
     const std::vector<std::string> extras = line.app.remaining(true);
     if (extras.empty()) {
         return fmt::format("{}; see \"{}\"", error.what(), help);
     }
     const std::string& word = extras.front();
     if (command == nullptr && !word.starts_with("-")) {
-        return fmt::format(
-            "unknown command \"{}\": there are render, info, compare, bench and verify; see \"{}\"",
-            word, help);
+        return unknown_command(word, help);
     }
     if (!word.starts_with("-")) {
         return fmt::format("unexpected argument \"{}\"; see \"{}\"", word, help);
@@ -113,6 +146,46 @@ std::string explain(const CommandLine& line, const CLI::ParseError& error)
         closest(name, option_names(command != nullptr ? *command : line.app));
     return fmt::format("unknown option {}{}; see \"{}\"", name,
                        meant ? fmt::format(" (did you mean {}?)", *meant) : "", help);
+}
+
+/// `bdpt help` and `bdpt help COMMAND`: as `--help`.
+int run_help(const CommandLine& line)
+{
+    if (line.topic.empty()) {
+        // app.help() would be that of the command "help".
+        print_report(line.app.get_formatter()->make_help(&line.app, line.app.get_name(),
+                                                         CLI::AppFormatMode::Normal));
+        return 0;
+    }
+    const auto topics = line.app.get_subcommands(
+        [&line](const CLI::App* command) { return command->get_name() == line.topic; });
+    if (topics.empty()) {
+        throw Error(ErrorCode::usage, unknown_command(line.topic, "bdpt --help"));
+    }
+    print_report(topics.front()->help("bdpt"));
+    return 0;
+}
+
+int run_command(const CommandLine& line, const std::vector<std::string>& words)
+{
+    if (line.help->parsed()) {
+        return run_help(line);
+    }
+    if (line.version->parsed()) {
+        print_report("bdpt " BDPT_VERSION "\n");
+        return 0;
+    }
+    if (line.compare->parsed()) {
+        return run_compare(understand(line.compare_words));
+    }
+    if (line.bench->parsed()) {
+        return run_bench(understand(line.bench_words), words);
+    }
+    if (line.verify->parsed()) {
+        return run_verify(understand(line.verify_words));
+    }
+    return line.info->parsed() ? run_info(line.info_arguments)
+                               : run_render(understand(line.render_words));
 }
 
 int run(int argc, char** argv, Format format)
@@ -128,17 +201,11 @@ int run(int argc, char** argv, Format format)
         report_error(format, code, explain(line, error));
         return code;
     }
-    if (line.compare->parsed()) {
-        return run_compare(understand(line.compare_words));
+    try {
+        return run_command(line, {argv, argv + argc});
+    } catch (const OptionError& error) {
+        throw Error(error.code(), fmt::format("{}; see \"{}\"", error.what(), help_of(line)));
     }
-    if (line.bench->parsed()) {
-        return run_bench(understand(line.bench_words), {argv, argv + argc});
-    }
-    if (line.verify->parsed()) {
-        return run_verify(understand(line.verify_words));
-    }
-    return line.info->parsed() ? run_info(line.info_arguments)
-                               : run_render(understand(line.render_words));
 }
 
 }  // namespace

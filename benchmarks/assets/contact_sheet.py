@@ -10,10 +10,12 @@ name stands below its picture. What is refused is a dark tile. Needs oiiotool.
 
 import argparse
 import pathlib
-import shutil
 import subprocess
 import sys
 import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "figures"))
+import sheet
 
 
 def parse(words):
@@ -44,23 +46,12 @@ def render(command, model, picture, size, spp):
     return done.returncode, [line for line in lines if line.startswith(("warning", "error"))]
 
 
-def oiiotool(*words):
-    subprocess.run(["oiiotool", *map(str, words)], check=True)
-
-
-def find_font():
-    """The file of a font without serifs, or None: then there are no names."""
-    if not shutil.which("fc-match"):
-        return None
-    return subprocess.run(["fc-match", "-f", "%{file}", "sans"], capture_output=True, text=True, check=True).stdout
-
-
-def make_tile(picture, tile, text, size, font):
-    """The picture, or nothing, with its name below."""
-    width, height = map(int, size.split("x"))
-    source = [picture] if picture.exists() else ["--pattern", "constant:color=0.1,0,0", size, "3"]
-    name = [f"--text:x=3:y={height + 12}:size=11:color=1,1,1:font={font}", text] if font else []
-    oiiotool(*source, "--ch", "R,G,B", "--cut", f"{width}x{height + 16}+0+0", *name, "-d", "uint8", "-o", tile)
+def make_tile(picture, tile, text, size):
+    """The picture, or a dark one where there is none, with its name below."""
+    shape = tuple(map(int, size.split("x")))
+    if not picture.exists():
+        sheet.oiiotool("--pattern", "constant:color=0.1,0,0", size, 3, "-d", "uint8", "-o", picture)
+    sheet.shown(picture, shape, ["--ch", "R,G,B"], [text], tile, least=shape[0])
 
 
 def main():
@@ -69,16 +60,15 @@ def main():
     if not models:
         sys.exit(f"{options.folder}: no models")
     with tempfile.TemporaryDirectory() as name:
-        tiles, font = [], find_font()
+        tiles = []
         for index, model in enumerate(models):
             picture, tile = (pathlib.Path(name) / f"{index}-{part}.png" for part in ("picture", "tile"))
             code, lines = render(options.command, model, picture, options.size, options.spp)
             label = model.relative_to(options.folder).parts[0]
             print(f"{label}: exit code {code}", *lines, sep="\n    ", flush=True)
-            make_tile(picture, tile, label[:30], options.size, font)
+            make_tile(picture, tile, label[:30], options.size)
             tiles.append(tile)
-        rows = -(-len(tiles) // options.columns)
-        oiiotool(*tiles, "--mosaic:pad=4", f"{options.columns}x{rows}", "-o", options.sheet)
+        sheet.mosaic(tiles, options.columns, options.sheet)
 
 
 if __name__ == "__main__":

@@ -57,10 +57,11 @@ def false_colours(channel, greatest):
     return ["--ch", channel, "--mulc", 1 / greatest, "--clamp:min=0:max=1", "--colormap", "inferno"]
 
 
-def shown(picture, size, look, lines, output):
-    """Writes a cell: the picture as `look` makes it, and lines of text below it if there is a font."""
+def shown(picture, size, look, lines, output, least=CELL):
+    """Writes a cell, `least` pixels wide or more: the picture as `look` makes it, and lines of text below it if there is
+    a font."""
     width, height = size
-    factor = math.ceil(CELL / width)
+    factor = math.ceil(least / width)
     width, height = width * factor, height * factor
     caption = 4 + LINE * len(lines) if font() else 0
     text = []

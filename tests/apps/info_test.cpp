@@ -92,6 +92,106 @@ TEST_CASE("info takes a scene without anything to see")
     CHECK(outcome.out.find("nothing to render") != std::string::npos);
 }
 
+/// A file that requires what nobody has.
+std::string magic_cube(const ScratchFolder& folder)
+{
+    return write_cube(folder, "magic",
+                      {.cameras = two_cameras, .more = R"("extensionsUsed": ["ACME_magic"],
+                                  "extensionsRequired": ["ACME_magic"],)"})
+        .string();
+}
+
+TEST_CASE("info tells what is in a file that cannot be rendered, and why it cannot")
+{
+    const ScratchFolder folder;
+    std::string scene = magic_cube(folder);
+    std::string reason = "ACME_magic";
+    int code = 5;
+    SECTION("a required extension that is not supported") {}
+    SECTION("a buffer that is missing")
+    {
+        scene = write_cube(folder, "blind", {.cameras = two_cameras}).string();
+        std::filesystem::remove(folder / "blind.bin");
+        reason = "blind.bin";
+        code = 3;
+    }
+    SECTION("an index out of range")
+    {
+        scene = write_cube(folder, "bad", {.cameras = two_cameras}).string();
+        std::string text = read_text(scene);
+        const std::string_view good = "\"POSITION\": 0";
+        text.replace(text.find(good), good.size(), "\"POSITION\": 9");
+        write_text(scene, text);
+        reason = "POSITION";
+        code = 4;
+    }
+    const Outcome outcome = run({"info", scene});
+    CAPTURE(outcome.out, outcome.err);
+    CHECK(outcome.exit_code == 0);
+    CHECK(outcome.err.empty());
+    CHECK(outcome.out.find("generator   bdpt tests") != std::string::npos);
+    CHECK(outcome.out.find("meshes      1 of 1 primitives") != std::string::npos);
+    CHECK(outcome.out.find("cameras     2\n") != std::string::npos);
+    const std::string head = "rendering   would fail with exit code " + std::to_string(code) + ": ";
+    CHECK(outcome.out.find(head) != std::string::npos);
+    CHECK(outcome.out.find(reason, outcome.out.find(head)) != std::string::npos);
+    const auto info = nlohmann::json::parse(run({"info", scene, "--json"}).out);
+    CHECK(info["renderable"] == false);
+    CHECK(info["problem"]["code"] == code);
+    CHECK(info["problem"]["message"].get<std::string>().find(reason) != std::string::npos);
+    CHECK(info["counts"]["nodes"] == 3);
+    CHECK(info["triangles"].is_null());
+    const Outcome render = run({"render", scene, "-o", (folder / "out.exr").string()});
+    CHECK(render.exit_code == code);
+    CHECK(render.err == "bdpt: error: " + info["problem"]["message"].get<std::string>() + "\n");
+}
+
+TEST_CASE("info refuses what is no glTF file, or a choice that there is not")
+{
+    const ScratchFolder folder;
+    const std::string bad = (folder / "bad.gltf").string();
+    for (const char* text : {"", "{\"asset\": ", "[1, 2]", "{}", "{\"asset\": 3}"}) {
+        write_text(bad, text);
+        const Outcome outcome = run({"info", bad});
+        CAPTURE(text, outcome.out, outcome.err);
+        CHECK(outcome.exit_code == 4);
+        CHECK(outcome.out.empty());
+        CHECK(outcome.err.starts_with("bdpt: error: " + bad));
+    }
+    const std::string scene = write_cube(folder, "cube", {}).string();
+    CHECK(run({"info", scene, "--scene", "attic"}).exit_code == 3);
+    CHECK(run({"info", scene, "--variant", "dusk"}).exit_code == 3);
+}
+
+TEST_CASE("info --json has data under keys that stay, not sentences")
+{
+    const ScratchFolder folder;
+    const std::string scene =
+        write_cube(folder, "cube",
+                   {.material = R"({"name": "glow", "emissiveFactor": [1, 0.5, 0]})",
+                    .cameras = R"({"name": "lamp", "translation": [1, 2, 3],
+                        "extensions": {"KHR_lights_punctual": {"light": 0}}},)",
+                    .more = R"("extensionsUsed": ["KHR_lights_punctual"],
+                        "extensions": {"KHR_lights_punctual": {"lights": [
+                            {"type": "point", "name": "bulb", "intensity": 5}]}},)"})
+            .string();
+    const auto info = nlohmann::json::parse(run({"info", scene, "--json"}).out);
+    CAPTURE(info.dump());
+    CHECK(info["renderable"] == true);
+    CHECK(info["problem"].is_null());
+    CHECK(info["emissive_materials"] ==
+          nlohmann::json::parse(R"([{"name": "glow", "emission": [1.0, 0.5, 0.0]}])"));
+    CHECK(info["texture_sizes"] == nlohmann::json::array());
+    CHECK(info["defaults"] == nlohmann::json::array({"camera"}));
+    REQUIRE(info["lights"].size() == 1);
+    CHECK(info["lights"][0]["kind"] == "point");
+    CHECK(info["lights"][0]["position"] == nlohmann::json::array({1.0, 2.0, 3.0}));
+    CHECK(info["lights"][0]["intensity"] == nlohmann::json::array({5.0, 5.0, 5.0}));
+    const std::string dark = write_cube(folder, "dark", {}).string();
+    CHECK(nlohmann::json::parse(run({"info", dark, "--json"}).out)["defaults"] ==
+          nlohmann::json::array({"camera", "sky"}));
+}
+
 TEST_CASE("info reads what others made")
 {
     const char* assets = std::getenv("BDPT_TEST_ASSETS");
@@ -107,9 +207,11 @@ TEST_CASE("info reads what others made")
         }
         const Outcome outcome = run({"info", entry.path().string(), "--json"});
         CAPTURE(entry.path().string(), outcome.err);
+        CHECK(outcome.exit_code == 0);
+        REQUIRE(nlohmann::json::accept(outcome.out));
         // Unsupported ones are told as such, and nothing worse happens.
-        CHECK((outcome.exit_code == 0 || outcome.exit_code == 5));
-        CHECK(nlohmann::json::accept(outcome.out));
+        const auto info = nlohmann::json::parse(outcome.out);
+        CHECK((info["renderable"] == true || info["problem"]["code"] == 5));
         ++count;
     }
     CHECK(count > 0);

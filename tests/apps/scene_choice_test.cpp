@@ -58,13 +58,52 @@ TEST_CASE("a limit of memory is one for render and info")
     const std::string scene = write_cube(folder, "cube", {.cameras = two_cameras}).string();
     CHECK(run({"info", scene, "--max-memory", "1M"}).exit_code == 0);
     const Outcome refused = run({"info", scene, "--max-memory", "2K"});
-    CHECK(refused.exit_code == 4);
-    CHECK(refused.err.find("cube.gltf: ") != std::string::npos);
+    CHECK(refused.exit_code == 0);
+    CHECK(refused.out.find("would fail with exit code 4: " + scene + ": ") != std::string::npos);
     const auto limits = nlohmann::json::parse(
         run({"info", "--limits", "--max-memory", "2G", "--json"}).out)["limits"];
     CHECK(limits["memory_bytes"] == 2147483648U);
     CHECK(limits["texture_bytes"] == 2147483648U);
     CHECK(limits["json_bytes"] == 1073741824U);
+}
+
+TEST_CASE("the film counts as a part of the memory of a render")
+{
+    const ScratchFolder folder;
+    const std::string scene = write_cube(folder, "cube", {.cameras = two_cameras}).string();
+    const auto render = [&](const std::vector<std::string>& words) {
+        std::vector<std::string> all{"render", scene, "-o",     (folder / "out.exr").string(),
+                                     "--spp",  "1",   "--quiet"};
+        all.insert(all.end(), words.begin(), words.end());
+        return run(all);
+    };
+    // Two halves of samples and of splats, three sums of 16 bytes each, and an image of floats.
+    constexpr int pixel = 2 * 2 * 3 * 16 + 3 * 4;
+    const Outcome too_large = render({"--size", "1000x1000", "--max-memory", "100M"});
+    CAPTURE(too_large.err);
+    CHECK(too_large.exit_code == 4);
+    CHECK(too_large.err.find("the film of 1000x1000 pixels takes " +
+                             std::to_string(pixel * 1'000'000) + " bytes, but the limit is " +
+                             std::to_string(100 << 20)) != std::string::npos);
+    CHECK(render({"--size", "1000x1000", "--max-memory", "250M", "--crop", "0,0,8,8"}).exit_code ==
+          0);
+    CHECK(render({"--size", "64x32", "--max-memory", "2M"}).exit_code == 0);
+    // Layers are a part of it: this one more than doubles nothing, but is too much.
+    const std::vector<std::string> small{"--size", "64x32",        "--max-memory",
+                                         "500K",   "--integrator", "pt"};
+    CHECK(render(small).exit_code == 0);
+    std::vector<std::string> layers = small;
+    layers.insert(layers.end(), {"--aov", "albedo,normal,position"});
+    const Outcome with_layers = render(layers);
+    CAPTURE(with_layers.err);
+    CHECK(with_layers.exit_code == 4);
+    // What the film leaves is too little for the scene.
+    const std::string limit = std::to_string(pixel * 64 * 32 + 1000);
+    const Outcome no_room = render({"--size", "64x32", "--max-memory", limit});
+    CAPTURE(no_room.err);
+    CHECK(no_room.exit_code == 4);
+    CHECK(no_room.err.find("(--max-memory " + limit + " less " + std::to_string(pixel * 64 * 32) +
+                           " for the film)") != std::string::npos);
 }
 
 /// A PNG picture of 64 x 64 pixels, black and white in turn.

@@ -32,6 +32,7 @@ import mutants
 import verdicts
 
 SANITIZER = re.compile(r"(AddressSanitizer|runtime error|LeakSanitizer|UndefinedBehaviorSanitizer).*")
+REFUSAL_TOLD = re.compile(r"^rendering   would fail with exit code (\d+): (?!no triangles)(.*)$", re.MULTILINE)
 REFUSALS = {3: "not found", 4: "invalid", 5: "unsupported"}
 SCENES, ENVIRONMENTS = (".gltf", ".glb"), (".exr", ".hdr")
 TEXTURES = (".png", ".jpg", ".jpeg", ".webp", ".ktx2", ".dds", ".bmp", ".gif")
@@ -65,9 +66,12 @@ class Runner:
                   str(trace)] if self.options.trace else []
         try:
             done = subprocess.run([*prefix, self.options.command, *words], stdin=subprocess.DEVNULL,
-                                  stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, timeout=self.options.timeout,
+                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=self.options.timeout,
                                   env=self.environment, preexec_fn=self.limit, check=False)
             code, text = done.returncode, done.stderr.decode("utf-8", "replace")
+            refusal = REFUSAL_TOLD.search(done.stdout.decode("utf-8", "replace"))
+            if code == 0 and refusal:  # bdpt info tells why a render would fail
+                code, text = int(refusal[1]), text + f"bdpt: error: {refusal[2]}\n"
         except subprocess.TimeoutExpired:
             code, text = None, ""
         # A file for each thread, so that calls are whole lines.

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <exception>
 #include <string>
 #include <system_error>
@@ -20,6 +19,7 @@
 #include "report/compare_text.h"
 
 namespace bdpt::app {
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -31,7 +31,7 @@ void check_error_image(const CompareArguments& arguments, std::span<const fs::pa
         return;
     }
     const std::vector<fs::path> outputs{*arguments.error_image};
-    if (writes_exr(outputs)) {
+    if (!has_extension(outputs.front(), ".png")) {
         throw Error(ErrorCode::usage, fmt::format("--error-image \"{}\": name it .png",
                                                   arguments.error_image->string()));
     }
@@ -50,14 +50,6 @@ void write_error_image(const CompareArguments& arguments, const eval::Comparison
         eval::false_color(report.map, {.scale = arguments.scale,
                                        .title = std::string(to_string(report.map_metric))}),
         options);
-}
-
-void print(const std::string& text)
-{
-    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() ||
-        std::fflush(stdout) != 0) {
-        throw Error(ErrorCode::output, "stdout: cannot write the report");
-    }
 }
 
 }  // namespace
@@ -96,10 +88,10 @@ int run_compare(const CompareArguments& arguments)
         }
     }
     if (arguments.format == Format::json) {
-        print(eval::comparison_json(report, results, arguments.image.string(),
-                                    arguments.reference.string()));
+        print_report(eval::comparison_json(report, results, arguments.image.string(),
+                                           arguments.reference.string()));
     } else if (arguments.verbosity == Verbosity::normal) {
-        print(compare_text(report, results));
+        print_report(compare_text(report, results));
     }
     if (failure) {
         std::rethrow_exception(failure);

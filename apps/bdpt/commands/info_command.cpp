@@ -7,12 +7,12 @@
 #include <bdpt/scene.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "report/limits_text.h"
 #include "report/scene_report.h"
+#include "terminal/console.h"
 
 namespace bdpt::app {
 namespace {
@@ -22,24 +22,72 @@ constexpr const char* footer = R"(Examples:
   bdpt info scene.glb --json
   bdpt info --limits
 
-Exit codes: as those of bdpt render.)";
+A file that cannot be rendered is told about all the same, with the reason.
 
-/// Adds what only a built scene knows.
+Exit codes: as those of bdpt render, but 0 for a file that can be read and not rendered.)";
+
+/// Adds what only a built scene knows, or why there is none.
 void complete(SceneReport& report, SceneDesc desc)
 {
     const bool dark = !has_light(desc);
     const bool empty = !has_surface(desc);
-    const Scene scene(std::move(desc));
-    report.counts = scene.counts();
-    if (empty) {
-        report.defaults.emplace_back(
-            "no triangles and no light with a radius: there is nothing to render");
-        return;
+    try {
+        const Scene scene(std::move(desc));
+        report.knowledge = Knowledge::built;
+        report.counts = scene.counts();
+        if (empty) {
+            report.problem = {.code = ErrorCode::invalid_input,
+                              .message =
+                                  "no triangles and no light with a radius: there is "
+                                  "nothing to render"};
+            return;
+        }
+        report.bounds = scene.bounds();
+        constexpr float aspect = 16.0f / 9.0f;
+        report.defaults.lamp = dark && frame_scene(scene, aspect).enclosed;
+    } catch (const Error& error) {
+        if (error.code() != ErrorCode::invalid_input) {
+            throw;
+        }
+        report.problem = {.code = error.code(), .message = error.what()};
     }
-    report.bounds = scene.bounds();
-    constexpr float aspect = 16.0f / 9.0f;
-    if (dark && frame_scene(scene, aspect).enclosed) {
-        report.defaults.emplace_back("a closed room without light: a render adds a lamp");
+}
+
+/// Is it the file that is at fault, not what the user wants of it?
+bool is_about_file(const Error& error, const SceneWords& words)
+{
+    const bool chosen = words.scene || words.variant || words.animation;
+    return error.code() == ErrorCode::invalid_input || error.code() == ErrorCode::unsupported ||
+           (error.code() == ErrorCode::not_found && !chosen);
+}
+
+/// What a file that cannot be loaded says about itself. Throws `failure` if that is nothing.
+SceneReport report_facts(const std::string& file, const io::ReadLimits& limits,
+                         const Error& failure)
+{
+    SceneReport report;
+    report.file = file;
+    report.problem = {.code = failure.code(), .message = failure.what()};
+    try {
+        report.facts = io::read_gltf_facts(file, limits);
+    } catch (const Error&) {
+        throw failure;
+    }
+    return report;
+}
+
+SceneReport report_of(const InfoArguments& arguments, const io::GltfOptions& options)
+{
+    try {
+        io::LoadedScene loaded = io::load_gltf(arguments.file, options);
+        SceneReport report = make_report(arguments.file, loaded);
+        complete(report, std::move(loaded.scene));
+        return report;
+    } catch (const Error& error) {
+        if (!is_about_file(error, arguments.scene)) {
+            throw;
+        }
+        return report_facts(arguments.file, options.limits, error);
     }
 }
 
@@ -61,9 +109,7 @@ int run_info(const InfoArguments& arguments)
     std::string text;
     ordered_json json = ordered_json::object();
     if (!arguments.file.empty()) {
-        io::LoadedScene loaded = io::load_gltf(arguments.file, options);
-        SceneReport report = make_report(arguments.file, loaded);
-        complete(report, std::move(loaded.scene));
+        const SceneReport report = report_of(arguments, options);
         text = to_text(report);
         json = to_json(report);
     } else if (!arguments.limits) {
@@ -76,10 +122,7 @@ int run_info(const InfoArguments& arguments)
     if (arguments.json) {
         text = json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
     }
-    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() ||
-        std::fflush(stdout) != 0) {
-        throw Error(ErrorCode::output, "stdout: cannot write the report");
-    }
+    print_report(text);
     return 0;
 }
 

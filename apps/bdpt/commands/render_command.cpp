@@ -1,28 +1,32 @@
 #include "commands/render_command.h"
 
+#include <bdpt/error.h>
 #include <bdpt/eval/bench/option_names.h>
 #include <bdpt/io/tone_map.h>
 #include <bdpt/render.h>
 #include <bdpt/version.h>
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <optional>
 #include <stop_token>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "options/film_arguments.h"
+#include "options/film_memory.h"
 #include "options/output_files.h"
 #include "options/strategy_arguments.h"
 #include "options/transport_arguments.h"
 #include "report/pictures.h"
+#include "report/render_settings.h"
 #include "report/stats_file.h"
 #include "report/strategy_files.h"
+#include "stage/darkness.h"
 #include "stage/stage.h"
 #include "terminal/console.h"
 #include "terminal/interrupt.h"
@@ -33,74 +37,63 @@ namespace {
 
 using nlohmann::ordered_json;
 
-const char* name_of(SamplerKind sampler)
+/// What the film takes of --max-memory; 0 without a limit.
+std::uint64_t reserved_bytes(const RenderArguments& arguments)
 {
-    return sampler == SamplerKind::independent ? "independent" : "sobol";
+    if (!arguments.max_memory) {
+        return 0;
+    }
+    // Without --size, as large as it can be.
+    const Size size = arguments.size.value_or(default_size(std::nullopt));
+    const std::uint64_t bytes = film_bytes(arguments.options, size);
+    if (bytes >= *arguments.max_memory) {
+        throw Error(ErrorCode::invalid_input,
+                    fmt::format("the film of {}x{} pixels takes {} bytes, but the limit is {} "
+                                "(--max-memory); a smaller --size, --crop or fewer layers of --aov "
+                                "take less",
+                                size.width, size.height, bytes, *arguments.max_memory));
+    }
+    return bytes;
 }
 
-ordered_json view_json(const CameraDesc& camera)
+/// Loads the scene into the memory that the film leaves.
+Stage prepare_within_memory(RenderArguments arguments)
 {
-    ordered_json view{{"camera", camera.name}};
-    if (camera.projection == Projection::orthographic) {
-        view["projection"] = "orthographic";
-        view["vertical_extent"] = camera.vertical_extent;
-        return view;
+    const std::uint64_t film = reserved_bytes(arguments);
+    if (film == 0) {
+        return prepare_stage(arguments);
     }
-    view["projection"] = "perspective";
-    view["vertical_fov_degrees"] =
-        static_cast<double>(camera.vertical_fov) * 180.0 / std::numbers::pi;
-    if (camera.lens_radius > 0.0f) {
-        view["lens_radius"] = camera.lens_radius;
-        view["focus_distance"] = camera.focus_distance;
-    }
-    return view;
-}
-
-/// All that the picture depends on.
-ordered_json settings_of(const RenderArguments& arguments, const Stage& stage)
-{
-    const RenderOptions& options = arguments.options;
-    ordered_json settings{{"width", stage.size.width}, {"height", stage.size.height}};
-    settings.update(transport_json(options));
-    settings["sampler"] = name_of(options.sampler);
-    settings["seed"] = options.seed;
-    settings["isa"] = isa_name(stage.scene.isa());
-    settings.update(view_json(stage.camera));
-    settings["environment"] = stage.environment_name;
-    if (arguments.texture_filter == TextureFilter::mip_mapped) {
-        settings["texture_filter"] = "mip";
-    }
-    const FilterOptions& filter = options.filter;
-    settings["filter"] = filter_name(filter.kind);
-    settings["filter_radius"] = filter.radius.value_or(default_radius(filter.kind));
-    if (options.crop) {
-        const PixelRect& crop = *options.crop;
-        settings["crop"] = {crop.x0, crop.y0, crop.x1, crop.y1};
-    }
-    if (std::isfinite(options.clamp)) {
-        settings["clamp"] = options.clamp;
-    }
-    const auto add_word = [&settings](const char* name, const std::optional<std::string>& word) {
-        if (word) {
-            settings[name] = *word;
+    const std::uint64_t left = *arguments.max_memory - film;
+    arguments.scene.limits = io::limits_within(left);
+    try {
+        return prepare_stage(arguments);
+    } catch (const Error& error) {
+        const std::string message = error.what();
+        if (message.find("limit is") == std::string::npos &&
+            message.find("of memory in all") == std::string::npos) {
+            throw;
         }
-    };
-    add_word("scene", arguments.scene.scene);
-    add_word("variant", arguments.scene.variant);
-    add_word("animation", arguments.scene.animation);
-    if (arguments.scene.time) {
-        settings["frame_time"] = *arguments.scene.time;
+        throw Error(error.code(), fmt::format("{} (--max-memory {} less {} for the film)", message,
+                                              *arguments.max_memory, film));
     }
-    if (arguments.scene.shutter) {
-        settings["shutter"] = {arguments.scene.shutter->open, arguments.scene.shutter->close};
+}
+
+/// That the image will show next to nothing, and what helps.
+std::optional<std::string> warning_of_darkness(const RenderArguments& arguments, const Stage& stage)
+{
+    constexpr double nearly_all = 0.9;
+    if (!stage.only_emitters || arguments.environment) {
+        return std::nullopt;
     }
-    if (arguments.goal.samples) {
-        settings["spp"] = *arguments.goal.samples;
+    const double dark = dark_share(stage, arguments.options, arguments.exposure);
+    if (dark < nearly_all) {
+        return std::nullopt;
     }
-    if (std::isfinite(arguments.goal.seconds)) {
-        settings["time_limit_seconds"] = arguments.goal.seconds;
-    }
-    return settings;
+    return fmt::format(
+        "{}: nearly black: the only lights of the file are surfaces that emit, and {:.0f} % of "
+        "what "
+        "the camera sees gets next to no light; --env default adds a soft sky",
+        arguments.file.string(), 100.0 * dark);
 }
 
 void announce(Console& console, const RenderArguments& arguments, const Stage& stage,
@@ -110,11 +103,11 @@ void announce(Console& console, const RenderArguments& arguments, const Stage& s
     console.event("start", {{"version", BDPT_VERSION},
                             {"file", arguments.file.string()},
                             {"triangles", counts.instanced_triangles},
-                            {"lights", counts.lights},
+                            {"lights", stage.lights},
                             {"settings", settings}});
-    console.note(fmt::format("{}: {} triangles, {} lights; {}x{}, {}, camera {}",
-                             arguments.file.string(), counts.instanced_triangles, counts.lights,
-                             stage.size.width, stage.size.height,
+    console.note(fmt::format("{}: {}, {}; {}x{}, {}, camera {}", arguments.file.string(),
+                             counted(counts.instanced_triangles, "triangle"),
+                             counted(stage.lights, "light"), stage.size.width, stage.size.height,
                              eval::to_string(arguments.options.integrator), stage.camera.name));
 }
 
@@ -126,6 +119,10 @@ RenderOptions options_for(const RenderArguments& arguments, const Stage& stage, 
     options.width = stage.size.width;
     options.height = stage.size.height;
     options.samples = {0, arguments.goal.samples.value_or(no_limit)};
+    if (arguments.max_memory) {
+        options.strategy_memory =
+            std::min(options.strategy_memory, *arguments.max_memory - reserved_bytes(arguments));
+    }
     if (arguments.strategies) {
         const StrategyDepth depth = strategy_depth(*arguments.strategies, options, stage.camera);
         options.strategy_depth = depth.edges;
@@ -317,13 +314,16 @@ int run_render(const RenderArguments& arguments)
         console.note("stopping after the pass in flight; interrupt again to end at once");
     });
 
-    const Stage stage = prepare_stage(with_progress(arguments, console));
+    const Stage stage = prepare_within_memory(with_progress(arguments, console));
     console.end_progress();
     const ordered_json settings = settings_of(arguments, stage);
     interrupt.allow_stop();
     announce(console, arguments, stage, settings);
     for (const std::string& warning : stage.warnings) {
         console.warning(warning);
+    }
+    if (const std::optional<std::string> warning = warning_of_darkness(arguments, stage)) {
+        console.warning(*warning);
     }
     const RenderResult result = render_stage(arguments, stage, console, interrupt.stop_token());
     warn_of_defects(console, result.film.defects());

@@ -4,25 +4,14 @@
 #include <bdpt/eval/verify/verify_json.h>
 #include <fmt/core.h>
 
-#include <cstdio>
 #include <string>
 
 #include "report/verify_text.h"
 #include "stage/stage.h"
 #include "terminal/interrupt.h"
+#include "terminal/text.h"
 
 namespace bdpt::app {
-namespace {
-
-void print(const std::string& text)
-{
-    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() ||
-        std::fflush(stdout) != 0) {
-        throw Error(ErrorCode::output, "stdout: cannot write the report");
-    }
-}
-
-}  // namespace
 
 int exit_code(eval::Verdict verdict)
 {
@@ -51,9 +40,10 @@ int run_verify(const VerifyArguments& arguments)
     for (const std::string& warning : stage.warnings) {
         console.warning(warning);
     }
-    console.note(fmt::format("{}: {} triangles, {} lights; {}x{}, camera {}", file,
-                             stage.scene.counts().instanced_triangles, stage.scene.counts().lights,
-                             stage.size.width, stage.size.height, stage.camera.name));
+    console.note(fmt::format("{}: {}, {}; {}x{}, camera {}", file,
+                             counted(stage.scene.counts().instanced_triangles, "triangle"),
+                             counted(stage.lights, "light"), stage.size.width, stage.size.height,
+                             stage.camera.name));
     eval::VerifyControl control;
     control.stop = interrupt.stop_token();
     control.on_progress = [&](const eval::VerifyProgress& progress) {
@@ -66,9 +56,9 @@ int run_verify(const VerifyArguments& arguments)
         eval::verify(stage.scene, stage.camera, arguments.options, control);
     console.end_progress();
     if (what.format == Format::json) {
-        print(eval::verify_json(report, file));
+        print_report(eval::verify_json(report, file));
     } else if (what.verbosity == Verbosity::normal) {
-        print(verify_text(report, arguments.options));
+        print_report(verify_text(report, arguments.options));
     }
     if (const std::optional<int> signal = interrupt.signal()) {
         return 128 + *signal;

@@ -1,6 +1,5 @@
 #include "options/arguments.h"
 
-#include <bdpt/error.h>
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -130,10 +129,9 @@ std::optional<std::size_t> parse_index(std::string_view text)
     return parse_number<std::size_t>(text);
 }
 
-void reject(const char* option, const std::string& value, const char* expected)
+void reject(const char* option, const std::string& value, const std::string& expected)
 {
-    throw Error(ErrorCode::usage, fmt::format("{} \"{}\": expected {}; see \"bdpt render --help\"",
-                                              option, value, expected));
+    throw OptionError(fmt::format("{} \"{}\": expected {}", option, value, expected));
 }
 
 std::optional<std::string> closest(std::string_view text, std::span<const std::string> words)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bdpt/error.h>
 #include <bdpt/types.h>
 
 #include <cstddef>
@@ -38,8 +39,15 @@ struct Size {
 /// Only digits: an index.
 [[nodiscard]] std::optional<std::size_t> parse_index(std::string_view text);
 
-/// Throws the `Error` (usage) for an option whose value makes no sense.
-[[noreturn]] void reject(const char* option, const std::string& value, const char* expected);
+/// An option whose value makes no sense. main() adds to the message where the help of the command
+/// is.
+class OptionError : public Error {
+public:
+    explicit OptionError(const std::string& message) : Error(ErrorCode::usage, message) {}
+};
+
+/// Throws the `OptionError` that names all three.
+[[noreturn]] void reject(const char* option, const std::string& value, const std::string& expected);
 
 /// The word that `text` was probably meant to be; none when all are far from it.
 [[nodiscard]] std::optional<std::string> closest(std::string_view text,

@@ -1,6 +1,5 @@
 #include "options/bench_arguments.h"
 
-#include <bdpt/error.h>
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
@@ -10,6 +9,9 @@
 #include <set>
 #include <string_view>
 #include <system_error>
+
+#include "options/arguments.h"
+#include "options/whole_number.h"
 
 namespace bdpt::app {
 namespace {
@@ -41,12 +43,6 @@ constexpr Effort normal_effort{.seconds = 5.0, .pixels = 36864};
 /// small part of the error of most runs.
 constexpr double reference_effort = 12.0;
 
-[[noreturn]] void refuse(const char* option, const std::string& value, const char* expected)
-{
-    throw Error(ErrorCode::usage, fmt::format("{} \"{}\": expected {}; see \"bdpt bench --help\"",
-                                              option, value, expected));
-}
-
 double to_seconds(const char* option, const std::optional<std::string>& word, double otherwise)
 {
     if (!word) {
@@ -54,7 +50,7 @@ double to_seconds(const char* option, const std::optional<std::string>& word, do
     }
     const std::optional<double> seconds = parse_duration(*word);
     if (!seconds) {
-        refuse(option, *word, "a time like 5s or 2m");
+        reject(option, *word, "a time like 5s or 2m");
     }
     return *seconds;
 }
@@ -68,7 +64,7 @@ std::vector<IntegratorKind> to_integrators(const std::string& words)
         const auto kind =
             eval::parse_integrator(std::string_view(words).substr(begin, end - begin));
         if (!kind) {
-            refuse("--integrators", words, "pt, nee, mis, lt or bdpt, with commas between");
+            reject("--integrators", words, "pt, nee, mis, lt or bdpt, with commas between");
         }
         if (std::find(result.begin(), result.end(), *kind) == result.end()) {
             result.push_back(*kind);
@@ -105,11 +101,11 @@ void add_effort(CLI::App& command, BenchWords& words)
         .add_option("--spp", words.samples,
                     "Samples per pixel of each run at equal samples. If not given, the greatest "
                     "power of two that all integrators manage in the time above")
-        ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 20))
+        ->check(whole_number(1, std::int64_t{1} << 20))
         ->type_name("N")
         ->group(group);
     command.add_option("--seeds", words.seeds, "Runs of each integrator. 5 if not given")
-        ->check(CLI::Range(1, 10000))
+        ->check(whole_number(1, 10000))
         ->type_name("N")
         ->group(group);
     command
@@ -132,7 +128,7 @@ void add_effort(CLI::App& command, BenchWords& words)
         .add_option(
             "--strategy-depth", words.strategy_depth,
             "Longest paths [edges] in the pyramid of strategies, 0 for none. 5 if not given")
-        ->check(CLI::Range(0, 32))
+        ->check(whole_number(0, 32))
         ->type_name("N")
         ->group(group);
     command
@@ -152,7 +148,7 @@ void add_picture_options(CLI::App& command, RenderWords& words)
         ->type_name("WxH")
         ->group(group);
     command.add_option("--max-depth", words.transport.max_depth, "Longest path in edges. 8")
-        ->check(CLI::Range(1, 4096))
+        ->check(whole_number(1, 4096))
         ->type_name("N")
         ->group(group);
     command.add_option("--sampler", words.sampler, "sobol (the default) or independent")
@@ -161,7 +157,7 @@ void add_picture_options(CLI::App& command, RenderWords& words)
         ->group(group);
     command
         .add_option("--threads", words.threads, "Threads; 0, the default: one for each processor")
-        ->check(CLI::Range(0, 4096))
+        ->check(whole_number(0, 4096))
         ->type_name("N")
         ->group(group);
 }
@@ -180,7 +176,9 @@ void add_bench_options(CLI::App& command, BenchWords& words)
         ->group(group);
     command.add_flag("-q,--quiet", words.quiet, "Print nothing but errors")->group(group);
     command
-        .add_flag("--json", words.json, "One JSON object a line on stdout: progress, scene, done")
+        .add_flag("--json", words.json,
+                  "One JSON object a line on stdout: progress, scene, done. With --quiet done and "
+                  "error only")
         ->group(group);
     add_effort(command, words);
     add_picture_options(command, words.render);
@@ -217,7 +215,7 @@ BenchArguments understand(const BenchWords& words)
         std::error_code missing;
         if (result.subjects.size() > 1 &&
             !std::filesystem::is_directory(*words.reference, missing)) {
-            refuse("--reference", *words.reference,
+            reject("--reference", *words.reference,
                    "a folder with SCENE.exr for each scene, as there are several scenes");
         }
     }

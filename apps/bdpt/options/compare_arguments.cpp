@@ -1,6 +1,5 @@
 #include "options/compare_arguments.h"
 
-#include <bdpt/error.h>
 #include <bdpt/eval/metrics/metric.h>
 #include <fmt/core.h>
 
@@ -10,6 +9,7 @@
 #include <string_view>
 
 #include "options/arguments.h"
+#include "options/whole_number.h"
 
 namespace bdpt::app {
 namespace {
@@ -32,12 +32,6 @@ Exit codes: 0 done, 10 a threshold was exceeded (all output has been written), 2
 not found, 4 invalid input (also: sizes that differ, NaN, infinity), 5 unsupported file, 6 output
 cannot be written, 7 out of memory.)";
 
-[[noreturn]] void refuse(const char* option, const std::string& value, const char* expected)
-{
-    throw Error(ErrorCode::usage, fmt::format("{} \"{}\": expected {}; see \"bdpt compare --help\"",
-                                              option, value, expected));
-}
-
 std::vector<Metric> to_metrics(const std::optional<std::string>& words)
 {
     if (!words) {
@@ -50,7 +44,7 @@ std::vector<Metric> to_metrics(const std::optional<std::string>& words)
         const std::optional<Metric> metric =
             eval::parse_metric(std::string_view(*words).substr(begin, end - begin));
         if (!metric) {
-            refuse("--metrics", *words,
+            reject("--metrics", *words,
                    "relmse, mse, rmse, mape, smape, psnr, flip or flip_ldr, with commas between");
         }
         if (std::find(result.begin(), result.end(), *metric) == result.end()) {
@@ -69,7 +63,7 @@ eval::FlipExposures to_exposures(const std::string& word)
     if (!numbers || std::abs(numbers->x) > most || std::abs(numbers->y) > most ||
         numbers->x >= numbers->y || numbers->z < 2.0f || numbers->z > most ||
         std::floor(numbers->z) != numbers->z) {
-        refuse("--flip-exposures", word,
+        reject("--flip-exposures", word,
                "START,STOP,COUNT: EV from -100 to 100 that rise, and 2 to 100 of them");
     }
     return {.start = static_cast<double>(numbers->x),
@@ -80,7 +74,7 @@ eval::FlipExposures to_exposures(const std::string& word)
 double positive(const char* option, double value)
 {
     if (!(std::isfinite(value) && value > 0.0)) {
-        refuse(option, fmt::format("{}", value), "a number greater than 0");
+        reject(option, fmt::format("{}", value), "a number greater than 0");
     }
     return value;
 }
@@ -96,7 +90,7 @@ eval::MetricOptions to_scale(const CompareWords& words)
     }
     if (words.pixels_per_degree) {
         if (!(*words.pixels_per_degree >= 1.0 && *words.pixels_per_degree <= 1000.0)) {
-            refuse("--ppd", fmt::format("{}", *words.pixels_per_degree),
+            reject("--ppd", fmt::format("{}", *words.pixels_per_degree),
                    "pixels per degree from 1 to 1000");
         }
         scale.pixels_per_degree = *words.pixels_per_degree;
@@ -106,7 +100,7 @@ eval::MetricOptions to_scale(const CompareWords& words)
     }
     if (words.exposure) {
         if (!(std::abs(*words.exposure) <= 100.0)) {
-            refuse("--exposure", fmt::format("{}", *words.exposure), "EV from -100 to 100");
+            reject("--exposure", fmt::format("{}", *words.exposure), "EV from -100 to 100");
         }
         scale.exposure = static_cast<float>(*words.exposure);
     }
@@ -117,7 +111,7 @@ Metric to_map_metric(const std::string& word)
 {
     const std::optional<Metric> metric = eval::parse_metric(word);
     if (!metric || *metric == Metric::psnr) {
-        refuse("--error-metric", word, "relmse, mse, rmse, mape, smape, flip or flip_ldr");
+        reject("--error-metric", word, "relmse, mse, rmse, mape, smape, flip or flip_ldr");
     }
     return *metric;
 }
@@ -128,7 +122,7 @@ std::vector<eval::Threshold> to_thresholds(const std::vector<std::string>& words
     for (const std::string& word : words) {
         const std::optional<eval::Threshold> threshold = eval::parse_threshold(word);
         if (!threshold) {
-            refuse("--threshold", word, "NAME=NUMBER, where NAME is a metric, bias or p");
+            reject("--threshold", word, "NAME=NUMBER, where NAME is a metric, bias or p");
         }
         result.push_back(*threshold);
     }
@@ -209,15 +203,17 @@ void add_output(CLI::App& command, CompareWords& words)
         ->group(group);
     command
         .add_option("--tile", words.tile_size, "Pixels along the side of a tile. 32 if not given")
-        ->check(CLI::Range(1, 65535))
+        ->check(whole_number(1, 65535))
         ->type_name("N")
         ->group(group);
     command.add_option("--worst", words.worst_tiles, "How many of the worst tiles are told. 5")
-        ->check(CLI::Range(1, 1000000))
+        ->check(whole_number(1, 1000000))
         ->type_name("N")
         ->group(group);
     command.add_flag("--json", words.json, "One JSON object instead of text")->group(group);
-    command.add_flag("-q,--quiet", words.quiet, "Print nothing but errors")->group(group);
+    command
+        .add_flag("-q,--quiet", words.quiet, "Print nothing but errors and the object of --json")
+        ->group(group);
 }
 
 }  // namespace

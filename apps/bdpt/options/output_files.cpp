@@ -59,6 +59,14 @@ void check_outputs(std::span<const fs::path> outputs, std::span<const fs::path> 
         }
         io::check_writable(output);
     }
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        for (std::size_t k = 0; k < i; ++k) {
+            if (same_file(outputs[i], outputs[k])) {
+                throw Error(ErrorCode::usage,
+                            fmt::format("{}: the same output is named twice", outputs[i].string()));
+            }
+        }
+    }
 }
 
 bool writes_exr(std::span<const fs::path> outputs)

@@ -14,8 +14,8 @@ namespace bdpt::app {
 [[nodiscard]] bool has_extension(const std::filesystem::path& file, std::string_view extension);
 
 /// Refuses, before anything is rendered, what could not be written afterwards: throws `Error`
-/// (usage) for a file type that we do not write and for a file that is also in `inputs`, (output)
-/// for a place where nothing can be written.
+/// (usage) for a file type that we do not write, for a file that is also in `inputs` and for one
+/// that is named twice, (output) for a place where nothing can be written.
 void check_outputs(std::span<const std::filesystem::path> outputs,
                    std::span<const std::filesystem::path> inputs);
 

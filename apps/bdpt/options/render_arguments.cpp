@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "options/output_files.h"
+#include "options/whole_number.h"
 
 namespace bdpt::app {
 namespace {
@@ -115,7 +116,7 @@ void add_how(CLI::App& command, RenderWords& words)
     command
         .add_option("--spp", words.samples,
                     "Samples per pixel. 64 if not given, or no limit with --time")
-        ->check(CLI::Range(std::int64_t{1}, most_samples))
+        ->check(whole_number(1, most_samples))
         ->type_name("N")
         ->group(group);
     command.add_option("--time", words.time, "Time to render for, like 90s, 2m or 1.5h")
@@ -183,7 +184,8 @@ void add_output(CLI::App& command, RenderWords& words)
     command.add_flag("-q,--quiet", words.quiet, "Print nothing but errors")->group(group);
     command
         .add_flag("--json", words.json,
-                  "One JSON object a line on stdout: start, progress, warning, done, error")
+                  "One JSON object a line on stdout: start, progress, warning, done, error. With "
+                  "--quiet done and error only")
         ->group(group);
 }
 
@@ -233,7 +235,7 @@ void add_seed_and_threads(CLI::App& command, RenderWords& words, const char* gro
     command
         .add_option("--threads", words.threads,
                     "Threads to use; the picture does not depend on it. All if not given")
-        ->check(CLI::Range(0, 4096))
+        ->check(whole_number(0, 4096))
         ->type_name("N")
         ->group(group);
 }
@@ -278,6 +280,7 @@ RenderArguments understand(const RenderWords& words)
     check_lens(words.lens);
     result.lens = words.lens;
     result.scene = to_gltf_options(words.scene);
+    result.max_memory = memory_limit(words.scene);
     result.environment = words.environment;
     result.texture_filter =
         words.texture_filter == "mip" ? TextureFilter::mip_mapped : TextureFilter::bilinear;

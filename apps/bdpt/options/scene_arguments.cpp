@@ -56,10 +56,23 @@ void add_scene_options(CLI::App& command, SceneWords& words, const std::string& 
         ->group(group);
     command
         .add_option("--max-memory", words.max_memory,
-                    "Refuse scenes that need more memory, like 500M or 2G, before they take it; "
-                    "bdpt info --limits tells the limits if not given")
+                    "Refuse scenes that need more memory, like 500M or 2G, before they take it; a "
+                    "render counts its film and layers, too. bdpt info --limits tells the limits "
+                    "if not given")
         ->type_name("SIZE")
         ->group(group);
+}
+
+std::optional<std::uint64_t> memory_limit(const SceneWords& words)
+{
+    if (!words.max_memory) {
+        return std::nullopt;
+    }
+    const std::optional<std::uint64_t> bytes = parse_bytes(*words.max_memory);
+    if (!bytes) {
+        reject("--max-memory", *words.max_memory, "a size like 500M or 2G");
+    }
+    return bytes;
 }
 
 io::GltfOptions to_gltf_options(const SceneWords& words)
@@ -79,11 +92,7 @@ io::GltfOptions to_gltf_options(const SceneWords& words)
                    "seconds that are not negative, or OPEN,CLOSE with OPEN not after CLOSE");
         }
     }
-    if (words.max_memory) {
-        const std::optional<std::uint64_t> bytes = parse_bytes(*words.max_memory);
-        if (!bytes) {
-            reject("--max-memory", *words.max_memory, "a size like 500M or 2G");
-        }
+    if (const std::optional<std::uint64_t> bytes = memory_limit(words)) {
         options.limits = io::limits_within(*bytes);
     }
     return options;

@@ -2,6 +2,7 @@
 
 #include <bdpt/io/gltf.h>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -25,6 +26,9 @@ struct SceneWords {
 /// parser, in the
 /// group `group` of the help text.
 void add_scene_options(CLI::App& command, SceneWords& words, const std::string& group);
+
+/// The limit of --max-memory [bytes], if there is one. Throws `OptionError`.
+[[nodiscard]] std::optional<std::uint64_t> memory_limit(const SceneWords& words);
 
 /// Throws `Error` (usage) that names the option and the value.
 [[nodiscard]] io::GltfOptions to_gltf_options(const SceneWords& words);

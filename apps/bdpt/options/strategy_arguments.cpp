@@ -7,6 +7,7 @@
 
 #include "options/arguments.h"
 #include "options/output_files.h"
+#include "options/whole_number.h"
 
 namespace bdpt::app {
 namespace {
@@ -32,7 +33,7 @@ void add_strategy_options(CLI::App& command, StrategyWords& words)
                     fmt::format("Longest paths in edges that --strategies shows. {} if not given, "
                                 "or what 4 GB of memory are enough for",
                                 default_strategy_depth))
-        ->check(CLI::Range(1, greatest_depth))
+        ->check(whole_number(1, greatest_depth))
         ->type_name("N")
         ->group(group);
 }
@@ -54,8 +55,7 @@ std::optional<StrategyFiles> strategy_files(const StrategyWords& words,
     if (options.integrator != IntegratorKind::bdpt && options.integrator != IntegratorKind::lt) {
         reject("--strategies", *words.file,
                fmt::format("--integrator bdpt or lt with it, not {}",
-                           eval::to_string(options.integrator))
-                   .c_str());
+                           eval::to_string(options.integrator)));
     }
     return StrategyFiles{
         .layers = file, .sheet = fs::path(file).replace_extension(".png"), .depth = words.depth};

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "options/arguments.h"
+#include "options/whole_number.h"
 
 namespace bdpt::app {
 namespace {
@@ -87,9 +88,8 @@ void check_bidirectional(const TransportWords& words)
     }
     const auto check = [&](const char* option, const std::optional<std::string>& value) {
         if (value) {
-            reject(
-                option, *value,
-                fmt::format("--integrator bdpt or lt with it, not {}", words.integrator).c_str());
+            reject(option, *value,
+                   fmt::format("--integrator bdpt or lt with it, not {}", words.integrator));
         }
     };
     const auto text = [](const std::optional<int>& value) {
@@ -123,7 +123,7 @@ void add_limits(CLI::App& command, TransportWords& words, const char* group)
             fmt::format(
                 "Longest path in edges: 1 sees lights only, 2 adds direct light. {} if not given",
                 words.max_depth))
-        ->check(CLI::Range(1, longest_path))
+        ->check(whole_number(1, longest_path))
         ->type_name("N")
         ->group(group);
     command
@@ -136,19 +136,19 @@ void add_limits(CLI::App& command, TransportWords& words, const char* group)
     command
         .add_option("--max-camera-depth", words.max_camera_depth,
                     "Longest part of a path that starts at the camera, in edges (bdpt, lt)")
-        ->check(CLI::Range(0, longest_path))
+        ->check(whole_number(0, longest_path))
         ->type_name("N")
         ->group(group);
     command
         .add_option("--max-light-depth", words.max_light_depth,
                     "Longest part of a path that starts at a light, in edges (bdpt, lt)")
-        ->check(CLI::Range(0, longest_path))
+        ->check(whole_number(0, longest_path))
         ->type_name("N")
         ->group(group);
     command
         .add_option("--rr-start", words.rr_start,
                     "Russian roulette may end subpaths after this many edges; 3 if not given")
-        ->check(CLI::Range(1, longest_path))
+        ->check(whole_number(1, longest_path))
         ->type_name("N")
         ->group(group);
 }
@@ -202,7 +202,7 @@ void add_transport_options(CLI::App& command, TransportWords& words)
     command
         .add_option("--light-paths", words.light_paths,
                     "Light paths for each camera path (bdpt, lt). 1 if not given")
-        ->check(CLI::Range(1, most_light_paths))
+        ->check(whole_number(1, most_light_paths))
         ->type_name("N")
         ->group(group);
     command

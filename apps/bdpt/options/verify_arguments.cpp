@@ -1,12 +1,12 @@
 #include "options/verify_arguments.h"
 
-#include <bdpt/error.h>
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
 #include "options/arguments.h"
+#include "options/whole_number.h"
 
 namespace bdpt::app {
 namespace {
@@ -25,18 +25,12 @@ could hide it (give it more --time); 1 internal error, 2 wrong usage, 3 input no
 input, 5 unsupported feature, 6 output cannot be written, 7 out of memory, 130 stopped by SIGINT, 143
 stopped by SIGTERM.)";
 
-[[noreturn]] void refuse(const char* option, const std::string& value, const char* expected)
-{
-    throw Error(ErrorCode::usage, fmt::format("{} \"{}\": expected {}; see \"bdpt verify --help\"",
-                                              option, value, expected));
-}
-
 /// Percent to a fraction.
 double to_fraction(const char* option, double percent, double most)
 {
     if (!(percent > 0.0 && percent <= most)) {
-        refuse(option, fmt::format("{}", percent),
-               fmt::format("more than 0 and at most {:g} percent", most).c_str());
+        reject(option, fmt::format("{}", percent),
+               fmt::format("more than 0 and at most {:g} percent", most));
     }
     return percent / 100.0;
 }
@@ -56,12 +50,12 @@ void add_how(CLI::App& command, VerifyWords& words)
     command
         .add_option("--max-depth", words.max_depth,
                     "Longest paths that are tested, in edges. 5 if not given")
-        ->check(CLI::Range(1, 64))
+        ->check(whole_number(1, 64))
         ->type_name("N")
         ->group(group);
     command
         .add_option("--grid", words.grid, "Tiles along each side of the picture. 4 if not given")
-        ->check(CLI::Range(1, 64))
+        ->check(whole_number(1, 64))
         ->type_name("N")
         ->group(group);
     command
@@ -90,7 +84,10 @@ void add_verify_options(CLI::App& command, VerifyWords& words)
     const auto group = "Output";
     command.add_flag("--json", words.render.json, "One JSON object on stdout instead of text")
         ->group(group);
-    command.add_flag("-q,--quiet", words.render.quiet, "Print nothing but errors")->group(group);
+    command
+        .add_flag("-q,--quiet", words.render.quiet,
+                  "Print nothing but errors and the object of --json")
+        ->group(group);
     command.footer(footer);
 }
 
@@ -101,7 +98,7 @@ VerifyArguments understand(const VerifyWords& words)
     eval::VerifyOptions& options = result.options;
     if (const std::optional<Size>& size = result.stage.size) {
         if (std::max(size->width, size->height) > widest) {
-            refuse("--size", *words.render.size, "WIDTHxHEIGHT from 1x1 to 4096x4096");
+            reject("--size", *words.render.size, "WIDTHxHEIGHT from 1x1 to 4096x4096");
         }
         options.width = size->width;
         options.height = size->height;

@@ -6,9 +6,10 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <numbers>
-#include <variant>
+#include <utility>
 
+#include "report/light_report.h"
+#include "report/values.h"
 #include "terminal/text.h"
 
 namespace bdpt::app {
@@ -16,61 +17,12 @@ namespace {
 
 using nlohmann::ordered_json;
 
-double degrees(float radians)
-{
-    return static_cast<double>(radians) * 180.0 / std::numbers::pi;
-}
-
-std::string to_text(Vec3 v)
-{
-    return fmt::format("{:.4g},{:.4g},{:.4g}", v.x, v.y, v.z);
-}
-
-ordered_json to_json(Vec3 v)
-{
-    return ordered_json::array({v.x, v.y, v.z});
-}
-
-struct LightText {
-    static std::string radius(float metres)
-    {
-        return metres > 0.0f ? fmt::format(", radius {:.4g} m", metres) : "";
-    }
-    std::string operator()(const PointLightDesc& light) const
-    {
-        return fmt::format("point \"{}\" at {}, {} cd{}", light.name, to_text(light.position),
-                           to_text(light.intensity), radius(light.radius));
-    }
-    std::string operator()(const SpotLightDesc& light) const
-    {
-        return fmt::format("spot \"{}\" at {}, {} cd, cone {:.3g} to {:.3g} degrees{}", light.name,
-                           to_text(light.position), to_text(light.intensity),
-                           degrees(light.inner_cone_angle), degrees(light.outer_cone_angle),
-                           radius(light.radius));
-    }
-    std::string operator()(const DirectionalLightDesc& light) const
-    {
-        return fmt::format("directional \"{}\" towards {}, {} lx", light.name,
-                           to_text(light.direction), to_text(light.illuminance));
-    }
-    std::string operator()(const ProfileLightDesc& light) const
-    {
-        return fmt::format("profile {} \"{}\" at {}, times {}",
-                           static_cast<std::size_t>(light.profile), light.name,
-                           to_text(light.position), to_text(light.scale));
-    }
-    std::string operator()(const EnvironmentLightDesc& light) const
-    {
-        return fmt::format("environment {}x{}", light.radiance.width, light.radiance.height);
-    }
-};
-
 /// Equal ones as "3 of 1024x1024".
-std::string summary(const std::vector<std::string>& words)
+std::string summary(const std::vector<Size>& sizes)
 {
     std::map<std::string, std::size_t> counts;
-    for (const std::string& word : words) {
-        ++counts[word];
+    for (const Size& size : sizes) {
+        ++counts[fmt::format("{}x{}", size.width, size.height)];
     }
     std::string result;
     for (const auto& [word, count] : counts) {
@@ -202,42 +154,38 @@ ordered_json array_of(const Items& items, Convert convert)
     return result;
 }
 
-}  // namespace
-
-SceneReport make_report(const std::string& file, const io::LoadedScene& loaded)
+/// What a render would fill in, as it is told.
+std::vector<std::string> default_lines(const Defaults& defaults)
 {
-    SceneReport report;
-    report.file = file;
-    report.facts = loaded.facts;
-    report.cameras = loaded.cameras;
-    report.warnings = loaded.warnings;
-    report.instances = loaded.scene.instances.size();
-    for (const LightDesc& light : loaded.scene.lights) {
-        report.lights.push_back(std::visit(LightText{}, light));
+    std::vector<std::string> lines;
+    if (defaults.camera) {
+        lines.emplace_back("no camera: a render frames the whole scene");
     }
-    for (const MaterialDesc& material : loaded.scene.materials) {
-        report.materials.push_back(material.name);
-        if (material.emission != Rgb(0.0f)) {
-            report.emissive.push_back(
-                fmt::format("\"{}\" emits {} nit", material.name, to_text(material.emission)));
-        }
+    if (defaults.sky) {
+        lines.emplace_back("no light: a render adds a soft sky");
     }
-    for (const TexelImage& image : loaded.scene.images) {
-        report.texture_sizes.push_back(fmt::format("{}x{}", image.width, image.height));
+    if (defaults.lamp) {
+        lines.emplace_back("a closed room without light: a render adds a lamp");
     }
-    if (loaded.cameras.empty()) {
-        report.defaults.emplace_back("no camera: a render frames the whole scene");
-    }
-    if (!has_light(loaded.scene)) {
-        report.defaults.emplace_back("no light: a render adds a soft sky");
-    }
-    return report;
+    return lines;
 }
 
-std::string to_text(const SceneReport& report)
+ordered_json default_names(const Defaults& defaults)
+{
+    ordered_json names = ordered_json::array();
+    for (const auto& [is_missing, name] :
+         {std::pair{defaults.camera, "camera"}, {defaults.sky, "sky"}, {defaults.lamp, "lamp"}}) {
+        if (is_missing) {
+            names.push_back(name);
+        }
+    }
+    return names;
+}
+
+/// What stands in the file, of which a part may be used.
+void add_file(Lines& lines, const SceneReport& report)
 {
     const io::GltfFacts& facts = report.facts;
-    Lines lines;
     lines.add("file", report.file);
     lines.add("glTF", facts.version);
     if (!facts.generator.empty()) {
@@ -247,10 +195,30 @@ std::string to_text(const SceneReport& report)
         lines.add("copyright", facts.copyright);
     }
     lines.add_list("scenes", scene_lines(facts));
-    lines.add("triangles",
-              fmt::format("{} in meshes, {} in the scene ({} without area, {} emit)",
-                          report.counts.triangles, report.counts.instanced_triangles,
-                          report.counts.degenerate_triangles, report.counts.emissive_triangles));
+}
+
+/// What is known of a file that cannot be loaded: what it holds, used or not.
+void add_contents(Lines& lines, const io::GltfFacts& facts)
+{
+    lines.add("nodes", fmt::format("{}", facts.nodes));
+    lines.add("meshes", fmt::format("{} of {} primitives", facts.meshes, facts.primitives));
+    lines.add("materials", fmt::format("{}", facts.materials));
+    lines.add("textures", fmt::format("{} of {} images", facts.textures, facts.images));
+    lines.add("cameras", fmt::format("{}", facts.cameras));
+    lines.add("lights", fmt::format("{}", facts.lights));
+}
+
+/// What the loaded scene holds.
+void add_scene(Lines& lines, const SceneReport& report)
+{
+    const io::GltfFacts& facts = report.facts;
+    if (report.knowledge == Knowledge::built) {
+        const SceneCounts& counts = report.counts;
+        lines.add("triangles",
+                  fmt::format("{} in meshes, {} in the scene ({} without area, {} emit)",
+                              counts.triangles, counts.instanced_triangles,
+                              counts.degenerate_triangles, counts.emissive_triangles));
+    }
     lines.add("instances",
               fmt::format("{} ({} nodes, {} meshes of {} primitives)", report.instances,
                           facts.nodes, facts.meshes, facts.primitives));
@@ -259,12 +227,97 @@ std::string to_text(const SceneReport& report)
                                         to_text(report.bounds->max)));
     }
     lines.add("materials", fmt::format("{}", facts.materials));
-    lines.add_list("", report.emissive);
+    std::vector<std::string> emissive;
+    for (const EmissiveMaterial& material : report.emissive) {
+        emissive.push_back(
+            fmt::format("\"{}\" emits {} nit", material.name, to_text(material.emission)));
+    }
+    lines.add_list("", emissive);
     lines.add("textures",
               fmt::format("{} of {} images{}{}", facts.textures, facts.images,
                           report.texture_sizes.empty() ? "" : ": ", summary(report.texture_sizes)));
     lines.add_list("cameras", camera_lines(report.cameras));
-    lines.add_list("lights", report.lights);
+    std::vector<std::string> lights;
+    for (const LightDesc& light : report.lights) {
+        lights.push_back(light_text(light));
+    }
+    lines.add_list("lights", lights);
+}
+
+/// All that only a loaded scene has; null for each where it could not be loaded.
+ordered_json scene_json(const SceneReport& report)
+{
+    ordered_json result;
+    const SceneCounts& counts = report.counts;
+    result["triangles"] = report.knowledge == Knowledge::built
+                              ? ordered_json{{"in_meshes", counts.triangles},
+                                             {"in_scene", counts.instanced_triangles},
+                                             {"degenerate", counts.degenerate_triangles},
+                                             {"emissive", counts.emissive_triangles}}
+                              : ordered_json();
+    result["bounds"] = report.bounds ? ordered_json{{"min", to_json(report.bounds->min)},
+                                                    {"max", to_json(report.bounds->max)}}
+                                     : ordered_json();
+    if (report.knowledge == Knowledge::facts) {
+        for (const char* name : {"materials", "emissive_materials", "texture_sizes", "cameras",
+                                 "lights", "warnings", "defaults"}) {
+            result[name] = nullptr;
+        }
+        return result;
+    }
+    result["materials"] = report.materials;
+    result["emissive_materials"] =
+        array_of(report.emissive, [](const EmissiveMaterial& material) -> ordered_json {
+            return {{"name", material.name}, {"emission", to_json(material.emission)}};
+        });
+    result["texture_sizes"] = array_of(report.texture_sizes, [](const Size& size) {
+        return ordered_json::array({size.width, size.height});
+    });
+    result["cameras"] = array_of(report.cameras, camera_json);
+    result["lights"] = array_of(report.lights, light_json);
+    result["warnings"] = report.warnings;
+    result["defaults"] = default_names(report.defaults);
+    return result;
+}
+
+}  // namespace
+
+SceneReport make_report(const std::string& file, const io::LoadedScene& loaded)
+{
+    SceneReport report;
+    report.knowledge = Knowledge::loaded;
+    report.file = file;
+    report.facts = loaded.facts;
+    report.cameras = loaded.cameras;
+    report.warnings = loaded.warnings;
+    report.instances = loaded.scene.instances.size();
+    for (const LightDesc& light : loaded.scene.lights) {
+        report.lights.push_back(without_pixels(light));
+    }
+    for (const MaterialDesc& material : loaded.scene.materials) {
+        report.materials.push_back(material.name);
+        if (material.emission != Rgb(0.0f)) {
+            report.emissive.push_back({.name = material.name, .emission = material.emission});
+        }
+    }
+    for (const TexelImage& image : loaded.scene.images) {
+        report.texture_sizes.push_back({.width = image.width, .height = image.height});
+    }
+    report.defaults.camera = loaded.cameras.empty();
+    report.defaults.sky = !has_light(loaded.scene);
+    return report;
+}
+
+std::string to_text(const SceneReport& report)
+{
+    const io::GltfFacts& facts = report.facts;
+    Lines lines;
+    add_file(lines, report);
+    if (report.knowledge == Knowledge::facts) {
+        add_contents(lines, facts);
+    } else {
+        add_scene(lines, report);
+    }
     lines.add_list("extensions", extension_lines(facts.extensions));
     lines.add_list("variants", numbered(facts.variant_names));
     lines.add_list("animations", numbered(facts.animation_names));
@@ -272,43 +325,42 @@ std::string to_text(const SceneReport& report)
         lines.add("skins", fmt::format("{}", facts.skins));
     }
     lines.add_list("warnings", report.warnings);
-    lines.add_list("defaults", report.defaults);
+    lines.add_list("defaults", default_lines(report.defaults));
+    if (report.problem) {
+        lines.add("rendering",
+                  fmt::format("would fail with exit code {}: {}",
+                              static_cast<int>(report.problem->code), report.problem->message));
+    }
     return lines.text();
 }
 
 ordered_json to_json(const SceneReport& report)
 {
     const io::GltfFacts& facts = report.facts;
-    const SceneCounts& counts = report.counts;
     ordered_json result{{"file", report.file},
                         {"gltf_version", facts.version},
                         {"generator", facts.generator},
                         {"copyright", facts.copyright},
                         {"scenes", facts.scene_names}};
     result["scene"] = facts.scene ? ordered_json(*facts.scene) : ordered_json();
-    result["triangles"] = {{"in_meshes", counts.triangles},
-                           {"in_scene", counts.instanced_triangles},
-                           {"degenerate", counts.degenerate_triangles},
-                           {"emissive", counts.emissive_triangles}};
     result["counts"] = {{"nodes", facts.nodes},           {"meshes", facts.meshes},
                         {"primitives", facts.primitives}, {"instances", report.instances},
                         {"materials", facts.materials},   {"textures", facts.textures},
                         {"images", facts.images},         {"skins", facts.skins},
                         {"animations", facts.animations}, {"punctual_lights", facts.lights},
                         {"cameras", facts.cameras}};
-    result["bounds"] = report.bounds ? ordered_json{{"min", to_json(report.bounds->min)},
-                                                    {"max", to_json(report.bounds->max)}}
-                                     : ordered_json();
+    if (report.knowledge == Knowledge::facts) {
+        result["counts"]["instances"] = nullptr;
+    }
     result["variants"] = facts.variant_names;
     result["animations"] = facts.animation_names;
-    result["materials"] = report.materials;
-    result["emissive_materials"] = report.emissive;
-    result["texture_sizes"] = report.texture_sizes;
-    result["cameras"] = array_of(report.cameras, camera_json);
-    result["lights"] = report.lights;
+    result.update(scene_json(report));
     result["extensions"] = array_of(facts.extensions, extension_json);
-    result["warnings"] = report.warnings;
-    result["defaults"] = report.defaults;
+    result["renderable"] = !report.problem;
+    result["problem"] = report.problem
+                            ? ordered_json{{"code", static_cast<int>(report.problem->code)},
+                                           {"message", report.problem->message}}
+                            : ordered_json();
     return result;
 }
 

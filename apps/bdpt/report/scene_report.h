@@ -1,33 +1,65 @@
 #pragma once
 
+#include <bdpt/error.h>
 #include <bdpt/io/gltf.h>
 #include <bdpt/scene.h>
 
+#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "options/arguments.h"
+
 namespace bdpt::app {
 
-/// What `bdpt info` tells. Made before the scene's data moves into a `Scene`, which adds the last
-/// three members.
+/// A material that emits.
+struct EmissiveMaterial {
+    std::string name;
+    Rgb emission{0.0f};  ///< [nit]
+};
+
+/// What a render would fill in.
+struct Defaults {
+    bool camera = false;  ///< that frames the scene
+    bool sky = false;
+    bool lamp = false;  ///< in a closed room
+};
+
+/// Why a render would fail.
+struct Problem {
+    ErrorCode code = ErrorCode::internal;
+    std::string message;
+};
+
+/// How much is known of a scene.
+enum class Knowledge : std::uint8_t {
+    facts,   ///< what the JSON of the file says; it cannot be loaded
+    loaded,  ///< all but what only a built scene knows, its counts and bounds
+    built,
+};
+
+/// What `bdpt info` tells.
 struct SceneReport {
     std::string file;
     io::GltfFacts facts;
     std::vector<CameraDesc> cameras;
-    std::vector<std::string> lights;         ///< one line each
-    std::vector<std::string> materials;      ///< names
-    std::vector<std::string> emissive;       ///< names of materials that emit
-    std::vector<std::string> texture_sizes;  ///< "1024x512"
+    std::vector<LightDesc> lights;       ///< environments without their pixels
+    std::vector<std::string> materials;  ///< names
+    std::vector<EmissiveMaterial> emissive;
+    std::vector<Size> texture_sizes;
     std::size_t instances = 0;
     std::vector<std::string> warnings;
-    std::vector<std::string> defaults;  ///< what a render would fill in
+    Defaults defaults;
+    std::optional<Problem> problem;
+    Knowledge knowledge = Knowledge::facts;
     SceneCounts counts;
     std::optional<Bounds> bounds;  ///< none: nothing to see
 };
 
+/// All but what only a built scene knows.
 [[nodiscard]] SceneReport make_report(const std::string& file, const io::LoadedScene& loaded);
 
 /// For people.

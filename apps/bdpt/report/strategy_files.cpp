@@ -1,6 +1,7 @@
 #include "report/strategy_files.h"
 
 #include <bdpt/error.h>
+#include <bdpt/eval/image/contact_sheet.h>
 #include <bdpt/io/output_file.h>
 #include <bdpt/io/png.h>
 #include <fmt/core.h>
@@ -9,7 +10,6 @@
 #include <cstdint>
 
 #include "options/output_files.h"
-#include "report/contact_sheet.h"
 
 namespace bdpt::app {
 namespace {
@@ -91,7 +91,7 @@ void write_strategy_files(const StrategyFiles& files, const Image& image,
                           float exposure)
 {
     io::write_exr(files.layers, image, strategies.develop(), options);
-    io::write_png(files.sheet, contact_sheet(strategies, exposure),
+    io::write_png(files.sheet, eval::contact_sheet(strategies, exposure),
                   {.exposure = exposure, .metadata = options.metadata});
 }
 

@@ -25,7 +25,8 @@ struct LitScene {
     SceneDesc desc;
     Sky sky = Sky::none;
     std::string environment_name = "none";
-    std::vector<std::string> warnings;
+    std::vector<std::string> warnings{};
+    std::size_t added = 0;  ///< lights that nobody asked for
 };
 
 bool is_environment(const LightDesc& light)
@@ -37,7 +38,7 @@ bool is_environment(const LightDesc& light)
 /// for takes the place of the file's own.
 LitScene add_environment(SceneDesc desc, const RenderArguments& arguments)
 {
-    LitScene lit{std::move(desc), Sky::none, "none", {}};
+    LitScene lit{.desc = std::move(desc)};
     const std::string file = arguments.file.string();
     const std::string choice = arguments.environment.value_or("");
     if (!choice.empty()) {
@@ -69,6 +70,7 @@ LitScene add_environment(SceneDesc desc, const RenderArguments& arguments)
         lit.sky = Sky::fallback;
         lit.environment_name = "default";
         lit.desc.lights.push_back(default_environment());
+        lit.added = 1;
     }
     return lit;
 }
@@ -103,6 +105,7 @@ BuiltScene build(LitScene& lit, const RenderArguments& arguments, float aspect,
         arguments.file.string(), framed.lamp_position.x, framed.lamp_position.y,
         framed.lamp_position.z));
     lit.desc.lights.emplace_back(default_lamp(framed));
+    ++lit.added;
     show();
     return {Scene(std::move(lit.desc), arguments.isa), framed};
 }
@@ -160,6 +163,7 @@ Stage prepare_stage(const RenderArguments& arguments,
 
     loaded.scene.texture_filter = arguments.texture_filter;
     LitScene lit = add_environment(std::move(loaded.scene), arguments);
+    const bool only_emitters = lit.desc.lights.empty() && has_light(lit.desc);
     const auto loading_end = std::chrono::steady_clock::now();
     BuiltScene built = build(lit, arguments, aspect, look);
     const auto building_end = std::chrono::steady_clock::now();
@@ -180,6 +184,7 @@ Stage prepare_stage(const RenderArguments& arguments,
     const auto seconds = [](std::chrono::steady_clock::duration time) {
         return std::chrono::duration<double>(time).count();
     };
+    const std::size_t lights = built.scene.counts().lights - lit.added;
     return {std::move(built.scene),
             std::move(camera),
             lit.environment_name,
@@ -187,7 +192,9 @@ Stage prepare_stage(const RenderArguments& arguments,
             std::move(warnings),
             seconds(loading_end - start),
             seconds(building_end - loading_end),
-            std::move(loaded.facts.xmp)};
+            std::move(loaded.facts.xmp),
+            lights,
+            only_emitters};
 }
 
 }  // namespace bdpt::app

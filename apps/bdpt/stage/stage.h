@@ -3,6 +3,7 @@
 #include <bdpt/io/gltf.h>
 #include <bdpt/scene.h>
 
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <vector>
@@ -22,6 +23,9 @@ struct Stage {
     double load_seconds = 0.0;          ///< for reading files
     double build_seconds = 0.0;         ///< for making the scene ready
     std::string xmp{};                  ///< what the file says about itself
+    std::size_t lights = 0;  ///< of the file and by --env, without what is added where all is dark
+    /// The only lights are surfaces of the file that emit.
+    bool only_emitters = false;
 };
 
 /// Loads the file, and fills in what it lacks by the rules that `bdpt render --help` states.

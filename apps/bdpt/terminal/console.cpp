@@ -1,5 +1,6 @@
 #include "terminal/console.h"
 
+#include <bdpt/error.h>
 #include <fmt/core.h>
 #include <unistd.h>
 
@@ -98,7 +99,7 @@ Console::~Console()
 void Console::event(std::string_view name, const ordered_json& fields)
 {
     const std::lock_guard lock(mutex_);
-    if (format_ == Format::json) {
+    if (format_ == Format::json && (verbosity_ == Verbosity::normal || name == "done")) {
         put_event(name, fields);
     }
 }
@@ -114,9 +115,12 @@ void Console::note(std::string_view message)
 void Console::warning(std::string_view message)
 {
     const std::lock_guard lock(mutex_);
+    if (verbosity_ == Verbosity::quiet) {
+        return;
+    }
     if (format_ == Format::json) {
         put_event("warning", {{"message", one_line(message)}});
-    } else if (verbosity_ == Verbosity::normal) {
+    } else {
         print_line(color_ ? "bdpt: \x1b[33mwarning:\x1b[0m " : "bdpt: warning: ", message);
     }
 }
@@ -206,6 +210,14 @@ bool Console::is_due(double seconds)
     }
     last_shown_ = seconds;
     return true;
+}
+
+void print_report(std::string_view text)
+{
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() ||
+        std::fflush(stdout) != 0) {
+        throw Error(ErrorCode::output, "stdout: cannot write the report");
+    }
 }
 
 void report_error(Format format, int exit_code, std::string_view message) noexcept

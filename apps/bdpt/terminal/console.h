@@ -45,7 +45,8 @@ public:
     Console(const Console&) = delete;
     Console& operator=(const Console&) = delete;
 
-    /// `fields` is a JSON object; "event" is added. Does nothing when the format is text.
+    /// `fields` is a JSON object; "event" is added. Does nothing when the format is text, and when
+    /// the user wants quiet, but for the event "done".
     void event(std::string_view name, const nlohmann::ordered_json& fields);
     /// A line for people; nothing when the format is JSON.
     void note(std::string_view message);
@@ -71,6 +72,9 @@ private:
     std::size_t drawn_ = 0;  // characters of the progress line on the screen
     double last_shown_ = -std::numeric_limits<double>::infinity();  // [s] of the render
 };
+
+/// Prints a result on stdout. Throws `Error` (output).
+void print_report(std::string_view text);
 
 /// The one line on stderr for a failure and, in JSON, an event. Throws nothing.
 void report_error(Format format, int exit_code, std::string_view message) noexcept;

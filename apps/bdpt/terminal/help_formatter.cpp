@@ -9,6 +9,20 @@ namespace {
 constexpr std::size_t name_columns = 32;
 constexpr std::size_t text_columns = 100 - name_columns;
 
+/// The parser adds its checks to the type after a colon; what they say is in our text. A colon of
+/// our own, as in NAME[:RADIUS], is in brackets.
+std::string own_part(const std::string& type)
+{
+    int depth = 0;
+    for (std::size_t i = 0; i < type.size(); ++i) {
+        depth += type[i] == '[' ? 1 : type[i] == ']' ? -1 : 0;
+        if (type[i] == ':' && depth == 0) {
+            return type.substr(0, i);
+        }
+    }
+    return type;
+}
+
 }  // namespace
 
 HelpFormatter::HelpFormatter()
@@ -18,9 +32,7 @@ HelpFormatter::HelpFormatter()
 
 std::string HelpFormatter::make_option_opts(const CLI::Option* option) const
 {
-    // The parser adds its checks after a colon; what they say is in our text.
-    const std::string type = option->get_type_name();
-    const std::string value = type.substr(0, type.find(':'));
+    const std::string value = own_part(option->get_type_name());
     return value.empty() ? "" : " " + value;
 }
 

@@ -23,6 +23,11 @@ std::string one_line(std::string_view text)
     return result;
 }
 
+std::string counted(std::size_t count, std::string_view noun)
+{
+    return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
 std::string clock_time(double seconds)
 {
     // A week and more is shown as that; also keeps infinity out of the conversion.

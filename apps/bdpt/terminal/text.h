@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -7,6 +8,9 @@ namespace bdpt::app {
 
 /// `text` without line breaks and with what is not UTF-8 replaced.
 [[nodiscard]] std::string one_line(std::string_view text);
+
+/// "1 light", "2 lights": `noun` has a plural in s.
+[[nodiscard]] std::string counted(std::size_t count, std::string_view noun);
 
 /// Seconds as "1:07" or "2:03:09".
 [[nodiscard]] std::string clock_time(double seconds);

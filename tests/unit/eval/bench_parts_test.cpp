@@ -2,6 +2,7 @@
 #include <bdpt/eval/bench/error_floor.h>
 #include <bdpt/eval/bench/option_names.h>
 #include <bdpt/eval/bench/reference.h>
+#include <bdpt/eval/image/shrunk.h>
 #include <bdpt/eval/report/packed_image.h>
 
 #include "bench/trial.h"

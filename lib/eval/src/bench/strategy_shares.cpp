@@ -1,5 +1,6 @@
 #include "bench/strategy_shares.h"
 
+#include <bdpt/eval/image/shrunk.h>
 #include <bdpt/eval/report/packed_image.h>
 #include <bdpt/render.h>
 

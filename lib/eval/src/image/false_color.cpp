@@ -1,7 +1,6 @@
-#include "image/glyphs.h"
-
 #include <bdpt/eval/image/false_color.h>
 #include <bdpt/eval/image/heat_map.h>
+#include <bdpt/eval/image/pixel_font.h>
 
 #include <algorithm>
 #include <array>
@@ -17,7 +16,6 @@ namespace bdpt::eval {
 namespace {
 
 constexpr Color8 ground{40, 40, 40};
-constexpr Color8 ink{235, 235, 235};
 
 // The strip below the map, from the top [pixels at zoom 1].
 constexpr int bar_top = 4;
@@ -28,7 +26,6 @@ constexpr int strip_height = title_top + glyph_height + 4;
 constexpr int least_width = 160;    // three numbers side by side
 constexpr int width_at_zoom = 640;  // pictures this wide have glyphs of twice the size, and so on
 constexpr int margin = 4;
-constexpr int advance = glyph_width + 1;
 
 class Canvas {
 public:
@@ -51,21 +48,9 @@ public:
                   image_.rgb.begin() + static_cast<std::ptrdiff_t>(index));
     }
 
-    /// Its top left corner at (x, y).
-    void write(std::string_view text, int x, int y, int zoom)
+    void write(std::string_view text, const TextPlace& place)
     {
-        for (const char c : text) {
-            const Glyph& rows = glyph(c);
-            for (int dy = 0; dy < glyph_height * zoom; ++dy) {
-                for (int dx = 0; dx < glyph_width * zoom; ++dx) {
-                    if (rows[static_cast<std::size_t>(dy / zoom)]
-                            [static_cast<std::size_t>(dx / zoom)] == '#') {
-                        set(x + dx, y + dy, ink);
-                    }
-                }
-            }
-            x += advance * zoom;
-        }
+        image_ = with_text(std::move(image_), text, place);
     }
 
     [[nodiscard]] io::DisplayImage take() { return std::move(image_); }
@@ -83,7 +68,7 @@ std::string number_text(double value)
 
 int text_width(std::string_view text, int zoom)
 {
-    return static_cast<int>(text.size()) * advance * zoom;
+    return static_cast<int>(text.size()) * glyph_advance * zoom;
 }
 
 void draw_bar(Canvas& canvas, const std::vector<Color8>& colors, int width, int top, int zoom)
@@ -104,9 +89,9 @@ void draw_numbers(Canvas& canvas, double scale, int width, int top, int zoom)
     const std::string half = number_text(0.5 * scale);
     const std::string full = number_text(scale);
     const int y = top + numbers_top * zoom;
-    canvas.write("0", margin * zoom, y, zoom);
-    canvas.write(half, (width - text_width(half, zoom)) / 2, y, zoom);
-    canvas.write(full, width - margin * zoom - text_width(full, zoom), y, zoom);
+    canvas.write("0", {.x = margin * zoom, .y = y, .dot = zoom});
+    canvas.write(half, {.x = (width - text_width(half, zoom)) / 2, .y = y, .dot = zoom});
+    canvas.write(full, {.x = width - margin * zoom - text_width(full, zoom), .y = y, .dot = zoom});
 }
 
 }  // namespace
@@ -127,7 +112,8 @@ io::DisplayImage false_color(const ErrorMap& map, const FalseColorOptions& optio
     }
     draw_bar(canvas, colors, width, map.height, zoom);
     draw_numbers(canvas, options.scale, width, map.height, zoom);
-    canvas.write(options.title, margin * zoom, map.height + title_top * zoom, zoom);
+    canvas.write(options.title,
+                 {.x = margin * zoom, .y = map.height + title_top * zoom, .dot = zoom});
     return canvas.take();
 }
 

@@ -1,12 +1,13 @@
 #pragma once
 
+#include <bdpt/eval/image/pixel_font.h>
+
 #include <array>
 #include <string_view>
 
 namespace bdpt::eval {
 
-constexpr int glyph_width = 5;  // [pixels]
-constexpr int glyph_height = 7;
+constexpr int glyph_width = 5;  // [dots]
 
 /// Rows of a character, five letters each: '#' is ink. Characters without a picture are blank.
 using Glyph = std::array<std::string_view, glyph_height>;

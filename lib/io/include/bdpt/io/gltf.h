@@ -109,4 +109,10 @@ struct LoadedScene {
 [[nodiscard]] BDPT_EXPORT LoadedScene load_gltf(const std::filesystem::path& file,
                                                 const GltfOptions& options = {});
 
+/// What a file says and holds by its JSON alone, without an index of the scene; also of a file that
+/// `load_gltf` refuses. Throws `Error`, whose message starts with the file's path: not_found, or
+/// invalid_input for what is no glTF document or over a limit.
+[[nodiscard]] BDPT_EXPORT GltfFacts read_gltf_facts(const std::filesystem::path& file,
+                                                    const ReadLimits& limits = {});
+
 }  // namespace bdpt::io

@@ -95,6 +95,30 @@ std::span<const ExtensionSupport> known_extensions()
     return table;
 }
 
+std::vector<ExtensionUse> list_extensions(const JsonPlace& root)
+{
+    std::vector<ExtensionUse> uses;
+    for (const char* list : {"extensionsRequired", "extensionsUsed"}) {
+        if (!root.has(list)) {
+            continue;
+        }
+        const JsonPlace names = root.member(list);
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            const JsonPlace place = names.element(i);
+            if (!place.value().is_string()) {
+                continue;
+            }
+            ExtensionUse use = describe(place);
+            use.required = std::string_view(list) == "extensionsRequired";
+            if (std::none_of(uses.begin(), uses.end(),
+                             [&use](const ExtensionUse& other) { return other.name == use.name; })) {
+                uses.push_back(std::move(use));
+            }
+        }
+    }
+    return uses;
+}
+
 std::vector<ExtensionUse> check_extensions(const JsonPlace& root, LoadContext& context)
 {
     std::vector<ExtensionUse> uses;

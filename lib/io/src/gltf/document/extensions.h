@@ -21,6 +21,9 @@ struct ExtensionSupport {
 /// All extensions that we know. The loader and the reports both go by this table.
 [[nodiscard]] std::span<const ExtensionSupport> known_extensions();
 
+/// The extensions that a document lists, whatever they are; what is no string is left out.
+[[nodiscard]] std::vector<ExtensionUse> list_extensions(const JsonPlace& root);
+
 /// The extensions that a document lists. Throws `Error` (unsupported) for a required one that is
 /// not supported; warns of used ones that are not.
 [[nodiscard]] std::vector<ExtensionUse> check_extensions(const JsonPlace& root,

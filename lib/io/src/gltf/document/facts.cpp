@@ -1,5 +1,9 @@
 #include "gltf/document/facts.h"
 
+#include "file/named_errors.h"
+#include "file/read_file.h"
+#include "gltf/checks/glb.h"
+#include "gltf/document/extensions.h"
 #include "gltf/document/selection.h"
 
 #include <cstddef>
@@ -68,7 +72,7 @@ GltfFacts collect_facts(const CheckedGltf& checked)
     facts.xmp = find_xmp(document);
     if (count(document, "meshes") > 0) {
         for (const Json& mesh : document["meshes"]) {
-            facts.primitives += mesh.at("primitives").size();
+            facts.primitives += count(mesh, "primitives");
         }
     }
     const auto names = [&document](const char* place) {
@@ -82,6 +86,27 @@ GltfFacts collect_facts(const CheckedGltf& checked)
         facts.lights = count((*extensions)["KHR_lights_punctual"], "lights");
     }
     return facts;
+}
+
+GltfFacts read_gltf_facts(const std::filesystem::path& file, const ReadLimits& limits)
+{
+    return with_named_errors(file, [&] {
+        const Bytes bytes = read_file(file, limits.file_bytes);
+        ByteView text = bytes;
+        if (is_glb(bytes)) {
+            LoadContext context{.folder = file.parent_path(), .limits = limits};
+            const GlbChunks::Range json = find_glb_chunks(bytes, context).json;
+            text = text.subspan(json.offset, json.size);
+        }
+        CheckedGltf unchecked;
+        unchecked.document = parse_json(text, limits);
+        const JsonPlace root(unchecked.document);
+        if (!root.has("asset") || !root.member("asset").value().is_object()) {
+            root.fail("not a glTF document: it has no object \"asset\"");
+        }
+        unchecked.extensions = list_extensions(root);
+        return collect_facts(unchecked);
+    });
 }
 
 }  // namespace bdpt::io

@@ -6,7 +6,7 @@
 
 namespace bdpt::io {
 
-/// What a checked document says and holds; without the index of the loaded scene.
+/// What a document says and holds; without the index of the loaded scene. It has an "asset".
 [[nodiscard]] GltfFacts collect_facts(const CheckedGltf& checked);
 
 }  // namespace bdpt::io

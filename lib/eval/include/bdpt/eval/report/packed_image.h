@@ -24,10 +24,6 @@ namespace bdpt::eval {
 /// Bytes, compressed, as base64.
 [[nodiscard]] BDPT_EXPORT std::string packed_bytes(std::span<const std::uint8_t> bytes);
 
-/// The means of squares of `factor` x `factor` pixels; those at the right and lower border may be
-/// smaller.
-[[nodiscard]] BDPT_EXPORT Image shrunk(const Image& image, int factor);
-
 /// The power of two that brings light of `mean` [nit] to about 1/4, so that RGB9E5 holds what is up
 /// to 2^18 times brighter, and 2^13 times darker with all its bits. 1 for darkness.
 [[nodiscard]] BDPT_EXPORT double page_scale(double mean);

@@ -1,6 +1,6 @@
-#include "report/contact_sheet.h"
-
-#include <fmt/core.h>
+#include <bdpt/eval/image/contact_sheet.h>
+#include <bdpt/eval/image/pixel_font.h>
+#include <bdpt/eval/image/shrunk.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -9,9 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include "report/pixel_font.h"
-
-namespace bdpt::app {
+namespace bdpt::eval {
 namespace {
 
 constexpr int longest_side = 160;  // of a picture on the sheet [pixels]
@@ -22,13 +20,13 @@ constexpr std::uint8_t background = 40;
 struct CellShape {
     int shrink_factor;
     int dot;  // of labels
-    Size cell;
+    SheetSize cell;
     [[nodiscard]] int label_height() const { return (glyph_height + 4) * dot; }
 };
 
 std::string label(Strategy strategy)
 {
-    return fmt::format("s{} t{}", strategy.s, strategy.t);
+    return "s" + std::to_string(strategy.s) + " t" + std::to_string(strategy.t);
 }
 
 CellShape shape_of(const StrategyFilm& film)
@@ -61,7 +59,7 @@ void paste(io::DisplayImage& sheet, const io::DisplayImage& picture, SheetPlace 
 
 }  // namespace
 
-PyramidLayout::PyramidLayout(std::span<const Strategy> strategies, Size cell)
+PyramidLayout::PyramidLayout(std::span<const Strategy> strategies, SheetSize cell)
     : cell_(cell),
       leftmost_(strategies.front().s - strategies.front().t),
       shortest_(strategies.front().s + strategies.front().t)
@@ -89,25 +87,6 @@ float extra_exposure(Strategy strategy)
     return static_cast<float>(strategy.s + strategy.t - 2);
 }
 
-Image shrink(const Image& image, int factor)
-{
-    Image result{(image.width + factor - 1) / factor, (image.height + factor - 1) / factor, {}};
-    for (int y = 0; y < image.height; y += factor) {
-        for (int x = 0; x < image.width; x += factor) {
-            const int x_end = std::min(x + factor, image.width);
-            const int y_end = std::min(y + factor, image.height);
-            Rgb sum(0.0f);
-            for (int row = y; row < y_end; ++row) {
-                for (int column = x; column < x_end; ++column) {
-                    sum += image.at(column, row);
-                }
-            }
-            result.pixels.push_back(sum / static_cast<float>((x_end - x) * (y_end - y)));
-        }
-    }
-    return result;
-}
-
 io::DisplayImage contact_sheet(const StrategyFilm& film, float exposure)
 {
     const CellShape shape = shape_of(film);
@@ -133,7 +112,7 @@ io::DisplayImage contact_sheet(const StrategyFilm& film, float exposure)
                               {.x = x, .y = y + 2 * shape.dot, .dot = shape.dot});
             const Image image = group == 0 ? film.weighted(strategy) : film.unweighted(strategy);
             paste(sheet,
-                  io::tone_map(shrink(image, shape.shrink_factor),
+                  io::tone_map(shrunk(image, shape.shrink_factor),
                                exposure + extra_exposure(strategy)),
                   {.x = x, .y = y + shape.label_height()});
         }
@@ -141,4 +120,4 @@ io::DisplayImage contact_sheet(const StrategyFilm& film, float exposure)
     return sheet;
 }
 
-}  // namespace bdpt::app
+}  // namespace bdpt::eval

@@ -1,20 +1,21 @@
 #pragma once
 
+#include <bdpt/export.h>
 #include <bdpt/io/tone_map.h>
 
 #include <string_view>
 
-namespace bdpt::app {
+namespace bdpt::eval {
 
-// A font of 5 x 7 dots with what the labels of contact sheets are made of: digits and some small
-// letters. It depends on no file, so that labels look the same everywhere.
+// A font of 5 x 7 dots with what labels are made of: digits, small letters, and signs of numbers.
+// It depends on no file, so that labels look the same everywhere.
 
 /// Dots from one line's top to its bottom, and from one letter to the next.
 constexpr int glyph_height = 7;
 constexpr int glyph_advance = 6;
 
 /// Is there a glyph for `letter`? All others are drawn as spaces.
-[[nodiscard]] bool has_glyph(char letter);
+[[nodiscard]] BDPT_EXPORT bool has_glyph(char letter);
 
 /// Where and how large a text is drawn.
 struct TextPlace {
@@ -24,7 +25,7 @@ struct TextPlace {
 };
 
 /// `image` with `text` in light grey; what is outside of it is cut off.
-[[nodiscard]] io::DisplayImage with_text(io::DisplayImage image, std::string_view text,
-                                         const TextPlace& place);
+[[nodiscard]] BDPT_EXPORT io::DisplayImage with_text(io::DisplayImage image, std::string_view text,
+                                                     const TextPlace& place);
 
-}  // namespace bdpt::app
+}  // namespace bdpt::eval

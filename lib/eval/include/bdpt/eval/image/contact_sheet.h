@@ -1,14 +1,12 @@
 #pragma once
 
-#include <bdpt/image.h>
+#include <bdpt/export.h>
 #include <bdpt/io/tone_map.h>
 #include <bdpt/strategy_film.h>
 
 #include <span>
 
-#include "options/arguments.h"
-
-namespace bdpt::app {
+namespace bdpt::eval {
 
 /// A corner of something on a sheet [pixels].
 struct SheetPlace {
@@ -17,36 +15,38 @@ struct SheetPlace {
     [[nodiscard]] bool operator==(const SheetPlace&) const = default;
 };
 
+/// Of a cell or a sheet [pixels].
+struct SheetSize {
+    int width = 0;
+    int height = 0;
+};
+
 /// The pyramid in which strategies are shown [Veach 1997, fig. 10.3]: a row for each length of
 /// paths, in it s grows from left to right and t from right to left. Rows are centred, so each cell
 /// is half a cell beside those of the row above.
-class PyramidLayout {
+class BDPT_EXPORT PyramidLayout {
 public:
     /// Room for these, at least one, with equal cells.
-    PyramidLayout(std::span<const Strategy> strategies, Size cell);
+    PyramidLayout(std::span<const Strategy> strategies, SheetSize cell);
 
-    [[nodiscard]] Size size() const { return size_; }
+    [[nodiscard]] SheetSize size() const { return size_; }
     /// Top left corner of the strategy's cell.
     [[nodiscard]] SheetPlace place(Strategy strategy) const;
 
 private:
-    Size cell_;
+    SheetSize cell_;
     int leftmost_;  // s - t
     int shortest_;  // s + t
-    Size size_;
+    SheetSize size_;
 };
 
 /// Exposure [EV] of a strategy's images beyond that of the picture: one stop for each edge after
 /// the first, so that the faint light of long paths can be seen [Veach 1997, fig. 10.3].
-[[nodiscard]] float extra_exposure(Strategy strategy);
-
-/// The means of squares of `factor` x `factor` pixels; those at the right and lower border may be
-/// smaller.
-[[nodiscard]] Image shrink(const Image& image, int factor);
+[[nodiscard]] BDPT_EXPORT float extra_exposure(Strategy strategy);
 
 /// The weighted images of all strategies, below them the unweighted ones, each group as a pyramid
 /// of labelled cells; large images are shrunk. Both have the exposure [EV] of the picture and
 /// `extra_exposure`. `film` is not empty.
-[[nodiscard]] io::DisplayImage contact_sheet(const StrategyFilm& film, float exposure);
+[[nodiscard]] BDPT_EXPORT io::DisplayImage contact_sheet(const StrategyFilm& film, float exposure);
 
-}  // namespace bdpt::app
+}  // namespace bdpt::eval

@@ -1,0 +1,47 @@
+#include "options/film_memory.h"
+
+#include <bdpt/exact_sum.h>
+
+#include <array>
+#include <utility>
+
+namespace bdpt::app {
+namespace {
+
+constexpr std::uint64_t color_sum = 3 * sizeof(ExactSum);
+
+/// Sums of a pixel in an `AovFilm`, and floats of the layer that they are developed to.
+struct AovCost {
+    Aov aov;
+    std::uint64_t sums;  // [bytes]
+    std::uint64_t channels;
+};
+
+constexpr std::array<AovCost, 7> aov_costs{{{Aov::albedo, color_sum, 3},
+                                            {Aov::normal, color_sum, 3},
+                                            {Aov::depth, sizeof(ExactSum), 1},
+                                            {Aov::position, color_sum, 3},
+                                            {Aov::sample_count, 0, 1},
+                                            {Aov::variance, 0, 3},
+                                            {Aov::alpha, sizeof(std::uint64_t), 1}}};
+
+}  // namespace
+
+std::uint64_t film_bytes(const RenderOptions& options, const Size& size)
+{
+    const bool splats =
+        options.integrator == IntegratorKind::bdpt || options.integrator == IntegratorKind::lt;
+    constexpr std::uint64_t halves = 2;
+    std::uint64_t pixel = halves * (splats ? 2 : 1) * color_sum + sizeof(Rgb);
+    for (const AovCost& cost : aov_costs) {
+        if (options.aovs.contains(cost.aov)) {
+            pixel += cost.sums + cost.channels * sizeof(float);
+        }
+    }
+    const PixelRect region =
+        options.crop.value_or(PixelRect{.x0 = 0, .y0 = 0, .x1 = size.width, .y1 = size.height});
+    return pixel * static_cast<std::uint64_t>(region.width()) *
+           static_cast<std::uint64_t>(region.height());
+}
+
+}  // namespace bdpt::app

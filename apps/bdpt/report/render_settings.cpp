@@ -1,0 +1,87 @@
+#include "report/render_settings.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "options/film_arguments.h"
+#include "options/transport_arguments.h"
+#include "report/values.h"
+
+namespace bdpt::app {
+namespace {
+
+using nlohmann::ordered_json;
+
+const char* name_of(SamplerKind sampler)
+{
+    return sampler == SamplerKind::independent ? "independent" : "sobol";
+}
+
+ordered_json view_json(const CameraDesc& camera)
+{
+    ordered_json view{{"camera", camera.name}};
+    if (camera.projection == Projection::orthographic) {
+        view["projection"] = "orthographic";
+        view["vertical_extent"] = camera.vertical_extent;
+        return view;
+    }
+    view["projection"] = "perspective";
+    view["vertical_fov_degrees"] = degrees(camera.vertical_fov);
+    if (camera.lens_radius > 0.0f) {
+        view["lens_radius"] = camera.lens_radius;
+        view["focus_distance"] = camera.focus_distance;
+    }
+    return view;
+}
+
+}  // namespace
+
+ordered_json settings_of(const RenderArguments& arguments, const Stage& stage)
+{
+    const RenderOptions& options = arguments.options;
+    ordered_json settings{{"width", stage.size.width}, {"height", stage.size.height}};
+    settings.update(transport_json(options));
+    settings["sampler"] = name_of(options.sampler);
+    settings["seed"] = options.seed;
+    settings["isa"] = isa_name(stage.scene.isa());
+    settings.update(view_json(stage.camera));
+    settings["environment"] = stage.environment_name;
+    if (arguments.texture_filter == TextureFilter::mip_mapped) {
+        settings["texture_filter"] = "mip";
+    }
+    const FilterOptions& filter = options.filter;
+    settings["filter"] = filter_name(filter.kind);
+    settings["filter_radius"] = filter.radius.value_or(default_radius(filter.kind));
+    if (options.crop) {
+        const PixelRect& crop = *options.crop;
+        settings["crop"] = {crop.x0, crop.y0, crop.x1, crop.y1};
+    }
+    if (std::isfinite(options.clamp)) {
+        settings["clamp"] = options.clamp;
+    }
+    const auto add_word = [&settings](const char* name, const std::optional<std::string>& word) {
+        if (word) {
+            settings[name] = *word;
+        }
+    };
+    add_word("scene", arguments.scene.scene);
+    add_word("variant", arguments.scene.variant);
+    add_word("animation", arguments.scene.animation);
+    if (arguments.scene.time) {
+        settings["frame_time"] = *arguments.scene.time;
+    }
+    if (arguments.scene.shutter) {
+        settings["shutter"] = {arguments.scene.shutter->open, arguments.scene.shutter->close};
+    }
+    if (arguments.goal.samples) {
+        settings["spp"] = *arguments.goal.samples;
+    }
+    if (std::isfinite(arguments.goal.seconds)) {
+        settings["time_limit_seconds"] = arguments.goal.seconds;
+    }
+    return settings;
+}
+
+}  // namespace bdpt::app

@@ -1,0 +1,54 @@
+#include "stage/darkness.h"
+
+#include <bdpt/io/tone_map.h>
+#include <bdpt/render.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace bdpt::app {
+namespace {
+
+constexpr int longest_side = 64;  // [pixels]
+constexpr std::int64_t samples = 8;
+constexpr std::uint8_t black = 16;  // of 255: below it nothing can be told apart
+
+/// A side of the small render [pixels].
+int shrunk(int side, int longest)
+{
+    return std::max(1, static_cast<int>(static_cast<std::int64_t>(side) * longest_side / longest));
+}
+
+}  // namespace
+
+double dark_share(const Stage& stage, RenderOptions options, const std::optional<float>& exposure)
+{
+    const int longest = std::max({stage.size.width, stage.size.height, longest_side});
+    options.integrator = IntegratorKind::bdpt;
+    options.width = shrunk(stage.size.width, longest);
+    options.height = shrunk(stage.size.height, longest);
+    options.crop.reset();
+    options.aovs = AovSet{Aov::alpha};
+    options.samples = {0, samples};
+    options.disabled.clear();
+    options.strategy_depth = 0;
+    const RenderResult result = render(stage.scene, stage.camera, options);
+    const Image image = result.film.develop();
+    const io::DisplayImage shown =
+        io::tone_map(image, exposure.value_or(io::automatic_exposure(image)));
+    const std::vector<float> covered = result.aovs.develop(result.film).at(0).values;
+    int seen = 0;
+    int dark = 0;
+    for (std::size_t i = 0; i < covered.size(); ++i) {
+        if (covered[i] > 0.5f) {
+            const auto pixel = shown.rgb.begin() + static_cast<std::ptrdiff_t>(3 * i);
+            ++seen;
+            dark += *std::max_element(pixel, pixel + 3) < black ? 1 : 0;
+        }
+    }
+    return seen > 0 ? static_cast<double>(dark) / seen : 0.0;
+}
+
+}  // namespace bdpt::app

@@ -1,0 +1,92 @@
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "scene_files.h"
+#include "scratch_folder.h"
+#include "subprocess.h"
+
+namespace bdpt::test {
+namespace {
+
+/// What bdpt says while it renders `scene` small.
+std::string said(const ScratchFolder& folder, const std::filesystem::path& scene,
+                 const std::vector<std::string>& more = {})
+{
+    std::vector<std::string> words{
+        "render", scene.string(), "-o",  (folder / "out.exr").string(), "--spp",
+        "1",      "--size",       "16x8"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome outcome = run(words);
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.exit_code == 0);
+    return outcome.err + outcome.out;
+}
+
+bool contains(const std::string& text, const std::string& part)
+{
+    return text.find(part) != std::string::npos;
+}
+
+const CubeFile one_lamp{
+    .cameras = two_cameras + R"({"extensions": {"KHR_lights_punctual": {"light": 0}},
+                          "translation": [0, 0, 4]},)",
+    .more = R"("extensionsUsed": ["KHR_lights_punctual"],
+        "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 100}]}},)"};
+
+TEST_CASE("the lights that are counted are those of the file and of --env")
+{
+    const ScratchFolder folder;
+    const std::filesystem::path dark = write_cube(folder, "dark", {.cameras = two_cameras});
+    CHECK(contains(said(folder, dark), "12 triangles, 0 lights;"));
+    CHECK(contains(said(folder, dark, {"--env", "default"}), "12 triangles, 1 light;"));
+    CHECK(contains(said(folder, dark, {"--json"}), R"("lights":0)"));
+    CubeFile room = shining_room();
+    room.material = R"({"pbrMetallicRoughness": {"metallicFactor": 0}})";
+    CHECK(contains(said(folder, write_cube(folder, "room", room)), "12 triangles, 0 lights;"));
+    CHECK(contains(said(folder, write_cube(folder, "lamp", one_lamp)), "12 triangles, 1 light;"));
+    const std::filesystem::path bright =
+        write_cube(folder, "bright", {.material = emissive_material, .cameras = two_cameras});
+    CHECK(contains(said(folder, bright), "12 triangles, 12 lights;"));
+}
+
+/// A grey cube, and behind it where the camera sees none of its light a tiny one that shines.
+std::filesystem::path token_emitter(const ScratchFolder& folder)
+{
+    const std::filesystem::path scene = write_cube(folder, "token", {.cameras = two_cameras});
+    nlohmann::json document = nlohmann::json::parse(std::ifstream(scene));
+    nlohmann::json small = document["meshes"][0];
+    small["primitives"][0]["material"] = document["materials"].size();
+    document["materials"].push_back({{"emissiveFactor", {1, 1, 1}}});
+    document["scenes"][0]["nodes"].push_back(document["nodes"].size());
+    document["nodes"].push_back({{"mesh", document["meshes"].size()},
+                                 {"scale", {0.01, 0.01, 0.01}},
+                                 {"translation", {0, 0, -3}}});
+    document["meshes"].push_back(small);
+    write_text(scene, document.dump());
+    return scene;
+}
+
+TEST_CASE("an image without light but for a token emitter is warned of, with what to try")
+{
+    const ScratchFolder folder;
+    const std::filesystem::path scene = token_emitter(folder);
+    const std::string warning = said(folder, scene);
+    CAPTURE(warning);
+    CHECK(contains(warning, "warning: " + scene.string() + ": nearly black"));
+    CHECK(contains(warning, "--env default"));
+    CHECK(contains(said(folder, scene, {"--json"}), "nearly black"));
+    CHECK_FALSE(contains(said(folder, scene, {"--env", "default"}), "nearly black"));
+    CHECK_FALSE(contains(said(folder, scene, {"--env", "none"}), "nearly black"));
+    // The sky behind it is as black, but what is to be seen is bright.
+    const std::filesystem::path bright =
+        write_cube(folder, "bright", {.material = emissive_material, .cameras = two_cameras});
+    CHECK_FALSE(contains(said(folder, bright), "nearly black"));
+    CHECK_FALSE(contains(said(folder, write_cube(folder, "lamp", one_lamp)), "nearly black"));
+}
+
+}  // namespace
+}  // namespace bdpt::test

@@ -196,8 +196,46 @@ TEST_CASE("a shutter blurs, unless it has no length")
     CHECK_FALSE(blurred.image.pixels == still.image.pixels);
     const auto settings = nlohmann::json::parse(blurred.text("bdpt.settings"));
     CHECK(settings["shutter"] == nlohmann::json{-0.4, 0.5});
-    // A camera that the user places stands still, and a shutter alone plays the animation.
-    rendered("placed.exr", {"--shutter", "0.5", "--from", "0,0,6"});
+    // A shutter alone plays the animation from its beginning, before a camera that the user places.
+    const std::vector<std::string> placed{"--from", "0,0,6", "--look-at", "0,0,0"};
+    const auto seen = [&](const std::string& name, std::vector<std::string> words) {
+        words.insert(words.end(), placed.begin(), placed.end());
+        return rendered(name, words).image.pixels;
+    };
+    const auto playing = seen("playing.exr", {"--shutter", "0.5"});
+    CHECK(playing == seen("from.exr", {"--frame-time", "0", "--shutter", "0.5"}));
+    CHECK_FALSE(playing == seen("resting.exr", {"--frame-time", "0"}));
+}
+
+TEST_CASE("a camera that the user places stands still while the file's own moves")
+{
+    const ScratchFolder folder;
+    const std::filesystem::path scene = sliding_cube(folder);
+    // What slides is what carries the first camera.
+    nlohmann::json document = nlohmann::json::parse(std::ifstream(scene));
+    std::size_t camera = 0;
+    while (!document["nodes"][camera].contains("camera")) {
+        ++camera;
+    }
+    const std::size_t carrier = document["nodes"].size();
+    document["nodes"].push_back({{"children", {camera}}});
+    document["animations"][0]["channels"][0]["target"]["node"] = carrier;
+    for (nlohmann::json& root : document["scenes"][0]["nodes"]) {
+        root = root == camera ? carrier : root.get<std::size_t>();
+    }
+    write_text(scene, document.dump());
+    const auto pixels = [&](const std::vector<std::string>& words) {
+        const std::string out = (folder / "out.exr").string();
+        std::vector<std::string> all{"render", scene.string(), "-o",           out, "--spp", "4",
+                                     "--size", "16x8",         "--frame-time", "0"};
+        all.insert(all.end(), words.begin(), words.end());
+        const Outcome outcome = run(all);
+        CAPTURE(words, outcome.err);
+        REQUIRE(outcome.exit_code == 0);
+        return read_exr(out).image.pixels;
+    };
+    CHECK_FALSE(pixels({"--shutter", "0.5"}) == pixels({}));
+    CHECK(pixels({"--shutter", "0.5", "--from", "0,0,6"}) == pixels({"--from", "0,0,6"}));
 }
 
 TEST_CASE("pictures say which part of a file they show, and what the file says about itself")

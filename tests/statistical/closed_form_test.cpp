@@ -2,9 +2,11 @@
 
 #include "catch.hpp"
 #include "equal_means.h"
+#include "furnace.h"
 #include "scene_builder.h"
 
 #include <cmath>
+#include <utility>
 
 namespace bdpt::test {
 namespace {
@@ -58,6 +60,35 @@ TEST_CASE("closed Lambertian furnace: L = Le (1 - a^k) / (1 - a)", "[closed-form
     }
 }
 
+TEST_CASE("roulette keeps the light of dark surfaces", "[closed-form][roulette]")
+{
+    // A closed room that reflects so little that hardly any walk goes on: paths of k edges bring Le
+    // a^(k - 1). The survivors of one decision make all of the picture.
+    const Rgb dark(0.02f, 0.01f, 0.015f);
+    const Scene scene = furnace_sphere(emitted, dark);
+    const CameraDesc camera = camera_at({0.1f, 0.0f, 0.3f}, {0.0f, 0.1f, -1.0f}, 0.9f);
+    for (const auto& [kind, edges] :
+         {std::pair(IntegratorKind::pt, 2), std::pair(IntegratorKind::nee, 3),
+          std::pair(IntegratorKind::mis, 3), std::pair(IntegratorKind::bdpt, 3),
+          std::pair(IntegratorKind::lt, 3)}) {
+        RenderOptions o = options(kind, edges);
+        o.min_depth = edges;
+        o.rr_start = 1;
+        o.light_sampling = LightSampling::power;  // all triangles are as bright
+        Rgb expected = emitted;
+        for (int i = 1; i < edges; ++i) {
+            expected *= dark;
+        }
+        TileMeans means(scene, camera, o);
+        const MeanComparison result =
+            compare_means(means, average(expected), {.detectable_bias = 0.25});
+        INFO("integrator " << static_cast<int>(kind) << ", " << edges
+                           << " edges: " << result.text());
+        CHECK(result.sharp_enough);
+        CHECK(result.equal);
+    }
+}
+
 TEST_CASE("point light: L = albedo I cos / (pi r^2)", "[closed-form]")
 {
     // A small patch right below the light is seen by a narrow camera, so the radiance is constant
@@ -74,7 +105,7 @@ TEST_CASE("point light: L = albedo I cos / (pi r^2)", "[closed-form]")
         const MeanComparison result =
             compare_means(means, average(expected), {.detectable_bias = 0.01, .max_batches = 64});
         INFO("integrator " << static_cast<int>(kind) << ": " << result.text());
-        CHECK(std::abs(result.worst_bias) < 2e-3);
+        CHECK(result.greatest_bias < 2e-3);
     }
 }
 
@@ -92,7 +123,7 @@ TEST_CASE("sun: L = albedo E cos / pi", "[closed-form]")
         const MeanComparison result =
             compare_means(means, average(expected), {.detectable_bias = 0.01, .max_batches = 64});
         INFO("integrator " << static_cast<int>(kind) << ": " << result.text());
-        CHECK(std::abs(result.worst_bias) < 2e-3);
+        CHECK(result.greatest_bias < 2e-3);
     }
 }
 
@@ -109,7 +140,7 @@ TEST_CASE("a clear glass ball in a white furnace is invisible", "[closed-form]")
             compare_means(means, 2.0, {.detectable_bias = 0.01, .max_batches = 256});
         INFO("integrator " << static_cast<int>(kind) << ": " << result.text());
         CHECK(result.sharp_enough);
-        CHECK(std::abs(result.worst_bias) < 2e-3);
+        CHECK(result.greatest_bias < 2e-3);
     }
 }
 

@@ -105,6 +105,23 @@ EqualityCase steep_map(std::string name, MaterialDesc material)
     return result;
 }
 
+/// So many lights that they are chosen by the side of the surface on which a point is: that of the
+/// surface, where it is seen from behind a facet, too.
+EqualityCase steep_map_under_panels()
+{
+    EqualityCase result =
+        steep_map("steep normal map, many lights", plastic({0.8f, 0.5f, 0.3f}, 0.5f));
+    SceneBuilder builder{.desc = std::move(result.scene)};
+    for (int i = 0; i < 4; ++i) {
+        const Vec3 p(i % 2 == 0 ? -0.95f : 0.95f, -0.2f, i < 2 ? -0.4f : 0.4f);
+        const Vec3 z(0.0f, 0.0f, p.x < 0.0f ? 0.3f : -0.3f);
+        const Vec3 y(0.0f, 0.3f, 0.0f);
+        builder.quad(p - y + z, p - y - z, p + y - z, p + y + z, emitter(Rgb(4.0f)));
+    }
+    result.scene = std::move(builder.desc);
+    return result;
+}
+
 /// The map is that of the coat, over a base that has it too.
 EqualityCase steep_coat()
 {
@@ -181,7 +198,8 @@ std::vector<EqualityCase> normal_map_cases()
             steep_map("steep normal map, rough glass", glass(0.5f)),
             std::move(mirror),
             std::move(clear),
-            steep_coat()};
+            steep_coat(),
+            steep_map_under_panels()};
 }
 
 }  // namespace bdpt::test

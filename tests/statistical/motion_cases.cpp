@@ -91,11 +91,30 @@ EqualityCase moving_glass()
             .seen_by_lt = std::nullopt};
 }
 
+/// A plate that leaves for far away at the last step, under a sun, which shines on all that there
+/// is at any time.
+EqualityCase leaving_plate()
+{
+    SceneBuilder builder;
+    builder.quad({-1, -1, 1}, {1, -1, 1}, {1, -1, -1}, {-1, -1, -1}, lambertian(Rgb(0.7f)));
+    builder.quad({-0.5f, 0, 0.5f}, {0.5f, 0, 0.5f}, {0.5f, 0, -0.5f}, {-0.5f, 0, -0.5f},
+                 lambertian({0.7f, 0.5f, 0.3f}));
+    const auto pose = [](float t) { return translation({t > 0.9f ? 4.0f : 0.0f, 0.0f, 0.0f}); };
+    move_last(builder, 2, pose);
+    builder.light(
+        DirectionalLightDesc{.direction = {0.3f, -1.0f, -0.4f}, .illuminance = Rgb(3.0f)});
+    return {.name = "a plate that leaves",
+            .scene = std::move(builder.desc),
+            .camera = camera_at({1.5f, 3.0f, 5.0f}, {1.5f, -0.5f, 0.0f}, 0.8f),
+            .detectable_bias = 0.05,
+            .detectable_bias_of_light_sampling = 0.05};
+}
+
 }  // namespace
 
 std::vector<EqualityCase> motion_cases()
 {
-    return {moving_surfaces(), moving_lights(), moving_glass()};
+    return {moving_surfaces(), moving_lights(), moving_glass(), leaving_plate()};
 }
 
 }  // namespace bdpt::test

@@ -2,9 +2,13 @@
 
 #include "catch.hpp"
 #include "equal_means.h"
+#include "furnace.h"
 #include "moving_scenes.h"
 #include "scene_builder.h"
 
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <iostream>
 #include <string>
@@ -14,7 +18,7 @@ namespace bdpt::test {
 namespace {
 
 /// Surfaces that do not touch each other: where they do, a strategy alone has no finite variance.
-Scene open_stage()
+SceneBuilder open_stage_builder()
 {
     SceneBuilder builder;
     builder.quad({-1, -1, 1}, {1, -1, 1}, {1, -1, -1}, {-1, -1, -1},
@@ -23,7 +27,12 @@ Scene open_stage()
                  {-0.8f, 0.9f, -1.6f}, plastic(Rgb(0.7f), 0.6f));
     builder.sphere({0.1f, -0.2f, 0.1f}, 0.35f, lambertian({0.5f, 0.7f, 0.9f}));
     builder.lamp(1.0f, 1.1f, Rgb(4.0f, 3.5f, 3.0f));
-    return Scene(std::move(builder.desc));
+    return builder;
+}
+
+Scene open_stage()
+{
+    return Scene(std::move(open_stage_builder().desc));
 }
 
 CameraDesc pinhole()
@@ -42,28 +51,36 @@ CameraDesc parallel()
     return in_parallel(pinhole(), 2.6f);
 }
 
-RenderOptions options(IntegratorKind integrator, int min_depth, int max_depth)
-{
-    static std::uint64_t seed = 40000;
-    RenderOptions result;
-    result.integrator = integrator;
-    result.min_depth = min_depth;
-    result.max_depth = max_depth;
-    result.seed = ++seed;
-    return result;
-}
+/// Options of the renders of one test, with a seed each, whatever other tests ran before.
+class Options {
+public:
+    explicit Options(std::uint64_t first_seed) : seed_(first_seed) {}
 
-/// Only the strategy with s light vertices makes paths of `edges` edges.
-RenderOptions only(int s, int edges)
-{
-    RenderOptions result = options(IntegratorKind::bdpt, edges, edges);
-    for (int other = 0; other <= edges + 1; ++other) {
-        if (other != s) {
-            result.disabled.push_back({.s = other, .t = edges + 1 - other});
-        }
+    [[nodiscard]] RenderOptions operator()(IntegratorKind integrator, int min_depth, int max_depth)
+    {
+        RenderOptions result;
+        result.integrator = integrator;
+        result.min_depth = min_depth;
+        result.max_depth = max_depth;
+        result.seed = seed_++;
+        return result;
     }
-    return result;
-}
+
+    /// Only the strategy with s light vertices makes paths of `edges` edges.
+    [[nodiscard]] RenderOptions only(int s, int edges)
+    {
+        RenderOptions result = (*this)(IntegratorKind::bdpt, edges, edges);
+        for (int other = 0; other <= edges + 1; ++other) {
+            if (other != s) {
+                result.disabled.push_back({.s = other, .t = edges + 1 - other});
+            }
+        }
+        return result;
+    }
+
+private:
+    std::uint64_t seed_;
+};
 
 void check_equal(const std::string& what, TileMeans& a, TileMeans& b, double detectable_bias)
 {
@@ -77,12 +94,12 @@ void check_equal(const std::string& what, TileMeans& a, TileMeans& b, double det
 }
 
 /// All strategies for paths of one length against path tracing with both kinds of sampling.
-void check_each_strategy(const Scene& scene, const CameraDesc& camera, int edges, int last_s,
-                         double detectable_bias = 0.06)
+void check_each_strategy(Options& options, const Scene& scene, const CameraDesc& camera, int edges,
+                         int last_s, double detectable_bias = 0.06)
 {
     TileMeans reference(scene, camera, options(IntegratorKind::mis, edges, edges));
     for (int s = 0; s <= last_s; ++s) {
-        TileMeans alone(scene, camera, only(s, edges));
+        TileMeans alone(scene, camera, options.only(s, edges));
         check_equal("s = " + std::to_string(s) + " of " + std::to_string(edges) + " edges",
                     reference, alone, detectable_bias);
     }
@@ -92,14 +109,16 @@ void check_each_strategy(const Scene& scene, const CameraDesc& camera, int edges
 
 TEST_CASE("each strategy alone, pinhole", "[strategies]")
 {
+    Options options(41000);
     const Scene scene = open_stage();
     for (const int edges : {1, 2, 3}) {
-        check_each_strategy(scene, pinhole(), edges, edges);
+        check_each_strategy(options, scene, pinhole(), edges, edges);
     }
 }
 
 TEST_CASE("each strategy alone, many lights", "[strategies][tree]")
 {
+    Options options(42000);
     // The same stage under nine panels, some of which face up or to both sides.
     SceneBuilder builder;
     builder.quad({-1, -1, 1}, {1, -1, 1}, {1, -1, -1}, {-1, -1, -1}, lambertian(Rgb(0.7f)));
@@ -114,26 +133,98 @@ TEST_CASE("each strategy alone, many lights", "[strategies][tree]")
                      p + Vec3(h, 0.0f, 0.38f), p + Vec3(-h, 0.0f, 0.38f), panel);
     }
     const Scene scene(std::move(builder.desc));
-    check_each_strategy(scene, pinhole(), 2, 2, 0.08);
+    check_each_strategy(options, scene, pinhole(), 2, 2, 0.08);
 }
 
 TEST_CASE("each strategy alone, thin lens: t = 0 as well", "[strategies]")
 {
+    Options options(43000);
     const Scene scene = open_stage();
     for (const int edges : {1, 2}) {
-        check_each_strategy(scene, thin_lens(), edges, edges + 1);
+        check_each_strategy(options, scene, thin_lens(), edges, edges + 1);
     }
+}
+
+TEST_CASE("each strategy alone, in a body that absorbs", "[strategies]")
+{
+    // All of the stage and the wide lens are inside: light on its way to a lens that it hits is
+    // absorbed like any other.
+    SceneBuilder builder = open_stage_builder();
+    MaterialDesc tinted = glass(0.0f);
+    tinted.ior = 1.0f;
+    tinted.attenuation_color = {0.4f, 0.6f, 0.8f};
+    tinted.attenuation_distance = 3.0f;
+    builder.cube(Vec3(0.0f), 6.0f, tinted);
+    const Scene scene(std::move(builder.desc));
+    Options options(61000);
+    TileMeans reference(scene, thin_lens(), options(IntegratorKind::mis, 2, 2));
+    for (const int s : {1, 2, 3}) {
+        TileMeans alone(scene, thin_lens(), options.only(s, 2));
+        check_equal("s = " + std::to_string(s) + " of 2 edges", reference, alone, 0.25);
+    }
+}
+
+TEST_CASE("each strategy alone makes long paths as bright as they are", "[strategies]")
+{
+    // In a furnace paths of k edges bring Le a^(k - 1) [nit].
+    const Rgb albedo(0.9f, 0.8f, 0.7f);
+    const Scene scene = furnace_sphere(Rgb(1.0f), albedo);
+    const CameraDesc inside = camera_at({0.1f, 0.0f, 0.3f}, {0.0f, 0.1f, -1.0f}, 0.9f);
+    Options options(62000);
+    for (const int edges : {5, 6}) {
+        double expected = 0.0;
+        for (int c = 0; c < 3; ++c) {
+            expected += std::pow(static_cast<double>(albedo[c]), edges - 1) / 3.0;
+        }
+        // Those with three vertices and more on each side.
+        for (int s = 3; s <= edges - 2; ++s) {
+            RenderOptions only = options.only(s, edges);
+            only.light_sampling = LightSampling::power;  // all triangles are as bright
+            TileMeans alone(scene, inside, only);
+            const MeanComparison result = compare_means(alone, expected, {.detectable_bias = 0.03});
+            INFO("s = " << s << " of " << edges << " edges: " << result.text());
+            CHECK(result.sharp_enough);
+            CHECK(result.equal);
+        }
+    }
+}
+
+TEST_CASE("a join refracts each channel as if there were no other", "[strategies]")
+{
+    // A floor in a rough block of glass, seen from within, under a small lamp, which seems the
+    // farther away the smaller the index is: 1.25 of red, around 1.5.
+    const auto block_under = [](Rgb light, float ior, float dispersion) {
+        MaterialDesc material = glass(0.5f);
+        material.ior = ior;
+        material.dispersion = dispersion;
+        SceneBuilder builder;
+        builder.quad({-0.8f, -0.6f, 0.8f}, {0.8f, -0.6f, 0.8f}, {0.8f, -0.6f, -0.8f},
+                     {-0.8f, -0.6f, -0.8f}, lambertian(Rgb(0.8f)));
+        builder.cube(Vec3(0.0f), 1.0f, material);
+        builder.lamp(1.3f, 0.3f, light);
+        return Scene(std::move(builder.desc));
+    };
+    const CameraDesc within = camera_at({0.0f, 0.3f, 0.6f}, {0.0f, -0.6f, 0.0f}, 0.6f);
+    Options options(63000);
+    const Scene alone = block_under(Rgb(20, 0, 0), 1.25f, 0.0f);
+    const Scene dispersing = block_under(Rgb(20, 0, 0), 1.5f, 20.0f);
+    TileMeans expected(alone, within, options(IntegratorKind::mis, 3, 3));
+    // Joined between the floor and the glass, where only the light path has met it.
+    TileMeans found(dispersing, within, options.only(2, 3));
+    check_equal("s = 2 of 3 edges", expected, found, 0.15);
 }
 
 TEST_CASE("each strategy alone, orthographic", "[strategies]")
 {
+    Options options(44000);
     const Scene scene = open_stage();
-    check_each_strategy(scene, parallel(), 1, 0);
-    check_each_strategy(scene, parallel(), 2, 2);
+    check_each_strategy(options, scene, parallel(), 1, 0);
+    check_each_strategy(options, scene, parallel(), 2, 2);
 }
 
 TEST_CASE("each strategy alone, all of it moving", "[strategies][motion]")
 {
+    Options options(45000);
     SceneBuilder builder;
     builder.quad({-1, -1, 1}, {1, -1, 1}, {1, -1, -1}, {-1, -1, -1},
                  lambertian({0.8f, 0.6f, 0.4f}));
@@ -152,16 +243,17 @@ TEST_CASE("each strategy alone, all of it moving", "[strategies][motion]")
     const Scene scene(std::move(builder.desc));
     const CameraDesc lens = moving(thin_lens());
     constexpr double bias = 0.1;
-    check_each_strategy(scene, lens, 1, 2, bias);
-    check_each_strategy(scene, lens, 2, 2, bias);
+    check_each_strategy(options, scene, lens, 1, 2, bias);
+    check_each_strategy(options, scene, lens, 2, 2, bias);
     TileMeans reference(scene, lens, options(IntegratorKind::mis, 3, 3));
-    TileMeans joined(scene, lens, only(2, 3));
+    TileMeans joined(scene, lens, options.only(2, 3));
     check_equal("s = 2 of 3 edges", reference, joined, bias);
-    check_each_strategy(scene, moving(parallel()), 2, 2, bias);
+    check_each_strategy(options, scene, moving(parallel()), 2, 2, bias);
 }
 
 TEST_CASE("all integrators agree through all cameras", "[strategies]")
 {
+    Options options(46000);
     const Scene scene = open_stage();
     for (const CameraDesc& camera : {pinhole(), thin_lens(), parallel()}) {
         TileMeans mis(scene, camera, options(IntegratorKind::mis, 2, 4));
@@ -176,6 +268,7 @@ TEST_CASE("all integrators agree through all cameras", "[strategies]")
 
 TEST_CASE("light seen directly: s = t = 1 and hits share it", "[strategies]")
 {
+    Options options(47000);
     const Scene scene = open_stage();
     const CameraDesc up = camera_at({0.0f, -0.5f, 0.8f}, {0.0f, 1.0f, 0.0f}, 0.9f);
     TileMeans mis(scene, up, options(IntegratorKind::mis, 1, 1));
@@ -187,6 +280,7 @@ TEST_CASE("light seen directly: s = t = 1 and hits share it", "[strategies]")
 
 TEST_CASE("heuristics, more light paths and roulette change noise only", "[strategies]")
 {
+    Options options(48000);
     const Scene scene = open_stage();
     const CameraDesc camera = thin_lens();
     TileMeans mis(scene, camera, options(IntegratorKind::mis, 1, 4));
@@ -221,6 +315,7 @@ TEST_CASE("heuristics, more light paths and roulette change noise only", "[strat
 
 TEST_CASE("strategies that are left out are made up for by the others", "[strategies]")
 {
+    Options options(49000);
     const Scene scene = open_stage();
     const CameraDesc camera = thin_lens();
     TileMeans mis(scene, camera, options(IntegratorKind::mis, 1, 4));

@@ -37,10 +37,19 @@ MeanComparison compare_cells(const std::function<Cell(std::size_t)>& cell,
     result.critical_z = critical_value(each);
     for (std::size_t i = 0; i < TileMeans::cells; ++i) {
         const Cell c = cell(i);
+        if (!(c.size > 0.0)) {
+            // Where both are black nothing can be found.
+            result.detectable_bias = std::max(result.detectable_bias, 1.0);
+            continue;
+        }
+        result.greatest_bias = std::max(result.greatest_bias, std::abs(c.difference) / c.size);
         if (c.error == 0.0 && c.difference == 0.0) {
             continue;
         }
         const double z = std::abs(c.difference) / std::max(c.error, 1e-7 * c.size);
+        if (z > result.critical_z) {
+            result.found_bias = std::max(result.found_bias, std::abs(c.difference) / c.size);
+        }
         if (z > result.worst_z) {
             result.worst_z = z;
             result.worst_bias = c.difference / c.size;

@@ -29,7 +29,9 @@ struct MeanComparison {
     double worst_bias = 0.0;  ///< relative difference of the tile with the greatest z
     double worst_z = 0.0;     ///< in standard errors
     double critical_z = 0.0;
-    double detectable_bias = 0.0;  ///< of the noisiest tile
+    double found_bias = 0.0;       ///< greatest relative difference of tiles that are not equal
+    double greatest_bias = 0.0;    ///< ... of all tiles
+    double detectable_bias = 0.0;  ///< of the noisiest tile; 1 at least if one is black
     int batches = 0;
 
     [[nodiscard]] std::string text() const;

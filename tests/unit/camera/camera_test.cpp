@@ -78,6 +78,32 @@ TEST_CASE("the top row of the film looks up, and the node's scale does not matte
     CHECK(dot(scaled, plain.generate_ray({1.0f, 2.0f}, Vec2(0.5f)).direction) == Approx(1.0));
 }
 
+TEST_CASE("a node's shear and mirror images do not reach the picture", "[camera]")
+{
+    const CameraDesc desc = test::camera_at({1.0f, 2.0f, 3.0f}, {0.0f, 0.5f, -1.0f}, 0.8f);
+    const Camera plain(desc, 8, 6);
+    // What counts is where the camera looks and what is up for it: columns 2 and 1.
+    Mat4 sheared(1.0f);
+    sheared[0] = Vec4(0.7f, 0.6f, -0.4f, 0.0f);  // right leans up and forwards
+    sheared[1] = Vec4(0.0f, 1.0f, 0.8f, 0.0f);   // up leans back
+    const Mat4 mirrored = glm::scale(Mat4(1.0f), Vec3(-1.0f, 1.0f, 1.0f));
+    for (const Mat4& node : {sheared, mirrored, mirrored * sheared}) {
+        CameraDesc changed = desc;
+        changed.world_from_camera = desc.world_from_camera * node;
+        const Camera camera(changed, 8, 6);
+        // A camera that moves there is the same one.
+        const Camera moved = plain.moved_to(changed.world_from_camera);
+        for (const Vec2 raster : {Vec2(0.0f), Vec2(8.0f, 3.0f), Vec2(4.0f, 6.0f)}) {
+            const Vec3 expected = plain.generate_ray(raster, Vec2(0.5f)).direction;
+            CAPTURE(raster.x, raster.y);
+            CHECK(glm::distance(camera.generate_ray(raster, Vec2(0.5f)).direction, expected) <
+                  1e-5f);
+            CHECK(glm::distance(moved.generate_ray(raster, Vec2(0.5f)).direction, expected) <
+                  1e-5f);
+        }
+    }
+}
+
 TEST_CASE("pixels are as wide as the rays through them are apart", "[camera]")
 {
     CameraDesc desc = test::camera_at({1, 2, 3}, {1, 2, -7}, 0.8f);

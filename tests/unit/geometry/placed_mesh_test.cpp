@@ -106,6 +106,14 @@ TEST_CASE("a pixel covers texture coordinates as the triangle is placed", "[geom
         CHECK(dot(v, v) == Approx(0.1 * 0.1));
         CHECK(dot(u, v) == Approx(0.0).margin(1e-7));
     }
+    // While it grows, a pixel covers less and less of it.
+    InstanceDesc growing;
+    growing.motion = {glm::scale(Mat4(1.0f), Vec3(2.0f))};
+    const PlacedMesh grown(mesh, growing);
+    for (const float time : {0.0f, 0.5f, 1.0f}) {
+        CHECK(grown.uv_footprint(0, 0.1f, time)[0].along.x ==
+              Approx(0.1f / (4.0f * (1.0f + time))));
+    }
     CHECK(doubled.uv_footprint(0, 0.1f)[1].along == Vec2(0.0f));   // no coordinates in set 1
     CHECK(doubled.uv_footprint(2, 0.1f)[0].across == Vec2(0.0f));  // no area
 }

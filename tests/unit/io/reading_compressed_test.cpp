@@ -55,6 +55,15 @@ std::vector<std::array<Corner, 3>> triangles_of(const LoadedScene& loaded)
     return triangles;
 }
 
+/// The same triangles in the same order, to the bit.
+bool same_bits(const std::vector<std::array<Corner, 3>>& a,
+               const std::vector<std::array<Corner, 3>>& b)
+{
+    static_assert(sizeof(Corner) == 12 * sizeof(float));  // nothing but numbers
+    return a.size() == b.size() &&
+           std::memcmp(a.data(), b.data(), a.size() * 3 * sizeof(Corner)) == 0;
+}
+
 Vec3 centre(const std::array<Corner, 3>& t)
 {
     return (t[0].position + t[1].position + t[2].position) / 3.0f;
@@ -326,7 +335,7 @@ TEST_CASE("broken descriptions of compressed data are refused by name")
     }
 }
 
-TEST_CASE("any changed byte of compressed data is an error or another mesh")
+TEST_CASE("any changed byte of compressed data is an error or a mesh, mostly another one")
 {
     for (const char* name : {"wave-draco.glb", "wave-draco-sequential.glb", "wave-meshopt.glb"}) {
         CAPTURE(name);
@@ -335,7 +344,9 @@ TEST_CASE("any changed byte of compressed data is an error or another mesh")
         }
         const Glb sound(name);
         const TempFolder folder;
+        const auto expected = triangles_of(sound.load());
         std::size_t refused = 0;
+        std::size_t equal = 0;
         for (std::size_t i = 0; i < sound.bin.size(); ++i) {
             CAPTURE(i);
             Glb broken = sound;
@@ -348,9 +359,16 @@ TEST_CASE("any changed byte of compressed data is an error or another mesh")
             if (!clean) {
                 FAIL_CHECK(error.what());
             }
-            refused += std::string(error.what()).empty() ? 0U : 1U;
+            if (!std::string(error.what()).empty()) {
+                ++refused;
+            } else if (same_bits(triangles_of(broken.load()), expected)) {
+                ++equal;
+            }
         }
         CHECK(refused > 0);
+        // Some are padding, or of what moves only; what can be seen at rest is not just left out.
+        CAPTURE(equal, refused, sound.bin.size());
+        CHECK(sound.bin.size() - refused - equal > sound.bin.size() / 3);
     }
 }
 

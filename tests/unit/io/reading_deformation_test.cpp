@@ -112,6 +112,18 @@ TEST_CASE("morph targets move texture coordinates and colours")
     const LoadedScene loaded = fixture.load();
     CHECK(only_mesh(loaded).uvs[0][1] == Vec2(1.5f, 1.0f));
     CHECK(only_mesh(loaded).colors[2] == Vec4(0.75f, 0.25f, 0, 1));
+
+    // Each set by displacements of its own.
+    primitive["attributes"]["TEXCOORD_1"] = primitive["attributes"]["TEXCOORD_0"];
+    const std::vector<Vec2> rest{{0, 0}, {1, 0}, {0, 1}};
+    CHECK(only_mesh(fixture.load()).uvs[1] == rest);
+    primitive["targets"][0]["TEXCOORD_1"] =
+        fixture.add_accessor(f32, "VEC2", 3, bytes_of<float>({-4, 8, -4, 8, -4, 8}));
+    const LoadedScene both = fixture.load();
+    CHECK(only_mesh(both).uvs[0][1] == Vec2(1.5f, 1.0f));
+    CHECK(only_mesh(both).uvs[1] == std::vector<Vec2>{{-1, 2}, {0, 2}, {-1, 3}});
+    primitive["targets"][0].erase("TEXCOORD_0");
+    CHECK(only_mesh(fixture.load()).uvs[0] == rest);
 }
 
 TEST_CASE("nodes share a mesh as far as its weights are the same")

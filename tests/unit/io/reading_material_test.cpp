@@ -197,6 +197,26 @@ TEST_CASE("every texture slot finds its picture")
     CHECK(loaded.warnings.empty());
 }
 
+TEST_CASE("a picture of metal and roughness counts if one of its factors does")
+{
+    const auto picture_with = [](float metallic, float roughness) {
+        const LoadedScene loaded = with_textures({{"pbrMetallicRoughness",
+                                                   {{"metallicFactor", metallic},
+                                                    {"roughnessFactor", roughness},
+                                                    {"metallicRoughnessTexture", {{"index", 4}}}}}})
+                                       .load();
+        const MaterialDesc& material = loaded.scene.materials.at(0);
+        CHECK(material.metallic == metallic);
+        CHECK(material.roughness == roughness);
+        return material.metallic_roughness_texture
+                   ? grey_picture(loaded, material.metallic_roughness_texture)
+                   : -1;
+    };
+    CHECK(picture_with(0.0f, 0.5f) == 4);
+    CHECK(picture_with(0.5f, 0.0f) == 4);
+    CHECK(picture_with(0.0f, 0.0f) == -1);
+}
+
 TEST_CASE("pictures without influence are not decoded")
 {
     const LoadedScene loaded =

@@ -236,6 +236,46 @@ TEST_CASE("cameras and lights move with their nodes")
     CHECK(loaded.scene.instances.at(0).motion.empty());
 }
 
+TEST_CASE("cameras and lights start where they are when the shutter opens")
+{
+    GltfFixture fixture = GltfFixture::triangle();
+    fixture.json["cameras"] = {
+        {{"type", "perspective"}, {"perspective", {{"yfov", 0.7}, {"znear", 0.1}}}}};
+    fixture.json["extensionsUsed"] = {"KHR_lights_punctual"};
+    fixture.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "spot"}, {"spot", nlohmann::json::object()}},
+        {{"type", "point"}},
+        {{"type", "directional"}}};
+    fixture.json["nodes"].push_back({{"camera", 0}, {"translation", {0, 0, 2}}});
+    for (int i = 0; i < 3; ++i) {
+        fixture.json["nodes"].push_back({{"extensions", {{"KHR_lights_punctual", {{"light", i}}}}},
+                                         {"translation", {1, 0, 0}}});
+    }
+    fixture.json["nodes"].push_back({{"children", {1, 2, 3, 4}}});
+    fixture.json["scenes"][0]["nodes"] = {0, 5};
+    const float s = std::sqrt(0.5f);
+    animate(fixture, 5, "rotation", {0, 1}, "VEC4", {0, 0, 0, 1, 0, s, 0, s});  // +z goes to +x
+    // At rest, when the shutter opens and when it closes it looks in three directions.
+    const LoadedScene loaded = fixture.load(open_for(0.5, 0.0, 0.5));
+    const Vec3 back(s, 0, s);
+    const auto check = [](Vec3 value, Vec3 expected) {
+        CAPTURE(value.x, value.y, value.z);
+        CHECK(glm::distance(value, expected) < 1e-5f);
+    };
+    REQUIRE(loaded.cameras.size() == 1);
+    REQUIRE_FALSE(loaded.cameras[0].motion.empty());
+    check(Vec3(loaded.cameras[0].world_from_camera[2]), back);
+    check(Vec3(loaded.cameras[0].world_from_camera[3]), 2.0f * back);
+    check(Vec3(loaded.cameras[0].motion.back()[2]), {1, 0, 0});
+    REQUIRE(loaded.scene.lights.size() == 3);
+    const auto& spot = std::get<SpotLightDesc>(loaded.scene.lights[0]);
+    check(spot.position, {s, 0, -s});
+    check(spot.direction, -back);
+    check(spot.turn.back(), {-1, 0, 0});
+    check(std::get<PointLightDesc>(loaded.scene.lights[1]).position, {s, 0, -s});
+    check(std::get<DirectionalLightDesc>(loaded.scene.lights[2]).direction, -back);
+}
+
 TEST_CASE("what has no inverse on its way deforms instead")
 {
     GltfFixture fixture = GltfFixture::triangle();

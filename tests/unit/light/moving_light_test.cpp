@@ -62,13 +62,14 @@ TEST_CASE("densities of lights that move are those of their time", "[motion][lig
 {
     const World world = lights_that_move();
     test::Random random(4);
-    int incident_samples = 0;
-    int emitted_samples = 0;
+    constexpr int least_incident = 20;
     for (std::uint32_t i = 0; i < world.lights().size(); ++i) {
         const Light& light = world.lights()[LightId{i}];
         if (light.is_infinite()) {
             continue;
         }
+        int incident_samples = 0;
+        int emitted_samples = 0;
         for (int k = 0; k < 300; ++k) {
             CAPTURE(i, k);
             const float time = random.next();
@@ -98,21 +99,26 @@ TEST_CASE("densities of lights that move are those of their time", "[motion][lig
                             .epsilon(2e-3));
             }
         }
+        // One-sided triangles and spots light less than half of all points.
+        CAPTURE(i);
+        CHECK(incident_samples >= least_incident);
+        CHECK(emitted_samples == 300);
     }
-    CHECK(incident_samples > 800);
-    CHECK(emitted_samples > 1500);
 }
 
 TEST_CASE("lights that move shine from where they are, by both ways of sampling", "[motion][light]")
 {
     const World world = lights_that_move();
     test::Random random(5);
+    int compared = 0;
     for (std::uint32_t i = 0; i < world.lights().size(); ++i) {
         const Light& light = world.lights()[LightId{i}];
         if (!std::holds_alternative<PunctualLight>(light.model()) &&
-            !std::holds_alternative<DirectionalLight>(light.model())) {
-            continue;
+            !std::holds_alternative<DirectionalLight>(light.model()) &&
+            !std::holds_alternative<ProfileLight>(light.model())) {
+            continue;  // of a surface other points may be sampled
         }
+        ++compared;
         for (const float time : {0.0f, 0.4f, 0.9f}) {
             CAPTURE(i, time);
             const auto emitted = light.sample_emission(random.next_2d(), random.next_2d(), time);
@@ -124,6 +130,7 @@ TEST_CASE("lights that move shine from where they are, by both ways of sampling"
             CHECK(dot(incident->wi, emitted->direction) == Approx(-1.0f));
         }
     }
+    CHECK(compared == 4);  // a point, a spot, a sun and a luminaire
 }
 
 TEST_CASE("the tree of lights loses none of those that move, at any time", "[motion][light][tree]")

@@ -99,6 +99,26 @@ TEST_CASE("no surface with a normal map makes light")
     }
 }
 
+TEST_CASE("whoever chooses lights knows the side of the surface, not that of a normal map's facet")
+{
+    const Vec3 ng = normalize(Vec3{-0.2f, 0.1f, 1.0f});
+    const test::MappedSurface surface({"lambert", {Rgb(0.5f), 0, 0.5f, 0}}, 70.0f * test::degrees,
+                                      ng);
+    test::Random random(88);
+    int behind_facet = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const Vec3 wo = random.direction();
+        if (dot(wo, ng) * wo.z <= 0.0f) {
+            continue;  // behind the interpolated normal nothing scatters
+        }
+        const auto normal = surface.seen_from(wo).opaque_normal();
+        REQUIRE(normal.has_value());
+        CHECK(*normal == (dot(wo, ng) < 0.0f ? -ng : ng));
+        behind_facet += dot(wo, ng) * dot(wo, surface.normal()) < 0.0f ? 1 : 0;
+    }
+    CHECK(behind_facet > 100);
+}
+
 TEST_CASE("walks from both ends see one normal-mapped surface")
 {
     // K*(wo, wi) / |wi.ng| = K(wi, wo) / |wo.ng|: the definition of the adjoint [Veach 1997, sec.

@@ -289,6 +289,24 @@ TEST_CASE("a stop ends the render after a whole pass", "[render]")
     CHECK(film_of(scene, o) == stopped.film);
 }
 
+TEST_CASE("progress counts the samples of its own range", "[render]")
+{
+    const Scene scene = room();
+    RenderOptions o = options(IntegratorKind::pt);
+    o.samples = {.begin = 1000, .end = 1012};
+    std::int64_t done = 0;
+    RenderControl control;
+    control.on_progress = [&](const Progress& progress) {
+        CHECK(progress.samples_total == 12);
+        CHECK(progress.samples_done > done);
+        done = progress.samples_done;
+    };
+    const RenderResult result = render(scene, test::room_camera(), o, control);
+    CHECK(done == 12);
+    CHECK(result.samples.begin == 1000);
+    CHECK(result.samples.end == 1012);
+}
+
 TEST_CASE("what a progress callback throws reaches the caller", "[render]")
 {
     const Scene scene = room();

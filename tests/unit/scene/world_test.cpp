@@ -1,6 +1,7 @@
 #include "scene/world.h"
 
 #include "catch.hpp"
+#include "moving_scenes.h"
 #include "scene_builder.h"
 
 #include <glm/geometric.hpp>
@@ -141,6 +142,69 @@ TEST_CASE("the detail of a mip-mapped texture depends on point and camera, not o
     }
     const auto far = mipped.intersect({.p = {x, 0.01f, 5}}, {0, 0, -1}, {});
     CHECK(far->bsdf.base_color().r == Approx(0.0f).margin(0.01));  // without a camera, all detail
+}
+
+TEST_CASE("the bounds hold all that moves, from the first step to the last", "[world][motion]")
+{
+    // A square that travels, one that deforms, and both at once; out and back, then away.
+    const auto at = [](float t) { return t < 0.5f ? Vec3(-8 * t, 0, 0) : Vec3(0, 0, 10 * t); };
+    for (const bool by_instance : {false, true}) {
+        for (const bool by_vertices : {false, true}) {
+            SceneBuilder builder;
+            builder.quad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0},
+                         test::lambertian(Rgb(0.5f)));
+            if (by_instance) {
+                test::move_last(builder, 4, [&](float t) { return test::translation(at(t)); });
+            }
+            if (by_vertices) {
+                test::deform(builder.desc.meshes[0], 4, [&](Vec3 p, float t) { return p + at(t); });
+            }
+            const float times = (by_instance ? 1.0f : 0.0f) + (by_vertices ? 1.0f : 0.0f);
+            const Bounds bounds = Scene(std::move(builder.desc)).bounds();
+            CAPTURE(by_instance, by_vertices);
+            CHECK(bounds.min == Vec3(-1.0f - 2.0f * times, -1, 0));
+            CHECK(bounds.max == Vec3(1, 1, 10.0f * times));
+        }
+    }
+}
+
+TEST_CASE("the detail of a mip-mapped texture follows a surface that grows", "[world][motion]")
+{
+    // Columns of 0 and 255 in turn, 1 / 32 m wide when the shutter opens and 1 / 8 m when it
+    // closes.
+    constexpr int size = 64;
+    TexelImage stripes{.width = size, .height = size, .bytes = {}, .channels = 1};
+    for (int i = 0; i < size * size; ++i) {
+        stripes.bytes.push_back(i % 2 == 0 ? 0 : 255);
+    }
+    MaterialDesc material = test::lambertian(Rgb(1.0f));
+    material.base_color_texture = TextureRef{};
+    for (const bool by_instance : {false, true}) {
+        SceneBuilder builder;
+        builder.quad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, material);
+        const auto grown = [](float t) { return 1.0f + 3.0f * t; };
+        if (by_instance) {
+            test::move_last(builder, 1, [&](float t) {
+                return glm::scale(Mat4(1.0f), Vec3(grown(t), grown(t), 1.0f));
+            });
+        } else {
+            test::deform(builder.desc.meshes[0], 1, [&](Vec3 p, float t) { return grown(t) * p; });
+        }
+        builder.desc.images.push_back(stripes);
+        builder.desc.texture_filter = TextureFilter::mip_mapped;
+        const World world(std::move(builder.desc));
+        NoProbe probe;
+        for (const float time : {0.0f, 1.0f}) {
+            const PixelCone cone{.eye = {0, 0, 5}, .spread = 0.15f / 5.0f};
+            // The middle of a black column at that time.
+            const Vec3 target(grown(time) / size, 0.01f, 0.0f);
+            const auto hit = world.intersect({.p = {0, 0, 5}}, normalize(target - Vec3(0, 0, 5)),
+                                             {.value = 1, .time = time}, cone, probe);
+            REQUIRE(hit.has_value());
+            CAPTURE(by_instance, time);
+            CHECK(hit->bsdf.base_color().r == Approx(time == 0.0f ? 0.5f : 0.0f).margin(0.01));
+        }
+    }
 }
 
 TEST_CASE("surfaces are met, shaded and hidden as they are at the segment's time",

@@ -46,28 +46,33 @@ Sampler::Sampler(SamplerKind kind, std::uint64_t seed, int x, int y, std::int64_
         split_mix(split_mix(split_mix(seed + golden_ratio_64) ^ pixel) + stream * golden_ratio_64);
 }
 
-void Sampler::fill()
+void Sampler::begin_set()
 {
-    const std::uint64_t a = bits(next_set_, 0);
-    const std::uint64_t b = bits(next_set_, 1);
-    Sobol4 set{low_word(a), high_word(a), low_word(b), high_word(b)};
     if (kind_ == SamplerKind::sobol) {
-        const std::uint32_t order = high_word(bits(next_set_, 2));
-        const Sobol4 point = sobol_table[shuffled(reversed_index_, order)];
-        for (std::size_t d = 0; d < set_size; d += 2) {
-            // Two at once; reversed together they change places.
-            const std::uint64_t pair =
-                reverse_bits(std::uint64_t{permute_upwards(point[d], set[d])} << 32U |
-                             permute_upwards(point[d + 1], set[d + 1]));
-            set[d] = low_word(pair);
-            set[d + 1] = high_word(pair);
-        }
-    }
-    for (std::size_t d = 0; d < set_size; ++d) {
-        set_[d] = to_float(set[d]);
+        shuffled_index_ = shuffled(reversed_index_, high_word(bits(next_set_, 2)));
     }
     ++next_set_;
     next_ = 0;
+    filled_ = 2;
+    fill_pair(0, sobol_table.first_pair(shuffled_index_));
+}
+
+void Sampler::fill_second_pair()
+{
+    filled_ = set_size;
+    fill_pair(2, sobol_table.second_pair(shuffled_index_));
+}
+
+void Sampler::fill_pair(std::size_t first, std::uint64_t point)
+{
+    std::uint64_t pair = bits(next_set_ - 1, first / 2);
+    if (kind_ == SamplerKind::sobol) {
+        // Reversed together the two change places.
+        pair = reverse_bits(std::uint64_t{permute_upwards(low_word(point), low_word(pair))} << 32U |
+                            permute_upwards(high_word(point), high_word(pair)));
+    }
+    set_[first] = to_float(low_word(pair));
+    set_[first + 1] = to_float(high_word(pair));
 }
 
 }  // namespace bdpt

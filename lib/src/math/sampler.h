@@ -15,12 +15,12 @@ namespace bdpt {
 /// What random numbers are for. Each use of each path vertex has dimensions of its own, so that
 /// what one part of a sample consumes cannot shift another.
 enum class SampleUse : std::uint32_t {
-    film,           ///< where in the pixel; at a light vertex: which pixel its splat counts for
-    camera_walk,    ///< at a vertex of the camera subpath: a direction, then a point on a light
-    camera_choice,  ///< at such a vertex: which lobe, which light, whether the walk goes on
-    light_start,    ///< point and direction of the light subpath, then which light
-    light_walk,     ///< at a vertex of the light subpath: direction, lobe, whether it goes on
-    lens,           ///< a lens point: of the camera subpath (0), for a vertex of the light subpath
+    film,         ///< where in the pixel; at a light vertex: which pixel its splat counts for
+    camera_walk,  ///< scattering at a vertex of the camera subpath
+    next_event,   ///< a light point for a vertex of the camera subpath
+    light_start,  ///< of the light subpath: point and choice of the light (0), direction (1)
+    light_walk,   ///< scattering at a vertex of the light subpath
+    lens,         ///< a lens point: of the camera subpath (0), for a vertex of the light subpath
 };
 
 /// Random numbers of one pixel sample, a pure function of (kind, seed, pixel, sample index, use,
@@ -97,19 +97,27 @@ private:
     [[nodiscard]] std::size_t reserve(std::size_t count)
     {
         if (next_ + count > set_size) {
-            fill();
+            begin_set();
+        }
+        if (next_ + count > filled_) {
+            fill_second_pair();
         }
         const std::size_t first = next_;
         next_ += count;
         return first;
     }
 
-    /// Draws the next set.
-    void fill();
+    /// Draws the first pair of the next set, which is often all that is asked for.
+    void begin_set();
+    void fill_second_pair();
+    /// Dimensions `first` and `first` + 1 from coordinates of a point with reversed bits.
+    void fill_pair(std::size_t first, std::uint64_t point);
 
     std::uint64_t key_;
     std::uint64_t next_set_ = 0;  ///< the set in use is the one before
     std::size_t next_ = set_size;
+    std::size_t filled_ = 0;            ///< dimensions of the set in use that have been drawn
+    std::uint32_t shuffled_index_ = 0;  ///< of the point in the order of the set in use
     std::uint32_t reversed_index_ = 0;  ///< of the point in its sequence
     SamplerKind kind_;
     std::array<float, set_size> set_{};

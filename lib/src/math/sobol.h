@@ -98,14 +98,22 @@ public:
         }
     }
 
+    /// Coordinates 0 (low word) and 1.
+    [[nodiscard]] std::uint64_t first_pair(std::uint32_t reversed_index) const
+    {
+        return pair(reversed_index, 0);
+    }
+    /// Coordinates 2 (low word) and 3.
+    [[nodiscard]] std::uint64_t second_pair(std::uint32_t reversed_index) const
+    {
+        return pair(reversed_index, 1);
+    }
     [[nodiscard]] Sobol4 operator[](std::uint32_t reversed_index) const
     {
-        Pairs sum = add({}, reversed_index, groups / 2, groups);
-        if (reversed_index % (1U << 16U) != 0) {  // only beyond 65536 points
-            sum = add(sum, reversed_index, 0, groups / 2);
-        }
-        return {static_cast<std::uint32_t>(sum[0]), static_cast<std::uint32_t>(sum[0] >> 32U),
-                static_cast<std::uint32_t>(sum[1]), static_cast<std::uint32_t>(sum[1] >> 32U)};
+        const std::uint64_t first = first_pair(reversed_index);
+        const std::uint64_t second = second_pair(reversed_index);
+        return {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(first >> 32U),
+                static_cast<std::uint32_t>(second), static_cast<std::uint32_t>(second >> 32U)};
     }
 
 private:
@@ -116,14 +124,19 @@ private:
     static constexpr std::size_t groups = 32 / group_bits;
     static constexpr std::size_t values = std::size_t{1} << group_bits;
 
-    [[nodiscard]] Pairs add(Pairs sum, std::uint32_t reversed_index, std::size_t first,
-                            std::size_t last) const
+    [[nodiscard]] std::uint64_t pair(std::uint32_t reversed_index, std::size_t which) const
+    {
+        std::uint64_t sum = add(0, reversed_index, which, groups / 2, groups);
+        if (reversed_index % (1U << 16U) != 0) {  // only beyond 65536 points
+            sum = add(sum, reversed_index, which, 0, groups / 2);
+        }
+        return sum;
+    }
+    [[nodiscard]] std::uint64_t add(std::uint64_t sum, std::uint32_t reversed_index,
+                                    std::size_t which, std::size_t first, std::size_t last) const
     {
         for (std::size_t group = first; group < last; ++group) {
-            const Pairs& part =
-                points_[group][reversed_index >> (group * group_bits) & (values - 1)];
-            sum[0] ^= part[0];
-            sum[1] ^= part[1];
+            sum ^= points_[group][reversed_index >> (group * group_bits) & (values - 1)][which];
         }
         return sum;
     }

@@ -63,13 +63,11 @@ std::optional<Contribution> connect_to_light(SampleContext& sample,
         return std::nullopt;
     }
     const NextEventSampling sampling = weigher.next_event_sampling();
-    const auto draw_fine = [&] {
-        sampler.start(SampleUse::camera_choice, static_cast<std::uint32_t>(camera.size()));
-        static_cast<void>(sampler.next_1d());  // chose the lobe
-        return sampler.next_fine();
-    };
-    const auto choice = world.lights().choose_for_receiver([&z] { return light_receiver(z); },
-                                                           z.u_light, draw_fine, sampling.lights);
+    sampler.start(SampleUse::next_event, static_cast<std::uint32_t>(camera.size()));
+    const Vec2 u = sampler.next_2d();
+    const auto choice = world.lights().choose_for_receiver(
+        [&z] { return light_receiver(z); }, u, [&sampler] { return sampler.next_fine(); },
+        sampling.lights);
     if (!choice) {
         return std::nullopt;
     }
@@ -129,7 +127,7 @@ std::optional<Splat> connect_light_to_lens(SampleContext& sample, PathWeigher& w
     const Vec2 u_lens = camera.has_finite_lens() ? sampler.next_2d() : Vec2(0.0f);
     // The lens is the receiver; where on it is settled before the light is chosen.
     const SegmentEnd receiver = camera.generate_ray(Vec2(0.0f), u_lens).lens;
-    sampler.start(SampleUse::camera_choice, 1);
+    sampler.start(SampleUse::next_event, 1);
     const Vec2 u = sampler.next_2d();
     const auto choice = world.lights().choose_for_receiver(
         LightReceiver{.p = receiver.p}, u, [&sampler] { return sampler.next_fine(); },

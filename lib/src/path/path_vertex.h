@@ -33,7 +33,6 @@ struct PathVertex {
     float area_per_solid_angle = 1.0f;
     std::optional<LightId> light;
     Vec2 barycentrics{0.0f};  ///< of a point on a triangle light
-    Vec2 u_light{0.0f};       ///< random numbers for next-event estimation from a camera vertex
     VertexKind kind = VertexKind::surface;
     bool connectible = true;       ///< has a lobe that is not delta: strategies can join here
     bool scattered_delta = false;  ///< the walk left through a delta lobe

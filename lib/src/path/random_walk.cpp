@@ -184,13 +184,8 @@ void walk(SampleContext& sample, const Walk& rules, Step step, Subpath& path)
         }
         PathVertex& vertex = path.back();
         Sampler& sampler = sample.sampler;
-        const auto number = static_cast<std::uint32_t>(path.size());
-        sampler.start(rules.use, number);
+        sampler.start(rules.use, static_cast<std::uint32_t>(path.size()));
         const Vec2 u_direction = sampler.next_2d();
-        if (rules.from_camera()) {
-            vertex.u_light = sampler.next_2d();
-            sampler.start(SampleUse::camera_choice, number);
-        }
         const float u_lobe = vertex.bsdf->has_one_lobe() ? 0.0f : sampler.next_1d();
         const auto scattered = vertex.bsdf->sample(u_lobe, u_direction, rules.mode);
         if (!scattered || is_black(scattered->weight)) {
@@ -244,14 +239,14 @@ void trace_light_subpath(SampleContext& sample, const WalkLimits& limits,
     Sampler& sampler = sample.sampler;
     sampler.start(SampleUse::light_start);
     const Vec2 u_position = sampler.next_2d();
-    const Vec2 u_direction = sampler.next_2d();
     const auto choice =
         world.lights().choose_for_emission(u_position, [&sampler] { return sampler.next_fine(); });
     if (!choice || limits.max_vertices < 1) {
         return;
     }
     const Light& light = world.lights()[choice->id];
-    const auto emitted = light.sample_emission(choice->u, u_direction, sample.time);
+    sampler.start(SampleUse::light_start, 1);
+    const auto emitted = light.sample_emission(choice->u, sampler.next_2d(), sample.time);
     if (!emitted || is_black(emitted->weight)) {
         return;
     }

@@ -120,13 +120,12 @@ void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, Contribution
         }
         dispersed = dispersed || point.disperses;
         const auto vertex = static_cast<std::uint32_t>(depth + 1);
-        sampler.start(SampleUse::camera_walk, vertex);
-        const Vec2 u_direction = sampler.next_2d();
         if (point.bsdf.connectible() && depth + 1 >= options_.min_depth) {
             const PhaseScope scope(sample.clock, Phase::connect);
             add({.s = 1, .t = depth + 1}, beta * sample_light(sample, point, depth));
         }
-        sampler.start(SampleUse::camera_choice, vertex);
+        sampler.start(SampleUse::camera_walk, vertex);
+        const Vec2 u_direction = sampler.next_2d();
         const float u_lobe = point.bsdf.has_one_lobe() ? 0.0f : sampler.next_1d();
         const auto scattered = point.bsdf.sample(u_lobe, u_direction, TransportMode::radiance);
         if (!scattered || is_black(scattered->weight)) {
@@ -205,12 +204,9 @@ Rgb PathIntegrator::emission(const Ray& ray, LightId light, const LightPoint& hi
 Rgb PathIntegrator::sample_light(SampleContext& sample, const SurfacePoint& point, int depth) const
 {
     Sampler& sampler = sample.sampler;
+    sampler.start(SampleUse::next_event, static_cast<std::uint32_t>(depth + 1));
     const Vec2 u = sampler.next_2d();
-    const auto draw_fine = [&] {
-        sampler.start(SampleUse::camera_choice, static_cast<std::uint32_t>(depth + 1));
-        static_cast<void>(sampler.next_1d());  // chooses the lobe
-        return sampler.next_fine();
-    };
+    const auto draw_fine = [&sampler] { return sampler.next_fine(); };
     const auto receiver = [&point] {
         return LightReceiver{.p = point.end.p, .normal = point.bsdf.opaque_normal()};
     };

@@ -24,15 +24,15 @@ struct Choice {
 constexpr std::array choices{
     Choice{"sampler", "independent", "sobol",
            [](RenderOptions& options, bool better) {
-               options.sampler = better ? SamplerKind::sobol : SamplerKind::independent;
+               options.sampling.sampler = better ? SamplerKind::sobol : SamplerKind::independent;
            }},
     Choice{"environment", "plain", "compensated",
            [](RenderOptions& options, bool better) {
-               options.environment_sampling =
+               options.sampling.environment =
                    better ? EnvironmentSampling::compensated : EnvironmentSampling::plain;
            }},
     Choice{"lights", "power", "tree", [](RenderOptions& options, bool better) {
-               options.light_sampling = better ? LightSampling::tree : LightSampling::power;
+               options.sampling.lights = better ? LightSampling::tree : LightSampling::power;
            }}};
 
 struct Settings {

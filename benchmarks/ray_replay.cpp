@@ -37,7 +37,8 @@ void print(const Subject& subject, const RenderOptions& options, const RayThroug
         subject.name.c_str(),
         static_cast<unsigned long long>(subject.scene.counts().instanced_triangles), 1e-6 * rays,
         100.0 * static_cast<double>(result.totals.closest) / rays,
-        rays / static_cast<double>(options.samples.end * options.width * options.height));
+        rays / static_cast<double>(options.sampling.samples.end * options.film.width *
+                                   options.film.height));
     std::printf("  M rays a CPU second: bdpt %.2f, Embree alone %.2f; ratio %.3f\n",
                 1e-6 * result.bdpt, 1e-6 * result.embree, result.ratio);
     if (loop) {
@@ -65,7 +66,7 @@ bool measure(const std::string& file, const Settings& settings)
 {
     const Subject subject = load_subject(file, settings.subject);
     RenderOptions options = subject.options;
-    options.samples.end = settings.samples;
+    options.sampling.samples.end = settings.samples;
     const RayLogs logs = record_rays(subject, options);
     const RayThroughput result = measure_throughput(subject, options, logs, settings.rounds);
     std::optional<LoopThroughput> loop;

@@ -52,10 +52,10 @@ Subject load_subject(const std::string& file, const SubjectSettings& settings)
     const CameraDesc camera =
         loaded.cameras.empty() ? frame_scene(scene, 1.0f).camera : loaded.cameras.front();
     RenderOptions options;
-    options.width = settings.size;
-    options.height = settings.size;
-    options.max_depth = settings.max_depth;
-    options.threads = settings.threads;
+    options.film.width = settings.size;
+    options.film.height = settings.size;
+    options.transport.max_depth = settings.max_depth;
+    options.system.threads = settings.threads;
     return {std::move(name), std::move(scene), camera, options};
 }
 
@@ -65,14 +65,14 @@ eval::BenchScene Subject::bench_scene() const
             .file = name,
             .scene = scene,
             .camera = camera,
-            .width = options.width,
-            .height = options.height};
+            .width = options.film.width,
+            .height = options.film.height};
 }
 
 eval::Reference make_reference(const Subject& subject, std::int64_t samples)
 {
     RenderOptions options = subject.options;
-    options.threads = 0;
+    options.system.threads = 0;
     eval::Reference reference = eval::render_reference(subject.bench_scene(), options, samples);
     std::printf("%s: reference by %s: relMSE about %.1e\n", subject.name.c_str(),
                 reference.origin.c_str(), reference.noise);

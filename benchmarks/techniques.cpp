@@ -23,7 +23,7 @@ struct Settings {
 std::vector<Strategy> splats(const RenderOptions& options)
 {
     std::vector<Strategy> result;
-    for (int vertices = 2; vertices <= options.max_depth + 1; ++vertices) {
+    for (int vertices = 2; vertices <= options.transport.max_depth + 1; ++vertices) {
         result.push_back({.s = vertices, .t = 0});
         result.push_back({.s = vertices - 1, .t = 1});
     }
@@ -37,14 +37,14 @@ std::vector<eval::Variant> variants_of(const RenderOptions& defaults)
         variants.push_back({name, defaults});
         return variants.back().options;
     };
-    add("no splats (t <= 1)").disabled = splats(defaults);
-    add("uniform weights").heuristic = Heuristic::uniform;
-    add("balance weights").heuristic = Heuristic::balance;
+    add("no splats (t <= 1)").bidirectional.disabled = splats(defaults);
+    add("uniform weights").transport.heuristic = Heuristic::uniform;
+    add("balance weights").transport.heuristic = Heuristic::balance;
     for (const int edges : {2, 3, 5}) {
-        add("roulette from edge " + std::to_string(edges)).rr_start = edges;
+        add("roulette from edge " + std::to_string(edges)).transport.rr_start = edges;
     }
     for (const int paths : {2, 4}) {
-        add(std::to_string(paths) + " light paths").light_paths = paths;
+        add(std::to_string(paths) + " light paths").bidirectional.light_paths = paths;
     }
     return variants;
 }

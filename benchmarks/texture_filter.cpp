@@ -100,10 +100,10 @@ Subject make_subject(std::string name, SceneDesc desc, const CameraDesc& camera,
                      const Settings& settings)
 {
     RenderOptions options;
-    options.width = settings.subject.size;
-    options.height = settings.subject.size;
-    options.max_depth = settings.subject.max_depth;
-    options.threads = settings.subject.threads;
+    options.film.width = settings.subject.size;
+    options.film.height = settings.subject.size;
+    options.transport.max_depth = settings.subject.max_depth;
+    options.system.threads = settings.subject.threads;
     return {std::move(name), Scene(std::move(desc)), camera, options};
 }
 

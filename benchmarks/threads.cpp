@@ -25,9 +25,9 @@ void measure(const Settings& settings)
     const Subject subject = load_subject(settings.scene, settings.subject);
     const std::array threads{1, settings.subject.threads};
     RenderOptions options = subject.options;
-    options.samples.end = settings.samples;
+    options.sampling.samples.end = settings.samples;
     const auto seconds = in_turn(threads.size(), settings.rounds, [&](std::size_t v, int) {
-        options.threads = threads[v];
+        options.system.threads = threads[v];
         return render(subject.scene, subject.camera, options).seconds;
     });
     std::printf("%s: 1 thread %.3f s, %d threads %.3f s: %.3f times as fast\n",

@@ -217,33 +217,33 @@ namespace {
 TEST_CASE("images of strategies are made of as long paths as memory is allowed for")
 {
     RenderOptions options;
-    options.width = 100;
-    options.height = 10;
+    options.film.width = 100;
+    options.film.height = 10;
     const CameraDesc camera;
     StrategyFiles files{.layers = "a.exr", .sheet = "a.png", .depth = {}};
     constexpr std::uint64_t of_one = 1000 * 120;  // strategy
     CHECK(strategy_depth(files, options, camera).edges == 5);
     CHECK_FALSE(strategy_depth(files, options, camera).warning);
-    options.strategy_memory = 20 * of_one;
+    options.bidirectional.strategy_memory = 20 * of_one;
     CHECK_FALSE(strategy_depth(files, options, camera).warning);
-    --options.strategy_memory;
+    --options.bidirectional.strategy_memory;
     CHECK(strategy_depth(files, options, camera).edges == 4);
-    options.strategy_memory = 14 * of_one - 1;
+    options.bidirectional.strategy_memory = 14 * of_one - 1;
     const StrategyDepth less = strategy_depth(files, options, camera);
     CHECK(less.edges == 3);
     CHECK(less.warning.value_or("").find("--strategy-depth") != std::string::npos);
-    options.strategy_memory = 2 * of_one;
+    options.bidirectional.strategy_memory = 2 * of_one;
     CHECK(strategy_depth(files, options, camera).edges == 1);
-    --options.strategy_memory;
+    --options.bidirectional.strategy_memory;
     CHECK_THROWS_AS(strategy_depth(files, options, camera), Error);
 
     // What the user chose is done or refused, but for paths that there are not.
-    options.strategy_memory = 14 * of_one;
+    options.bidirectional.strategy_memory = 14 * of_one;
     files.depth = 4;
     CHECK(strategy_depth(files, options, camera).edges == 4);
     files.depth = 5;
     CHECK_THROWS_AS(strategy_depth(files, options, camera), Error);
-    options.max_depth = 3;
+    options.transport.max_depth = 3;
     files.depth = 100;
     CHECK(strategy_depth(files, options, camera).edges == 3);
     CHECK_FALSE(strategy_depth(files, options, camera).warning);

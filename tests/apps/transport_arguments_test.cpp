@@ -38,16 +38,16 @@ TEST_CASE("words about transport become options")
     words.disabled = "s3t0";
     const RenderOptions options = with_transport(words, {});
     CHECK(options.integrator == IntegratorKind::lt);
-    CHECK(options.heuristic == Heuristic::cutoff);
-    CHECK(options.max_depth == 5);
-    CHECK(options.min_depth == 1);
-    CHECK(options.max_camera_depth == 3);
-    CHECK(options.max_light_depth == 0);
-    CHECK(options.light_paths == 2);
-    CHECK(options.rr_start == 4);
-    CHECK(options.environment_sampling == EnvironmentSampling::plain);
-    CHECK(options.light_sampling == LightSampling::tree);
-    CHECK(options.disabled == std::vector{Strategy{3, 0}});
+    CHECK(options.transport.heuristic == Heuristic::cutoff);
+    CHECK(options.transport.max_depth == 5);
+    CHECK(options.transport.min_depth == 1);
+    CHECK(options.bidirectional.max_camera_depth == 3);
+    CHECK(options.bidirectional.max_light_depth == 0);
+    CHECK(options.bidirectional.light_paths == 2);
+    CHECK(options.transport.rr_start == 4);
+    CHECK(options.sampling.environment == EnvironmentSampling::plain);
+    CHECK(options.sampling.lights == LightSampling::tree);
+    CHECK(options.bidirectional.disabled == std::vector{Strategy{3, 0}});
     const auto json = transport_json(options);
     CHECK(json == nlohmann::ordered_json::parse(R"({"integrator": "lt", "heuristic": "cutoff",
         "environment_sampling": "plain", "light_sampling": "tree",
@@ -59,15 +59,15 @@ TEST_CASE("direct and indirect light share the lengths of paths")
 {
     TransportWords words;
     words.only = "direct";
-    CHECK(with_transport(words, {}).max_depth == 2);
-    CHECK(with_transport(words, {}).min_depth == 1);
+    CHECK(with_transport(words, {}).transport.max_depth == 2);
+    CHECK(with_transport(words, {}).transport.min_depth == 1);
     words.max_depth = 1;
-    CHECK(with_transport(words, {}).max_depth == 1);
+    CHECK(with_transport(words, {}).transport.max_depth == 1);
     words.only = "indirect";
     CHECK_THROWS_AS(with_transport(words, {}), Error);
     words.max_depth = 3;
-    CHECK(with_transport(words, {}).max_depth == 3);
-    CHECK(with_transport(words, {}).min_depth == 3);
+    CHECK(with_transport(words, {}).transport.max_depth == 3);
+    CHECK(with_transport(words, {}).transport.min_depth == 3);
 }
 
 }  // namespace

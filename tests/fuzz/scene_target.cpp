@@ -35,11 +35,11 @@ void render_four(io::LoadedScene loaded)
     const CameraDesc camera =
         loaded.cameras.empty() ? frame_scene(scene, 1.0f).camera : loaded.cameras.front();
     RenderOptions options;
-    options.width = 2;
-    options.height = 2;
-    options.samples = {0, 1};
-    options.max_depth = 4;
-    options.threads = 1;
+    options.film.width = 2;
+    options.film.height = 2;
+    options.sampling.samples = {0, 1};
+    options.transport.max_depth = 4;
+    options.system.threads = 1;
     const Image image = render(scene, camera, options).film.develop();
     for (const Rgb& pixel : image.pixels) {
         for (int c = 0; c < 3; ++c) {

@@ -14,8 +14,8 @@ RenderOptions options(IntegratorKind integrator, int max_depth, std::uint64_t se
 {
     RenderOptions result;
     result.integrator = integrator;
-    result.max_depth = max_depth;
-    result.seed = seed;
+    result.transport.max_depth = max_depth;
+    result.sampling.seed = seed;
     return result;
 }
 

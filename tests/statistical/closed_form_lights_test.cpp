@@ -19,7 +19,7 @@ void check_irradiance(SceneBuilder builder, double irradiance)
     for (const auto kind : {IntegratorKind::pt, IntegratorKind::mis, IntegratorKind::bdpt}) {
         RenderOptions options;
         options.integrator = kind;
-        options.max_depth = 2;
+        options.transport.max_depth = 2;
         TileMeans means(scene, camera, options);
         // Without light sampling most samples miss the light.
         const double bias = kind == IntegratorKind::pt ? 0.03 : 0.01;

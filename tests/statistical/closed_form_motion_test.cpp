@@ -36,7 +36,7 @@ void check_irradiance(SceneBuilder builder, const std::function<double(double)>&
          {IntegratorKind::pt, IntegratorKind::nee, IntegratorKind::mis, IntegratorKind::bdpt}) {
         RenderOptions options;
         options.integrator = kind;
-        options.max_depth = 2;
+        options.transport.max_depth = 2;
         TileMeans means(scene, camera, options);
         const double bias = kind == IntegratorKind::pt ? 0.03 : detectable_bias;
         const MeanComparison result = compare_means(means, expected, {.detectable_bias = bias});

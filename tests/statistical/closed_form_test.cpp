@@ -23,7 +23,7 @@ RenderOptions options(IntegratorKind integrator, int max_depth)
 {
     RenderOptions result;
     result.integrator = integrator;
-    result.max_depth = max_depth;
+    result.transport.max_depth = max_depth;
     return result;
 }
 
@@ -72,9 +72,9 @@ TEST_CASE("roulette keeps the light of dark surfaces", "[closed-form][roulette]"
           std::pair(IntegratorKind::mis, 3), std::pair(IntegratorKind::bdpt, 3),
           std::pair(IntegratorKind::lt, 3)}) {
         RenderOptions o = options(kind, edges);
-        o.min_depth = edges;
-        o.rr_start = 1;
-        o.light_sampling = LightSampling::power;  // all triangles are as bright
+        o.transport.min_depth = edges;
+        o.transport.rr_start = 1;
+        o.sampling.lights = LightSampling::power;  // all triangles are as bright
         Rgb expected = emitted;
         for (int i = 1; i < edges; ++i) {
             expected *= dark;

@@ -25,7 +25,7 @@ TileMeans means_of(const Scene& scene)
 {
     RenderOptions options;
     options.integrator = IntegratorKind::pt;
-    options.max_depth = 1;
+    options.transport.max_depth = 1;
     return {scene, camera_at({0.0f, 0.0f, 5.0f}, {0.0f, 0.0f, 0.0f}, 0.5f), options};
 }
 

@@ -20,8 +20,8 @@ RenderOptions options(const EqualityCase& test, IntegratorKind integrator, std::
 {
     RenderOptions result;
     result.integrator = integrator;
-    result.max_depth = test.max_depth;
-    result.seed = seed;
+    result.transport.max_depth = test.max_depth;
+    result.sampling.seed = seed;
     return result;
 }
 
@@ -46,14 +46,14 @@ void check_light_tracing(const EqualityCase& test, const Scene& scene, TileMeans
         return;
     }
     RenderOptions seen = options(test, IntegratorKind::lt, first_seed);
-    seen.min_depth = *test.seen_by_lt;
+    seen.transport.min_depth = *test.seen_by_lt;
     TileMeans lt(scene, test.camera, seen);
-    if (seen.min_depth == 1) {
+    if (seen.transport.min_depth == 1) {
         check_equal(test, "mis = lt", mis, lt, test.detectable_bias_of_light_sampling);
         return;
     }
     RenderOptions part = options(test, IntegratorKind::mis, first_seed + 1);
-    part.min_depth = seen.min_depth;
+    part.transport.min_depth = seen.transport.min_depth;
     TileMeans mis_part(scene, test.camera, part);
     check_equal(test, "mis = lt", mis_part, lt, test.detectable_bias_of_light_sampling);
 }
@@ -68,7 +68,7 @@ void check_case(const EqualityCase& test, std::uint64_t first_seed)
     check_equal(test, "pt = mis", pt, mis);
     check_equal(test, "mis = bdpt", mis, bdpt);
     RenderOptions balance = options(test, IntegratorKind::bdpt, first_seed + 4);
-    balance.heuristic = Heuristic::balance;
+    balance.transport.heuristic = Heuristic::balance;
     TileMeans bdpt_balance(scene, test.camera, balance);
     check_equal(test, "mis = bdpt (balance)", mis, bdpt_balance);
     TileMeans nee(scene, test.camera, options(test, IntegratorKind::nee, first_seed + 5));
@@ -166,9 +166,9 @@ TEST_CASE("a tree of lights changes noise only", "[equality][tree]")
         const Scene scene(test.scene);
         for (const auto kind : {IntegratorKind::mis, IntegratorKind::bdpt}) {
             RenderOptions power = options(test, kind, ++seed);
-            power.light_sampling = LightSampling::power;
+            power.sampling.lights = LightSampling::power;
             RenderOptions tree = options(test, kind, ++seed);
-            tree.light_sampling = LightSampling::tree;
+            tree.sampling.lights = LightSampling::tree;
             TileMeans by_power(scene, test.camera, power);
             TileMeans by_tree(scene, test.camera, tree);
             check_equal(test, "power = tree", by_power, by_tree);
@@ -197,7 +197,7 @@ TEST_CASE("several light paths have the time of their sample", "[equality][motio
     const Scene scene(test.scene);
     TileMeans mis(scene, test.camera, options(test, IntegratorKind::mis, 410001));
     RenderOptions three_light_paths = options(test, IntegratorKind::bdpt, 410002);
-    three_light_paths.light_paths = 3;
+    three_light_paths.bidirectional.light_paths = 3;
     TileMeans bdpt(scene, test.camera, three_light_paths);
     check_equal(test, "mis = bdpt, three light paths", mis, bdpt);
 }
@@ -265,7 +265,7 @@ TEST_CASE("each channel refracts as if there were no other", "[equality][layers]
     TileMeans expected(alone, test.camera, options(test, IntegratorKind::mis, 8001));
     TileMeans mis(dispersing, test.camera, options(test, IntegratorKind::mis, 8002));
     RenderOptions two_light_paths = options(test, IntegratorKind::bdpt, 8003);
-    two_light_paths.light_paths = 2;  // both of the colour of their sample
+    two_light_paths.bidirectional.light_paths = 2;  // both of the colour of their sample
     TileMeans bdpt(dispersing, test.camera, two_light_paths);
     check_equal(test, "no dispersion = mis", expected, mis);
     check_equal(test, "no dispersion = bdpt", expected, bdpt);
@@ -285,8 +285,8 @@ TEST_CASE("mis and bdpt agree through every pixel filter", "[equality][filter]")
                                        {.kind = FilterKind::blackman_harris, .radius = 6.0f}}) {
         RenderOptions mis_options = options(test, IntegratorKind::mis, ++seed);
         RenderOptions bdpt_options = options(test, IntegratorKind::bdpt, ++seed);
-        mis_options.filter = filter;
-        bdpt_options.filter = filter;
+        mis_options.film.filter = filter;
+        bdpt_options.film.filter = filter;
         TileMeans mis(scene, test.camera, mis_options);
         TileMeans bdpt(scene, test.camera, bdpt_options);
         check_equal(test, "mis = bdpt, filtered", mis, bdpt);

@@ -60,9 +60,9 @@ public:
     {
         RenderOptions result;
         result.integrator = integrator;
-        result.min_depth = min_depth;
-        result.max_depth = max_depth;
-        result.seed = seed_++;
+        result.transport.min_depth = min_depth;
+        result.transport.max_depth = max_depth;
+        result.sampling.seed = seed_++;
         return result;
     }
 
@@ -72,7 +72,7 @@ public:
         RenderOptions result = (*this)(IntegratorKind::bdpt, edges, edges);
         for (int other = 0; other <= edges + 1; ++other) {
             if (other != s) {
-                result.disabled.push_back({.s = other, .t = edges + 1 - other});
+                result.bidirectional.disabled.push_back({.s = other, .t = edges + 1 - other});
             }
         }
         return result;
@@ -179,7 +179,7 @@ TEST_CASE("each strategy alone makes long paths as bright as they are", "[strate
         // Those with three vertices and more on each side.
         for (int s = 3; s <= edges - 2; ++s) {
             RenderOptions only = options.only(s, edges);
-            only.light_sampling = LightSampling::power;  // all triangles are as bright
+            only.sampling.lights = LightSampling::power;  // all triangles are as bright
             TileMeans alone(scene, inside, only);
             const MeanComparison result = compare_means(alone, expected, {.detectable_bias = 0.03});
             INFO("s = " << s << " of " << edges << " edges: " << result.text());
@@ -287,26 +287,26 @@ TEST_CASE("heuristics, more light paths and roulette change noise only", "[strat
     for (const auto heuristic :
          {Heuristic::balance, Heuristic::cutoff, Heuristic::maximum, Heuristic::uniform}) {
         RenderOptions with = options(IntegratorKind::bdpt, 1, 4);
-        with.heuristic = heuristic;
+        with.transport.heuristic = heuristic;
         // Equal shares take the worst strategies as seriously as the best.
         const double sharpness = heuristic == Heuristic::uniform ? 0.06 : 0.03;
         TileMeans bdpt(scene, camera, with);
         check_equal("bdpt, heuristic " + std::to_string(static_cast<int>(heuristic)), mis, bdpt,
                     sharpness);
         with.integrator = IntegratorKind::mis;
-        with.seed += 500;
+        with.sampling.seed += 500;
         TileMeans path(scene, camera, with);
         check_equal("mis, heuristic " + std::to_string(static_cast<int>(heuristic)), mis, path,
                     sharpness);
     }
     RenderOptions many = options(IntegratorKind::bdpt, 1, 4);
-    many.light_paths = 3;
+    many.bidirectional.light_paths = 3;
     TileMeans three(scene, camera, many);
     check_equal("three light paths", mis, three, 0.03);
     for (const auto kind : {IntegratorKind::bdpt, IntegratorKind::mis, IntegratorKind::lt}) {
         RenderOptions roulette = options(kind, kind == IntegratorKind::lt ? 2 : 1, 4);
-        RenderOptions without = options(IntegratorKind::mis, roulette.min_depth, 4);
-        roulette.rr_start = 1;
+        RenderOptions without = options(IntegratorKind::mis, roulette.transport.min_depth, 4);
+        roulette.transport.rr_start = 1;
         TileMeans ended(scene, camera, roulette);
         TileMeans reference(scene, camera, without);
         check_equal("roulette", reference, ended, 0.03);
@@ -320,16 +320,17 @@ TEST_CASE("strategies that are left out are made up for by the others", "[strate
     const CameraDesc camera = thin_lens();
     TileMeans mis(scene, camera, options(IntegratorKind::mis, 1, 4));
     RenderOptions fewer = options(IntegratorKind::bdpt, 1, 4);
-    fewer.disabled = {{.s = 1, .t = 2}, {.s = 2, .t = 1}, {.s = 0, .t = 4}, {.s = 1, .t = 1}};
+    fewer.bidirectional.disabled = {
+        {.s = 1, .t = 2}, {.s = 2, .t = 1}, {.s = 0, .t = 4}, {.s = 1, .t = 1}};
     TileMeans without(scene, camera, fewer);
     check_equal("four strategies left out", mis, without, 0.03);
     RenderOptions shallow = options(IntegratorKind::bdpt, 1, 4);
-    shallow.max_camera_depth = 3;
-    shallow.max_light_depth = 1;
+    shallow.bidirectional.max_camera_depth = 3;
+    shallow.bidirectional.max_light_depth = 1;
     TileMeans limited(scene, camera, shallow);
     check_equal("short subpaths", mis, limited, 0.03);
     RenderOptions no_light_paths = options(IntegratorKind::bdpt, 1, 4);
-    no_light_paths.max_light_depth = 0;
+    no_light_paths.bidirectional.max_light_depth = 0;
     TileMeans path_tracing(scene, camera, no_light_paths);
     check_equal("no light paths", mis, path_tracing, 0.03);
 }

@@ -96,19 +96,19 @@ TileMeans::TileMeans(const Scene& scene, const CameraDesc& camera, RenderOptions
                      SamplerKind sampler)
     : scene_(scene), camera_(camera), options_(options)
 {
-    options_.sampler = sampler;
-    options_.width = side;
-    options_.height = side;
+    options_.sampling.sampler = sampler;
+    options_.film.width = side;
+    options_.film.height = side;
 }
 
 RenderOptions TileMeans::options_of_batch(int batch) const
 {
     RenderOptions options = options_;
-    if (options_.sampler == SamplerKind::sobol) {
-        options.samples = {.begin = 0, .end = 8};
-        options.seed = options_.seed << 32U | static_cast<std::uint32_t>(batch);
+    if (options_.sampling.sampler == SamplerKind::sobol) {
+        options.sampling.samples = {.begin = 0, .end = 8};
+        options.sampling.seed = options_.sampling.seed << 32U | static_cast<std::uint32_t>(batch);
     } else {
-        options.samples = {.begin = batch, .end = batch + 1};
+        options.sampling.samples = {.begin = batch, .end = batch + 1};
     }
     return options;
 }

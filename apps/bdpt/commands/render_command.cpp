@@ -116,16 +116,17 @@ RenderOptions options_for(const RenderArguments& arguments, const Stage& stage, 
     // With --time alone, more samples than anyone has time for.
     constexpr std::int64_t no_limit = std::int64_t{1} << 31;
     RenderOptions options = arguments.options;
-    options.width = stage.size.width;
-    options.height = stage.size.height;
-    options.samples = {0, arguments.goal.samples.value_or(no_limit)};
+    options.film.width = stage.size.width;
+    options.film.height = stage.size.height;
+    options.sampling.samples = {0, arguments.goal.samples.value_or(no_limit)};
     if (arguments.max_memory) {
-        options.strategy_memory =
-            std::min(options.strategy_memory, *arguments.max_memory - reserved_bytes(arguments));
+        options.bidirectional.strategy_memory =
+            std::min(options.bidirectional.strategy_memory,
+                     *arguments.max_memory - reserved_bytes(arguments));
     }
     if (arguments.strategies) {
         const StrategyDepth depth = strategy_depth(*arguments.strategies, options, stage.camera);
-        options.strategy_depth = depth.edges;
+        options.bidirectional.strategy_depth = depth.edges;
         if (depth.warning) {
             console.warning(*depth.warning);
         }
@@ -225,7 +226,7 @@ PictureOptions picture_options(const RenderArguments& arguments, const Stage& st
     metadata.scene = one_line(arguments.file.string());
     metadata.settings = settings.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
     metadata.integrator = eval::to_string(arguments.options.integrator);
-    metadata.seed = arguments.options.seed;
+    metadata.seed = arguments.options.sampling.seed;
     metadata.samples_per_pixel = result.film.sample_count();
     metadata.render_seconds = result.seconds;
     metadata.camera = stage.camera;

@@ -150,7 +150,7 @@ RenderOptions with_film(const FilmWords& words, RenderOptions options)
                    "box, tent, gaussian or blackman-harris, and perhaps a radius from 0.01 to 16, "
                    "like gaussian:2");
         }
-        options.filter = *filter;
+        options.film.filter = *filter;
     }
     if (words.aovs) {
         const std::optional<AovSet> set = parse_aovs(*words.aovs);
@@ -159,18 +159,18 @@ RenderOptions with_film(const FilmWords& words, RenderOptions options)
                    "albedo, normal, depth, position, samples, variance, alpha or some of them, "
                    "with commas between");
         }
-        options.aovs = *set;
+        options.film.aovs = *set;
     }
     if (words.crop) {
-        options.crop = parse_crop(*words.crop);
-        if (!options.crop) {
+        options.film.crop = parse_crop(*words.crop);
+        if (!options.film.crop) {
             reject("--crop", *words.crop,
                    "four whole numbers x0,y0,x1,y1 with x0 < x1 and y0 < y1");
         }
     }
     if (words.clamp) {
-        options.clamp = static_cast<float>(*words.clamp);
-        if (!(options.clamp > 0.0f)) {
+        options.film.clamp = static_cast<float>(*words.clamp);
+        if (!(options.film.clamp > 0.0f)) {
             reject("--clamp", fmt::format("{}", *words.clamp), "a number above 0");
         }
     }

@@ -34,12 +34,12 @@ std::uint64_t film_bytes(const RenderOptions& options, const Size& size)
     constexpr std::uint64_t halves = 2;
     std::uint64_t pixel = halves * (splats ? 2 : 1) * color_sum + sizeof(Rgb);
     for (const AovCost& cost : aov_costs) {
-        if (options.aovs.contains(cost.aov)) {
+        if (options.film.aovs.contains(cost.aov)) {
             pixel += cost.sums + cost.channels * sizeof(float);
         }
     }
-    const PixelRect region =
-        options.crop.value_or(PixelRect{.x0 = 0, .y0 = 0, .x1 = size.width, .y1 = size.height});
+    const PixelRect region = options.film.crop.value_or(
+        PixelRect{.x0 = 0, .y0 = 0, .x1 = size.width, .y1 = size.height});
     return pixel * static_cast<std::uint64_t>(region.width()) *
            static_cast<std::uint64_t>(region.height());
 }

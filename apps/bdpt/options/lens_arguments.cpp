@@ -35,12 +35,12 @@ std::optional<float> depth_in_the_middle(const Scene& scene, CameraDesc camera)
     camera.vertical_fov = narrow;
     RenderOptions options;
     options.integrator = IntegratorKind::pt;
-    options.width = 1;
-    options.height = 1;
-    options.aovs = AovSet{Aov::depth};
-    options.samples = {0, 1};
-    options.max_depth = 1;
-    options.threads = 1;
+    options.film.width = 1;
+    options.film.height = 1;
+    options.film.aovs = AovSet{Aov::depth};
+    options.sampling.samples = {0, 1};
+    options.transport.max_depth = 1;
+    options.system.threads = 1;
     const RenderResult seen = render(scene, camera, options);
     const float depth = seen.aovs.develop(seen.film).at(0).values.at(0);
     return depth > 0.0f && std::isfinite(depth) ? std::optional(depth) : std::nullopt;

@@ -265,14 +265,14 @@ RenderArguments understand(const RenderWords& words)
             reject("--size", *words.size, "WIDTHxHEIGHT from 1x1 to 65535x65535");
         }
     }
-    result.options.sampler =
+    result.options.sampling.sampler =
         words.sampler == "independent" ? SamplerKind::independent : SamplerKind::sobol;
-    result.options.threads = words.threads;
+    result.options.system.threads = words.threads;
     result.isa = to_isa(words.isa);
-    result.options.seed = to_seed(words.seed);
+    result.options.sampling.seed = to_seed(words.seed);
     result.options = with_transport(words.transport, result.options);
     result.options = with_film(words.film, result.options);
-    if (!result.options.aovs.empty() && !writes_exr(result.outputs)) {
+    if (!result.options.film.aovs.empty() && !writes_exr(result.outputs)) {
         reject("--aov", *words.film.aovs, "an .exr file among the outputs to hold the layers");
     }
     result.camera = words.camera;

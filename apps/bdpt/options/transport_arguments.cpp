@@ -106,13 +106,13 @@ void choose_light(const std::string& which, RenderOptions& options)
 {
     constexpr int longest_direct = 2;
     if (which == "direct") {
-        options.max_depth = std::min(options.max_depth, longest_direct);
+        options.transport.max_depth = std::min(options.transport.max_depth, longest_direct);
         return;
     }
-    if (options.max_depth <= longest_direct) {
+    if (options.transport.max_depth <= longest_direct) {
         reject("--only", which, "--max-depth 3 or more, where indirect light begins");
     }
-    options.min_depth = longest_direct + 1;
+    options.transport.min_depth = longest_direct + 1;
 }
 
 void add_limits(CLI::App& command, TransportWords& words, const char* group)
@@ -217,24 +217,27 @@ RenderOptions with_transport(const TransportWords& words, RenderOptions options)
 {
     check_bidirectional(words);
     options.integrator = eval::parse_integrator(words.integrator).value();
-    options.heuristic = eval::parse_heuristic(words.heuristic).value();
-    options.environment_sampling = value_of(environment_samplings, words.environment_sampling);
-    options.light_sampling = value_of(light_samplings, words.light_sampling);
-    options.max_depth = words.max_depth;
+    options.transport.heuristic = eval::parse_heuristic(words.heuristic).value();
+    options.sampling.environment = value_of(environment_samplings, words.environment_sampling);
+    options.sampling.lights = value_of(light_samplings, words.light_sampling);
+    options.transport.max_depth = words.max_depth;
     if (words.only) {
         choose_light(*words.only, options);
     }
-    options.max_camera_depth = words.max_camera_depth.value_or(options.max_camera_depth);
-    options.max_light_depth = words.max_light_depth.value_or(options.max_light_depth);
-    options.light_paths = words.light_paths.value_or(options.light_paths);
-    options.rr_start = words.rr_start.value_or(options.rr_start);
+    options.bidirectional.max_camera_depth =
+        words.max_camera_depth.value_or(options.bidirectional.max_camera_depth);
+    options.bidirectional.max_light_depth =
+        words.max_light_depth.value_or(options.bidirectional.max_light_depth);
+    options.bidirectional.light_paths =
+        words.light_paths.value_or(options.bidirectional.light_paths);
+    options.transport.rr_start = words.rr_start.value_or(options.transport.rr_start);
     if (words.disabled) {
         std::optional<std::vector<Strategy>> strategies = parse_strategies(*words.disabled);
         if (!strategies) {
             reject("--disable", *words.disabled,
                    "strategies sStT of at least two vertices, with commas between, like s2t1,s0t3");
         }
-        options.disabled = std::move(*strategies);
+        options.bidirectional.disabled = std::move(*strategies);
     }
     return options;
 }
@@ -244,21 +247,21 @@ nlohmann::ordered_json transport_json(const RenderOptions& options)
     constexpr int unlimited = std::numeric_limits<int>::max();
     nlohmann::ordered_json result{
         {"integrator", eval::to_string(options.integrator)},
-        {"heuristic", eval::to_string(options.heuristic)},
-        {"environment_sampling", name_of(environment_samplings, options.environment_sampling)},
-        {"light_sampling", name_of(light_samplings, options.light_sampling)},
-        {"max_depth", options.max_depth},
-        {"min_depth", options.min_depth},
-        {"light_paths", options.light_paths},
-        {"rr_start", options.rr_start}};
+        {"heuristic", eval::to_string(options.transport.heuristic)},
+        {"environment_sampling", name_of(environment_samplings, options.sampling.environment)},
+        {"light_sampling", name_of(light_samplings, options.sampling.lights)},
+        {"max_depth", options.transport.max_depth},
+        {"min_depth", options.transport.min_depth},
+        {"light_paths", options.bidirectional.light_paths},
+        {"rr_start", options.transport.rr_start}};
     const auto add = [&](const char* name, int limit) {
         if (limit != unlimited) {
             result[name] = limit;
         }
     };
-    add("max_camera_depth", options.max_camera_depth);
-    add("max_light_depth", options.max_light_depth);
-    for (const Strategy& strategy : options.disabled) {
+    add("max_camera_depth", options.bidirectional.max_camera_depth);
+    add("max_light_depth", options.bidirectional.max_light_depth);
+    for (const Strategy& strategy : options.bidirectional.disabled) {
         result["disabled"].push_back(fmt::format("s{}t{}", strategy.s, strategy.t));
     }
     return result;

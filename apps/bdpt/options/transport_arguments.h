@@ -20,7 +20,7 @@ struct TransportWords {
     std::string heuristic = "power";
     std::string environment_sampling = "compensated";
     std::string light_sampling = "auto";
-    int max_depth = RenderOptions{}.max_depth;
+    int max_depth = RenderOptions{}.transport.max_depth;
     std::optional<std::string> only;
     std::optional<int> max_camera_depth;
     std::optional<int> max_light_depth;

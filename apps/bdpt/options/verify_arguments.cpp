@@ -111,8 +111,8 @@ VerifyArguments understand(const VerifyWords& words)
     if (words.render.time) {
         options.seconds = result.stage.goal.seconds;
     }
-    options.seed = result.stage.options.seed;
-    options.threads = result.stage.options.threads;
+    options.seed = result.stage.options.sampling.seed;
+    options.threads = result.stage.options.system.threads;
     return result;
 }
 

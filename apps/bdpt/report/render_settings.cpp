@@ -43,23 +43,23 @@ ordered_json settings_of(const RenderArguments& arguments, const Stage& stage)
     const RenderOptions& options = arguments.options;
     ordered_json settings{{"width", stage.size.width}, {"height", stage.size.height}};
     settings.update(transport_json(options));
-    settings["sampler"] = name_of(options.sampler);
-    settings["seed"] = options.seed;
+    settings["sampler"] = name_of(options.sampling.sampler);
+    settings["seed"] = options.sampling.seed;
     settings["isa"] = isa_name(stage.scene.isa());
     settings.update(view_json(stage.camera));
     settings["environment"] = stage.environment_name;
     if (arguments.texture_filter == TextureFilter::mip_mapped) {
         settings["texture_filter"] = "mip";
     }
-    const FilterOptions& filter = options.filter;
+    const FilterOptions& filter = options.film.filter;
     settings["filter"] = filter_name(filter.kind);
     settings["filter_radius"] = filter.radius.value_or(default_radius(filter.kind));
-    if (options.crop) {
-        const PixelRect& crop = *options.crop;
+    if (options.film.crop) {
+        const PixelRect& crop = *options.film.crop;
         settings["crop"] = {crop.x0, crop.y0, crop.x1, crop.y1};
     }
-    if (std::isfinite(options.clamp)) {
-        settings["clamp"] = options.clamp;
+    if (std::isfinite(options.film.clamp)) {
+        settings["clamp"] = options.film.clamp;
     }
     const auto add_word = [&settings](const char* name, const std::optional<std::string>& word) {
         if (word) {

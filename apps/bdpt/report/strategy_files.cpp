@@ -23,7 +23,7 @@ double gigabytes(std::uint64_t bytes)
 
 std::uint64_t bytes_up_to(int depth, RenderOptions options, const CameraDesc& camera)
 {
-    options.strategy_depth = depth;
+    options.bidirectional.strategy_depth = depth;
     return strategy_image_bytes(options, camera);
 }
 
@@ -31,7 +31,8 @@ std::uint64_t bytes_up_to(int depth, RenderOptions options, const CameraDesc& ca
 int affordable_depth(int wanted, const RenderOptions& options, const CameraDesc& camera)
 {
     int depth = wanted;
-    while (depth > 0 && bytes_up_to(depth, options, camera) > options.strategy_memory) {
+    while (depth > 0 &&
+           bytes_up_to(depth, options, camera) > options.bidirectional.strategy_memory) {
         --depth;
     }
     return depth;
@@ -59,7 +60,8 @@ void check_strategy_files(const StrategyFiles& files, std::span<const fs::path> 
 StrategyDepth strategy_depth(const StrategyFiles& files, RenderOptions options,
                              const CameraDesc& camera)
 {
-    const int wanted = std::min(files.depth.value_or(default_strategy_depth), options.max_depth);
+    const int wanted =
+        std::min(files.depth.value_or(default_strategy_depth), options.transport.max_depth);
     const std::uint64_t bytes = bytes_up_to(wanted, options, camera);
     if (bytes == 0) {
         throw Error(ErrorCode::usage,
@@ -74,7 +76,8 @@ StrategyDepth strategy_depth(const StrategyFiles& files, RenderOptions options,
     const std::string figures = fmt::format(
         "--strategies \"{}\": images of paths of up to {} edges take {:.1f} GB, more than the "
         "limit of {:.1f} GB",
-        files.layers.string(), wanted, gigabytes(bytes), gigabytes(options.strategy_memory));
+        files.layers.string(), wanted, gigabytes(bytes),
+        gigabytes(options.bidirectional.strategy_memory));
     const bool any = depth > 0 && bytes_up_to(depth, options, camera) > 0;
     if (files.depth || !any) {
         throw Error(ErrorCode::usage,

@@ -27,13 +27,13 @@ double dark_share(const Stage& stage, RenderOptions options, const std::optional
 {
     const int longest = std::max({stage.size.width, stage.size.height, longest_side});
     options.integrator = IntegratorKind::bdpt;
-    options.width = shrunk(stage.size.width, longest);
-    options.height = shrunk(stage.size.height, longest);
-    options.crop.reset();
-    options.aovs = AovSet{Aov::alpha};
-    options.samples = {0, samples};
-    options.disabled.clear();
-    options.strategy_depth = 0;
+    options.film.width = shrunk(stage.size.width, longest);
+    options.film.height = shrunk(stage.size.height, longest);
+    options.film.crop.reset();
+    options.film.aovs = AovSet{Aov::alpha};
+    options.sampling.samples = {0, samples};
+    options.bidirectional.disabled.clear();
+    options.bidirectional.strategy_depth = 0;
     const RenderResult result = render(stage.scene, stage.camera, options);
     const Image image = result.film.develop();
     const io::DisplayImage shown =

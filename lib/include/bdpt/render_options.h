@@ -69,47 +69,74 @@ struct SampleRange {
     std::int64_t end = 64;
 };
 
-/// What to render but for scene and camera. Ranges: width, height and tile_size [1, 65536],
-/// max_depth [1, 4096], strategy_depth [0, 4096], threads [0, 4096], samples within [0, 2^32 - 1]
-/// and not empty.
-struct RenderOptions {
-    IntegratorKind integrator = IntegratorKind::bdpt;
-    Heuristic heuristic = Heuristic::power;
-    SamplerKind sampler = SamplerKind::sobol;
-    EnvironmentSampling environment_sampling = EnvironmentSampling::compensated;
-    LightSampling light_sampling = LightSampling::automatic;
-    int width = 1280;
-    int height = 720;
+/// The image and its pixels. Ranges: width and height [1, 65536].
+struct FilmOptions {
+    int width = 1280;  ///< [pixels]
+    int height = 720;  ///< [pixels]
     /// The part of the image that is rendered; its pixels are those of the whole image, to the bit.
-    std::optional<PixelRect> crop;
-    FilterOptions filter;
-    AovSet aovs;
+    std::optional<PixelRect> crop{};
+    FilterOptions filter{};
+    AovSet aovs{};
     /// The greatest component [nit] that a contribution to a pixel may have, be it a camera sample
     /// or a splat; greater ones are scaled down. Takes fireflies away, and energy: biased. In (0,
     /// inf]; infinite: off.
     float clamp = std::numeric_limits<float>::infinity();
-    SampleRange samples;  ///< per pixel
-    int max_depth = 8;    ///< longest path in edges: 1 sees lights only, 2 adds direct light
-    int min_depth = 1;    ///< shortest path in edges that is measured
-    /// Longest subpaths in edges, for bdpt and lt; strategies with longer ones are left out.
+};
+
+/// Which random numbers, how many, and how next-event estimation spends them. Ranges: samples
+/// within [0, 2^32 - 1] and not empty.
+struct SamplingOptions {
+    SampleRange samples{};  ///< per pixel
+    std::uint64_t seed = 0;
+    SamplerKind sampler = SamplerKind::sobol;
+    EnvironmentSampling environment = EnvironmentSampling::compensated;
+    LightSampling lights = LightSampling::automatic;
+};
+
+/// Which paths are measured, and how strategies share them. Ranges: max_depth [1, 4096], min_depth
+/// [1, max_depth], rr_start from 1.
+struct TransportOptions {
+    int max_depth = 8;  ///< longest path in edges: 1 sees lights only, 2 adds direct light
+    int min_depth = 1;  ///< shortest path in edges that is measured
+    /// Edges of a subpath after which Russian roulette may end it; `max_depth` or more: never.
+    int rr_start = 3;
+    Heuristic heuristic = Heuristic::power;
+};
+
+/// What only bdpt and lt look at: their subpaths and strategies. Ranges: light_paths [1, 4096],
+/// max_camera_depth and max_light_depth from 0, strategy_depth [0, 4096].
+struct BidirectionalOptions {
+    /// Light paths that are traced for each camera path, each joined to it.
+    int light_paths = 1;
+    /// Longest subpaths in edges; strategies with longer ones are left out.
     int max_camera_depth = std::numeric_limits<int>::max();
     int max_light_depth = std::numeric_limits<int>::max();
-    /// Light paths that bdpt and lt trace for each camera path, each joined to it.
-    int light_paths = 1;
-    /// Strategies that bdpt and lt leave out; the others share what they can make.
+    /// Strategies that are left out; the others share what they can make.
     std::vector<Strategy> disabled{};
-    /// Longest paths [edges], from 0 (none), whose strategies get images of their own; for bdpt and
-    /// lt. They are not clamped.
+    /// Longest paths [edges], from 0 (none), whose strategies get images of their own. They are not
+    /// clamped.
     int strategy_depth = 0;
     /// Bytes that these images may take at most; what they take grows with the square of the depth.
     std::uint64_t strategy_memory = 4'000'000'000;
-    /// Edges of a subpath after which Russian roulette may end it; `max_depth` or more: never.
-    int rr_start = 3;
-    int tile_size = 16;  ///< [pixels]; has no influence on the result
+};
+
+/// How the machine does the work; nothing here has an influence on the result. Ranges: tile_size
+/// [1, 65536], threads [0, 4096].
+struct SystemOptions {
+    int tile_size = 16;  ///< [pixels]
     /// Most threads that work at once, the caller's among them; 0: those that oneTBB gives to the
-    /// calling thread, one for each processor if nobody has chosen. Has no influence on the result.
+    /// calling thread, one for each processor if nobody has chosen.
     int threads = 0;
-    std::uint64_t seed = 0;
+};
+
+/// What to render but for scene and camera. The groups say their ranges.
+struct RenderOptions {
+    IntegratorKind integrator = IntegratorKind::bdpt;
+    FilmOptions film{};
+    SamplingOptions sampling{};
+    TransportOptions transport{};
+    BidirectionalOptions bidirectional{};
+    SystemOptions system{};
 };
 
 }  // namespace bdpt

@@ -19,7 +19,7 @@ struct SampleStart {
     /// Draws wavelength and time where these matter.
     SampleStart(const RenderOptions& options, const PixelFilter& filter, const World& world,
                 const MovingCamera& camera, int x, int y, std::int64_t index)
-        : sampler(options.sampler, options.seed, x, y, index)
+        : sampler(options.sampling.sampler, options.sampling.seed, x, y, index)
     {
         sampler.start(SampleUse::film);
         raster = filter.sample_raster(x, y, sampler.next_2d());

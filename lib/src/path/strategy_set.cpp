@@ -10,10 +10,12 @@ bool is_used(const RenderOptions& options, Strategy strategy)
 {
     const auto [s, t] = strategy;
     const int edges = s + t - 1;
-    const bool by_length = edges >= options.min_depth && edges <= options.max_depth &&
-                           t - 1 <= options.max_camera_depth && s - 1 <= options.max_light_depth;
+    const bool by_length = edges >= options.transport.min_depth &&
+                           edges <= options.transport.max_depth &&
+                           t - 1 <= options.bidirectional.max_camera_depth &&
+                           s - 1 <= options.bidirectional.max_light_depth;
     const bool by_integrator = options.integrator != IntegratorKind::lt || t <= 1;
-    const auto& disabled = options.disabled;
+    const auto& disabled = options.bidirectional.disabled;
     return by_length && by_integrator &&
            std::find(disabled.begin(), disabled.end(), strategy) == disabled.end();
 }
@@ -21,16 +23,17 @@ bool is_used(const RenderOptions& options, Strategy strategy)
 }  // namespace
 
 StrategySet::StrategySet(const RenderOptions& options)
-    : stride_(options.max_depth + 2),
-      light_paths_(options.light_paths),
-      complete_(options.integrator == IntegratorKind::bdpt && options.disabled.empty() &&
-                options.max_camera_depth >= options.max_depth &&
-                options.max_light_depth >= options.max_depth),
+    : stride_(options.transport.max_depth + 2),
+      light_paths_(options.bidirectional.light_paths),
+      complete_(options.integrator == IntegratorKind::bdpt &&
+                options.bidirectional.disabled.empty() &&
+                options.bidirectional.max_camera_depth >= options.transport.max_depth &&
+                options.bidirectional.max_light_depth >= options.transport.max_depth),
       // Images of single strategies show what each finds by itself.
-      next_event_sampling_{.environments = options.strategy_depth > 0
+      next_event_sampling_{.environments = options.bidirectional.strategy_depth > 0
                                                ? EnvironmentSampling::plain
-                                               : options.environment_sampling,
-                           .lights = options.light_sampling}
+                                               : options.sampling.environment,
+                           .lights = options.sampling.lights}
 {
     counts_.assign(static_cast<std::size_t>(stride_ * stride_), 0.0f);
     for (int s = 0; s < stride_; ++s) {
@@ -40,7 +43,7 @@ StrategySet::StrategySet(const RenderOptions& options)
             }
             // A fresh light point for each camera vertex (s = 1); the rest comes from light paths.
             counts_[static_cast<std::size_t>(s * stride_ + t)] =
-                s >= 2 ? static_cast<float>(options.light_paths) : 1.0f;
+                s >= 2 ? static_cast<float>(options.bidirectional.light_paths) : 1.0f;
             camera_vertices_ = std::max(camera_vertices_, t);
             // A path that hits the lens has it as its last vertex, which is not a vertex of the
             // walk.

@@ -10,7 +10,7 @@
 namespace bdpt {
 
 AovPass::AovPass(const World& world, const MovingCamera& camera, const RenderOptions& options)
-    : world_(world), camera_(camera), options_(options), filter_(options.filter)
+    : world_(world), camera_(camera), options_(options), filter_(options.film.filter)
 {}
 
 RenderStats AovPass::render_tile(const Tile& tile, SampleRange samples, AovFilm& film) const

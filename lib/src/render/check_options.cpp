@@ -110,41 +110,43 @@ std::string label(const CameraDesc& camera)
 
 void check_options(const RenderOptions& options)
 {
-    check_range("image width", options.width, 1, max_film_side);
-    check_range("image height", options.height, 1, max_film_side);
-    if (options.crop) {
-        check_crop(*options.crop, options.width, options.height);
+    check_range("image width", options.film.width, 1, max_film_side);
+    check_range("image height", options.film.height, 1, max_film_side);
+    if (options.film.crop) {
+        check_crop(*options.film.crop, options.film.width, options.film.height);
     }
-    check_filter(options.filter);
-    if (!(options.clamp > 0.0f)) {
+    check_filter(options.film.filter);
+    if (!(options.film.clamp > 0.0f)) {
         throw Error(ErrorCode::usage,
-                    "clamp is " + std::to_string(options.clamp) + " nit, not above 0");
+                    "clamp is " + std::to_string(options.film.clamp) + " nit, not above 0");
     }
     // Sample indices have 32 bits in the film's record of defects.
-    check_range("first sample", options.samples.begin, 0,
+    check_range("first sample", options.sampling.samples.begin, 0,
                 std::numeric_limits<std::uint32_t>::max());
-    check_range("number of samples", options.samples.end - options.samples.begin, 1,
-                std::numeric_limits<std::uint32_t>::max() - options.samples.begin);
-    check_range("longest path (max_depth)", options.max_depth, 1, max_path_edges);
-    check_range("shortest path (min_depth)", options.min_depth, 1, options.max_depth);
-    check_range("longest camera subpath", options.max_camera_depth, 0,
+    check_range("number of samples", options.sampling.samples.end - options.sampling.samples.begin,
+                1, std::numeric_limits<std::uint32_t>::max() - options.sampling.samples.begin);
+    check_range("longest path (max_depth)", options.transport.max_depth, 1, max_path_edges);
+    check_range("shortest path (min_depth)", options.transport.min_depth, 1,
+                options.transport.max_depth);
+    check_range("longest camera subpath", options.bidirectional.max_camera_depth, 0,
                 std::numeric_limits<int>::max());
-    check_range("longest light subpath", options.max_light_depth, 0,
+    check_range("longest light subpath", options.bidirectional.max_light_depth, 0,
                 std::numeric_limits<int>::max());
-    check_range("light paths", options.light_paths, 1, max_light_paths);
-    check_range("start of Russian roulette", options.rr_start, 1, std::numeric_limits<int>::max());
-    for (const Strategy& strategy : options.disabled) {
+    check_range("light paths", options.bidirectional.light_paths, 1, max_light_paths);
+    check_range("start of Russian roulette", options.transport.rr_start, 1,
+                std::numeric_limits<int>::max());
+    for (const Strategy& strategy : options.bidirectional.disabled) {
         check_range("disabled strategy's s", strategy.s, 0, max_path_edges + 1);
         check_range("disabled strategy's t", strategy.t, 0, max_path_edges + 1);
     }
-    check_range("longest path with images of strategies", options.strategy_depth, 0,
+    check_range("longest path with images of strategies", options.bidirectional.strategy_depth, 0,
                 max_path_edges);
-    if (options.strategy_depth > 0 && !info(options.integrator).has_strategies) {
+    if (options.bidirectional.strategy_depth > 0 && !info(options.integrator).has_strategies) {
         throw Error(ErrorCode::usage,
                     "images of strategies (strategy_depth) need the integrator bdpt or lt");
     }
-    check_range("tile size", options.tile_size, 1, max_film_side);
-    check_range("number of threads", options.threads, 0, max_threads);
+    check_range("tile size", options.system.tile_size, 1, max_film_side);
+    check_range("number of threads", options.system.threads, 0, max_threads);
 }
 
 void check_camera(const CameraDesc& camera)

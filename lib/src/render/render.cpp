@@ -36,7 +36,7 @@ double seconds_since(std::chrono::steady_clock::time_point start)
 
 PixelRect whole_image(const RenderOptions& options)
 {
-    return {.x0 = 0, .y0 = 0, .x1 = options.width, .y1 = options.height};
+    return {.x0 = 0, .y0 = 0, .x1 = options.film.width, .y1 = options.film.height};
 }
 
 /// All that works on a tile.
@@ -53,8 +53,8 @@ void render_pass(const Work& work, const RenderOptions& options, SampleRange sam
     // Each pixel of the whole image has its light path, and any of them can reach a crop.
     const PixelRect area =
         info(options.integrator).traces_light_paths ? whole_image(options) : result.film.region();
-    const int columns = (area.width() + options.tile_size - 1) / options.tile_size;
-    const int rows = (area.height() + options.tile_size - 1) / options.tile_size;
+    const int columns = (area.width() + options.system.tile_size - 1) / options.system.tile_size;
+    const int rows = (area.height() + options.system.tile_size - 1) / options.system.tile_size;
     tbb::combinable<RenderStats> stats_of_threads;
     work.integrator.begin_pass(samples);
     tbb::parallel_for(
@@ -68,12 +68,12 @@ void render_pass(const Work& work, const RenderOptions& options, SampleRange sam
                               .times = times ? &*times : nullptr};
             for (int row = range.rows().begin(); row < range.rows().end(); ++row) {
                 for (int column = range.cols().begin(); column < range.cols().end(); ++column) {
-                    const int x = area.x0 + column * options.tile_size;
-                    const int y = area.y0 + row * options.tile_size;
+                    const int x = area.x0 + column * options.system.tile_size;
+                    const int y = area.y0 + row * options.system.tile_size;
                     const Tile tile{.x_begin = x,
-                                    .x_end = std::min(x + options.tile_size, area.x1),
+                                    .x_end = std::min(x + options.system.tile_size, area.x1),
                                     .y_begin = y,
-                                    .y_end = std::min(y + options.tile_size, area.y1)};
+                                    .y_end = std::min(y + options.system.tile_size, area.y1)};
                     RenderStats& stats = stats_of_threads.local();
                     stats += work.integrator.render_tile(tile, samples, films);
                     if (result.aovs.needs_hits()) {
@@ -140,41 +140,41 @@ RenderResult render(const Scene& scene, const CameraDesc& camera_desc, const Ren
     check_camera_distance(camera_desc, scene.world().farthest_origin());
     check_strategy_memory(options, camera_desc);
     const auto start = std::chrono::steady_clock::now();
-    const PixelRect region = options.crop.value_or(whole_image(options));
+    const PixelRect region = options.film.crop.value_or(whole_image(options));
     // What counts for a pixel of the region can lie beside it, even beside the image.
-    const float margin = PixelFilter(options.filter).radius() - 0.5f;
+    const float margin = PixelFilter(options.film.filter).radius() - 0.5f;
     const Camera opened(
-        camera_desc, options.width, options.height,
+        camera_desc, options.film.width, options.film.height,
         {.min = Vec2(region.x0, region.y0) - margin, .max = Vec2(region.x1, region.y1) + margin},
         scene.world().medium_at(Vec3(camera_desc.world_from_camera[3])));
     const MovingCamera camera(camera_desc, opened);
     const auto integrator = make_integrator(scene.world(), camera, options);
     const AovPass aov_pass(scene.world(), camera, options);
 
-    Threads threads(options.threads);
+    Threads threads(options.system.threads);
 
-    const FilmLayout layout{.width = options.width,
-                            .height = options.height,
+    const FilmLayout layout{.width = options.film.width,
+                            .height = options.film.height,
                             .region = region,
                             .splats = info(options.integrator).traces_light_paths
                                           ? SplatImage::present
                                           : SplatImage::absent,
-                            .clamp = options.clamp};
+                            .clamp = options.film.clamp};
     RenderResult result{
         .film = Film(layout),
-        .aovs = AovFilm(region, options.aovs),
+        .aovs = AovFilm(region, options.film.aovs),
         .strategies = StrategyFilm(region, strategies_with_images(options, camera_desc)),
         .stats = {},
-        .samples = {.begin = options.samples.begin, .end = options.samples.begin},
+        .samples = {.begin = options.sampling.samples.begin, .end = options.sampling.samples.begin},
         .seconds = 0.0};
     std::optional<TimeRecorder> times;
     if (control.profiling == Profiling::on) {
         times.emplace(region);
     }
     std::int64_t pass_size = 1;
-    while (result.samples.end < options.samples.end) {
+    while (result.samples.end < options.sampling.samples.end) {
         const std::int64_t begin = result.samples.end;
-        const std::int64_t end = std::min(begin + pass_size, options.samples.end);
+        const std::int64_t end = std::min(begin + pass_size, options.sampling.samples.end);
         const double before = seconds_since(start);
         threads.execute([&] {
             render_pass({*integrator, aov_pass, control, times ? &*times : nullptr}, options,
@@ -183,9 +183,10 @@ RenderResult render(const Scene& scene, const CameraDesc& camera_desc, const Ren
         result.samples.end = end;
         result.seconds = seconds_since(start);
         if (control.on_progress) {
-            control.on_progress({.samples_done = end - options.samples.begin,
-                                 .samples_total = options.samples.end - options.samples.begin,
-                                 .seconds = result.seconds});
+            control.on_progress(
+                {.samples_done = end - options.sampling.samples.begin,
+                 .samples_total = options.sampling.samples.end - options.sampling.samples.begin,
+                 .seconds = result.seconds});
         }
         const double seconds_a_sample =
             (result.seconds - before) / static_cast<double>(end - begin);

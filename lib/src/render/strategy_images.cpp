@@ -34,11 +34,11 @@ std::string megabytes(std::uint64_t bytes)
 std::vector<Strategy> strategies_with_images(const RenderOptions& options, const CameraDesc& camera)
 {
     std::vector<Strategy> result;
-    if (options.strategy_depth == 0) {
+    if (options.bidirectional.strategy_depth == 0) {
         return result;
     }
     const StrategySet used(options);
-    const int longest = std::min(options.strategy_depth, options.max_depth);
+    const int longest = std::min(options.bidirectional.strategy_depth, options.transport.max_depth);
     for (int edges = 1; edges <= longest; ++edges) {
         for (int s = 0; s <= edges + 1; ++s) {
             const Strategy strategy{.s = s, .t = edges + 1 - s};
@@ -53,8 +53,8 @@ std::vector<Strategy> strategies_with_images(const RenderOptions& options, const
 std::uint64_t strategy_image_bytes(const RenderOptions& options, const CameraDesc& camera)
 {
     check_options(options);
-    const PixelRect region = options.crop.value_or(
-        PixelRect{.x0 = 0, .y0 = 0, .x1 = options.width, .y1 = options.height});
+    const PixelRect region = options.film.crop.value_or(
+        PixelRect{.x0 = 0, .y0 = 0, .x1 = options.film.width, .y1 = options.film.height});
     return StrategyFilm::bytes_per_pixel * static_cast<std::uint64_t>(region.width()) *
            static_cast<std::uint64_t>(region.height()) *
            strategies_with_images(options, camera).size();
@@ -63,12 +63,12 @@ std::uint64_t strategy_image_bytes(const RenderOptions& options, const CameraDes
 void check_strategy_memory(const RenderOptions& options, const CameraDesc& camera)
 {
     const std::uint64_t bytes = strategy_image_bytes(options, camera);
-    if (bytes > options.strategy_memory) {
+    if (bytes > options.bidirectional.strategy_memory) {
         throw Error(ErrorCode::usage, "images of strategies up to " +
-                                          std::to_string(options.strategy_depth) +
+                                          std::to_string(options.bidirectional.strategy_depth) +
                                           " edges (strategy_depth) take " + megabytes(bytes) +
                                           ", more than the limit (strategy_memory) of " +
-                                          megabytes(options.strategy_memory));
+                                          megabytes(options.bidirectional.strategy_memory));
     }
 }
 

@@ -68,9 +68,9 @@ float render_mean(const bdpt::Scene& scene)
     camera.world_from_camera[3] = {0.0f, 0.0f, 0.9f, 1.0f};
     camera.vertical_fov = 0.9f;
     bdpt::RenderOptions options;
-    options.width = 32;
-    options.height = 32;
-    options.samples = {0, 4};
+    options.film.width = 32;
+    options.film.height = 32;
+    options.sampling.samples = {0, 4};
     const bdpt::Image image = bdpt::render(scene, camera, options).film.develop();
     float sum = 0.0f;
     for (const bdpt::Rgb& pixel : image.pixels) {

@@ -36,7 +36,7 @@ struct Fixture {
         options.seconds = 0.004;
         options.seeds = 2;
         options.reference_seconds = 0.02;
-        options.render.max_depth = 3;
+        options.render.transport.max_depth = 3;
         options.strategy_depth = 2;
     }
 
@@ -108,10 +108,10 @@ TEST_CASE("a benchmark keeps runs, pictures and the reference, in turn")
     {
         RenderOptions options = bench.options.render;
         options.integrator = IntegratorKind::bdpt;
-        options.width = 12;
-        options.height = 9;
-        options.seed = 1;
-        options.samples = {0, goals.equal_time};
+        options.film.width = 12;
+        options.film.height = 9;
+        options.sampling.seed = 1;
+        options.sampling.samples = {0, goals.equal_time};
         const Image whole = render(bench.scene, test::floor_camera(), options).film.develop();
         const Image kept =
             io::read_image(picture_file(bench.folder.path(), "floor", IntegratorKind::bdpt, 1))
@@ -191,7 +191,7 @@ TEST_CASE("a benchmark goes on where it ended")
     }
     SECTION("other options need another folder")
     {
-        bench.options.render.max_depth = 4;
+        bench.options.render.transport.max_depth = 4;
         const std::string message = bench.failure();
         CHECK(starts(message, "2 "));
         CHECK(message.find("plan.json: holds runs with max_depth 3, not 4") != std::string::npos);

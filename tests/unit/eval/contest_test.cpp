@@ -25,7 +25,7 @@ struct Fixture {
     Fixture()
     {
         for (Variant& variant : variants) {
-            variant.options.max_depth = 3;
+            variant.options.transport.max_depth = 3;
             variant.options.integrator = IntegratorKind::mis;
         }
         variants[1].options.integrator = IntegratorKind::pt;
@@ -38,10 +38,10 @@ struct Fixture {
                                   const Reference& reference) const
     {
         RenderOptions options = variant.options;
-        options.width = subject.width;
-        options.height = subject.height;
-        options.samples = {0, 4};
-        options.seed = seed;
+        options.film.width = subject.width;
+        options.film.height = subject.height;
+        options.sampling.samples = {0, 4};
+        options.sampling.seed = seed;
         const Image image = render(scene, subject.camera, options).film.develop();
         return evaluate(Metric::relmse, image, reference.image,
                         {.epsilon = 0.01, .epsilon_unit = EpsilonUnit::reference_mean}) -
@@ -92,10 +92,10 @@ TEST_CASE("a reference is the render of its samples by bdpt, its noise that of i
     const Reference reference = contest.reference();
     RenderOptions options = contest.variants[0].options;
     options.integrator = IntegratorKind::bdpt;
-    options.width = 12;
-    options.height = 9;
-    options.samples = {0, 256};
-    options.seed = 1'000'003;
+    options.film.width = 12;
+    options.film.height = 9;
+    options.sampling.samples = {0, 256};
+    options.sampling.seed = 1'000'003;
     const Film film = render(contest.scene, contest.subject.camera, options).film;
     CHECK(reference.image.pixels == film.develop().pixels);
     const double epsilon = bench_scale(reference.image).squared_epsilon;

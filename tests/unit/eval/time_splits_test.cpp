@@ -31,7 +31,7 @@ struct Fixture {
     Fixture()
     {
         options.seconds = 0.1;
-        options.render.max_depth = 3;
+        options.render.transport.max_depth = 3;
         files.create();
     }
     [[nodiscard]] std::vector<TimeSplit> measure() const

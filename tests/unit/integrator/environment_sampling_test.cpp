@@ -27,19 +27,19 @@ RenderOptions options_of(IntegratorKind integrator)
 {
     RenderOptions options;
     options.integrator = integrator;
-    options.width = 12;
-    options.height = 12;
-    options.max_depth = 4;
-    options.samples.end = 4;
+    options.film.width = 12;
+    options.film.height = 12;
+    options.transport.max_depth = 4;
+    options.sampling.samples.end = 4;
     return options;
 }
 
 /// Is the picture the same to the bit, however environments are sampled?
 bool is_always_plain(const Scene& scene, RenderOptions options)
 {
-    options.environment_sampling = EnvironmentSampling::plain;
+    options.sampling.environment = EnvironmentSampling::plain;
     const Film plain = render(scene, test::room_camera(), options).film;
-    options.environment_sampling = EnvironmentSampling::compensated;
+    options.sampling.environment = EnvironmentSampling::compensated;
     return plain == render(scene, test::room_camera(), options).film;
 }
 
@@ -62,26 +62,26 @@ TEST_CASE("environment sampling is compensated only where s = 0 finds the rest",
     SECTION("not when a strategy is left out that it relies on")
     {
         RenderOptions options = options_of(IntegratorKind::bdpt);
-        options.disabled = {{.s = 0, .t = 5}};
+        options.bidirectional.disabled = {{.s = 0, .t = 5}};
         CHECK(is_always_plain(scene, options));
-        options.disabled = {{.s = 0, .t = 3}};
+        options.bidirectional.disabled = {{.s = 0, .t = 3}};
         CHECK(is_always_plain(scene, options));
         // Nothing relies on these.
-        options.disabled = {{.s = 0, .t = 4}, {.s = 1, .t = 3}, {.s = 2, .t = 2}};
+        options.bidirectional.disabled = {{.s = 0, .t = 4}, {.s = 1, .t = 3}, {.s = 2, .t = 2}};
         CHECK_FALSE(is_always_plain(scene, options));
     }
     SECTION("not when camera paths are shorter than what light sampling completes")
     {
         RenderOptions options = options_of(IntegratorKind::bdpt);
-        options.max_camera_depth = 3;
+        options.bidirectional.max_camera_depth = 3;
         CHECK(is_always_plain(scene, options));
-        options.max_camera_depth = 4;
+        options.bidirectional.max_camera_depth = 4;
         CHECK_FALSE(is_always_plain(scene, options));
     }
     SECTION("with every length that is measured, whichever is the shortest")
     {
         RenderOptions options = options_of(IntegratorKind::bdpt);
-        options.min_depth = 3;
+        options.transport.min_depth = 3;
         CHECK_FALSE(is_always_plain(scene, options));
     }
 }

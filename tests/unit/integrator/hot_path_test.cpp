@@ -2,10 +2,10 @@
 #include "camera/moving_camera.h"
 #include "catch.hpp"
 #include "integrator/integrator.h"
+#include "moving_scenes.h"
 #include "profile/sample_timer.h"
 #include "render/aov_pass.h"
 #include "scene/world.h"
-#include "moving_scenes.h"
 #include "scene_builder.h"
 
 #include <array>
@@ -137,9 +137,9 @@ RenderOptions options_of(IntegratorKind integrator)
 {
     RenderOptions options;
     options.integrator = integrator;
-    options.width = size;
-    options.height = size;
-    options.clamp = 100.0f;
+    options.film.width = size;
+    options.film.height = size;
+    options.film.clamp = 100.0f;
     return options;
 }
 
@@ -174,7 +174,7 @@ void check(const World& world, const CameraDesc& desc, const RenderOptions& opti
                          .height = size,
                          .region = region,
                          .splats = SplatImage::present,
-                         .clamp = options.clamp});
+                         .clamp = options.film.clamp});
     StrategyFilm strategies;
     const std::function<void(const FoundPath&)> nobody;
     const Films films{.film = film, .strategies = strategies, .on_path = nobody};
@@ -230,16 +230,16 @@ TEST_CASE("hot path: nor do the options change that", "[hot_path]")
              {Heuristic::balance, Heuristic::cutoff, Heuristic::maximum, Heuristic::uniform}) {
             CAPTURE(static_cast<int>(kind), static_cast<int>(heuristic));
             RenderOptions options = options_of(kind);
-            options.heuristic = heuristic;
+            options.transport.heuristic = heuristic;
             check(world, camera, options);
         }
         RenderOptions options = options_of(kind);
-        options.sampler = SamplerKind::independent;
-        options.filter.kind = FilterKind::gaussian;
-        options.rr_start = 2;
-        options.light_paths = 2;
-        options.disabled = {{.s = 2, .t = 1}};
-        options.clamp = 0.5f;
+        options.sampling.sampler = SamplerKind::independent;
+        options.film.filter.kind = FilterKind::gaussian;
+        options.transport.rr_start = 2;
+        options.bidirectional.light_paths = 2;
+        options.bidirectional.disabled = {{.s = 2, .t = 1}};
+        options.film.clamp = 0.5f;
         check(world, camera, options);
     }
 }
@@ -248,11 +248,11 @@ TEST_CASE("hot path: nor do AOVs", "[hot_path]")
 {
     const World world(everything());
     RenderOptions options = options_of(IntegratorKind::bdpt);
-    options.aovs = {Aov::albedo, Aov::normal, Aov::depth, Aov::position};
+    options.film.aovs = {Aov::albedo, Aov::normal, Aov::depth, Aov::position};
     for (const CameraDesc& desc : cameras()) {
         const MovingCamera camera(desc, Camera(desc, size, size));
         const AovPass pass(world, camera, options);
-        AovFilm film(region, options.aovs);
+        AovFilm film(region, options.film.aovs);
         check_costs_nothing_a_sample([&](std::int64_t samples) {
             static_cast<void>(pass.render_tile(whole, {.begin = 0, .end = samples}, film));
         });

@@ -51,7 +51,7 @@ TEST_CASE("weights of all strategies sum to one on traced paths", "[mis]")
     const Camera camera(test::room_camera(), size, size);
     Subpath light_path(max_depth);
     RenderOptions options;
-    options.max_depth = max_depth;
+    options.transport.max_depth = max_depth;
     const StrategySet strategies(options);
     Subpath camera_path(max_depth + 1);
     RayCounts rays;
@@ -99,7 +99,7 @@ TEST_CASE("joining and hitting agree about the densities of the same path", "[mi
     constexpr int max_depth = 5;
     const Camera camera(test::room_camera(), 16, 16);
     RenderOptions options;
-    options.max_depth = max_depth;
+    options.transport.max_depth = max_depth;
     const StrategySet strategies(options);
     Subpath camera_path(max_depth + 1);
     PathWeigher weigher(world, camera, strategies, Heuristic::balance, max_depth + 1);

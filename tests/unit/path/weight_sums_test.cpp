@@ -70,8 +70,8 @@ TEST_CASE("sums over subpaths weigh joins as all densities of the path do", "[mi
     desc.lens_radius = lens_radius;
     const Camera camera(desc, size, size);
     RenderOptions options;
-    options.max_depth = max_depth;
-    options.light_paths = light_paths;
+    options.transport.max_depth = max_depth;
+    options.bidirectional.light_paths = light_paths;
     const StrategySet strategies(options);
     REQUIRE(WeightSums::applies(strategies, heuristic));
     Subpath light_path(strategies.light_vertices());
@@ -114,19 +114,19 @@ TEST_CASE("sets of strategies with gaps are not weighed by sums", "[mis]")
     CHECK_FALSE(applies(options, Heuristic::cutoff));
     CHECK_FALSE(applies(options, Heuristic::uniform));
     RenderOptions other = options;
-    other.disabled = {{2, 1}};
+    other.bidirectional.disabled = {{2, 1}};
     CHECK_FALSE(applies(other));
     other = options;
-    other.max_camera_depth = options.max_depth - 1;
+    other.bidirectional.max_camera_depth = options.transport.max_depth - 1;
     CHECK_FALSE(applies(other));
     other = options;
-    other.max_light_depth = options.max_depth - 1;
+    other.bidirectional.max_light_depth = options.transport.max_depth - 1;
     CHECK_FALSE(applies(other));
     other = options;
     other.integrator = IntegratorKind::lt;
     CHECK_FALSE(applies(other));
     other = options;
-    other.min_depth = 3;
+    other.transport.min_depth = 3;
     CHECK(applies(other));
 }
 

@@ -40,10 +40,10 @@ RenderOptions options_for(IntegratorKind kind)
 {
     RenderOptions options;
     options.integrator = kind;
-    options.width = width;
-    options.height = height;
-    options.samples = {.begin = 0, .end = 8};
-    options.max_depth = 5;
+    options.film.width = width;
+    options.film.height = height;
+    options.sampling.samples = {.begin = 0, .end = 8};
+    options.transport.max_depth = 5;
     return options;
 }
 
@@ -99,13 +99,13 @@ TEST_CASE("a picture is the same, to the bit, when the time of its samples is me
     const auto kind = GENERATE(IntegratorKind::pt, IntegratorKind::nee, IntegratorKind::mis,
                                IntegratorKind::lt, IntegratorKind::bdpt);
     RenderOptions options = options_for(kind);
-    options.strategy_depth = kind == IntegratorKind::bdpt ? 3 : 0;
+    options.bidirectional.strategy_depth = kind == IntegratorKind::bdpt ? 3 : 0;
     const RenderResult plain = render(scene, CameraDesc{}, options);
     const RenderResult measured = profiled(scene, options);
     CAPTURE(static_cast<int>(kind));
     CHECK(plain.film.develop().pixels == measured.film.develop().pixels);
     CHECK(plain.stats == measured.stats);
-    if (options.strategy_depth > 0) {
+    if (options.bidirectional.strategy_depth > 0) {
         const Strategy strategy{.s = 2, .t = 2};
         CHECK(plain.strategies.unweighted(strategy).pixels ==
               measured.strategies.unweighted(strategy).pixels);
@@ -118,8 +118,8 @@ TEST_CASE("a profile is of all samples, of which one of sixteen is clocked", "[p
 {
     const Scene scene(closed_room());
     RenderOptions options = options_for(IntegratorKind::bdpt);
-    options.samples.end = 64;
-    options.threads = GENERATE(1, 3);
+    options.sampling.samples.end = 64;
+    options.system.threads = GENERATE(1, 3);
     const TimeProfile profile = profiled(scene, options).profile.value();
     constexpr double all = 64.0 * width * height;
     CHECK(static_cast<double>(profile.samples) == all);
@@ -145,9 +145,9 @@ TEST_CASE("a profile of a crop has the pixels of the crop", "[profile]")
 {
     const Scene scene(closed_room());
     RenderOptions options = options_for(IntegratorKind::bdpt);
-    options.crop = PixelRect{.x0 = 3, .y0 = 2, .x1 = 10, .y1 = 7};
+    options.film.crop = PixelRect{.x0 = 3, .y0 = 2, .x1 = 10, .y1 = 7};
     const TimeProfile profile = profiled(scene, options).profile.value();
-    CHECK(profile.region == *options.crop);
+    CHECK(profile.region == *options.film.crop);
     CHECK(profile.pixel_seconds.size() == 7 * 5);
     // The light paths of all other pixels are in it as well.
     CHECK(profile.samples == 8 * width * height);
@@ -207,8 +207,8 @@ TEST_CASE("phases are the pieces that a path is made of", "[profile]")
     SECTION("pt: rays and surfaces take turns, then the film")
     {
         RenderOptions options = options_for(IntegratorKind::pt);
-        options.rr_start = 100;
-        options.min_depth = 100;  // no light is measured
+        options.transport.rr_start = 100;
+        options.transport.min_depth = 100;  // no light is measured
         const int clocked =
             for_clocked_samples(options, [](const SampleTicks& ticks, const RenderStats& stats) {
                 CHECK(pieces(ticks, Phase::shade) == stats.rays.camera);

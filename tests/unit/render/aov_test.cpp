@@ -19,11 +19,11 @@ RenderOptions options(AovSet aovs)
 {
     RenderOptions result;
     result.integrator = IntegratorKind::pt;
-    result.width = size;
-    result.height = size;
-    result.samples = {.begin = 0, .end = 16};
-    result.max_depth = 1;
-    result.aovs = aovs;
+    result.film.width = size;
+    result.film.height = size;
+    result.sampling.samples = {.begin = 0, .end = 16};
+    result.transport.max_depth = 1;
+    result.film.aovs = aovs;
     return result;
 }
 
@@ -134,12 +134,12 @@ TEST_CASE("AOVs are of the very rays that make the picture", "[aov]")
     CAPTURE(passable, moving);
     const Scene scene(builder.desc);
     RenderOptions o = options({Aov::alpha, Aov::depth, Aov::position});
-    o.disabled = {{.s = 1, .t = 1}};  // its splats do not follow the camera's rays
+    o.bidirectional.disabled = {{.s = 1, .t = 1}};  // its splats do not follow the camera's rays
     for (const auto kind : {IntegratorKind::pt, IntegratorKind::mis, IntegratorKind::bdpt}) {
         for (const auto filter : {FilterKind::box, FilterKind::gaussian}) {
             o.integrator = kind;
-            o.filter.kind = filter;
-            o.seed = 5;
+            o.film.filter.kind = filter;
+            o.sampling.seed = 5;
             const RenderResult result = render(scene, view, o);
             const std::vector<Layer> layers = result.aovs.develop(result.film);
             const Image image = result.film.develop();

@@ -35,31 +35,36 @@ std::string refusal(const std::function<void(RenderOptions&)>& change)
 TEST_CASE("options out of range are refused by name and value", "[render]")
 {
     check_options(RenderOptions{});
-    CHECK(refusal([](auto& o) { o.width = 0; }) == "image width is 0, not in [1, 65536]");
-    CHECK(refusal([](auto& o) { o.height = -3; }) == "image height is -3, not in [1, 65536]");
-    CHECK(refusal([](auto& o) { o.max_depth = 0; }).find("max_depth") != std::string::npos);
-    CHECK(refusal([](auto& o) { o.samples = {.begin = 4, .end = 4}; }).find("samples is 0") !=
+    CHECK(refusal([](auto& o) { o.film.width = 0; }) == "image width is 0, not in [1, 65536]");
+    CHECK(refusal([](auto& o) { o.film.height = -3; }) == "image height is -3, not in [1, 65536]");
+    CHECK(refusal([](auto& o) { o.transport.max_depth = 0; }).find("max_depth") !=
           std::string::npos);
-    CHECK(refusal([](auto& o) { o.samples = {.begin = -1, .end = 4}; }).find("-1") !=
+    CHECK(refusal([](auto& o) {
+              o.sampling.samples = {.begin = 4, .end = 4};
+          }).find("samples is 0") != std::string::npos);
+    CHECK(refusal([](auto& o) { o.sampling.samples = {.begin = -1, .end = 4}; }).find("-1") !=
           std::string::npos);
     for (const PixelRect crop :
          {PixelRect{-1, 0, 4, 4}, PixelRect{0, 0, 1281, 4}, PixelRect{0, 0, 4, 721},
           PixelRect{0, -2, 4, 4}, PixelRect{7, 0, 7, 4}, PixelRect{0, 8, 4, 5}}) {
-        CHECK(refusal([&](auto& o) { o.crop = crop; }).find("crop ") == 0);
+        CHECK(refusal([&](auto& o) { o.film.crop = crop; }).find("crop ") == 0);
     }
     CHECK(refusal([](auto& o) {
-              o.crop = PixelRect{9, 8, 7, 6};
+              o.film.crop = PixelRect{9, 8, 7, 6};
           }) == "crop 9,8,7,6 is empty or not inside of the image of 1280x720 pixels");
-    CHECK(refusal([](auto& o) { o.crop = PixelRect{0, 0, 1280, 720}; }).empty());
+    CHECK(refusal([](auto& o) { o.film.crop = PixelRect{0, 0, 1280, 720}; }).empty());
     for (const float radius : {0.0f, -1.0f, 17.0f, std::numeric_limits<float>::quiet_NaN()}) {
-        CHECK(refusal([&](auto& o) { o.filter.radius = radius; }).find("filter radius is ") == 0);
+        CHECK(refusal([&](auto& o) { o.film.filter.radius = radius; }).find("filter radius is ") ==
+              0);
     }
     for (const float clamp : {0.0f, -1.0f, std::numeric_limits<float>::quiet_NaN()}) {
-        CHECK(refusal([&](auto& o) { o.clamp = clamp; }).find("clamp is ") == 0);
+        CHECK(refusal([&](auto& o) { o.film.clamp = clamp; }).find("clamp is ") == 0);
     }
-    CHECK(refusal([](auto& o) { o.clamp = 1e-9f; }).empty());
-    CHECK(refusal([](auto& o) { o.tile_size = 0; }).find("tile size is 0") != std::string::npos);
-    CHECK(refusal([](auto& o) { o.threads = -1; }).find("threads is -1") != std::string::npos);
+    CHECK(refusal([](auto& o) { o.film.clamp = 1e-9f; }).empty());
+    CHECK(refusal([](auto& o) { o.system.tile_size = 0; }).find("tile size is 0") !=
+          std::string::npos);
+    CHECK(refusal([](auto& o) { o.system.threads = -1; }).find("threads is -1") !=
+          std::string::npos);
 }
 
 TEST_CASE("cameras without a view are refused by name", "[render]")

@@ -24,13 +24,13 @@ RenderOptions options(IntegratorKind integrator, std::uint64_t seed)
 {
     RenderOptions result;
     result.integrator = integrator;
-    result.width = 19;
-    result.height = 13;
-    result.samples = {.begin = 0, .end = 4};
-    result.max_depth = 4;
-    result.tile_size = 4;
-    result.seed = seed;
-    result.aovs = {Aov::albedo, Aov::depth};
+    result.film.width = 19;
+    result.film.height = 13;
+    result.sampling.samples = {.begin = 0, .end = 4};
+    result.transport.max_depth = 4;
+    result.system.tile_size = 4;
+    result.sampling.seed = seed;
+    result.film.aovs = {Aov::albedo, Aov::depth};
     return result;
 }
 
@@ -40,11 +40,11 @@ std::vector<RenderOptions> different_options()
     std::vector<RenderOptions> result{
         options(IntegratorKind::bdpt, 1), options(IntegratorKind::bdpt, 2),
         options(IntegratorKind::mis, 1), options(IntegratorKind::lt, 3)};
-    result[0].threads = 1;
-    result[1].threads = 8;
-    result[2].clamp = 0.5f;
-    result[2].filter.kind = FilterKind::tent;
-    result[3].sampler = SamplerKind::independent;
+    result[0].system.threads = 1;
+    result[1].system.threads = 8;
+    result[2].film.clamp = 0.5f;
+    result[2].film.filter.kind = FilterKind::tent;
+    result[3].sampling.sampler = SamplerKind::independent;
     return result;
 }
 
@@ -157,7 +157,7 @@ TEST_CASE("a stop from another thread ends one render, and what it has is right"
 {
     const Scene scene = room();
     RenderOptions endless = options(IntegratorKind::bdpt, 5);
-    endless.samples = {.begin = 0, .end = 1'000'000'000};
+    endless.sampling.samples = {.begin = 0, .end = 1'000'000'000};
     const RenderOptions short_one = options(IntegratorKind::mis, 6);
     std::stop_source stop;
     std::atomic<bool> begun{false};
@@ -181,8 +181,8 @@ TEST_CASE("a stop from another thread ends one render, and what it has is right"
     REQUIRE(whole.has_value());
     CHECK(same(*whole, alone(scene, short_one)));
     REQUIRE(stopped->samples.end > 0);
-    REQUIRE(stopped->samples.end < endless.samples.end);
-    endless.samples.end = stopped->samples.end;
+    REQUIRE(stopped->samples.end < endless.sampling.samples.end);
+    endless.sampling.samples.end = stopped->samples.end;
     CHECK(same(*stopped, alone(scene, endless)));
 }
 
@@ -194,7 +194,7 @@ TEST_CASE("a stop that was requested before still gives one pass", "[concurrency
     RenderControl control;
     control.stop = stop.get_token();
     RenderOptions o = options(IntegratorKind::pt, 7);
-    o.samples = {.begin = 10, .end = 1'000'000'000};
+    o.sampling.samples = {.begin = 10, .end = 1'000'000'000};
     const RenderResult result = render(scene, test::room_camera(), o, control);
     CHECK(result.samples.begin == 10);
     CHECK(result.samples.end == 11);

@@ -29,12 +29,12 @@ RenderOptions options(IntegratorKind integrator)
 {
     RenderOptions result;
     result.integrator = integrator;
-    result.width = 12;
-    result.height = 8;
-    result.samples = {.begin = 0, .end = 8};
-    result.max_depth = 5;
-    result.min_depth = 1;
-    result.threads = 1;  // Catch's assertions are not for several threads
+    result.film.width = 12;
+    result.film.height = 8;
+    result.sampling.samples = {.begin = 0, .end = 8};
+    result.transport.max_depth = 5;
+    result.transport.min_depth = 1;
+    result.system.threads = 1;  // Catch's assertions are not for several threads
     return result;
 }
 
@@ -58,16 +58,16 @@ TEST_CASE("found paths add up to the picture, and telling of them does not chang
         for (const int min_depth : {1, 3}) {
             CAPTURE(static_cast<int>(integrator), min_depth);
             RenderOptions what = options(integrator);
-            what.min_depth = min_depth;
-            what.filter = {.kind = FilterKind::gaussian};
-            what.crop = PixelRect{.x0 = 2, .y0 = 0, .x1 = 12, .y1 = 7};
+            what.transport.min_depth = min_depth;
+            what.film.filter = {.kind = FilterKind::gaussian};
+            what.film.crop = PixelRect{.x0 = 2, .y0 = 0, .x1 = 12, .y1 = 7};
             std::vector<Vec3> sums(70, Vec3(0.0f));
             RenderControl control;
             control.on_path = [&](const FoundPath& path) {
                 const auto x = static_cast<std::size_t>(path.raster.x);
                 const auto y = static_cast<std::size_t>(path.raster.y);
-                REQUIRE(what.crop->contains(static_cast<int>(std::floor(path.raster.x)),
-                                            static_cast<int>(std::floor(path.raster.y))));
+                REQUIRE(what.film.crop->contains(static_cast<int>(std::floor(path.raster.x)),
+                                                 static_cast<int>(std::floor(path.raster.y))));
                 sums[y * 10 + x - 2] += path.weight * path.unweighted / 8.0f;
                 CHECK(path.strategy.s + path.strategy.t > min_depth);
             };
@@ -89,8 +89,8 @@ TEST_CASE("shares of all strategies sum to one and are those behind the weight",
         for (const IntegratorKind integrator : {IntegratorKind::bdpt, IntegratorKind::lt}) {
             for (const Heuristic heuristic : {Heuristic::balance, Heuristic::power}) {
                 RenderOptions what = options(integrator);
-                what.heuristic = heuristic;
-                what.light_paths = 2;
+                what.transport.heuristic = heuristic;
+                what.bidirectional.light_paths = 2;
                 int paths = 0;
                 int blind = 0;
                 RenderControl control;

@@ -23,10 +23,10 @@ RenderOptions options(IntegratorKind integrator)
 {
     RenderOptions result;
     result.integrator = integrator;
-    result.width = 24;
-    result.height = 18;
-    result.samples = {.begin = 0, .end = 6};
-    result.max_depth = 4;
+    result.film.width = 24;
+    result.film.height = 18;
+    result.sampling.samples = {.begin = 0, .end = 6};
+    result.transport.max_depth = 4;
     return result;
 }
 
@@ -82,13 +82,13 @@ std::vector<float> row(const Slide& what, IntegratorKind integrator)
 {
     RenderOptions o;
     o.integrator = integrator;
-    o.width = 8;
-    o.height = 1;
-    o.max_depth = 1;
-    o.samples = {.begin = 0, .end = 8192};
+    o.film.width = 8;
+    o.film.height = 1;
+    o.transport.max_depth = 1;
+    o.sampling.samples = {.begin = 0, .end = 8192};
     const Image image = render(Scene(what.builder.desc), what.camera, o).film.develop();
     std::vector<float> result;
-    for (int x = 0; x < o.width; ++x) {
+    for (int x = 0; x < o.film.width; ++x) {
         result.push_back(image.at(x, 0).g);
     }
     return result;
@@ -187,8 +187,8 @@ TEST_CASE("a moment of a motion is the still picture of it, in AOVs too", "[moti
         return Scene(std::move(builder.desc));
     };
     RenderOptions o = options(IntegratorKind::mis);
-    o.samples = {.begin = 0, .end = 64};
-    o.aovs = {Aov::albedo, Aov::normal, Aov::depth, Aov::position};
+    o.sampling.samples = {.begin = 0, .end = 64};
+    o.film.aovs = {Aov::albedo, Aov::normal, Aov::depth, Aov::position};
     const RenderResult a = render(still(false), test::room_camera(), o);
     const RenderResult b = render(still(true), test::room_camera(), o);
     const auto layers_a = a.aovs.develop(a.film);
@@ -213,20 +213,20 @@ TEST_CASE("moving pictures are pure", "[motion][purity]")
     const CameraDesc camera = moving_lens();
     for (const auto kind : {IntegratorKind::bdpt, IntegratorKind::lt, IntegratorKind::mis}) {
         RenderOptions o = options(kind);
-        o.threads = 1;
-        o.light_paths = kind == IntegratorKind::bdpt ? 2 : 1;
-        o.aovs = {Aov::normal, Aov::depth};
+        o.system.threads = 1;
+        o.bidirectional.light_paths = kind == IntegratorKind::bdpt ? 2 : 1;
+        o.film.aovs = {Aov::normal, Aov::depth};
         const RenderResult expected = render(scene, camera, o);
         CHECK(expected.film.defects().invalid == 0);
-        o.threads = 8;
-        o.tile_size = 5;
+        o.system.threads = 8;
+        o.system.tile_size = 5;
         const RenderResult other = render(scene, camera, o);
         CHECK(other.film == expected.film);
         CHECK(other.aovs == expected.aovs);
         CHECK(render(everything(), camera, o).film == expected.film);
-        o.samples = {.begin = 2, .end = 6};
+        o.sampling.samples = {.begin = 2, .end = 6};
         RenderResult parts = render(scene, camera, o);
-        o.samples = {.begin = 0, .end = 2};
+        o.sampling.samples = {.begin = 0, .end = 2};
         const RenderResult first = render(scene, camera, o);
         parts.film.merge(first.film);
         parts.aovs.merge(first.aovs);

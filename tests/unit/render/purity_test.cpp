@@ -22,11 +22,11 @@ RenderOptions options(IntegratorKind integrator)
 {
     RenderOptions result;
     result.integrator = integrator;
-    result.width = 37;
-    result.height = 29;
-    result.samples = {.begin = 0, .end = 8};
-    result.max_depth = 5;
-    result.seed = 11;
+    result.film.width = 37;
+    result.film.height = 29;
+    result.sampling.samples = {.begin = 0, .end = 8};
+    result.transport.max_depth = 5;
+    result.sampling.seed = 11;
     return result;
 }
 
@@ -70,29 +70,29 @@ TEST_CASE("the same bits for any threads and tiles", "[purity]")
     const Scene scene = room();
     for (const auto kind : {IntegratorKind::bdpt, IntegratorKind::pt, IntegratorKind::mis}) {
         RenderOptions o = options(kind);
-        o.threads = 1;
+        o.system.threads = 1;
         const Film expected = film_of(scene, o);
         for (const int threads : {2, 8}) {
-            o.threads = threads;
+            o.system.threads = threads;
             CHECK(film_of(scene, o) == expected);
         }
         for (const int tile : {8, 64}) {
-            o.tile_size = tile;
+            o.system.tile_size = tile;
             CHECK(film_of(scene, o) == expected);
         }
         RenderOptions other = o;
-        other.seed = 12;
+        other.sampling.seed = 12;
         CHECK_FALSE(film_of(scene, other) == expected);
         other = o;
-        other.sampler = SamplerKind::independent;
+        other.sampling.sampler = SamplerKind::independent;
         CHECK_FALSE(film_of(scene, other) == expected);
-        o.filter.kind = FilterKind::gaussian;
+        o.film.filter.kind = FilterKind::gaussian;
         const Film filtered = film_of(scene, o);
         CHECK_FALSE(filtered == expected);
-        o.threads = 1;
-        o.tile_size = 5;
+        o.system.threads = 1;
+        o.system.tile_size = 5;
         CHECK(film_of(scene, o) == filtered);
-        o.seed = 12;
+        o.sampling.seed = 12;
         CHECK_FALSE(film_of(scene, o) == filtered);
     }
 }
@@ -110,22 +110,22 @@ TEST_CASE("the same bits with a pinned instruction set, too", "[purity]")
         const Scene scene = room(isa);
         REQUIRE(scene.isa() == isa);
         RenderOptions o = options(IntegratorKind::bdpt);
-        o.threads = 1;
+        o.system.threads = 1;
         const Film expected = film_of(scene, o);
-        o.threads = 8;
-        o.tile_size = 64;
+        o.system.threads = 8;
+        o.system.tile_size = 64;
         CHECK(film_of(scene, o) == expected);
         CHECK(film_of(room(isa), o) == expected);
-        o.threads = 2;
-        o.tile_size = 8;
-        o.samples = {.begin = 3, .end = 8};
+        o.system.threads = 2;
+        o.system.tile_size = 8;
+        o.sampling.samples = {.begin = 3, .end = 8};
         Film parts = film_of(scene, o);
-        o.samples = {.begin = 0, .end = 3};
+        o.sampling.samples = {.begin = 0, .end = 3};
         parts.merge(film_of(scene, o));
         CHECK(parts == expected);
-        o.samples = {.begin = 0, .end = 8};
-        o.crop = PixelRect{5, 3, 24, 20};
-        check_region(film_of(scene, o).develop(), expected.develop(), *o.crop);
+        o.sampling.samples = {.begin = 0, .end = 8};
+        o.film.crop = PixelRect{5, 3, 24, 20};
+        check_region(film_of(scene, o).develop(), expected.develop(), *o.film.crop);
     }
 }
 
@@ -155,14 +155,14 @@ TEST_CASE("a range rendered in parts and merged is the whole", "[purity]")
 {
     const Scene scene = room();
     RenderOptions o = options(IntegratorKind::bdpt);
-    o.sampler = GENERATE(SamplerKind::sobol, SamplerKind::independent);
-    o.filter.kind = GENERATE(FilterKind::box, FilterKind::blackman_harris);
+    o.sampling.sampler = GENERATE(SamplerKind::sobol, SamplerKind::independent);
+    o.film.filter.kind = GENERATE(FilterKind::box, FilterKind::blackman_harris);
     const Film whole = film_of(scene, o);
-    o.samples = {.begin = 5, .end = 8};
+    o.sampling.samples = {.begin = 5, .end = 8};
     Film parts = film_of(scene, o);
-    o.samples = {.begin = 0, .end = 1};
+    o.sampling.samples = {.begin = 0, .end = 1};
     parts.merge(film_of(scene, o));
-    o.samples = {.begin = 1, .end = 5};
+    o.sampling.samples = {.begin = 1, .end = 5};
     parts.merge(film_of(scene, o));
     CHECK(parts == whole);
     CHECK(parts.defects().invalid == 0);
@@ -174,16 +174,16 @@ TEST_CASE("a crop has the pixels of the whole image, to the bit", "[purity]")
     const auto filter = GENERATE(FilterKind::box, FilterKind::gaussian);
     for (const auto kind : {IntegratorKind::bdpt, IntegratorKind::pt, IntegratorKind::mis}) {
         RenderOptions o = options(kind);
-        o.filter.kind = filter;
+        o.film.filter.kind = filter;
         const Film whole = film_of(scene, o);
         for (const PixelRect crop : {PixelRect{0, 0, 37, 29}, PixelRect{5, 3, 24, 20},
                                      PixelRect{36, 28, 37, 29}, PixelRect{0, 17, 37, 18}}) {
-            o.crop = crop;
-            o.threads = 1;
-            o.tile_size = 8;
+            o.film.crop = crop;
+            o.system.threads = 1;
+            o.system.tile_size = 8;
             const Film part = film_of(scene, o);
-            o.threads = 8;
-            o.tile_size = 16;
+            o.system.threads = 8;
+            o.system.tile_size = 16;
             CHECK(film_of(scene, o) == part);
             CHECK(part.sample_count() == 8);
             check_region(part.develop(), whole.develop(), crop);
@@ -196,7 +196,8 @@ TEST_CASE("a clamp takes what is missing, and is pure", "[purity]")
 {
     const Scene scene = room();
     RenderOptions o = options(GENERATE(IntegratorKind::bdpt, IntegratorKind::mis));
-    o.disabled = {{.s = 1, .t = 1}};  // so that lamps are seen by camera samples, above the clamp
+    o.bidirectional.disabled = {
+        {.s = 1, .t = 1}};  // so that lamps are seen by camera samples, above the clamp
     const auto mean = [](const Film& film) {
         glm::dvec3 sum(0.0);
         for (const Rgb& pixel : film.develop().pixels) {
@@ -205,8 +206,8 @@ TEST_CASE("a clamp takes what is missing, and is pure", "[purity]")
         return sum;
     };
     const glm::dvec3 whole = mean(film_of(scene, o));
-    o.clamp = 0.3f;
-    o.threads = 1;
+    o.film.clamp = 0.3f;
+    o.system.threads = 1;
     const Film clamped = film_of(scene, o);
     const glm::dvec3 rest = mean(clamped);
     const ClampLoss loss = clamped.clamp_loss();
@@ -215,12 +216,12 @@ TEST_CASE("a clamp takes what is missing, and is pure", "[purity]")
     for (int c = 0; c < 3; ++c) {
         CHECK(rest[c] + static_cast<double>(loss.radiance[c]) == Approx(whole[c]).epsilon(1e-5));
     }
-    o.threads = 8;
-    o.tile_size = 3;
+    o.system.threads = 8;
+    o.system.tile_size = 3;
     CHECK(film_of(scene, o) == clamped);
-    o.samples = {.begin = 0, .end = 3};
+    o.sampling.samples = {.begin = 0, .end = 3};
     Film parts = film_of(scene, o);
-    o.samples = {.begin = 3, .end = 8};
+    o.sampling.samples = {.begin = 3, .end = 8};
     parts.merge(film_of(scene, o));
     CHECK(parts == clamped);
 }
@@ -229,21 +230,21 @@ TEST_CASE("AOVs are pure too, in any crop, and the same for every integrator", "
 {
     const Scene scene = room();
     RenderOptions o = options(IntegratorKind::pt);
-    o.aovs = all_aovs;
-    o.filter.kind = FilterKind::tent;
-    o.threads = 1;
+    o.film.aovs = all_aovs;
+    o.film.filter.kind = FilterKind::tent;
+    o.system.threads = 1;
     const RenderResult whole = render(scene, test::room_camera(), o);
-    o.threads = 8;
-    o.tile_size = 5;
+    o.system.threads = 8;
+    o.system.tile_size = 5;
     for (const auto kind : {IntegratorKind::bdpt, IntegratorKind::mis}) {
         o.integrator = kind;
         CHECK(render(scene, test::room_camera(), o).aovs == whole.aovs);
     }
     o.integrator = IntegratorKind::pt;
-    o.samples = {.begin = 3, .end = 8};
+    o.sampling.samples = {.begin = 3, .end = 8};
     RenderResult parts = render(scene, test::room_camera(), o);
     CHECK_FALSE(parts.aovs == whole.aovs);
-    o.samples = {.begin = 0, .end = 3};
+    o.sampling.samples = {.begin = 0, .end = 3};
     const RenderResult first = render(scene, test::room_camera(), o);
     parts.film.merge(first.film);
     parts.aovs.merge(first.aovs);
@@ -253,17 +254,17 @@ TEST_CASE("AOVs are pure too, in any crop, and the same for every integrator", "
     CHECK(parts.stats == whole.stats);
 
     o = options(GENERATE(IntegratorKind::bdpt, IntegratorKind::pt));
-    o.aovs = all_aovs;
-    o.filter.kind = FilterKind::tent;
+    o.film.aovs = all_aovs;
+    o.film.filter.kind = FilterKind::tent;
     const RenderResult all = render(scene, test::room_camera(), o);
     const std::vector<Layer> expected = all.aovs.develop(all.film);
-    o.crop = PixelRect{7, 4, 30, 9};
+    o.film.crop = PixelRect{7, 4, 30, 9};
     const RenderResult part = render(scene, test::room_camera(), o);
     const std::vector<Layer> layers = part.aovs.develop(part.film);
     REQUIRE(layers.size() == expected.size());
     for (std::size_t i = 0; i < layers.size(); ++i) {
         CAPTURE(layers[i].name);
-        CHECK(layers[i].values == crop_of(expected[i], *o.crop));
+        CHECK(layers[i].values == crop_of(expected[i], *o.film.crop));
     }
 }
 
@@ -271,7 +272,7 @@ TEST_CASE("a stop ends the render after a whole pass", "[render]")
 {
     const Scene scene = room();
     RenderOptions o = options(IntegratorKind::mis);
-    o.samples = {.begin = 0, .end = 1000000};
+    o.sampling.samples = {.begin = 0, .end = 1000000};
     std::stop_source source;
     RenderControl control;
     control.stop = source.get_token();
@@ -285,7 +286,7 @@ TEST_CASE("a stop ends the render after a whole pass", "[render]")
     REQUIRE(stopped.samples.end >= 3);
     REQUIRE(stopped.samples.end < 1000000);
     CHECK(stopped.film.sample_count() == stopped.samples.end);
-    o.samples.end = stopped.samples.end;
+    o.sampling.samples.end = stopped.samples.end;
     CHECK(film_of(scene, o) == stopped.film);
 }
 
@@ -293,7 +294,7 @@ TEST_CASE("progress counts the samples of its own range", "[render]")
 {
     const Scene scene = room();
     RenderOptions o = options(IntegratorKind::pt);
-    o.samples = {.begin = 1000, .end = 1012};
+    o.sampling.samples = {.begin = 1000, .end = 1012};
     std::int64_t done = 0;
     RenderControl control;
     control.on_progress = [&](const Progress& progress) {
@@ -322,7 +323,7 @@ TEST_CASE("a time limit ends the render early, but not before one pass", "[rende
 {
     const Scene scene = room();
     RenderOptions o = options(IntegratorKind::pt);
-    o.samples = {.begin = 0, .end = 1000000};
+    o.sampling.samples = {.begin = 0, .end = 1000000};
     RenderControl control;
     control.time_limit = 0.0;
     const RenderResult result = render(scene, test::room_camera(), o, control);

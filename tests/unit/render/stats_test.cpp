@@ -16,10 +16,10 @@ RenderOptions options(IntegratorKind integrator, int max_depth)
 {
     RenderOptions result;
     result.integrator = integrator;
-    result.width = 20;
-    result.height = 10;
-    result.samples = {.begin = 0, .end = samples};
-    result.max_depth = max_depth;
+    result.film.width = 20;
+    result.film.height = 10;
+    result.sampling.samples = {.begin = 0, .end = samples};
+    result.transport.max_depth = max_depth;
     return result;
 }
 
@@ -52,7 +52,7 @@ TEST_CASE("rays and paths are counted by kind", "[stats]")
     const Scene scene(floor_and_light());
     const auto count = [&](IntegratorKind kind, int max_depth, AovSet aovs = {}) {
         RenderOptions o = options(kind, max_depth);
-        o.aovs = aovs;
+        o.film.aovs = aovs;
         return render(scene, from_above, o).stats;
     };
     SECTION("paths of one edge see lights only")
@@ -96,11 +96,11 @@ TEST_CASE("counts do not depend on threads and tiles", "[stats][purity]")
     const Scene scene(builder.desc);
     for (const auto kind : {IntegratorKind::bdpt, IntegratorKind::mis}) {
         RenderOptions o = options(kind, 6);
-        o.threads = 1;
+        o.system.threads = 1;
         const RenderStats expected = stats_of(scene, o);
         CHECK(expected.rays.shadow > 0);
-        o.threads = 8;
-        o.tile_size = 3;
+        o.system.threads = 8;
+        o.system.tile_size = 3;
         CHECK(stats_of(scene, o) == expected);
     }
 }
@@ -110,7 +110,7 @@ TEST_CASE("a crop takes the camera rays of its pixels and the light rays of the 
     const Scene scene(floor_and_light());
     RenderOptions o = options(IntegratorKind::bdpt, 2);
     const RenderStats whole = render(scene, from_above, o).stats;
-    o.crop = PixelRect{3, 2, 8, 6};
+    o.film.crop = PixelRect{3, 2, 8, 6};
     const RenderStats crop = render(scene, from_above, o).stats;
     CHECK(crop.paths == PathCounts{.camera = samples * 20, .light = camera_paths});
     CHECK(crop.rays.camera == 2 * samples * 20);

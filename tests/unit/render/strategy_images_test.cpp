@@ -44,12 +44,12 @@ RenderOptions options(IntegratorKind integrator = IntegratorKind::bdpt)
 {
     RenderOptions result;
     result.integrator = integrator;
-    result.width = 23;
-    result.height = 17;
-    result.samples = {.begin = 0, .end = 6};
-    result.max_depth = 4;
-    result.strategy_depth = 4;
-    result.seed = 5;
+    result.film.width = 23;
+    result.film.height = 17;
+    result.sampling.samples = {.begin = 0, .end = 6};
+    result.transport.max_depth = 4;
+    result.bidirectional.strategy_depth = 4;
+    result.sampling.seed = 5;
     return result;
 }
 
@@ -97,7 +97,7 @@ void check_sum(const Scene& scene, const CameraDesc& camera, RenderOptions o)
     const Image image = result.film.develop();
     CHECK(mean(image).g > 0.01);
     CHECK(difference(sum_of_weighted(result.strategies), image) < 2e-6);
-    o.strategy_depth = 0;
+    o.bidirectional.strategy_depth = 0;
     const RenderResult without = render(scene, camera, o);
     CHECK(without.film == result.film);
     CHECK(without.strategies.empty());
@@ -123,7 +123,7 @@ TEST_CASE("weighted images add up to the picture", "[strategy images]")
         CAPTURE(static_cast<int>(heuristic));
         for (const auto kind : {IntegratorKind::bdpt, IntegratorKind::lt}) {
             RenderOptions o = options(kind);
-            o.heuristic = heuristic;
+            o.transport.heuristic = heuristic;
             check_sum(scene, pinhole(), o);
             check_sum(scene, thin_lens(), o);
         }
@@ -131,26 +131,26 @@ TEST_CASE("weighted images add up to the picture", "[strategy images]")
     RenderOptions o = options();
     SECTION("three light paths")
     {
-        o.light_paths = 3;
+        o.bidirectional.light_paths = 3;
         check_sum(scene, thin_lens(), o);
     }
     SECTION("a crop")
     {
-        o.crop = PixelRect{.x0 = 3, .y0 = 8, .x1 = 21, .y1 = 16};
-        o.light_paths = 2;
+        o.film.crop = PixelRect{.x0 = 3, .y0 = 8, .x1 = 21, .y1 = 16};
+        o.bidirectional.light_paths = 2;
         check_sum(scene, thin_lens(), o);
     }
     SECTION("strategies left out, a filter")
     {
-        o.disabled = {{.s = 1, .t = 2}, {.s = 2, .t = 1}};
-        o.filter.kind = FilterKind::gaussian;
+        o.bidirectional.disabled = {{.s = 1, .t = 2}, {.s = 2, .t = 1}};
+        o.film.filter.kind = FilterKind::gaussian;
         check_sum(scene, pinhole(), o);
     }
     SECTION("indirect light, short subpaths, roulette")
     {
-        o.min_depth = 3;
-        o.max_camera_depth = 2;
-        o.rr_start = 1;
+        o.transport.min_depth = 3;
+        o.bidirectional.max_camera_depth = 2;
+        o.transport.rr_start = 1;
         check_sum(scene, pinhole(), o);
     }
     SECTION("orthographic")
@@ -164,7 +164,7 @@ TEST_CASE("a smaller depth keeps the images of the short paths", "[strategy imag
     const Scene scene = stage();
     RenderOptions o = options();
     const RenderResult all = render(scene, thin_lens(), o);
-    o.strategy_depth = 2;
+    o.bidirectional.strategy_depth = 2;
     const RenderResult some = render(scene, thin_lens(), o);
     CHECK(some.film == all.film);
     REQUIRE(some.strategies.strategies().size() == 7);
@@ -180,21 +180,21 @@ TEST_CASE("an unweighted image is the picture by that strategy alone", "[strateg
 {
     const Scene scene = stage();
     RenderOptions o = options();
-    o.light_paths = GENERATE(1, 3);
-    o.samples = {.begin = 0, .end = 64};
+    o.bidirectional.light_paths = GENERATE(1, 3);
+    o.sampling.samples = {.begin = 0, .end = 64};
     // With weights beside 1 for splats.
-    o.filter = {.kind = FilterKind::gaussian, .radius = 0.7f};
+    o.film.filter = {.kind = FilterKind::gaussian, .radius = 0.7f};
     const CameraDesc camera = thin_lens();
     const StrategyFilm film = render(scene, camera, o).strategies;
     REQUIRE(film.strategies().size() == 3 + 4 + 5 + 6);
     for (const Strategy& strategy : film.strategies()) {
-        CAPTURE(strategy_name(strategy), o.light_paths);
+        CAPTURE(strategy_name(strategy), o.bidirectional.light_paths);
         // The same random numbers serve a strategy whether there are others or not.
         RenderOptions alone = o;
-        alone.strategy_depth = 0;
+        alone.bidirectional.strategy_depth = 0;
         for (const Strategy& other : film.strategies()) {
             if (other != strategy) {
-                alone.disabled.push_back(other);
+                alone.bidirectional.disabled.push_back(other);
             }
         }
         const Image picture = render(scene, camera, alone).film.develop();
@@ -207,10 +207,10 @@ TEST_CASE("unweighted images of one length have equal means", "[strategy images]
 {
     const Scene scene = stage();
     RenderOptions o = options();
-    o.strategy_depth = 3;
-    o.max_depth = 3;
-    o.light_paths = 2;
-    o.samples = {.begin = 0, .end = 1024};
+    o.bidirectional.strategy_depth = 3;
+    o.transport.max_depth = 3;
+    o.bidirectional.light_paths = 2;
+    o.sampling.samples = {.begin = 0, .end = 1024};
     const StrategyFilm film = render(scene, thin_lens(), o).strategies;
     // What other seeds give differs by less than a third of this.
     constexpr double tolerance = 0.1;
@@ -230,27 +230,27 @@ TEST_CASE("images of strategies have the same bits for any threads, tiles and pa
 {
     const Scene scene = stage();
     RenderOptions o = options();
-    o.light_paths = 2;
-    o.filter.kind = FilterKind::tent;
-    o.threads = 1;
+    o.bidirectional.light_paths = 2;
+    o.film.filter.kind = FilterKind::tent;
+    o.system.threads = 1;
     const StrategyFilm expected = render(scene, thin_lens(), o).strategies;
     for (const int tile : {8, 16}) {
         for (const int threads : {1, 2}) {
-            o.tile_size = tile;
-            o.threads = threads;
+            o.system.tile_size = tile;
+            o.system.threads = threads;
             CHECK(render(scene, thin_lens(), o).strategies == expected);
         }
     }
-    o.samples = {.begin = 4, .end = 6};
+    o.sampling.samples = {.begin = 4, .end = 6};
     StrategyFilm parts = render(scene, thin_lens(), o).strategies;
     CHECK_FALSE(parts == expected);
-    o.samples = {.begin = 0, .end = 4};
+    o.sampling.samples = {.begin = 0, .end = 4};
     parts.merge(render(scene, thin_lens(), o).strategies);
     CHECK(parts == expected);
 
     o = options();
     const StrategyFilm whole = render(scene, thin_lens(), o).strategies;
-    o.crop = PixelRect{.x0 = 3, .y0 = 8, .x1 = 21, .y1 = 16};
+    o.film.crop = PixelRect{.x0 = 3, .y0 = 8, .x1 = 21, .y1 = 16};
     const StrategyFilm crop = render(scene, thin_lens(), o).strategies;
     REQUIRE(crop.strategies() == whole.strategies());
     for (const Strategy& strategy : whole.strategies()) {
@@ -272,22 +272,22 @@ TEST_CASE("there are images of the strategies that are used and no others", "[st
     using Names = std::vector<std::string>;
     const Scene scene = stage();
     RenderOptions o = options();
-    o.samples = {.begin = 0, .end = 1};
-    o.strategy_depth = 2;
+    o.sampling.samples = {.begin = 0, .end = 1};
+    o.bidirectional.strategy_depth = 2;
     CHECK(names(scene, pinhole(), o) == Names{"s00t02", "s01t01", "s00t03", "s01t02", "s02t01"});
     CHECK(names(scene, thin_lens(), o) ==
           Names{"s00t02", "s01t01", "s02t00", "s00t03", "s01t02", "s02t01", "s03t00"});
     CHECK(names(scene, parallel(), o) == Names{"s00t02", "s00t03", "s01t02", "s02t01"});
-    o.disabled = {{.s = 1, .t = 2}};
-    o.min_depth = 2;
+    o.bidirectional.disabled = {{.s = 1, .t = 2}};
+    o.transport.min_depth = 2;
     CHECK(names(scene, pinhole(), o) == Names{"s00t03", "s02t01"});
-    o.max_light_depth = 0;
+    o.bidirectional.max_light_depth = 0;
     CHECK(names(scene, pinhole(), o) == Names{"s00t03"});
     o = options(IntegratorKind::lt);
-    o.max_depth = 2;
-    o.strategy_depth = 9;
+    o.transport.max_depth = 2;
+    o.bidirectional.strategy_depth = 9;
     CHECK(names(scene, thin_lens(), o) == Names{"s01t01", "s02t00", "s02t01", "s03t00"});
-    o.strategy_depth = 0;
+    o.bidirectional.strategy_depth = 0;
     CHECK(names(scene, thin_lens(), o).empty());
 }
 
@@ -297,15 +297,15 @@ TEST_CASE("the memory of images of strategies is known beforehand and limited", 
     // 3 + 4 + 5 + 6 strategies with two images of three 128-bit sums and three floats a pixel
     CHECK(strategy_image_bytes(o, thin_lens()) == 18U * 23 * 17 * 2 * 3 * (16 + 4));
     CHECK(strategy_image_bytes(o, pinhole()) == 14U * 23 * 17 * 2 * 3 * (16 + 4));
-    o.crop = PixelRect{.x0 = 0, .y0 = 0, .x1 = 5, .y1 = 7};
+    o.film.crop = PixelRect{.x0 = 0, .y0 = 0, .x1 = 5, .y1 = 7};
     CHECK(strategy_image_bytes(o, pinhole()) == 14U * 5 * 7 * 120);
-    o.strategy_depth = 0;
+    o.bidirectional.strategy_depth = 0;
     CHECK(strategy_image_bytes(o, pinhole()) == 0);
-    o.max_depth = 4096;
-    o.strategy_depth = 4096;
-    o.width = 65536;
-    o.height = 65536;
-    o.crop.reset();
+    o.transport.max_depth = 4096;
+    o.bidirectional.strategy_depth = 4096;
+    o.film.width = 65536;
+    o.film.height = 65536;
+    o.film.crop.reset();
     // More than any machine has, and still counted right.
     const std::uint64_t strategies = std::uint64_t{4096} * 4099 / 2;
     CHECK(strategy_image_bytes(o, pinhole()) == strategies * 120 * 65536 * 65536);
@@ -313,9 +313,9 @@ TEST_CASE("the memory of images of strategies is known beforehand and limited", 
     CHECK_THROWS_AS(render(scene, pinhole(), o), Error);
 
     o = options();
-    o.strategy_memory = strategy_image_bytes(o, pinhole());
+    o.bidirectional.strategy_memory = strategy_image_bytes(o, pinhole());
     CHECK(render(scene, pinhole(), o).strategies.strategies().size() == 14);
-    --o.strategy_memory;
+    --o.bidirectional.strategy_memory;
     try {
         static_cast<void>(render(scene, pinhole(), o));
         FAIL("not refused");
@@ -335,9 +335,9 @@ TEST_CASE("only integrators with light paths have images of strategies", "[strat
         CHECK_THROWS_AS(strategy_image_bytes(options(kind), pinhole()), Error);
     }
     RenderOptions o = options();
-    o.strategy_depth = -1;
+    o.bidirectional.strategy_depth = -1;
     CHECK_THROWS_AS(render(scene, pinhole(), o), Error);
-    o.strategy_depth = 4097;
+    o.bidirectional.strategy_depth = 4097;
     CHECK_THROWS_AS(render(scene, pinhole(), o), Error);
 }
 

@@ -66,11 +66,11 @@ Rgb seen_down(SceneDesc desc, Vec3 from)
     camera.vertical_fov = 0.001f;
     RenderOptions options;
     options.integrator = IntegratorKind::pt;
-    options.width = 1;
-    options.height = 1;
-    options.samples = {0, 4000};
-    options.max_depth = 12;
-    options.rr_start = options.max_depth;
+    options.film.width = 1;
+    options.film.height = 1;
+    options.sampling.samples = {0, 4000};
+    options.transport.max_depth = 12;
+    options.transport.rr_start = options.transport.max_depth;
     return render(scene, camera, options).film.develop().pixels.at(0);
 }
 

@@ -32,9 +32,9 @@ Rgb center_pixel(SceneDesc desc, IntegratorKind integrator)
 {
     const Scene scene(std::move(desc));
     RenderOptions options;
-    options.width = 1;
-    options.height = 1;
-    options.samples = {0, 16};
+    options.film.width = 1;
+    options.film.height = 1;
+    options.sampling.samples = {0, 16};
     options.integrator = integrator;
     return render(scene, test::camera_at({0, 0, 0}, {0, 0, -1}, 0.5f), options)
         .film.develop()
@@ -76,9 +76,9 @@ TEST_CASE("a camera beyond the reach of rays is refused, where it would see noth
         camera.motion = {camera.world_from_camera};
         camera.motion[0][3].z = z;
         RenderOptions options;
-        options.width = 1;
-        options.height = 1;
-        options.samples = {0, 1};
+        options.film.width = 1;
+        options.film.height = 1;
+        options.sampling.samples = {0, 1};
         try {
             (void)render(scene, camera, options);
         } catch (const Error& error) {

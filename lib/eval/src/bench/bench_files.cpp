@@ -95,25 +95,26 @@ ordered_json render_settings(const BenchScene& scene, const RenderOptions& optio
 {
     // JSON has no infinity.
     const ordered_json clamp =
-        std::isfinite(options.clamp) ? ordered_json(options.clamp) : ordered_json();
+        std::isfinite(options.film.clamp) ? ordered_json(options.film.clamp) : ordered_json();
     return {{"version", BDPT_VERSION},
             {"scene", hex_text(scene.content)},
             {"camera", hex_text(content_hash(scene.camera))},
             {"width", scene.width},
             {"height", scene.height},
-            {"max_depth", options.max_depth},
-            {"min_depth", options.min_depth},
-            {"max_camera_depth", options.max_camera_depth},
-            {"max_light_depth", options.max_light_depth},
-            {"light_paths", options.light_paths},
-            {"disabled", strategies_json(options.disabled)},
-            {"rr_start", options.rr_start},
-            {"heuristic", static_cast<int>(options.heuristic)},
-            {"sampler", options.sampler == SamplerKind::sobol ? "sobol" : "independent"},
-            {"environment_sampling", static_cast<int>(options.environment_sampling)},
-            {"light_sampling", static_cast<int>(options.light_sampling)},
-            {"filter", static_cast<int>(options.filter.kind)},
-            {"filter_radius", options.filter.radius.value_or(default_radius(options.filter.kind))},
+            {"max_depth", options.transport.max_depth},
+            {"min_depth", options.transport.min_depth},
+            {"max_camera_depth", options.bidirectional.max_camera_depth},
+            {"max_light_depth", options.bidirectional.max_light_depth},
+            {"light_paths", options.bidirectional.light_paths},
+            {"disabled", strategies_json(options.bidirectional.disabled)},
+            {"rr_start", options.transport.rr_start},
+            {"heuristic", static_cast<int>(options.transport.heuristic)},
+            {"sampler", options.sampling.sampler == SamplerKind::sobol ? "sobol" : "independent"},
+            {"environment_sampling", static_cast<int>(options.sampling.environment)},
+            {"light_sampling", static_cast<int>(options.sampling.lights)},
+            {"filter", static_cast<int>(options.film.filter.kind)},
+            {"filter_radius",
+             options.film.filter.radius.value_or(default_radius(options.film.filter.kind))},
             {"clamp", clamp}};
 }
 

@@ -21,7 +21,7 @@ ordered_json plan_settings(const BenchScene& scene, const BenchOptions& options,
                            const std::string& reference)
 {
     ordered_json settings = render_settings(scene, options.render);
-    settings["threads"] = options.render.threads;
+    settings["threads"] = options.render.system.threads;
     settings["cpu_seconds"] = options.seconds;
     settings["equal_samples"] = options.samples ? ordered_json(*options.samples) : ordered_json();
     settings["reference"] = reference;

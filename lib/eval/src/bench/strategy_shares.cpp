@@ -87,10 +87,10 @@ struct StrategyMoments {
 /// The deepest pictures that are asked for and fit into memory.
 int affordable_depth(RenderOptions options, const CameraDesc& camera, int asked)
 {
-    for (int depth = std::min(asked, options.max_depth); depth > 0; --depth) {
-        options.strategy_depth = depth;
+    for (int depth = std::min(asked, options.transport.max_depth); depth > 0; --depth) {
+        options.bidirectional.strategy_depth = depth;
         // The moments take twelve doubles beside it.
-        if (2 * strategy_image_bytes(options, camera) <= options.strategy_memory) {
+        if (2 * strategy_image_bytes(options, camera) <= options.bidirectional.strategy_memory) {
             return depth;
         }
     }
@@ -143,9 +143,9 @@ void measure_strategies(const BenchScene& scene, const BenchOptions& options,
         return;
     }
     TrialSetup setup = make_setup(scene, options.render, IntegratorKind::bdpt, first_seed, control);
-    setup.options.strategy_depth =
+    setup.options.bidirectional.strategy_depth =
         affordable_depth(setup.options, scene.camera, options.strategy_depth);
-    if (setup.options.strategy_depth == 0) {
+    if (setup.options.bidirectional.strategy_depth == 0) {
         if (control.on_note) {
             control.on_note(scene.name + ": no pictures of strategies: they take too much memory");
         }
@@ -156,10 +156,10 @@ void measure_strategies(const BenchScene& scene, const BenchOptions& options,
     if (!samples) {
         return;
     }
-    setup.options.samples = {.begin = 0, .end = *samples};
+    setup.options.sampling.samples = {.begin = 0, .end = *samples};
     std::vector<StrategyMoments> all;
     for (int batch = 0; batch < batches; ++batch) {
-        setup.options.seed = first_seed + static_cast<std::uint64_t>(batch);
+        setup.options.sampling.seed = first_seed + static_cast<std::uint64_t>(batch);
         RenderControl stop;
         stop.stop = control.stop;
         const RenderResult result = render(scene.scene, scene.camera, setup.options, stop);
@@ -194,7 +194,7 @@ void measure_strategies(const BenchScene& scene, const BenchOptions& options,
     const int factor = (side + thumbnail_side - 1) / thumbnail_side;
     write_json(files.strategies(), {{"samples", *samples},
                                     {"renders", batches},
-                                    {"depth", setup.options.strategy_depth},
+                                    {"depth", setup.options.bidirectional.strategy_depth},
                                     {"light", mean_light},
                                     {"width", (scene.width + factor - 1) / factor},
                                     {"height", (scene.height + factor - 1) / factor},

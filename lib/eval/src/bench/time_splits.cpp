@@ -81,7 +81,7 @@ std::optional<TimeSplit> measure(const TrialSetup& setup, const BenchGoals& goal
                                  const fs::path& file, const Meter& meter)
 {
     RenderOptions options = setup.options;
-    options.samples.end = std::max<std::int64_t>(
+    options.sampling.samples.end = std::max<std::int64_t>(
         static_cast<std::int64_t>(split_share * static_cast<double>(goals.equal_time)), 1);
     RenderControl control;
     control.stop = setup.control.stop;
@@ -91,14 +91,14 @@ std::optional<TimeSplit> measure(const TrialSetup& setup, const BenchGoals& goal
                    static_cast<double>(progress.samples_total));
     };
     const RenderResult result = render(setup.scene.scene, setup.scene.camera, options, control);
-    if (result.samples.end < options.samples.end) {
+    if (result.samples.end < options.sampling.samples.end) {
         return std::nullopt;
     }
     const TimeProfile& profile = result.profile.value();
     TimeSplit split{.integrator = options.integrator,
                     .shares = {},
                     .sample_seconds = profile.total() / static_cast<double>(profile.samples),
-                    .samples = options.samples.end,
+                    .samples = options.sampling.samples.end,
                     .distortion = profile.distortion};
     for (const Phase phase : all_phases) {
         split.shares[static_cast<std::size_t>(phase)] = profile.share(phase);

@@ -25,7 +25,7 @@ std::optional<TimedRender> render_range(const TrialSetup& setup, SampleRange sam
                                         std::function<void(const Progress&)> on_progress = {})
 {
     RenderOptions options = setup.options;
-    options.samples = samples;
+    options.sampling.samples = samples;
     RenderControl control;
     control.stop = setup.control.stop;
     control.on_progress = std::move(on_progress);
@@ -59,10 +59,10 @@ TrialSetup make_setup(const BenchScene& scene, const RenderOptions& options,
 {
     TrialSetup setup{.scene = scene, .options = options, .control = control};
     setup.options.integrator = integrator;
-    setup.options.seed = seed;
-    setup.options.width = scene.width;
-    setup.options.height = scene.height;
-    setup.options.strategy_depth = 0;
+    setup.options.sampling.seed = seed;
+    setup.options.film.width = scene.width;
+    setup.options.film.height = scene.height;
+    setup.options.bidirectional.strategy_depth = 0;
     return setup;
 }
 
@@ -125,7 +125,7 @@ std::optional<Trial> make_trial(const TrialSetup& setup, const BenchGoals& goals
     const double last = static_cast<double>(ends.back());
     Trial trial;
     trial.run.integrator = setup.options.integrator;
-    trial.run.seed = setup.options.seed;
+    trial.run.seed = setup.options.sampling.seed;
     std::optional<Film> film;
     Checkpoint point;
     reset_peak_memory();

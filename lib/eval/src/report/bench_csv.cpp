@@ -50,15 +50,15 @@ std::string bench_csv(const BenchRecord& record)
 {
     const RenderOptions& render = record.options.render;
     std::string result = columns;
-    const std::string tail = "," + std::to_string(render.threads) + "," +
+    const std::string tail = "," + std::to_string(render.system.threads) + "," +
                              field(record.machine.cpu) + "," + field(record.machine.libraries) +
                              "," BDPT_VERSION "\n";
     for (const SceneResult& scene : record.scenes) {
         const std::string head =
             field(scene.name) + "," + field(scene.file) + "," + scene.content + "," +
             std::to_string(scene.width) + "," + std::to_string(scene.height) + "," +
-            std::to_string(render.max_depth) + "," +
-            (render.sampler == SamplerKind::sobol ? "sobol" : "independent") + ",";
+            std::to_string(render.transport.max_depth) + "," +
+            (render.sampling.sampler == SamplerKind::sobol ? "sobol" : "independent") + ",";
         for (const BenchRun& run : scene.runs) {
             const auto goals = std::find_if(
                 scene.goals.begin(), scene.goals.end(),

@@ -27,10 +27,10 @@ ordered_json options_json(const BenchOptions& options)
         options.reference ? ordered_json(options.reference->string()) : ordered_json();
     result["reference_cpu_seconds"] = 2.0 * options.reference_seconds;
     result["strategy_depth"] = options.strategy_depth;
-    result["max_depth"] = render.max_depth;
-    result["heuristic"] = to_string(render.heuristic);
-    result["sampler"] = render.sampler == SamplerKind::sobol ? "sobol" : "independent";
-    result["threads"] = render.threads;
+    result["max_depth"] = render.transport.max_depth;
+    result["heuristic"] = to_string(render.transport.heuristic);
+    result["sampler"] = render.sampling.sampler == SamplerKind::sobol ? "sobol" : "independent";
+    result["threads"] = render.system.threads;
     return result;
 }
 

@@ -23,18 +23,19 @@ RenderOptions render_options(const VerifyOptions& options, IntegratorKind integr
 {
     RenderOptions result;
     result.integrator = integrator;
-    result.width = options.width;
-    result.height = options.height;
-    result.min_depth = shortest;
-    result.max_depth = longest;
+    result.film.width = options.width;
+    result.film.height = options.height;
+    result.transport.min_depth = shortest;
+    result.transport.max_depth = longest;
     // Sobol points of one sequence depend on each other; those of other seeds do not.
-    result.samples = {.begin = 0, .end = samples_of(integrator, shortest)};
+    result.sampling.samples = {.begin = 0, .end = samples_of(integrator, shortest)};
     if (integrator == IntegratorKind::bdpt) {
         // Its strategies are judged one by one, and s = 1 alone needs all of the sky.
-        result.environment_sampling = EnvironmentSampling::plain;
+        result.sampling.environment = EnvironmentSampling::plain;
     }
-    result.threads = 1;
-    result.seed = seed_of(options, integrator, number) + static_cast<std::uint64_t>(shortest);
+    result.system.threads = 1;
+    result.sampling.seed =
+        seed_of(options, integrator, number) + static_cast<std::uint64_t>(shortest);
     return result;
 }
 

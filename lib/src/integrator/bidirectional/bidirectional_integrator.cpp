@@ -23,8 +23,8 @@ Sampler light_sampler(const RenderOptions& options, int x, int y, std::int64_t i
                       int light_path)
 {
     constexpr std::uint64_t odd = 0xd1342543de82ef95U;  // spreads consecutive seeds
-    return {options.sampler, options.seed + static_cast<std::uint64_t>(light_path) * odd, x, y,
-            index};
+    return {options.sampling.sampler,
+            options.sampling.seed + static_cast<std::uint64_t>(light_path) * odd, x, y, index};
 }
 
 }  // namespace
@@ -34,7 +34,7 @@ BidirectionalIntegrator::BidirectionalIntegrator(const World& world, const Movin
     : world_(world),
       camera_(camera),
       options_(options),
-      filter_(options.filter),
+      filter_(options.film.filter),
       strategies_(options)
 {}
 
@@ -42,9 +42,10 @@ RenderStats BidirectionalIntegrator::render_tile(const Tile& tile, SampleRange s
                                                  const Films& films) const
 {
     // One splat for each strategy with t <= 1.
-    const int most_splats = 2 * strategies_.light_vertices() * options_.light_paths + 2;
-    PathWeigher weigher(world_, camera_.first(), strategies_, options_.heuristic,
-                        options_.max_depth + 1);
+    const int most_splats =
+        2 * strategies_.light_vertices() * options_.bidirectional.light_paths + 2;
+    PathWeigher weigher(world_, camera_.first(), strategies_, options_.transport.heuristic,
+                        options_.transport.max_depth + 1);
     if (films.on_path) {
         weigher.keep_paths();
     }
@@ -81,10 +82,10 @@ void BidirectionalIntegrator::add_sample(int x, int y, std::int64_t index, Phase
 
     // Light paths outside of a crop can splat into it.
     const bool wanted = sink.holds_pixel();
-    trace_camera_subpath(
-        sample, start.raster,
-        {.max_vertices = wanted ? strategies_.camera_vertices() : 1, .rr_start = options_.rr_start},
-        camera_path);
+    trace_camera_subpath(sample, start.raster,
+                         {.max_vertices = wanted ? strategies_.camera_vertices() : 1,
+                          .rr_start = options_.transport.rr_start},
+                         camera_path);
     sample.enter(Phase::weigh);
     weigher.begin_camera_path(camera_path.all());
     sample.enter(Phase::connect);
@@ -94,13 +95,14 @@ void BidirectionalIntegrator::add_sample(int x, int y, std::int64_t index, Phase
             sink.splat(sample, {.s = 1, .t = 1}, *splat, strategies_.count(1, 1), 1);
         }
     }
-    for (int i = 0; i < options_.light_paths; ++i) {
+    for (int i = 0; i < options_.bidirectional.light_paths; ++i) {
         if (i > 0) {
             sample.sampler = light_sampler(options_, x, y, index, i);
         }
         sample.enter(Phase::walk);
         trace_light_subpath(
-            sample, {.max_vertices = strategies_.light_vertices(), .rr_start = options_.rr_start},
+            sample,
+            {.max_vertices = strategies_.light_vertices(), .rr_start = options_.transport.rr_start},
             strategies_.next_event_sampling(), light_path);
         ++stats.paths.light;
         sample.enter(Phase::weigh);
@@ -124,7 +126,7 @@ void BidirectionalIntegrator::join_camera_path(SampleContext& sample, Scratch& s
                 sample.enter(Phase::connect);
             }
         }
-        if (t <= options_.max_depth && strategies_.uses(1, t)) {
+        if (t <= options_.transport.max_depth && strategies_.uses(1, t)) {
             if (const auto found = connect_to_light(sample, camera, scratch.weigher)) {
                 scratch.sink.add(sample, {.s = 1, .t = t}, *found, strategies_.count(1, t));
                 sample.enter(Phase::connect);
@@ -137,7 +139,7 @@ void BidirectionalIntegrator::join_camera_path(SampleContext& sample, Scratch& s
 void BidirectionalIntegrator::join_light_path(SampleContext& sample, Scratch& scratch) const
 {
     const Subpath& path = scratch.light_path;
-    const int longest_s = std::min(path.size(), options_.max_depth);
+    const int longest_s = std::min(path.size(), options_.transport.max_depth);
     for (int s = 2; s <= longest_s; ++s) {
         if (!strategies_.uses(s, 1)) {
             continue;
@@ -150,7 +152,7 @@ void BidirectionalIntegrator::join_light_path(SampleContext& sample, Scratch& sc
     }
     for (const LensCrossing& crossing : path.crossings()) {
         const int s = crossing.light_vertices + 1;
-        if (s > options_.max_depth + 1 || !strategies_.uses(s, 0)) {
+        if (s > options_.transport.max_depth + 1 || !strategies_.uses(s, 0)) {
             continue;
         }
         if (const auto splat = hit_lens(sample, path, crossing, scratch.weigher)) {
@@ -166,7 +168,7 @@ void BidirectionalIntegrator::join_paths(const SampleContext& sample, Scratch& s
     const Subpath& light = scratch.light_path;
     const Subpath& camera = scratch.camera_path;
     for (int t = 2; t <= camera.size(); ++t) {
-        const int longest_s = std::min(light.size(), options_.max_depth + 1 - t);
+        const int longest_s = std::min(light.size(), options_.transport.max_depth + 1 - t);
         for (int s = 2; s <= longest_s; ++s) {
             if (!strategies_.uses(s, t)) {
                 continue;

@@ -27,12 +27,12 @@ PathIntegrator::PathIntegrator(const World& world, const MovingCamera& camera,
     : world_(world),
       camera_(camera),
       options_(options),
-      filter_(options.filter),
+      filter_(options.film.filter),
       // What light sampling leaves out is found by BSDF sampling in `mis` alone.
       next_event_sampling_{.environments = options.integrator == IntegratorKind::mis
-                                               ? options.environment_sampling
+                                               ? options.sampling.environment
                                                : EnvironmentSampling::plain,
-                           .lights = options.light_sampling}
+                           .lights = options.sampling.lights}
 {}
 
 RenderStats PathIntegrator::render_tile(const Tile& tile, SampleRange samples,
@@ -75,11 +75,11 @@ void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, Contribution
     Rgb beta(1.0f);
     bool dispersed = false;
     const auto add = [&](Strategy strategy, Rgb found) {
-        if (strategy.s + strategy.t > options_.min_depth && !is_black(found)) {
+        if (strategy.s + strategy.t > options_.transport.min_depth && !is_black(found)) {
             sink.add(sample, strategy, {.unweighted = found, .dispersed = dispersed}, 1.0f);
         }
     };
-    for (int depth = 1; depth <= options_.max_depth; ++depth) {
+    for (int depth = 1; depth <= options_.transport.max_depth; ++depth) {
         ++sample.rays.camera;
         const SegmentKey segment = sample.segment(0, depth);
         const auto hit = world_.first_hit(ray.origin, ray.direction, segment);
@@ -115,12 +115,12 @@ void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, Contribution
             add({.s = 0, .t = depth + 1},
                 beta * emission(ray, *point.light, on_light, point.emission));
         }
-        if (depth == options_.max_depth) {
+        if (depth == options_.transport.max_depth) {
             break;
         }
         dispersed = dispersed || point.disperses;
         const auto vertex = static_cast<std::uint32_t>(depth + 1);
-        if (point.bsdf.connectible() && depth + 1 >= options_.min_depth) {
+        if (point.bsdf.connectible() && depth + 1 >= options_.transport.min_depth) {
             const PhaseScope scope(sample.clock, Phase::connect);
             add({.s = 1, .t = depth + 1}, beta * sample_light(sample, point, depth));
         }
@@ -139,7 +139,7 @@ void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, Contribution
         if (ray.competes && world_.lights().uses_tree(next_event_sampling_.lights)) {
             ray.receiver = {.p = point.end.p, .normal = point.bsdf.opaque_normal()};
         }
-        if (depth >= options_.rr_start) {
+        if (depth >= options_.transport.rr_start) {
             const float survival = max_component(beta);
             if (survival < 1.0f) {
                 if (sampler.next_1d() >= survival) {
@@ -157,7 +157,7 @@ float PathIntegrator::light_weight(float light_pdf, float bsdf_pdf) const
         return 1.0f;  // nee; and pt, which takes the lights that no BSDF sample can hit
     }
     const float ratio = bsdf_pdf / light_pdf;
-    switch (options_.heuristic) {
+    switch (options_.transport.heuristic) {
         case Heuristic::balance:
             return 1.0f / (1.0f + ratio);
         case Heuristic::power:

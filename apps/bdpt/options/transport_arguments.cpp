@@ -1,6 +1,7 @@
 #include "options/transport_arguments.h"
 
 #include <bdpt/eval/bench/option_names.h>
+#include <bdpt/integrators.h>
 
 #include <fmt/format.h>
 
@@ -42,6 +43,17 @@ const char* name_of(const Table& table, Value value)
     return std::find_if(table.begin(), table.end(),
                         [&](const auto& entry) { return entry.second == value; })
         ->first;
+}
+
+std::string integrator_help()
+{
+    std::vector<std::string> phrases;
+    for (const IntegratorInfo& integrator : integrators()) {
+        const bool is_default = integrator.kind == RenderOptions{}.integrator;
+        phrases.push_back(fmt::format("{}{}: {}", integrator.name,
+                                      is_default ? " (the default)" : "", integrator.summary));
+    }
+    return fmt::format("{}", fmt::join(phrases, "; "));
 }
 
 template <typename Values>
@@ -177,16 +189,14 @@ void add_transport_options(CLI::App& command, TransportWords& words)
     const auto group = "How to render";
     constexpr int most_light_paths = 4096;
     const auto add_choice = [&](const char* name, std::string& value,
-                                const std::vector<std::string>& values, const char* help) {
+                                const std::vector<std::string>& values, const std::string& help) {
         command.add_option(name, value, help)
             ->check(CLI::IsMember(values))
             ->type_name(fmt::format("{}", fmt::join(values, "|")))
             ->group(group);
     };
-    add_choice("--integrator", words.integrator, all_names(eval::all_integrators),
-               "bdpt (the default): bidirectional path tracing; mis: path tracing with light and "
-               "BSDF sampling; pt: with BSDF sampling only; nee: with light sampling only; lt: "
-               "light tracing");
+    add_choice("--integrator", words.integrator, all_names(eval::all_integrators()),
+               integrator_help());
     add_choice("--heuristic", words.heuristic, all_names(eval::all_heuristics),
                "How strategies share a path: power (the default), balance, cutoff, maximum, or "
                "uniform, for tests");

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "light/light_bounds.h"
 #include "light/light_models.h"
 #include "light/light_samples.h"
+#include "light/tree/light_bounds.h"
 
 #include <optional>
 #include <utility>

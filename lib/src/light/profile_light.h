@@ -1,9 +1,9 @@
 #pragma once
 
 #include "light/intensity_profile.h"
-#include "light/light_bounds.h"
 #include "light/light_model.h"
 #include "light/light_samples.h"
+#include "light/tree/light_bounds.h"
 
 #include <bdpt/scene_desc.h>
 

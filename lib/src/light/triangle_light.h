@@ -1,9 +1,9 @@
 #pragma once
 
 #include "geometry/placed_mesh.h"
-#include "light/light_bounds.h"
 #include "light/light_model.h"
 #include "light/light_samples.h"
+#include "light/tree/light_bounds.h"
 #include "light/triangle_emission.h"
 #include "material/material.h"
 

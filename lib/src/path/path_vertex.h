@@ -40,7 +40,7 @@ struct PathVertex {
     const Bsdf* bsdf = nullptr;    ///< of surfaces; lives in the `Subpath`
 };
 
-static_assert(std::is_trivially_copyable_v<PathVertex>);
+static_assert(std::is_trivially_copyable_v<PathVertex> && sizeof(PathVertex) <= 112);
 
 /// Can a strategy join at this vertex, which lies inside of a subpath?
 [[nodiscard]] inline bool joinable(const PathVertex& vertex)

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "light/light.h"
-#include "light/light_tree.h"
+#include "light/tree/light_tree.h"
 #include "math/alias_table.h"
 
 #include <cstddef>

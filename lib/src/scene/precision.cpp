@@ -1,7 +1,7 @@
 #include "scene/precision.h"
 
 #include "geometry/placed_mesh.h"
-#include "scene/value_checks.h"
+#include "scene/checks/value_checks.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -1,9 +1,9 @@
 #include "scene/world_builder.h"
 
 #include "material/specular_albedo.h"
-#include "scene/check_powers.h"
+#include "scene/checks/check_powers.h"
+#include "scene/checks/validate.h"
 #include "scene/precision.h"
-#include "scene/validate.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -1,5 +1,5 @@
+#include "scene/checks/value_checks.h"
 #include "scene/open_edges.h"
-#include "scene/value_checks.h"
 #include "scene/world_builder.h"
 
 #include <map>

@@ -24,7 +24,7 @@ using test::random_image;
 
 TEST_CASE("integrators have names, and names integrators")
 {
-    for (const IntegratorKind kind : all_integrators) {
+    for (const IntegratorKind kind : all_integrators()) {
         CHECK(parse_integrator(to_string(kind)) == kind);
     }
     CHECK_FALSE(parse_integrator("BDPT"));

@@ -17,8 +17,8 @@
 namespace bdpt {
 namespace {
 
-constexpr int width = 24;
-constexpr int height = 16;
+constexpr int columns = 24;
+constexpr int rows = 16;
 
 /// A closed room, in which every ray of a walk hits something.
 SceneDesc closed_room()
@@ -40,8 +40,8 @@ RenderOptions options_for(IntegratorKind kind)
 {
     RenderOptions options;
     options.integrator = kind;
-    options.film.width = width;
-    options.film.height = height;
+    options.film.width = columns;
+    options.film.height = rows;
     options.sampling.samples = {.begin = 0, .end = 8};
     options.transport.max_depth = 5;
     return options;
@@ -64,16 +64,16 @@ int for_clocked_samples(const RenderOptions& options,
                         const std::function<void(const SampleTicks&, const RenderStats&)>& check)
 {
     const Scene scene(closed_room());
-    const MovingCamera camera(Camera(CameraDesc{}, width, height));
+    const MovingCamera camera(Camera(CameraDesc{}, columns, rows));
     const auto integrator = make_integrator(scene.world(), camera, options);
-    const PixelRect whole{.x0 = 0, .y0 = 0, .x1 = width, .y1 = height};
-    Film film({.width = width, .height = height, .region = whole, .splats = SplatImage::present});
+    const PixelRect whole{.x0 = 0, .y0 = 0, .x1 = columns, .y1 = rows};
+    Film film({.width = columns, .height = rows, .region = whole, .splats = SplatImage::present});
     StrategyFilm strategies(whole, {});
     PixelTicks pixels(whole);
     const std::function<void(const FoundPath&)> nobody;
     int clocked = 0;
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
+    for (int y = 0; y < rows; ++y) {
+        for (int x = 0; x < columns; ++x) {
             SampleTicks ticks;
             TimeSheet sheet{
                 .pixels = pixels, .samples = ticks, .clock_ticks = 0.0, .suspicious_ticks = 1e30};
@@ -121,7 +121,7 @@ TEST_CASE("a profile is of all samples, of which one of sixteen is clocked", "[p
     options.sampling.samples.end = 64;
     options.system.threads = GENERATE(1, 3);
     const TimeProfile profile = profiled(scene, options).profile.value();
-    constexpr double all = 64.0 * width * height;
+    constexpr double all = 64.0 * columns * rows;
     CHECK(static_cast<double>(profile.samples) == all);
     // Five standard deviations of chance.
     CHECK(std::abs(static_cast<double>(profile.clocked_samples) - all / 16.0) <
@@ -135,7 +135,7 @@ TEST_CASE("a profile is of all samples, of which one of sixteen is clocked", "[p
     CHECK(shares == Approx(1.0));
     CHECK(profile.clock_seconds > 0.0);
     CHECK(profile.distortion > 0.0);
-    REQUIRE(profile.pixel_seconds.size() == std::size_t{width * height});
+    REQUIRE(profile.pixel_seconds.size() == std::size_t{columns * rows});
     for (const float seconds : profile.pixel_seconds) {
         CHECK(seconds > 0.0f);
     }
@@ -150,7 +150,7 @@ TEST_CASE("a profile of a crop has the pixels of the crop", "[profile]")
     CHECK(profile.region == *options.film.crop);
     CHECK(profile.pixel_seconds.size() == 7 * 5);
     // The light paths of all other pixels are in it as well.
-    CHECK(profile.samples == 8 * width * height);
+    CHECK(profile.samples == 8 * columns * rows);
 }
 
 TEST_CASE("ticks are kept by pixel", "[profile]")

@@ -1,4 +1,4 @@
-#include "scene/validate.h"
+#include "scene/checks/validate.h"
 
 #include <bdpt/error.h>
 #include <bdpt/scene_desc.h>

@@ -193,16 +193,17 @@ TEST_CASE("the detail of a mip-mapped texture follows a surface that grows", "[w
         builder.desc.images.push_back(stripes);
         builder.desc.texture_filter = TextureFilter::mip_mapped;
         const World world(std::move(builder.desc));
-        NoProbe probe;
         for (const float time : {0.0f, 1.0f}) {
             const PixelCone cone{.eye = {0, 0, 5}, .spread = 0.15f / 5.0f};
             // The middle of a black column at that time.
             const Vec3 target(grown(time) / size, 0.01f, 0.0f);
-            const auto hit = world.intersect({.p = {0, 0, 5}}, normalize(target - Vec3(0, 0, 5)),
-                                             {.value = 1, .time = time}, cone, probe);
+            const Vec3 direction = normalize(target - Vec3(0, 0, 5));
+            const SegmentKey segment{.value = 1, .time = time};
+            const auto hit = world.first_hit({.p = {0, 0, 5}}, direction, segment);
             REQUIRE(hit.has_value());
+            const SurfacePoint point = world.surface_at(*hit, direction, segment, cone);
             CAPTURE(by_instance, time);
-            CHECK(hit->bsdf.base_color().r == Approx(time == 0.0f ? 0.5f : 0.0f).margin(0.01));
+            CHECK(point.bsdf.base_color().r == Approx(time == 0.0f ? 0.5f : 0.0f).margin(0.01));
         }
     }
 }

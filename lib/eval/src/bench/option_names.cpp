@@ -1,4 +1,5 @@
 #include <bdpt/eval/bench/option_names.h>
+#include <bdpt/integrators.h>
 
 #include <algorithm>
 
@@ -9,28 +10,25 @@ namespace {
 template <typename Values>
 auto parse(const Values& values, std::string_view name)
 {
-    const auto* found = std::find_if(values.begin(), values.end(),
-                                     [name](auto value) { return to_string(value) == name; });
+    const auto found = std::find_if(values.begin(), values.end(),
+                                    [name](auto value) { return to_string(value) == name; });
     return found == values.end() ? std::nullopt : std::optional(*found);
 }
 
 }  // namespace
 
+std::vector<IntegratorKind> all_integrators()
+{
+    std::vector<IntegratorKind> kinds;
+    for (const IntegratorInfo& integrator : integrators()) {
+        kinds.push_back(integrator.kind);
+    }
+    return kinds;
+}
+
 std::string_view to_string(IntegratorKind kind)
 {
-    switch (kind) {
-        case IntegratorKind::pt:
-            return "pt";
-        case IntegratorKind::mis:
-            return "mis";
-        case IntegratorKind::nee:
-            return "nee";
-        case IntegratorKind::lt:
-            return "lt";
-        case IntegratorKind::bdpt:
-            break;
-    }
-    return "bdpt";
+    return info(kind).name;
 }
 
 std::string_view to_string(Heuristic heuristic)
@@ -52,7 +50,7 @@ std::string_view to_string(Heuristic heuristic)
 
 std::optional<IntegratorKind> parse_integrator(std::string_view name)
 {
-    return parse(all_integrators, name);
+    return parse(all_integrators(), name);
 }
 
 std::optional<Heuristic> parse_heuristic(std::string_view name)

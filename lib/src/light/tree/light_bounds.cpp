@@ -1,4 +1,4 @@
-#include "light/light_bounds.h"
+#include "light/tree/light_bounds.h"
 
 #include "math/elementary.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "light/direction_cone.h"
+#include "light/tree/direction_cone.h"
 
 #include <bdpt/types.h>
 

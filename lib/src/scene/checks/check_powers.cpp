@@ -1,6 +1,6 @@
-#include "scene/check_powers.h"
+#include "scene/checks/check_powers.h"
 
-#include "scene/value_checks.h"
+#include "scene/checks/value_checks.h"
 
 #include <algorithm>
 #include <cstddef>

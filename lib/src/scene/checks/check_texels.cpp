@@ -1,4 +1,4 @@
-#include "scene/check_texels.h"
+#include "scene/checks/check_texels.h"
 
 #include <bdpt/error.h>
 

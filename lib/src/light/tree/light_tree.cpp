@@ -1,6 +1,6 @@
-#include "light/light_tree.h"
+#include "light/tree/light_tree.h"
 
-#include "light/light_tree_builder.h"
+#include "light/tree/light_tree_builder.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "light/light_tree_builder.h"
+#include "light/tree/light_tree_builder.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -1,8 +1,8 @@
-#include "scene/validate_lights.h"
+#include "scene/checks/validate_lights.h"
 
 #include "geometry/reach.h"
 #include "math/elementary.h"
-#include "scene/value_checks.h"
+#include "scene/checks/value_checks.h"
 
 #include <glm/geometric.hpp>
 

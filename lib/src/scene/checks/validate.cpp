@@ -1,10 +1,10 @@
-#include "scene/validate.h"
+#include "scene/checks/validate.h"
 
 #include "geometry/reach.h"
-#include "scene/check_motion.h"
-#include "scene/check_texels.h"
-#include "scene/validate_lights.h"
-#include "scene/value_checks.h"
+#include "scene/checks/check_motion.h"
+#include "scene/checks/check_texels.h"
+#include "scene/checks/validate_lights.h"
+#include "scene/checks/value_checks.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>

@@ -1,4 +1,4 @@
-#include "light/direction_cone.h"
+#include "light/tree/direction_cone.h"
 
 #include "math/elementary.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "light/light_tree.h"
+#include "light/tree/light_tree.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,9 +1,9 @@
-#include "scene/check_motion.h"
+#include "scene/checks/check_motion.h"
 
 #include "geometry/motion.h"
 #include "geometry/reach.h"
-#include "scene/validate_lights.h"
-#include "scene/value_checks.h"
+#include "scene/checks/validate_lights.h"
+#include "scene/checks/value_checks.h"
 
 #include <bdpt/motion.h>
 

@@ -15,6 +15,7 @@ class Breakage:
     options: tuple = ()  # of `bdpt verify`
 
 
+BIDIRECTIONAL = "lib/src/integrator/bidirectional/bidirectional_integrator.cpp"
 CONNECT = "lib/src/path/connect.cpp"
 WALK = "lib/src/path/random_walk.cpp"
 SUMS = "lib/src/path/weight_sums.cpp"
@@ -26,10 +27,11 @@ WIDE_LENS = ("--lens-radius", "0.1", "--from", "0.278,0.273,-0.1", "--look-at", 
 INSIDE_GLASS = ("--from", "1.05,0.29,0.3", "--look-at", "1.05,1.5,0.31", "--fov", "90")
 
 BREAKAGES = (
-    Breakage("a join lacks 1/d^2", CONNECT, "f_y.f_cos * y.beta / distance_squared", "f_y.f_cos * y.beta"),
-    Breakage("the longest light subpath is not joined", "lib/src/integrator/bdpt_integrator.cpp",
-             "options_.max_depth + 1 - t);", "options_.max_depth - t);"),
-    Breakage("splats begin at s = 3", "lib/src/integrator/bdpt_integrator.cpp",
+    Breakage("a join lacks 1/d^2", CONNECT, "f_y.f_cos * y.beta * (1.0f / distance_squared)",
+             "f_y.f_cos * y.beta"),
+    Breakage("the longest light subpath is not joined", BIDIRECTIONAL,
+             "options_.transport.max_depth + 1 - t);", "options_.transport.max_depth - t);"),
+    Breakage("splats begin at s = 3", BIDIRECTIONAL,
              "for (int s = 2; s <= longest_s; ++s) {\n        if (!strategies_.uses(s, 1)",
              "for (int s = 3; s <= longest_s; ++s) {\n        if (!strategies_.uses(s, 1)"),
     Breakage("survivors of roulette are not worth more", WALK, "    beta /= survival;\n", ""),

@@ -44,7 +44,7 @@ template <typename Desc, typename T>
 struct Field {
     std::string_view name;
     T Desc::*member;
-};
+};  /// Deduces both types.
 template <typename Desc, typename T>
 Field(const char*, T Desc::*) -> Field<Desc, T>;
 
@@ -54,7 +54,7 @@ struct Number {
     std::string_view name;
     T Desc::*member;
     Limits limits;
-};
+};  /// Deduces both types.
 template <typename Desc, typename T>
 Number(const char*, T Desc::*, Limits) -> Number<Desc, T>;
 

@@ -89,13 +89,13 @@ struct EnvironmentLightDesc {
 /// A light that is no surface.
 using LightDesc = std::variant<PointLightDesc, SpotLightDesc, DirectionalLightDesc,
                                EnvironmentLightDesc, ProfileLightDesc>;
-
+/// Fields of `PointLightDesc`, with names and limits.
 template <>
 inline constexpr auto fields<PointLightDesc> =
     all_fields(Field{"name", &PointLightDesc::name}, Field{"position", &PointLightDesc::position},
                Number{"intensity", &PointLightDesc::intensity, Limits::at_least(0.0f)},
                Field{"radius", &PointLightDesc::radius}, Field{"motion", &PointLightDesc::motion});
-
+/// Fields of `SpotLightDesc`, with names and limits.
 template <>
 inline constexpr auto fields<SpotLightDesc> =
     all_fields(Field{"name", &SpotLightDesc::name}, Field{"position", &SpotLightDesc::position},
@@ -105,26 +105,26 @@ inline constexpr auto fields<SpotLightDesc> =
                Field{"outer cone angle", &SpotLightDesc::outer_cone_angle},
                Field{"radius", &SpotLightDesc::radius}, Field{"motion", &SpotLightDesc::motion},
                Field{"turn", &SpotLightDesc::turn});
-
+/// Fields of `LightProfile`, with names and limits.
 template <>
 inline constexpr auto fields<LightProfile> = all_fields(
     Field{"polar angles", &LightProfile::polar_angles}, Field{"azimuths", &LightProfile::azimuths},
     Field{"intensities", &LightProfile::intensities});
-
+/// Fields of `ProfileLightDesc`, with names and limits.
 template <>
 inline constexpr auto fields<ProfileLightDesc> = all_fields(
     Field{"name", &ProfileLightDesc::name}, Field{"position", &ProfileLightDesc::position},
     Field{"axes", &ProfileLightDesc::world_from_light},
     Number{"scale", &ProfileLightDesc::scale, Limits::at_least(0.0f)},
     Field{"profile", &ProfileLightDesc::profile}, Field{"motion", &ProfileLightDesc::motion});
-
+/// Fields of `DirectionalLightDesc`, with names and limits.
 template <>
 inline constexpr auto fields<DirectionalLightDesc> =
     all_fields(Field{"name", &DirectionalLightDesc::name},
                Field{"direction", &DirectionalLightDesc::direction},
                Number{"illuminance", &DirectionalLightDesc::illuminance, Limits::at_least(0.0f)},
                Field{"turn", &DirectionalLightDesc::turn});
-
+/// Fields of `EnvironmentLightDesc`, with names and limits.
 template <>
 inline constexpr auto fields<EnvironmentLightDesc> =
     all_fields(Field{"radiance", &EnvironmentLightDesc::radiance},

@@ -120,7 +120,7 @@ struct MaterialDesc {
     std::optional<TextureRef> transmission_texture;        ///< linear; R
     std::optional<TextureRef> glossiness_texture;          ///< linear; A, times 1 - roughness
 };
-
+/// Fields of `TextureRef`, with names and limits.
 template <>
 inline constexpr auto fields<TextureRef> = all_fields(Field{"image", &TextureRef::image},
                                                       Field{"uv set", &TextureRef::uv_set},
@@ -129,7 +129,7 @@ inline constexpr auto fields<TextureRef> = all_fields(Field{"image", &TextureRef
                                                       Field{"offset", &TextureRef::offset},
                                                       Field{"rotation", &TextureRef::rotation},
                                                       Field{"scale", &TextureRef::scale});
-
+/// Fields of `ClearcoatDesc`, with names and limits.
 template <>
 inline constexpr auto fields<ClearcoatDesc> =
     all_fields(Number{"clearcoat", &ClearcoatDesc::factor, Limits::unit()},
@@ -138,20 +138,20 @@ inline constexpr auto fields<ClearcoatDesc> =
                Field{"clearcoat texture", &ClearcoatDesc::texture},
                Field{"clearcoat roughness texture", &ClearcoatDesc::roughness_texture},
                Field{"clearcoat normal texture", &ClearcoatDesc::normal_texture});
-
+/// Fields of `SheenDesc`, with names and limits.
 template <>
 inline constexpr auto fields<SheenDesc> =
     all_fields(Number{"sheen colour", &SheenDesc::color, Limits::unit()},
                Number{"sheen roughness", &SheenDesc::roughness, Limits::unit()},
                Field{"sheen colour texture", &SheenDesc::color_texture},
                Field{"sheen roughness texture", &SheenDesc::roughness_texture});
-
+/// Fields of `AnisotropyDesc`, with names and limits.
 template <>
 inline constexpr auto fields<AnisotropyDesc> =
     all_fields(Number{"anisotropy strength", &AnisotropyDesc::strength, Limits::unit()},
                Number{"anisotropy rotation", &AnisotropyDesc::rotation, Limits::finite()},
                Field{"anisotropy texture", &AnisotropyDesc::texture});
-
+/// Fields of `IridescenceDesc`, with names and limits.
 template <>
 inline constexpr auto fields<IridescenceDesc> = all_fields(
     Number{"iridescence", &IridescenceDesc::factor, Limits::unit()},
@@ -160,14 +160,14 @@ inline constexpr auto fields<IridescenceDesc> = all_fields(
     Number{"iridescence thickness", &IridescenceDesc::thickness_maximum, Limits::at_least(0.0f)},
     Field{"iridescence texture", &IridescenceDesc::texture},
     Field{"iridescence thickness texture", &IridescenceDesc::thickness_texture});
-
+/// Fields of `DiffuseTransmissionDesc`, with names and limits.
 template <>
 inline constexpr auto fields<DiffuseTransmissionDesc> = all_fields(
     Number{"diffuse transmission", &DiffuseTransmissionDesc::factor, Limits::unit()},
     Number{"diffuse transmission colour", &DiffuseTransmissionDesc::color, Limits::unit()},
     Field{"diffuse transmission texture", &DiffuseTransmissionDesc::texture},
     Field{"diffuse transmission colour texture", &DiffuseTransmissionDesc::color_texture});
-
+/// Fields of `MaterialDesc`, with names and limits.
 template <>
 inline constexpr auto fields<MaterialDesc> = all_fields(
     Field{"name", &MaterialDesc::name},  //

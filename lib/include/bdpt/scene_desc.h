@@ -88,32 +88,32 @@ struct CameraDesc {
 };
 
 // Lists of fields (bdpt/fields.h).
-
+/// Fields of `MeshPose`, with names and limits.
 template <>
 inline constexpr auto fields<MeshPose> = all_fields(Field{"positions", &MeshPose::positions},
                                                     Field{"normals", &MeshPose::normals},
                                                     Field{"tangents", &MeshPose::tangents});
-
+/// Fields of `MeshDesc`, with names and limits.
 template <>
 inline constexpr auto fields<MeshDesc> =
     all_fields(Field{"name", &MeshDesc::name}, Field{"positions", &MeshDesc::positions},
                Field{"normals", &MeshDesc::normals}, Field{"tangents", &MeshDesc::tangents},
                Field{"texture coordinates", &MeshDesc::uvs}, Field{"colours", &MeshDesc::colors},
                Field{"triangles", &MeshDesc::triangles}, Field{"motion", &MeshDesc::motion});
-
+/// Fields of `InstanceDesc`, with names and limits.
 template <>
 inline constexpr auto fields<InstanceDesc> = all_fields(
     Field{"name", &InstanceDesc::name}, Field{"mesh", &InstanceDesc::mesh},
     Field{"material", &InstanceDesc::material},
     Field{"transform", &InstanceDesc::world_from_object}, Field{"motion", &InstanceDesc::motion});
-
+/// Fields of `SceneDesc`, with names and limits.
 template <>
 inline constexpr auto fields<SceneDesc> =
     all_fields(Field{"images", &SceneDesc::images}, Field{"materials", &SceneDesc::materials},
                Field{"meshes", &SceneDesc::meshes}, Field{"instances", &SceneDesc::instances},
                Field{"profiles", &SceneDesc::profiles}, Field{"lights", &SceneDesc::lights},
                Field{"texture filter", &SceneDesc::texture_filter});
-
+/// Fields of `CameraDesc`, with names and limits.
 template <>
 inline constexpr auto fields<CameraDesc> = all_fields(
     Field{"name", &CameraDesc::name}, Field{"transform", &CameraDesc::world_from_camera},

@@ -136,7 +136,7 @@ SurfacePoint World::mesh_point(const RayHit& hit, Vec3 direction, SegmentKey seg
     const Material& material = material_of(hit.instance);
 
     const float length = length_of(hit.at.normal);
-    const Vec3 ng = length > 0.0f ? hit.at.normal * (1.0f / length) : -direction;
+    const Vec3 ng = length > 0.0f ? hit.at.normal / length : -direction;
     Vec3 ns = ng;
     if (!mesh.mesh().normals.empty()) {
         ns = mesh.shading_normal(hit.triangle, hit.at.barycentrics, segment.time);

@@ -23,12 +23,7 @@ public:
             return std::nullopt;
         }
         const Vec3 wi = lobe().sample(wo, u_lobe, u, mode)->wi;
-        if (grazes(wi)) {
-            return std::nullopt;
-        }
-        // f_cos over its density: the cosine and pi cancel.
-        const BsdfEval value = lobe().eval(wo, wi, mode);
-        return BsdfSample{wi, base_color_, value.pdf_fwd, value.pdf_rev, false};
+        return grazes(wi) ? std::nullopt : smooth_sample(wi, lobe().eval(wo, wi, mode));
     }
     [[nodiscard]] bool has_smooth_lobe() const noexcept { return true; }
     [[nodiscard]] bool transmits() const noexcept { return false; }

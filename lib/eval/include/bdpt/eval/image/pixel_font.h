@@ -10,9 +10,8 @@ namespace bdpt::eval {
 // A font of 5 x 7 dots with what labels are made of: digits, small letters, and signs of numbers.
 // It depends on no file, so that labels look the same everywhere.
 
-/// Dots from one line's top to its bottom, and from one letter to the next.
-constexpr int glyph_height = 7;
-constexpr int glyph_advance = 6;
+constexpr int glyph_height = 7;   ///< dots from a line's top to its bottom
+constexpr int glyph_advance = 6;  ///< dots from one letter to the next
 
 /// Is there a glyph for `letter`? All others are drawn as spaces.
 [[nodiscard]] BDPT_EXPORT bool has_glyph(char letter);

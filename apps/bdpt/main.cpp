@@ -75,18 +75,20 @@ void describe(CommandLine& line)
     line.app.formatter(std::make_shared<HelpFormatter>());
     line.render = line.app.add_subcommand("render", "Render a scene to .exr and .png files");
     add_render_options(*line.render, line.render_words);
-    line.info = line.app.add_subcommand("info", "Say what a scene holds");
+    line.info = line.app.add_subcommand("info", "Print what a scene contains");
     add_info_options(*line.info, line.info_arguments);
-    line.compare = line.app.add_subcommand("compare", "Say how far pictures are from a reference");
+    line.compare =
+        line.app.add_subcommand("compare", "Measure the error of images against a reference");
     add_compare_options(*line.compare, line.compare_words);
-    line.bench = line.app.add_subcommand("bench", "Hold integrators against each other");
+    line.bench =
+        line.app.add_subcommand("bench", "Compare integrators at equal time and equal samples");
     add_bench_options(*line.bench, line.bench_words);
-    line.verify = line.app.add_subcommand("verify", "Prove the estimators on a scene");
+    line.verify = line.app.add_subcommand(
+        "verify", "Test that all integrators and strategies agree on a scene");
     add_verify_options(*line.verify, line.verify_words);
-    line.help = line.app.add_subcommand("help", "Say how a command is used");
-    line.help->add_option("command", line.topic, "The command; all of them if not given")
-        ->type_name("COMMAND");
-    line.version = line.app.add_subcommand("version", "Say which version this is");
+    line.help = line.app.add_subcommand("help", "Print the help of a command");
+    line.help->add_option("command", line.topic, "The command. Default: all")->type_name("COMMAND");
+    line.version = line.app.add_subcommand("version", "Print the version");
     for (CLI::App* command : {line.render, line.info, line.compare, line.bench, line.verify}) {
         let_the_last_count(*command);
     }

@@ -22,7 +22,7 @@ constexpr const char* footer = R"(Examples:
   bdpt info scene.glb --json
   bdpt info --limits
 
-A file that cannot be rendered is told about all the same, with the reason.
+A file that can be read but not rendered is described too, with the reason.
 
 Exit codes: as those of bdpt render, but 0 for a file that can be read and not rendered.)";
 
@@ -96,9 +96,9 @@ SceneReport report_of(const InfoArguments& arguments, const io::GltfOptions& opt
 void add_info_options(CLI::App& command, InfoArguments& arguments)
 {
     command.add_option("file", arguments.file, "The scene: .gltf or .glb")->type_name("FILE");
-    add_scene_options(command, arguments.scene, "What to look at");
-    command.add_flag("--limits", arguments.limits, "Print what a file may hold at most");
-    command.add_flag("--json", arguments.json, "One JSON object instead of text");
+    add_scene_options(command, arguments.scene, "Scene");
+    command.add_flag("--limits", arguments.limits, "Print the limits of what a file may contain");
+    command.add_flag("--json", arguments.json, "Print one JSON object instead of text");
     command.footer(footer);
 }
 

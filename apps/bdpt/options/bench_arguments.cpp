@@ -23,9 +23,9 @@ constexpr const char* footer = R"(Examples:
   bdpt bench scenes/*.gltf -o out/quick --quick
   bdpt bench room.glb -o out/room --integrators pt,mis,bdpt --time 20s --seeds 9 --env sky.hdr
 
-The folder gets report.html, which any browser opens, bench.json and bench.csv, the runs with their
-pictures and the references. Ctrl-C ends it after the pass in flight; the same command goes on where
-it ended. Times are CPU time of all threads. docs/bench.md explains the figures.
+The output folder gets report.html (for any browser), bench.json, bench.csv, the runs with their
+images, and the references. Ctrl-C stops after the current pass; the same command resumes. Times are
+CPU time of all threads. docs/bench.md explains the figures.
 
 Exit codes: 0 done, 2 wrong usage (also: the folder holds runs with other options), 3 input not found,
 4 invalid input (also: a file in the folder that is broken), 5 unsupported feature, 6 output cannot be
@@ -91,50 +91,49 @@ std::string scene_name(const std::filesystem::path& file, std::set<std::string>&
 
 void add_effort(CLI::App& command, BenchWords& words)
 {
-    const auto group = "How much";
+    const auto group = "Effort";
     command
         .add_option("--time", words.time,
-                    "CPU time of each run at equal time, like 5s. 5s if not given")
+                    "CPU time of each run at equal time, like 5s. Default: 5s")
         ->type_name("TIME")
         ->group(group);
     command
         .add_option("--spp", words.samples,
-                    "Samples per pixel of each run at equal samples. If not given, the greatest "
-                    "power of two that all integrators manage in the time above")
+                    "Samples per pixel of each run at equal samples. Default: the greatest power "
+                    "of two for which every integrator stays within --time")
         ->check(whole_number(1, std::int64_t{1} << 20))
         ->type_name("N")
         ->group(group);
-    command.add_option("--seeds", words.seeds, "Runs of each integrator. 5 if not given")
+    command.add_option("--seeds", words.seeds, "Runs of each integrator. Default: 5")
         ->check(whole_number(1, 10000))
         ->type_name("N")
         ->group(group);
     command
         .add_option("--integrators", words.integrators,
-                    "Which ones, with commas between. All if not given: pt,nee,mis,lt,bdpt")
+                    "Integrators, comma-separated. Default: pt,nee,mis,lt,bdpt")
         ->type_name("LIST")
         ->group(group);
     command
-        .add_option("--reference-time", words.reference_time,
-                    "CPU time of each of the two renders that make the reference. 12 times that of "
-                    "a run if not given")
+        .add_option(
+            "--reference-time", words.reference_time,
+            "CPU time of each of the two renders that make the reference. Default: 12 times --time")
         ->type_name("TIME")
         ->group(group);
     command
         .add_option("--reference", words.reference,
-                    "Take this picture as the reference, or SCENE.exr of this folder")
+                    "Reference image to use instead of rendering one, or a folder with SCENE.exr")
         ->type_name("FILE|DIR")
         ->group(group);
     command
-        .add_option(
-            "--strategy-depth", words.strategy_depth,
-            "Longest paths [edges] in the pyramid of strategies, 0 for none. 5 if not given")
+        .add_option("--strategy-depth", words.strategy_depth,
+                    "Longest paths, in edges, in the pyramid of strategies; 0 for none. Default: 5")
         ->check(whole_number(0, 32))
         ->type_name("N")
         ->group(group);
     command
-        .add_flag("--quick", words.quick,
-                  "Small pictures and 0.5s a run, for a look or for CI, unless other options say "
-                  "more")
+        .add_flag(
+            "--quick", words.quick,
+            "Small images and 0.5s a run, for a quick look or CI; --size and --time override it")
         ->group(group);
 }
 
@@ -143,20 +142,23 @@ void add_picture_options(CLI::App& command, RenderWords& words)
     const auto group = "How to render";
     command
         .add_option("--size", words.size,
-                    "Picture size; if not given, about 37 000 pixels (9 216 with --quick) with the "
+                    "Image size. Default: about 37 000 pixels (9 216 with --quick) with the "
                     "camera's aspect ratio")
         ->type_name("WxH")
         ->group(group);
-    command.add_option("--max-depth", words.transport.max_depth, "Longest path in edges. 8")
+    command
+        .add_option("--max-depth", words.transport.max_depth, "Longest path, in edges. Default: 8")
         ->check(whole_number(1, 4096))
         ->type_name("N")
         ->group(group);
-    command.add_option("--sampler", words.sampler, "sobol (the default) or independent")
+    command
+        .add_option("--sampler", words.sampler, "Random numbers: sobol (default) or independent")
         ->check(CLI::IsMember({"sobol", "independent"}))
         ->type_name("sobol|independent")
         ->group(group);
     command
-        .add_option("--threads", words.threads, "Threads; 0, the default: one for each processor")
+        .add_option("--threads", words.threads,
+                    "Number of threads. Default: 0, one for each processor")
         ->check(whole_number(0, 4096))
         ->type_name("N")
         ->group(group);
@@ -170,15 +172,15 @@ void add_bench_options(CLI::App& command, BenchWords& words)
         ->required()
         ->type_name("FILE");
     const auto group = "Output";
-    command.add_option("-o,--output", words.output, "Folder for all that comes out")
+    command.add_option("-o,--output", words.output, "Output folder")
         ->required()
         ->type_name("DIR")
         ->group(group);
-    command.add_flag("-q,--quiet", words.quiet, "Print nothing but errors")->group(group);
+    command.add_flag("-q,--quiet", words.quiet, "Print errors only")->group(group);
     command
         .add_flag("--json", words.json,
-                  "One JSON object a line on stdout: progress, scene, done. With --quiet done and "
-                  "error only")
+                  "Print one JSON object per line on stdout: progress, scene, done. With --quiet "
+                  "only done and error")
         ->group(group);
     add_effort(command, words);
     add_picture_options(command, words.render);

@@ -21,11 +21,11 @@ constexpr const char* footer = R"(Examples:
   bdpt compare seeds/ reference.exr --error-image error.png
   bdpt compare out.exr reference.exr --threshold relmse=0.01 --metrics relmse,flip --json
 
-The first is judged by the second, which is taken as the truth: relative errors divide by it. With a
-folder in the first place, each .exr and .hdr file in it is a render of the same scene with another
-seed, and the tiles are tested for bias.
+The first image is compared with the second, the reference: relative errors divide by it. If the
+first is a folder, each .exr and .hdr file in it is a render of the same scene with another seed, and
+the tiles are tested for bias.
 
-Metrics: relmse, mse, rmse, mape, smape, psnr, flip (of high dynamic range), flip_ldr (of the pictures
+Metrics: relmse, mse, rmse, mape, smape, psnr, flip (of high dynamic range), flip_ldr (of the images
 as .png files show them). docs/compare.md has their formulas.
 
 Exit codes: 0 done, 10 a threshold was exceeded (all output has been written), 2 wrong usage, 3 input
@@ -132,45 +132,43 @@ std::vector<eval::Threshold> to_thresholds(const std::vector<std::string>& words
 void add_measures(CLI::App& command, CompareWords& words)
 {
     const auto group = "What to measure";
-    command
-        .add_option("--metrics", words.metrics,
-                    "Metrics to compute, with commas between. All if not given")
+    command.add_option("--metrics", words.metrics, "Metrics, comma-separated. Default: all")
         ->type_name("LIST")
         ->group(group);
     command
         .add_option("--layer", words.layer,
-                    "Layer of the .exr files, like albedo or depth. The picture if not given")
+                    "Layer of the .exr files, like albedo or depth. Default: the image itself")
         ->type_name("NAME")
         ->group(group);
     command
         .add_option("--epsilon", words.epsilon,
-                    "Added where errors are relative: to r^2 in relmse, to |r| in mape, to |x| + "
-                    "|r| in smape. 0.01 if not given")
+                    "Added to the divisor of relative errors: to r^2 in relmse, to |r| in mape, to "
+                    "|x| + |r| in smape. Default: 0.01")
         ->type_name("E")
         ->group(group);
     command
         .add_flag("--relative", words.relative,
-                  "Take epsilon times the reference's mean (for relmse: its square). Then relmse, "
-                  "mape and smape do not depend on the unit of light")
+                  "Multiply epsilon by the reference's mean (for relmse: by its square). Then "
+                  "relmse, mape and smape do not depend on the unit of light")
         ->group(group);
     command
         .add_option("--peak", words.peak,
-                    "Peak of psnr. The reference's greatest component if not given")
+                    "Peak of psnr. Default: the reference's greatest component")
         ->type_name("PEAK")
         ->group(group);
     command
         .add_option("--ppd", words.pixels_per_degree,
-                    "Pixels per degree of flip. 67 if not given: a 4K screen 0.7 m wide, at 0.7 m")
+                    "Pixels per degree of flip. Default: 67, a 4K screen 0.7 m wide at 0.7 m")
         ->type_name("N")
         ->group(group);
     command
         .add_option("--flip-exposures", words.exposures,
-                    "Exposures of flip [EV] and how many. By the reference if not given")
+                    "Range of exposures of flip [EV] and their number. Default: from the reference")
         ->type_name("START,STOP,COUNT")
         ->group(group);
     command
         .add_option("--exposure", words.exposure,
-                    "Exposure of flip_ldr, as of bdpt render. By the reference if not given")
+                    "Exposure of flip_ldr, as of bdpt render. Default: from the reference")
         ->type_name("EV")
         ->group(group);
 }
@@ -181,7 +179,7 @@ void add_output(CLI::App& command, CompareWords& words)
     command
         .add_option("--threshold", words.thresholds,
                     "Exit with code 10 if the metric (or bias, the greatest of any channel) is "
-                    "greater, or psnr (or p, the lowest of any tile) less. May be given again")
+                    "greater, or psnr (or p, the lowest of any tile) is less. May be repeated")
         ->allow_extra_args(false)
         ->type_name("NAME=NUMBER")
         ->group(group);
@@ -192,27 +190,24 @@ void add_output(CLI::App& command, CompareWords& words)
         ->group(group);
     command
         .add_option("--error-metric", words.error_metric,
-                    "Metric of the error image and the worst tiles. relmse if not given")
+                    "Metric of the error image and of the worst tiles. Default: relmse")
         ->type_name("METRIC")
         ->group(group);
     command
         .add_option("--scale", words.scale,
-                    "Error that has the last colour. 1 if not given, so that pictures can be laid "
-                    "side by side")
+                    "Error of the last colour. Default: 1, so that error images are comparable")
         ->type_name("MAX")
         ->group(group);
-    command
-        .add_option("--tile", words.tile_size, "Pixels along the side of a tile. 32 if not given")
+    command.add_option("--tile", words.tile_size, "Side of a tile [pixels]. Default: 32")
         ->check(whole_number(1, 65535))
         ->type_name("N")
         ->group(group);
-    command.add_option("--worst", words.worst_tiles, "How many of the worst tiles are told. 5")
+    command.add_option("--worst", words.worst_tiles, "Number of worst tiles to print. Default: 5")
         ->check(whole_number(1, 1000000))
         ->type_name("N")
         ->group(group);
-    command.add_flag("--json", words.json, "One JSON object instead of text")->group(group);
-    command
-        .add_flag("-q,--quiet", words.quiet, "Print nothing but errors and the object of --json")
+    command.add_flag("--json", words.json, "Print one JSON object instead of text")->group(group);
+    command.add_flag("-q,--quiet", words.quiet, "Print only errors and the object of --json")
         ->group(group);
 }
 
@@ -220,10 +215,10 @@ void add_output(CLI::App& command, CompareWords& words)
 
 void add_compare_options(CLI::App& command, CompareWords& words)
 {
-    command.add_option("image", words.image, "The picture to judge, .exr or .hdr, or a folder")
+    command.add_option("image", words.image, "The image to evaluate, .exr or .hdr, or a folder")
         ->required()
         ->type_name("FILE|DIR");
-    command.add_option("reference", words.reference, "The picture that is right")
+    command.add_option("reference", words.reference, "The reference image")
         ->required()
         ->type_name("FILE");
     add_measures(command, words);

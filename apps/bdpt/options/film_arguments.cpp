@@ -117,26 +117,26 @@ void add_film_options(CLI::App& command, FilmWords& words)
     const auto group = "Film";
     command
         .add_option("--filter", words.filter,
-                    "Pixel filter: box (the default, radius 0.5), tent (1), gaussian (1.5, sigma a "
+                    "Pixel filter: box (default, radius 0.5), tent (1), gaussian (1.5, sigma is a "
                     "third of it) or blackman-harris (1.5)")
         ->type_name("NAME[:RADIUS]")
         ->group(group);
     command
         .add_option("--aov", words.aovs,
-                    "More layers for .exr: albedo, normal, depth, position, samples, variance, "
-                    "alpha; with commas between")
+                    "Extra .exr layers (AOVs), comma-separated: albedo, normal, depth, position, "
+                    "samples, variance, alpha")
         ->type_name("LIST")
         ->group(group);
     command
-        .add_option("--crop", words.crop,
-                    "Render columns x0 to x1 and rows y0 to y1 only, without the last ones; the "
-                    "pixels are those of the whole picture")
+        .add_option(
+            "--crop", words.crop,
+            "Render only columns x0..x1-1 and rows y0..y1-1; pixels equal those of the whole image")
         ->type_name("X0,Y0,X1,Y1")
         ->group(group);
     command
         .add_option("--clamp", words.clamp,
-                    "Scale what a sample adds to a pixel down to at most this [nit]: fewer "
-                    "fireflies, but biased; says how much light it took")
+                    "Clamp each contribution to a pixel to this radiance [nit]: fewer fireflies, "
+                    "but biased; the light lost is reported")
         ->type_name("NIT")
         ->group(group);
 }

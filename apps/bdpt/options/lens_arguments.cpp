@@ -67,23 +67,22 @@ float radius_of(const LensWords& words, const CameraDesc& camera)
 void add_lens_options(CLI::App& command, LensWords& words)
 {
     const auto group = "What to render";
-    CLI::Option* radius =
-        command
-            .add_option("--lens-radius", words.radius,
-                        "Radius of the lens [m]: what is out of focus is blurred. 0 is a pinhole")
-            ->type_name("M")
-            ->group(group);
+    CLI::Option* radius = command
+                              .add_option("--lens-radius", words.radius,
+                                          "Lens radius [m] for depth of field; 0 is a pinhole")
+                              ->type_name("M")
+                              ->group(group);
     command
         .add_option("--f-stop", words.f_stop,
-                    "The lens by its f-number: radius f / (2 N) with the focal length f = 12 mm / "
-                    "tan(fov / 2), of a sensor that is 24 mm high")
+                    "Lens radius by f-number N: f / (2 N), with the focal length f = 12 mm / "
+                    "tan(fov / 2) of a sensor 24 mm high")
         ->excludes(radius)
         ->type_name("N")
         ->group(group);
     command
         .add_option("--focus-distance", words.focus_distance,
-                    "Distance from the camera to the plane that the lens shows sharp [m]. If not "
-                    "given, that of the file's lens or else of what is in the middle of the view")
+                    "Focus distance [m]. Default: that of the file's lens, else the depth at the "
+                    "image centre")
         ->type_name("M")
         ->group(group);
 }

@@ -23,8 +23,8 @@ constexpr const char* footer = R"(Examples:
   bdpt render model.glb -o out.png --env sky.hdr --from 3,2,4 --look-at 0,1,0 --fov 40
 
 A file without a camera is framed as a whole, one without light gets a soft sky (and a lamp, if it
-is a closed room); a warning says so. Ctrl-C ends the render after the pass in flight and writes
-what is there; a second one ends at once.
+is a closed room); a warning says so. Ctrl-C finishes the current pass and writes the image; a
+second Ctrl-C quits at once.
 
 Exit codes: 0 done, 1 internal error, 2 wrong usage, 3 input not found, 4 invalid input,
 5 unsupported feature, 6 output cannot be written, 7 out of memory, 130 stopped by SIGINT,
@@ -115,7 +115,7 @@ void add_how(CLI::App& command, RenderWords& words)
     constexpr std::int64_t most_samples = std::int64_t{1} << 31;
     command
         .add_option("--spp", words.samples,
-                    "Samples per pixel. 64 if not given, or no limit with --time")
+                    "Samples per pixel. Default: 64, or no limit with --time")
         ->check(whole_number(1, most_samples))
         ->type_name("N")
         ->group(group);
@@ -123,24 +123,24 @@ void add_how(CLI::App& command, RenderWords& words)
         ->type_name("TIME")
         ->group(group);
     command
-        .add_option("--size", words.size,
-                    "Picture size; if not given, 1280x720 or what fits in it with the camera's "
-                    "aspect ratio")
+        .add_option(
+            "--size", words.size,
+            "Image size. Default: the largest with the camera's aspect ratio within 1280x720")
         ->type_name("WxH")
         ->group(group);
     command
         .add_option("--sampler", words.sampler,
-                    "Where random numbers come from: sobol (the default), Owen-scrambled, less "
-                    "noise; or independent. Best with a power of two as --spp")
+                    "Random numbers: sobol (default; Owen-scrambled, less noise, best with a power "
+                    "of two as --spp) or independent")
         ->check(CLI::IsMember({"sobol", "independent"}))
         ->type_name("sobol|independent")
         ->group(group);
     add_seed_and_threads(command, words, group);
     command
-        .add_option("--isa", words.isa,
-                    "Instruction set to trace rays with. Pictures are equal to the bit for the "
-                    "same one only, so choose one that all machines of a farm have. The best one "
-                    "of this CPU if not given")
+        .add_option(
+            "--isa", words.isa,
+            "Instruction set of Embree. Images are equal to the bit only for equal sets: on a "
+            "render farm, choose one that all machines have. Default: the best of this CPU")
         ->check(CLI::IsMember(isa_names()))
         ->type_name("sse2|sse4.2|avx|avx2|avx512|native")
         ->group(group);
@@ -151,19 +151,19 @@ void add_output(CLI::App& command, RenderWords& words)
     const auto group = "Output";
     command
         .add_option("-o,--output", words.outputs,
-                    "Required: .exr (linear radiance) or .png (tone-mapped); may be given again")
+                    "Required: .exr (linear radiance) or .png (tone-mapped); may be repeated")
         ->required()
         ->allow_extra_args(false)
         ->type_name("FILE")
         ->group(group);
     command
         .add_option("--exposure", words.exposure,
-                    "Exposure of .png: pixels times 2^EV. Automatic if not given")
+                    "Exposure of .png: pixels times 2^EV. Default: automatic")
         ->type_name("EV")
         ->group(group);
     CLI::Option* half =
-        command.add_flag("--half", words.half, "Store .exr in 16 bits")->group(group);
-    command.add_flag("--float", words.single, "Store .exr in 32 bits (the default)")
+        command.add_flag("--half", words.half, "Store .exr as 16-bit floats")->group(group);
+    command.add_flag("--float", words.single, "Store .exr as 32-bit floats (default)")
         ->excludes(half)
         ->group(group);
     command
@@ -171,21 +171,20 @@ void add_output(CLI::App& command, RenderWords& words)
         ->group(group);
     command
         .add_option("--stats", words.stats,
-                    "Write rays, paths and where the time went to this .json file")
+                    "Write counts of rays and paths, and times, to this .json file")
         ->type_name("FILE")
         ->group(group);
     command
-        .add_flag(
-            "--profile", words.profile,
-            "Measure where the time of samples goes, and tell it, in --stats too; .exr files "
-            "get a layer time.Y, microseconds of a sample in each pixel. The picture is the same")
+        .add_flag("--profile", words.profile,
+                  "Profile the render by phase and pixel: printed, in --stats, and as .exr layer "
+                  "time.Y (microseconds per sample). Does not change the image")
         ->group(group);
     add_strategy_options(command, words.strategies);
-    command.add_flag("-q,--quiet", words.quiet, "Print nothing but errors")->group(group);
+    command.add_flag("-q,--quiet", words.quiet, "Print errors only")->group(group);
     command
         .add_flag("--json", words.json,
-                  "One JSON object a line on stdout: start, progress, warning, done, error. With "
-                  "--quiet done and error only")
+                  "Print one JSON object per line on stdout: start, progress, warning, done, "
+                  "error. With --quiet only done and error")
         ->group(group);
 }
 
@@ -197,7 +196,7 @@ void add_view_options(CLI::App& command, RenderWords& words)
     add_scene_options(command, words.scene, group);
     command
         .add_option("--camera", words.camera,
-                    "Camera of the scene, or auto to frame it all. The first one if not given")
+                    "Camera of the scene, or auto to frame all of it. Default: the first")
         ->type_name("NAME|INDEX|auto")
         ->group(group);
     command.add_option("--from", words.from, "Move the camera here [m]")
@@ -211,16 +210,14 @@ void add_view_options(CLI::App& command, RenderWords& words)
         ->group(group);
     command
         .add_option("--env", words.environment,
-                    "Light from all around: an equirectangular .exr or .hdr, none, or the default "
-                    "sky, which scenes without light get by themselves. It takes the place of the "
-                    "environment that a file brings")
+                    "Environment map: an equirectangular .exr or .hdr, none, or default (the sky "
+                    "that scenes without light get). Replaces that of the file")
         ->type_name("FILE|none|default")
         ->group(group);
     command
         .add_option("--texture-filter", words.texture_filter,
-                    "How textures that are finer than the picture are looked up: bilinear (the "
-                    "default), as they are; or mip, in smaller copies, which is faster where they "
-                    "are large and blurs what mirrors and lenses magnify")
+                    "Texture filter: bilinear (default) or mip (mip maps: faster for large "
+                    "textures, but blurs what mirrors and lenses magnify)")
         ->check(CLI::IsMember({"bilinear", "mip"}))
         ->type_name("bilinear|mip")
         ->group(group);
@@ -229,12 +226,12 @@ void add_view_options(CLI::App& command, RenderWords& words)
 
 void add_seed_and_threads(CLI::App& command, RenderWords& words, const char* group)
 {
-    command.add_option("--seed", words.seed, "Another number gives other noise. 0 if not given")
+    command.add_option("--seed", words.seed, "Seed of the random numbers. Default: 0")
         ->type_name("N")
         ->group(group);
     command
         .add_option("--threads", words.threads,
-                    "Threads to use; the picture does not depend on it. All if not given")
+                    "Number of threads. Does not change the image. Default: all")
         ->check(whole_number(0, 4096))
         ->type_name("N")
         ->group(group);

@@ -28,37 +28,36 @@ std::optional<io::Shutter> parse_shutter(std::string_view text)
 
 void add_scene_options(CLI::App& command, SceneWords& words, const std::string& group)
 {
-    command.add_option("--scene", words.scene, "Scene of the file; the default one if not given")
+    command
+        .add_option("--scene", words.scene, "Scene of the file. Default: the file's default scene")
         ->type_name("NAME|INDEX")
         ->group(group);
     command
         .add_option("--variant", words.variant,
-                    "Variant of the materials; those of the meshes if not given")
+                    "Material variant. Default: the materials of the meshes")
         ->type_name("NAME|INDEX")
         ->group(group);
     command
-        .add_option("--frame-time", words.frame_time,
-                    "Moment of the animation to show, in its seconds. Nothing is animated if "
-                    "neither this nor --animation is given")
+        .add_option(
+            "--frame-time", words.frame_time,
+            "Time of the animation to render [s]. Without this and --animation nothing is animated")
         ->type_name("SECONDS")
         ->group(group);
     command
         .add_option("--animation", words.animation,
-                    "Animation that --frame-time is about, or all. The first one if not given")
+                    "Animation for --frame-time, or all. Default: the first")
         ->type_name("NAME|INDEX|all")
         ->group(group);
     command
         .add_option("--shutter", words.shutter,
-                    "How long the shutter is open from the --frame-time on, in seconds, for motion "
-                    "blur; or from when to when, counted from that time. A pixel is the mean over "
-                    "it")
+                    "Motion blur: seconds that the shutter is open after --frame-time, or "
+                    "OPEN,CLOSE relative to it")
         ->type_name("SECONDS|OPEN,CLOSE")
         ->group(group);
     command
         .add_option("--max-memory", words.max_memory,
-                    "Refuse scenes that need more memory, like 500M or 2G, before they take it; a "
-                    "render counts its film and layers, too. bdpt info --limits tells the limits "
-                    "if not given")
+                    "Refuse scenes that need more memory than this, like 500M or 2G; a render "
+                    "counts its film and layers, too. Default: see bdpt info --limits")
         ->type_name("SIZE")
         ->group(group);
 }

@@ -23,15 +23,15 @@ void add_strategy_options(CLI::App& command, StrategyWords& words)
     const auto group = "Output";
     command
         .add_option("--strategies", words.file,
-                    "Write images of all strategies (bdpt, lt) to this .exr: layers like s02t03, "
-                    "the share that it has in the picture, and s02t03.unweighted, what it finds by "
-                    "itself; and beside it a .png with all of them")
+                    "Write an image of each strategy (bdpt, lt) to this .exr: layers like s02t03 "
+                    "(weighted: its part of the image) and s02t03.unweighted (alone); and a "
+                    "contact sheet of all as .png")
         ->type_name("FILE")
         ->group(group);
     command
         .add_option("--strategy-depth", words.depth,
-                    fmt::format("Longest paths in edges that --strategies shows. {} if not given, "
-                                "or what 4 GB of memory are enough for",
+                    fmt::format("Longest paths, in edges, of --strategies. Default: {}, or fewer "
+                                "to stay below 4 GB",
                                 default_strategy_depth))
         ->check(whole_number(1, greatest_depth))
         ->type_name("N")

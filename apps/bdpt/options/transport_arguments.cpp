@@ -50,8 +50,8 @@ std::string integrator_help()
     std::vector<std::string> phrases;
     for (const IntegratorInfo& integrator : integrators()) {
         const bool is_default = integrator.kind == RenderOptions{}.integrator;
-        phrases.push_back(fmt::format("{}{}: {}", integrator.name,
-                                      is_default ? " (the default)" : "", integrator.summary));
+        phrases.push_back(fmt::format("{}{}: {}", integrator.name, is_default ? " (default)" : "",
+                                      integrator.summary));
     }
     return fmt::format("{}", fmt::join(phrases, "; "));
 }
@@ -133,33 +133,33 @@ void add_limits(CLI::App& command, TransportWords& words, const char* group)
         .add_option(
             "--max-depth", words.max_depth,
             fmt::format(
-                "Longest path in edges: 1 sees lights only, 2 adds direct light. {} if not given",
+                "Longest path, in edges: 1 is emitted light only, 2 adds direct light. Default: {}",
                 words.max_depth))
         ->check(whole_number(1, longest_path))
         ->type_name("N")
         ->group(group);
     command
         .add_option("--only", words.only,
-                    "direct: lights and what they light, paths of one or two edges; indirect: the "
-                    "rest, up to --max-depth. Their sum is the whole picture")
+                    "direct: emission and direct light (paths of 1 or 2 edges); indirect: longer "
+                    "paths, up to --max-depth. The two images add up to the whole")
         ->check(CLI::IsMember({"direct", "indirect"}))
         ->type_name("direct|indirect")
         ->group(group);
     command
         .add_option("--max-camera-depth", words.max_camera_depth,
-                    "Longest part of a path that starts at the camera, in edges (bdpt, lt)")
+                    "Longest camera subpath, in edges (bdpt, lt)")
         ->check(whole_number(0, longest_path))
         ->type_name("N")
         ->group(group);
     command
         .add_option("--max-light-depth", words.max_light_depth,
-                    "Longest part of a path that starts at a light, in edges (bdpt, lt)")
+                    "Longest light subpath, in edges (bdpt, lt)")
         ->check(whole_number(0, longest_path))
         ->type_name("N")
         ->group(group);
     command
         .add_option("--rr-start", words.rr_start,
-                    "Russian roulette may end subpaths after this many edges; 3 if not given")
+                    "Edges before Russian roulette starts. Default: 3")
         ->check(whole_number(1, longest_path))
         ->type_name("N")
         ->group(group);
@@ -198,27 +198,24 @@ void add_transport_options(CLI::App& command, TransportWords& words)
     add_choice("--integrator", words.integrator, all_names(eval::all_integrators()),
                integrator_help());
     add_choice("--heuristic", words.heuristic, all_names(eval::all_heuristics),
-               "How strategies share a path: power (the default), balance, cutoff, maximum, or "
-               "uniform, for tests");
+               "MIS heuristic: power (default), balance, cutoff, maximum, or uniform (for tests)");
     add_choice("--env-sampling", words.environment_sampling, names_of(environment_samplings),
-               "How light sampling chooses where an environment is: compensated (the default) "
-               "leaves even light to BSDF sampling, plain does not");
-    add_choice(
-        "--light-sampling", words.light_sampling, names_of(light_samplings),
-        "How light sampling chooses one of many lights: by their power; with a tree, by what "
-        "each may bring to a point; or auto (the default): with a tree where there are many "
-        "lights");
+               "Light sampling of environments: compensated (default; MIS compensation, leaves "
+               "uniform light to BSDF sampling) or plain");
+    add_choice("--light-sampling", words.light_sampling, names_of(light_samplings),
+               "Choice of one light: power (by emitted power), tree (light tree: by estimated "
+               "contribution to the point), auto (default: tree if there are many lights)");
     add_limits(command, words, group);
     command
         .add_option("--light-paths", words.light_paths,
-                    "Light paths for each camera path (bdpt, lt). 1 if not given")
+                    "Light subpaths per camera subpath (bdpt, lt). Default: 1")
         ->check(whole_number(1, most_light_paths))
         ->type_name("N")
         ->group(group);
     command
         .add_option("--disable", words.disabled,
-                    "Leave these strategies out (bdpt, lt): s vertices from the light and t from "
-                    "the camera, like s2t1,s0t3. What no other strategy can make gets lost")
+                    "Disable strategies (bdpt, lt): s vertices from the light and t from the "
+                    "camera, like s2t1,s0t3. Light that only these find is missing")
         ->type_name("LIST")
         ->group(group);
 }

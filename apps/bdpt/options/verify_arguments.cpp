@@ -17,8 +17,8 @@ constexpr const char* footer = R"(Examples:
   bdpt verify scene.gltf --size 64x64 --max-depth 8 --json
 
 Renders the scene by pt, nee, mis, lt, bdpt and every strategy of bdpt, at low resolution with many
-independent samples, and tests whether they agree: for each length of paths, in the whole picture and
-in tiles. docs/verify.md tells how, and what the numbers mean.
+independent samples, and tests whether they agree: for each path length, in the whole image and in
+tiles. docs/verify.md explains the method and the numbers.
 
 Exit codes: 0 pass, 10 fail: something disagrees, 11 inconclusive: nothing disagrees, but the noise
 could hide it (give it more --time); 1 internal error, 2 wrong usage, 3 input not found, 4 invalid
@@ -40,33 +40,32 @@ void add_how(CLI::App& command, VerifyWords& words)
     const auto group = "How to verify";
     command
         .add_option("--time", words.render.time,
-                    "Render for at most this long, like 90s, 2m or 1.5h; less if that suffices. 2m "
-                    "if not given")
+                    "Longest time to render, like 90s, 2m or 1.5h; verify stops earlier if that "
+                    "suffices. Default: 2m")
         ->type_name("TIME")
         ->group(group);
-    command.add_option("--size", words.render.size, "Size of the renders. 32x32 if not given")
+    command.add_option("--size", words.render.size, "Image size. Default: 32x32")
         ->type_name("WxH")
         ->group(group);
     command
         .add_option("--max-depth", words.max_depth,
-                    "Longest paths that are tested, in edges. 5 if not given")
+                    "Longest paths that are tested, in edges. Default: 5")
         ->check(whole_number(1, 64))
         ->type_name("N")
         ->group(group);
-    command
-        .add_option("--grid", words.grid, "Tiles along each side of the picture. 4 if not given")
+    command.add_option("--grid", words.grid, "Tiles along each side of the image. Default: 4")
         ->check(whole_number(1, 64))
         ->type_name("N")
         ->group(group);
     command
         .add_option("--bias", words.bias,
-                    "Change of the picture's mean by the error of a strategy that must not escape "
-                    "[%]. 1 if not given")
+                    "Smallest error of a strategy that must be detected, as a change of the image "
+                    "mean [%]. Default: 1")
         ->type_name("PERCENT")
         ->group(group);
     command
         .add_option("--false-alarm", words.false_alarm,
-                    "Chance that a renderer without fault fails [%]. 0.1 if not given")
+                    "Probability that a correct renderer fails [%]. Default: 0.1")
         ->type_name("PERCENT")
         ->group(group);
     add_seed_and_threads(command, words.render, group);
@@ -82,11 +81,11 @@ void add_verify_options(CLI::App& command, VerifyWords& words)
     add_how(command, words);
     add_view_options(command, words.render);
     const auto group = "Output";
-    command.add_flag("--json", words.render.json, "One JSON object on stdout instead of text")
+    command
+        .add_flag("--json", words.render.json, "Print one JSON object on stdout instead of text")
         ->group(group);
     command
-        .add_flag("-q,--quiet", words.render.quiet,
-                  "Print nothing but errors and the object of --json")
+        .add_flag("-q,--quiet", words.render.quiet, "Print only errors and the object of --json")
         ->group(group);
     command.footer(footer);
 }

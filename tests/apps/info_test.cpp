@@ -173,7 +173,8 @@ TEST_CASE("info --json has data under keys that stay, not sentences")
                         "extensions": {"KHR_lights_punctual": {"light": 0}}},)",
                     .more = R"("extensionsUsed": ["KHR_lights_punctual"],
                         "extensions": {"KHR_lights_punctual": {"lights": [
-                            {"type": "point", "name": "bulb", "intensity": 5}]}},)"})
+                            {"type": "point", "name": "bulb", "intensity": 5}]}},)",
+                    .camera_nodes = 1})
             .string();
     const auto info = nlohmann::json::parse(run({"info", scene, "--json"}).out);
     CAPTURE(info.dump());

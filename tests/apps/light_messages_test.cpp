@@ -35,7 +35,8 @@ const CubeFile one_lamp{
     .cameras = two_cameras + R"({"extensions": {"KHR_lights_punctual": {"light": 0}},
                           "translation": [0, 0, 4]},)",
     .more = R"("extensionsUsed": ["KHR_lights_punctual"],
-        "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 100}]}},)"};
+        "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 100}]}},)",
+    .camera_nodes = 3};
 
 TEST_CASE("the lights that are counted are those of the file and of --env")
 {

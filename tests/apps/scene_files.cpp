@@ -70,7 +70,11 @@ std::filesystem::path write_cube(const ScratchFolder& folder, const std::string&
     const bool cameras = !cube.cameras.empty();
     json += cameras ? "\"cameras\": [" + cube.camera_kinds + "],\n" : "";
     json += R"("scenes": [{"name": "main", "nodes": )";
-    json += cameras ? "[0, 1, 2]}]," : "[0]}],";
+    json += "[0";
+    for (int node = 1; cameras && node <= cube.camera_nodes; ++node) {
+        json += ", " + std::to_string(node);
+    }
+    json += "]}],";
     json += "\n\"materials\": [" + cube.material + "],\n\"nodes\": [";
     json += cameras ? cube.cameras : "";
     json += R"({"name": "cube", "mesh": 0}],)";

@@ -25,7 +25,8 @@ struct CubeFile {
     std::string cameras{};    ///< elements of "nodes" that refer to cameras, each with a comma
     bool inside_out = false;  ///< faces look inwards, as the walls of a room do
     std::string camera_kinds = plain_cameras;
-    std::string more{};  ///< further members of the file's object, each with a comma
+    std::string more{};    ///< further members of the file's object, each with a comma
+    int camera_nodes = 2;  ///< elements of `cameras`, lights among them
 };
 
 /// A grey room whose walls shine, seen from within (camera 0) and from its middle (1).

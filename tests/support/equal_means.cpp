@@ -35,11 +35,11 @@ MeanComparison compare_cells(const std::function<Cell(std::size_t)>& cell,
     const double each = 1.0 - std::pow(1.0 - sharpness.false_alarm, 1.0 / TileMeans::cells);
     MeanComparison result;
     result.critical_z = critical_value(each);
+    std::size_t black = 0;
     for (std::size_t i = 0; i < TileMeans::cells; ++i) {
         const Cell c = cell(i);
         if (!(c.size > 0.0)) {
-            // Where both are black nothing can be found.
-            result.detectable_bias = std::max(result.detectable_bias, 1.0);
+            ++black;
             continue;
         }
         result.greatest_bias = std::max(result.greatest_bias, std::abs(c.difference) / c.size);
@@ -56,6 +56,9 @@ MeanComparison compare_cells(const std::function<Cell(std::size_t)>& cell,
         }
         result.detectable_bias = std::max(result.detectable_bias,
                                           (result.critical_z + ninety_percent) * c.error / c.size);
+    }
+    if (black == TileMeans::cells) {
+        result.detectable_bias = std::max(result.detectable_bias, 1.0);  // nothing can be found
     }
     result.equal = result.worst_z <= result.critical_z;
     result.sharp_enough = result.detectable_bias <= sharpness.detectable_bias;

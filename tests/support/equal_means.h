@@ -31,7 +31,7 @@ struct MeanComparison {
     double critical_z = 0.0;
     double found_bias = 0.0;       ///< greatest relative difference of tiles that are not equal
     double greatest_bias = 0.0;    ///< ... of all tiles
-    double detectable_bias = 0.0;  ///< of the noisiest tile; 1 at least if one is black
+    double detectable_bias = 0.0;  ///< of the noisiest tile that is not black; 1 at least if all are
     int batches = 0;
 
     [[nodiscard]] std::string text() const;

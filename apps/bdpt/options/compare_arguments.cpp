@@ -22,8 +22,8 @@ constexpr const char* footer = R"(Examples:
   bdpt compare out.exr reference.exr --threshold relmse=0.01 --metrics relmse,flip --json
 
 The first image is compared with the second, the reference: relative errors divide by it. If the
-first is a folder, each .exr and .hdr file in it is a render of the same scene with another seed, and
-the tiles are tested for bias.
+first is a folder, each .exr and .hdr file in it is a render of the same scene with another seed,
+and the tiles are tested for bias.
 
 Metrics: relmse, mse, rmse, mape, smape, psnr, flip (of high dynamic range), flip_ldr (of the images
 as .png files show them). docs/compare.md has their formulas.

@@ -46,6 +46,8 @@ StrategySums& StrategySums::operator+=(const StrategySums& other)
     expected += other.expected;
     second_moment += other.second_moment;
     seen += other.seen;
+    own += other.own;
+    others += other.others;
     reach += other.reach;
     weighted += other.weighted;
     unweighted += other.unweighted;
@@ -163,8 +165,10 @@ void PathSums::add_to_strategies(const FoundPath& path, const Measure& measure, 
         sums.second_moment.add(g * largest, weighted * square(g) * std::max(by_others, 0.0));
         if (u == own) {
             sums.seen.add(by_own, square(by_own));
+            sums.own.add(by_own);
         } else {
             sums.seen.add(g * largest, square(g * weighted));
+            sums.others.add(g * weighted);
         }
     }
 }

@@ -27,6 +27,7 @@ RenderOptions render_options(const VerifyOptions& options, IntegratorKind integr
     result.film.height = options.height;
     result.transport.min_depth = shortest;
     result.transport.max_depth = longest;
+    result.transport.rr_start = roulette_start;
     // Sobol points of one sequence depend on each other; those of other seeds do not.
     result.sampling.samples = {.begin = 0, .end = samples_of(integrator, shortest)};
     if (integrator == IntegratorKind::bdpt) {

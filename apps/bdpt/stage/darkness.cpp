@@ -11,8 +11,8 @@
 namespace bdpt::app {
 namespace {
 
-constexpr int longest_side = 64;  // [pixels]
-constexpr std::int64_t samples = 8;
+constexpr int longest_side = 24;  // [pixels], so few that it takes some milliseconds
+constexpr std::int64_t samples = 4;
 constexpr std::uint8_t black = 16;  // of 255: below it nothing can be told apart
 
 /// A side of the small render [pixels].

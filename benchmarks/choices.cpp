@@ -39,7 +39,7 @@ struct Settings {
     std::string choice;
     std::vector<std::string> scenes;
     SubjectSettings subject{.size = 64, .max_depth = 6};
-    eval::ContestOptions contest;
+    eval::EqualTimeOptions contest;
 };
 
 struct Kind {
@@ -60,8 +60,8 @@ void measure(const std::string& file, const Choice& choice, const Settings& sett
         std::array variants{eval::Variant{choice.plain, subject.options},
                             eval::Variant{choice.better, subject.options}};
         choice.set(variants[0].options, false);
-        const auto scores =
-            eval::compete(subject.bench_scene(), reference, variants, settings.contest);
+        const auto scores = eval::compare_at_equal_time(subject.bench_scene(), reference, variants,
+                                                        settings.contest);
         std::printf("  %-4s %.2e %.2e %5.2f %5.2f\n", integrator.name, scores[0].error.median,
                     scores[1].error.median, scores[1].error.median / scores[0].error.median,
                     scores[1].sample_seconds / scores[0].sample_seconds);

@@ -25,7 +25,7 @@ constexpr std::array demands{Demand{"cornell-box-hidden.gltf", 4.0}, Demand{"lam
 struct Settings {
     std::string folder;
     SubjectSettings subject;
-    eval::ContestOptions contest;
+    eval::EqualTimeOptions contest;
 };
 
 /// Does the scene meet the demand?
@@ -36,7 +36,8 @@ bool measure(const Demand& demand, const Settings& settings)
     std::array variants{eval::Variant{"bdpt", subject.options},
                         eval::Variant{"mis", subject.options}};
     variants[1].options.integrator = IntegratorKind::mis;
-    const auto scores = compete(subject.bench_scene(), reference, variants, settings.contest);
+    const auto scores =
+        compare_at_equal_time(subject.bench_scene(), reference, variants, settings.contest);
     const double ratio = scores[1].error.median / scores[0].error.median;
     const bool met = ratio >= demand.least_ratio;
     std::printf("  relMSE: bdpt %.2e (%.2e .. %.2e), mis %.2e (%.2e .. %.2e)\n",

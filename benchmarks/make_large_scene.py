@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes a scene of many triangles for the benchmarks: make_large_scene.py FILE.glb [--triangles 1000000].
 
-A bumpy ball in a white room with a lamp under the ceiling; nearly all triangles are the ball's. It has positions,
+A bumpy sphere in a white room with a lamp under the ceiling; nearly all triangles are the sphere's. It has positions,
 normals and texture coordinates, as scanned models do. The file is a pure function of the number of triangles.
 """
 
@@ -14,13 +14,13 @@ import sys
 
 
 def radius(theta, phi):
-    """Of the ball in a direction: bumps of several sizes, so that rays meet no regular pattern."""
+    """Of the sphere in a direction: bumps of several sizes, so that rays meet no regular pattern."""
     return (0.6 + 0.05 * math.sin(7 * theta + 1) * math.sin(5 * phi) + 0.02 * math.sin(31 * phi + 3 * theta)
             * math.sin(29 * theta) + 0.008 * math.sin(97 * theta + 11 * phi) * math.sin(89 * phi))
 
 
 def ball(rings, segments):
-    """Positions, normals, texture coordinates and indices of the ball. Seams have their vertices twice."""
+    """Positions, normals, texture coordinates and indices of the sphere. Seams have their vertices twice."""
 
     def row_of(ring):
         theta = math.pi * ring / rings

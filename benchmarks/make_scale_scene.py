@@ -3,10 +3,10 @@
 
 KIND is one of
 
-  triangles   a bumpy ball of about N triangles (10,000,000), as make_large_scene.py writes it
-  instances   N small balls (100,000) of one mesh, placed by EXT_mesh_gpu_instancing
+  triangles   a bumpy sphere of about N triangles (10,000,000), as make_large_scene.py writes it
+  instances   N small spheres (100,000) of one mesh, placed by EXT_mesh_gpu_instancing
   nodes       the same, each placed by a node of its own
-  textures    N panels (1,000), each with a picture of its own of 256 x 256 pixels
+  textures    N panels (1,000), each with an image of its own of 256 x 256 pixels
   panels      N emissive triangles (10,000), two a panel, in a hall of 100 rooms
   lamps       N point and spot lights (1,000) in the same hall
 
@@ -99,7 +99,7 @@ def png(size, rng):
     return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + data + chunk(b"IEND", b"")
 
 
-def panels_with_pictures(count):
+def panels_with_images(count):
     glb = lit_room()
     rng = random.Random(2)
     side = math.ceil(math.sqrt(count))
@@ -114,8 +114,8 @@ def panels_with_pictures(count):
         glb.data += data + bytes(-len(data) % 4)
         glb.json["images"].append({"bufferView": len(glb.json["bufferViews"]) - 1, "mimeType": "image/png"})
         glb.json["textures"].append({"source": i})
-        picture = {"baseColorTexture": {"index": i}, "metallicFactor": 0}
-        glb.add((attributes, indices), {"pbrMetallicRoughness": picture})
+        image = {"baseColorTexture": {"index": i}, "metallicFactor": 0}
+        glb.add((attributes, indices), {"pbrMetallicRoughness": image})
     return glb
 
 
@@ -199,7 +199,7 @@ def write(kind, path, count):
         make_large_scene.write(path, count)
         return
     {"instances": lambda: balls(count, by_nodes=False), "nodes": lambda: balls(count, by_nodes=True),
-     "textures": lambda: panels_with_pictures(count), "panels": lambda: panels(count),
+     "textures": lambda: panels_with_images(count), "panels": lambda: panels(count),
      "lamps": lambda: lamps(count)}[kind]().write(path)
 
 

@@ -63,7 +63,7 @@ def main():
     kinds = arguments.kinds or list(COUNTS)
     for kind in {*kinds, *counts} - COUNTS.keys():
         sys.exit(f"no such kind of scene: {kind}; there are {', '.join(COUNTS)}")
-    print("| scene | file | read | build | first picture | in all | CPU | "
+    print("| scene | file | read | build | first image | in all | CPU | "
           "peak memory | bytes each |\n|---|---|---|---|---|---|---|---|---|")
     with tempfile.TemporaryDirectory(dir=arguments.folder) as temporary:
         folder = pathlib.Path(temporary)

@@ -14,7 +14,7 @@ namespace bdpt {
 
 void add_options(CLI::App& app, SubjectSettings& settings)
 {
-    app.add_option("--env", settings.environment, "A picture of light from all around");
+    app.add_option("--env", settings.environment, "An image of light from all around");
     app.add_option("--size", settings.size, "Width and height [pixels]")->capture_default_str();
     app.add_option("--max-depth", settings.max_depth, "Longest path in edges")
         ->capture_default_str();
@@ -27,13 +27,13 @@ void add_reference_option(CLI::App& app, SubjectSettings& settings)
         ->capture_default_str();
 }
 
-void add_options(CLI::App& app, eval::ContestOptions& contest)
+void add_options(CLI::App& app, eval::EqualTimeOptions& contest)
 {
     app.add_option("--time", contest.seconds, "CPU seconds a render")->capture_default_str();
     app.add_option("--rounds", contest.rounds, "Renders of each variant")->capture_default_str();
 }
 
-void add_sample_options(CLI::App& app, eval::ContestOptions& contest)
+void add_sample_options(CLI::App& app, eval::EqualTimeOptions& contest)
 {
     contest.samples = 16;
     app.add_option("--spp", contest.samples, "Samples per pixel (16 if not given)");

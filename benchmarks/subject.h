@@ -1,7 +1,7 @@
 #pragma once
 
 #include <bdpt/eval/bench/bench_scene.h>
-#include <bdpt/eval/bench/contest.h>
+#include <bdpt/eval/bench/equal_time.h>
 #include <bdpt/eval/bench/reference.h>
 #include <bdpt/render.h>
 
@@ -29,9 +29,9 @@ void add_options(CLI::App& app, SubjectSettings& settings);
 /// Adds --reference.
 void add_reference_option(CLI::App& app, SubjectSettings& settings);
 /// Adds --time and --rounds.
-void add_options(CLI::App& app, eval::ContestOptions& contest);
+void add_options(CLI::App& app, eval::EqualTimeOptions& contest);
 /// Adds --spp and --rounds, of contests at equal samples.
-void add_sample_options(CLI::App& app, eval::ContestOptions& contest);
+void add_sample_options(CLI::App& app, eval::EqualTimeOptions& contest);
 
 /// A scene and the camera that it is seen by.
 struct Subject {

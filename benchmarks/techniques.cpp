@@ -16,7 +16,7 @@ using namespace bdpt;
 struct Settings {
     std::vector<std::string> scenes;
     SubjectSettings subject;
-    eval::ContestOptions contest;
+    eval::EqualTimeOptions contest;
 };
 
 /// All strategies with t <= 1: light paths that are seen through the lens.
@@ -61,7 +61,7 @@ void measure(const std::string& file, const Settings& settings)
     const eval::Reference reference = make_reference(subject, settings.subject.reference_samples);
     const std::vector<eval::Variant> variants = variants_of(subject.options);
     const std::vector<eval::Score> scores =
-        compete(subject.bench_scene(), reference, variants, settings.contest);
+        compare_at_equal_time(subject.bench_scene(), reference, variants, settings.contest);
     const eval::Score& base = scores.front();
     std::printf("  default: %.2e s of CPU time a sample of all pixels, relMSE %.2e after %.1f s\n",
                 base.sample_seconds, base.error.median, settings.contest.seconds);

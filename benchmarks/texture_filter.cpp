@@ -25,7 +25,7 @@ struct Settings {
     std::vector<std::string> scenes;
     std::vector<int> sizes{512, 4096, 8192};
     SubjectSettings subject{.size = 96, .max_depth = 6, .reference_samples = 1024};
-    eval::ContestOptions contest;
+    eval::EqualTimeOptions contest;
 };
 
 /// Noise over stripes, as of plaster over bricks.
@@ -142,8 +142,8 @@ void measure(const std::string& name, const SceneDesc& desc, const CameraDesc& c
         for (const Subject* subject : {&plain, &mipped}) {
             eval::Variant variant{.name = kind_name, .options = subject->options};
             variant.options.integrator = kind;
-            scores[i++] = eval::compete(subject->bench_scene(), reference, std::span(&variant, 1),
-                                        settings.contest)
+            scores[i++] = eval::compare_at_equal_time(subject->bench_scene(), reference,
+                                                      std::span(&variant, 1), settings.contest)
                               .front();
         }
         const auto& [as_it_is, copies] = scores;

@@ -27,7 +27,7 @@ using namespace bdpt;
 
 struct Settings {
     std::vector<int> sizes{1024, 4096, 8192};
-    int pixels = 1024;        // of the picture, a side
+    int pixels = 1024;        // of the image, a side
     int lookups = 1'000'000;  // of each run
     int rounds = 3;
     int cache_mb = 256;  // of the texture system
@@ -71,7 +71,7 @@ TexelImage with_huge_pages(const TexelImage& image)
     return copy;
 }
 
-/// Where lookups go: along the rows of the picture, as rays of neighbouring pixels do where they
+/// Where lookups go: along the rows of the image, as rays of neighbouring pixels do where they
 /// first meet the wall; or anywhere, as after a bounce and from light.
 std::vector<Vec2> places(const Settings& settings, bool anywhere)
 {

@@ -9,7 +9,7 @@ function(bdpt_compile_options target)
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wnon-virtual-dtor
     -Wold-style-cast -Woverloaded-virtual -Wimplicit-fallthrough
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>  # false alarms of g++ 12 on std::string
-    # A product and a sum are rounded apart on every CPU, so that pictures are equal to the bit.
+    # A product and a sum are rounded apart on every CPU, so that images are equal to the bit.
     -ffp-contract=off
     # No errno and no trapping: sqrt and comparisons become single instructions. Values stay IEEE.
     -fno-math-errno -fno-trapping-math

@@ -66,8 +66,8 @@ def textured_emitter(title):
     floor = gltf.material("varnished floor", (0.35, 0.3, 0.25), roughness=0.3)
     gltf.node("walls", mesh=gltf.mesh("walls", (gltf.shape(*quads(*inner_quads(low, high, "-x+x+y-z+z"))), walls)))
     gltf.node("floor", mesh=gltf.mesh("floor", (gltf.shape(*quads(*inner_quads(low, high, "-y"))), floor)))
-    picture = gltf.texture("landscape", png(128, 64, landscape))
-    screen = gltf.lambertian("screen", (0.02, 0.02, 0.02), emission=(300, 300, 300), emission_texture=picture)
+    image = gltf.texture("landscape", png(128, 64, landscape))
+    screen = gltf.lambertian("screen", (0.02, 0.02, 0.02), emission=(300, 300, 300), emission_texture=image)
     gltf.node("screen", (0, 0.55, -1.9), mesh=gltf.mesh("screen", (gltf.shape(*card(2.6, 1.3)), screen)))
     ball = gltf.shape(*sphere(48, 24, radius=0.3))
     for name, x, z, material in (("white ball", -0.95, -0.6, gltf.lambertian("white", (0.8, 0.8, 0.8))),
@@ -80,7 +80,7 @@ def textured_emitter(title):
 # --- Parallel projection ----------------------------------------------------------------------------------------------
 
 def orthographic(title):
-    """An isometric view of cubes of one size, steps and balls: equal lengths along an axis look equal everywhere."""
+    """An isometric view of cubes of one size, steps and spheres: equal lengths along an axis look equal everywhere."""
     gltf = Gltf(title)
     floor, clay, teal, white = (gltf.lambertian(name, color) for name, color in (
         ("floor", (0.6, 0.58, 0.55)), ("clay", (0.65, 0.35, 0.25)), ("teal", (0.2, 0.45, 0.45)),

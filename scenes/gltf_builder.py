@@ -224,7 +224,7 @@ class Gltf:
                 "light": len(self.profiles) - 1, "color": rounded(color)}})
 
     def sphere_light(self, name, intensity, radius, position, color=(1, 1, 1)):
-        """A ball of radiance intensity / (pi radius^2); `intensity` in candela."""
+        """A sphere of radiance intensity / (pi radius^2); `intensity` in candela."""
         return self.light(name, "point", intensity, color, position, extras={"radius": rounded(radius)})
 
     def text(self):

@@ -86,7 +86,7 @@ def cornell_spheres(title, hidden=False):
     mirror = gltf.material("mirror", (0.95, 0.95, 0.95), metallic=1, roughness=0)
     glass = gltf.material("glass", (1, 1, 1), roughness=0, extensions={
         **SOLID_GLASS, "volume": {"thicknessFactor": 0.2}})
-    # A millimetre above the floor: a ball that touches it would make joins of infinite variance there.
+    # A millimetre above the floor: a sphere that touches it would make joins of infinite variance there.
     gltf.node("mirror ball", (0.395, 0.101, 0.37), mesh=gltf.mesh("mirror ball", (ball, mirror)))
     gltf.node("glass ball", (0.165, 0.101, 0.2), mesh=gltf.mesh("glass ball", (ball, glass)))
     return gltf
@@ -115,7 +115,7 @@ def furnace(title):
 # --- A Lambertian room under lights of all kinds --------------------------------------------------------------------
 
 def room(title, roof):
-    """4 x 3 x 5 m with a block, a ball and a camera at its front. `roof`: the depth that is covered [m], from z = 0
+    """4 x 3 x 5 m with a block, a sphere and a camera at its front. `roof`: the depth that is covered [m], from z = 0
     (back) to 5."""
     gltf = Gltf(title)
     white, blue, ochre, grey = (gltf.lambertian(name, color) for name, color in (

@@ -7,7 +7,7 @@ from shapes import box_quads, quads, sphere
 
 
 def night_market(title):
-    """A lane of 6 x 26 m between stalls and a wall of 3 m, at night. 48 bulbs on strings and 8 lanterns are balls of
+    """A lane of 6 x 26 m between stalls and a wall of 3 m, at night. 48 bulbs on strings and 8 lanterns are spheres of
     light, 8 lamps and 20 spots are without size, and the stalls have signs. The brightest lights of all, panels that
     face away and spots, are behind the wall: the lane sees nothing of them but what comes back over it."""
     gltf = Gltf(title)

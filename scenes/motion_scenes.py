@@ -14,7 +14,7 @@ def turns(axis, degrees_per_second, seconds, start=0):
 
 
 def striped(gltf, segments=32, rings=16, radius=0.25):
-    """A ball of two shapes, like a beach ball: its sectors show how it turns."""
+    """A sphere of two shapes, like a beach ball: its sectors show how it turns."""
     positions, triangles, normals = sphere(segments, rings, radius)
     parts = ([], [])
     for triangle in triangles:
@@ -24,8 +24,8 @@ def striped(gltf, segments=32, rings=16, radius=0.25):
 
 
 def motion(title):
-    """An action of one second: a pinwheel, a ball that rolls, one that bounces and is squashed, a reed that bends, a
-    glowing bead on a string, a lamp that travels, and a second camera that follows the rolling ball."""
+    """An action of one second: a pinwheel, a sphere that rolls, one that bounces and is squashed, a reed that bends, a
+    glowing bead on a string, a lamp that travels, and a second camera that follows the rolling sphere."""
     gltf = Gltf(title)
     grey = gltf.lambertian("grey", (0.55, 0.55, 0.55))
     dark = gltf.lambertian("dark tiles", (0.2, 0.22, 0.26))

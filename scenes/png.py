@@ -17,7 +17,7 @@ def stored(data):
 
 def png(width, height, pixel):
     """A file of 8 bits a channel. `pixel(x, y)` gives red, green, blue and perhaps alpha in [0, 1], sRGB-encoded, with
-    (0, 0) at the centre of the picture, x to the right, y up and both in units of half its height."""
+    (0, 0) at the centre of the image, x to the right, y up and both in units of half its height."""
     rows, channels = [], 0
     for row in range(height):
         values = []

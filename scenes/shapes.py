@@ -39,7 +39,7 @@ def inner_quads(low, high, sides="-x+x-y+y-z+z"):
 
 
 def card(width, height):
-    """An upright rectangle that stands on the origin and faces +z, with texture coordinates: a picture, upper row on
+    """An upright rectangle that stands on the origin and faces +z, with texture coordinates: an image, upper row on
     top."""
     x = width / 2
     return ([(-x, 0, 0), (x, 0, 0), (x, height, 0), (-x, height, 0)], [(0, 1, 2), (0, 2, 3)], [(0, 0, 1)] * 4,

@@ -99,8 +99,8 @@ def fourteen_specular(title):
 
 
 def nine_spheres_dof(title):
-    """Twelve specular objects (nine balls, a mirror, a block and a ring), two diffuse ones (the room and a pedestal)
-    and a lamp. The fifth ball is in focus."""
+    """Twelve specular objects (nine spheres, a mirror, a block and a ring), two diffuse ones (the room and a pedestal)
+    and a lamp. The fifth sphere is in focus."""
     places = [(-0.7 + 0.2 * i, 0.202, 1.3 - 0.5 * i) for i in range(9)]
     gltf = specular_room(title, (-2, 0, -3.4), (2, 2.6, 3.5), (26, 24, 21), focus=places[4])
     mirrors, glasses = specular_palette(gltf)

@@ -216,7 +216,7 @@ int run(int argc, char** argv, Format format)
 int main(int argc, char** argv)
 {
     using namespace bdpt;
-    // A reader of our messages who leaves must not take the picture along.
+    // A reader of our messages who leaves must not take the image along.
     ::signal(SIGPIPE, SIG_IGN);
     const std::span<char*> words(argv, static_cast<std::size_t>(argc));
     const bool json = std::any_of(words.begin(), words.end(), [](const char* word) {

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Renders every model of a folder small, and puts the pictures on one sheet for the eye.
+"""Renders every model of a folder small, and puts the images on one sheet for the eye.
 
     contact_sheet.py COMMAND FOLDER SHEET.png [--size WxH] [--spp N] [--columns N] [--only TEXT]
                      [--skip NAME,...]
 
 A model is a .gltf or .glb file below FOLDER; a few words of what bdpt said about it go to the standard output, and its
-name stands below its picture. What is refused is a dark tile. Needs oiiotool.
+name stands below its image. What is refused is a dark tile. Needs oiiotool.
 """
 
 import argparse
@@ -37,21 +37,21 @@ def find_models(folder, only, skip):
                   if only in file.relative_to(folder).as_posix() and not set(file.parts) & set(skip.split(",")))
 
 
-def render(command, model, picture, size, spp):
+def render(command, model, image, size, spp):
     """The lines that the command says, without the name of the file."""
-    words = [command, "render", model, "-o", picture, "--size", size, "--spp", str(spp)]
+    words = [command, "render", model, "-o", image, "--size", size, "--spp", str(spp)]
     done = subprocess.run(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
                           text=True, timeout=600, check=False)
     lines = [line.removeprefix("bdpt: ").replace(f"{model}: ", "") for line in done.stderr.splitlines()]
     return done.returncode, [line for line in lines if line.startswith(("warning", "error"))]
 
 
-def make_tile(picture, tile, text, size):
-    """The picture, or a dark one where there is none, with its name below."""
+def make_tile(image, tile, text, size):
+    """The image, or a dark one where there is none, with its name below."""
     shape = tuple(map(int, size.split("x")))
-    if not picture.exists():
-        sheet.oiiotool("--pattern", "constant:color=0.1,0,0", size, 3, "-d", "uint8", "-o", picture)
-    sheet.shown(picture, shape, ["--ch", "R,G,B"], [text], tile, least=shape[0])
+    if not image.exists():
+        sheet.oiiotool("--pattern", "constant:color=0.1,0,0", size, 3, "-d", "uint8", "-o", image)
+    sheet.shown(image, shape, ["--ch", "R,G,B"], [text], tile, least=shape[0])
 
 
 def main():
@@ -62,11 +62,11 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         tiles = []
         for index, model in enumerate(models):
-            picture, tile = (pathlib.Path(name) / f"{index}-{part}.png" for part in ("picture", "tile"))
-            code, lines = render(options.command, model, picture, options.size, options.spp)
+            image, tile = (pathlib.Path(name) / f"{index}-{part}.png" for part in ("picture", "tile"))
+            code, lines = render(options.command, model, image, options.size, options.spp)
             label = model.relative_to(options.folder).parts[0]
             print(f"{label}: exit code {code}", *lines, sep="\n    ", flush=True)
-            make_tile(picture, tile, label[:30], options.size)
+            make_tile(image, tile, label[:30], options.size)
             tiles.append(tile)
         sheet.mosaic(tiles, options.columns, options.sheet)
 

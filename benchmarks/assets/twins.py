@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Renders models and their twins, made by glTF Transform, and says whether the pictures agree.
+"""Renders models and their twins, made by glTF Transform, and says whether the images agree.
 
     twins.py COMMAND MODEL... [--converter PROGRAM] [--size WxH] [--spp N] [--noise FACTOR]
              [--kinds NAME,...] [--keep FOLDER]
@@ -42,7 +42,7 @@ def parse(words):
     parser.add_argument("--spp", default="32")
     parser.add_argument("--noise", type=float, default=1.2, help="times that of the model with another seed")
     parser.add_argument("--kinds", default=",".join(KINDS))
-    parser.add_argument("--keep", type=pathlib.Path, help="write twins and pictures here")
+    parser.add_argument("--keep", type=pathlib.Path, help="write twins and images here")
     return parser.parse_args(words)
 
 
@@ -51,16 +51,16 @@ def run(*words):
                           timeout=600, check=False)
 
 
-def render(options, model, picture, seed=0):
-    """None, or why there is no picture."""
-    done = run(options.command, "render", model, "-o", picture, "--size", options.size, "--spp", options.spp, "--seed",
+def render(options, model, image, seed=0):
+    """None, or why there is no image."""
+    done = run(options.command, "render", model, "-o", image, "--size", options.size, "--spp", options.spp, "--seed",
                seed, "--quiet")
     return None if done.returncode == 0 else done.stderr.strip()
 
 
-def difference(command, picture, reference):
+def difference(command, image, reference):
     """The mean of FLIP."""
-    done = run(command, "compare", picture, reference, "--json")
+    done = run(command, "compare", image, reference, "--json")
     if done.returncode != 0:
         sys.exit(done.stderr)
     return mean_flip(json.loads(done.stdout))
@@ -77,15 +77,15 @@ class Verdict:
 
 
 def compare(options, twin, model, rounding, folder):
-    """Whether two models are one picture, but for noise and what `rounding` allows. Pictures go to `folder`."""
+    """Whether two models are one image, but for noise and what `rounding` allows. Images go to `folder`."""
     plain, other = (folder / f"{model.stem}-{seed}.exr" for seed in range(2))
-    picture = folder / f"{twin.stem}.exr"
-    for what, where, seed in ((model, plain, 0), (model, other, 1), (twin, picture, 0)):
+    image = folder / f"{twin.stem}.exr"
+    for what, where, seed in ((model, plain, 0), (model, other, 1), (twin, image, 0)):
         refusal = render(options, what, where, seed)
         if refusal:
             return Verdict(False, f"NOT RENDERED: {refusal}")
     tolerance = rounding + options.noise * difference(options.command, other, plain)
-    found = difference(options.command, picture, plain)
+    found = difference(options.command, image, plain)
     equal = found <= tolerance
     return Verdict(equal, f"mean FLIP {found:.5f}, at most {tolerance:.5f}: {'equal' if equal else 'NOT EQUAL'}")
 

@@ -23,7 +23,7 @@ CAMERA = "lib/src/camera/camera.cpp"
 
 # So wide, and so far into the box, that light paths hit it.
 WIDE_LENS = ("--lens-radius", "0.1", "--from", "0.278,0.273,-0.1", "--look-at", "0.278,0.273,0.28", "--fov", "100")
-# In the roughest ball of glass-rough.gltf, below the lamp.
+# In the roughest sphere of glass-rough.gltf, below the lamp.
 INSIDE_GLASS = ("--from", "1.05,0.29,0.3", "--look-at", "1.05,1.5,0.31", "--fov", "90")
 
 BREAKAGES = (
@@ -57,7 +57,7 @@ BREAKAGES = (
     Breakage("points of textured emitters have one density", "lib/src/light/triangle_light.cpp",
              "emission_.spread ? emission_.spread->pdf(triangle_to_square(barycentrics)) : 1.0f", "1.0f",
              "textured-emitter.gltf"),
-    Breakage("next-event estimation on ball lights has half the density", "lib/src/light/sphere_light.cpp",
+    Breakage("next-event estimation on sphere lights has half the density", "lib/src/light/sphere_light.cpp",
              "SolidAnglePdf pdf() const { return cone_pdf(one_minus_cos); }",
              "SolidAnglePdf pdf() const { return {0.5f * cone_pdf(one_minus_cos).value}; }", "veach-plates.gltf"),
     Breakage("weights forget next-event estimation", SUMS, "k == 1 ? next_event_term_ : 1.0", "1.0", "veach-plates.gltf"),

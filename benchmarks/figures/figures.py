@@ -8,7 +8,7 @@ BALL = re.compile(r"ball-(\d+)\.glb")  # scenes that make_large_scene.py writes,
 
 @dataclasses.dataclass(frozen=True)
 class Cell:
-    """One picture of a sheet. It has either samples (`spp`) or a time to render for (`seconds`)."""
+    """One image of a sheet. It has either samples (`spp`) or a time to render for (`seconds`)."""
 
     label: str
     scene: str  # a file of scenes/, or a BALL
@@ -16,10 +16,10 @@ class Cell:
     spp: int = None
     seconds: float = None
     reference: tuple = None  # options of a long render of the same light by bdpt, or None: there is none
-    rival: tuple = None  # options of a second estimate: the picture is the mean of maxima of the two (biased!)
-    rounds: int = 1  # how many maxima, each of pictures of spp / rounds samples
-    profiled: bool = False  # tell where the time goes; the picture has a layer time.Y
-    layer: str = None  # shown in false colours, on one scale for the sheet, in place of the picture
+    rival: tuple = None  # options of a second estimate: the image is the mean of maxima of the two (biased!)
+    rounds: int = 1  # how many maxima, each of images of spp / rounds samples
+    profiled: bool = False  # tell where the time goes; the image has a layer time.Y
+    layer: str = None  # shown in false colours, on one scale for the sheet, in place of the image
     without_bvh: bool = False  # tell the rays per second with and without a BVH
 
 
@@ -63,7 +63,7 @@ def lengths_grid(splats):
 
 
 def light_lengths():
-    """All columns estimate the same picture, that of paths of up to 6 edges."""
+    """All columns estimate the same image, that of paths of up to 6 edges."""
     cells = []
     for scene in ("cornell-spheres.gltf", "cornell-spheres-hidden.gltf"):
         cells.append(Cell("path tracing (mis)", scene, by("mis") + depth(6), 16, reference=depth(6)))
@@ -79,7 +79,7 @@ def greater_of_two():
         cells += [Cell("path tracing", scene, paths, 16, reference=both),
                   Cell("bdpt, weighted: unbiased", scene, both, 16, reference=both),
                   Cell("BIASED: greater per sample", scene, both, 16, reference=both, rival=paths, rounds=16),
-                  Cell("BIASED: greater picture", scene, both, 16, reference=both, rival=paths)]
+                  Cell("BIASED: greater image", scene, both, 16, reference=both, rival=paths)]
     return tuple(cells)
 
 
@@ -128,14 +128,14 @@ def direct_indirect():
 
 
 def profile():
-    """Pictures with the shares of time, and below them the time of a sample in each pixel."""
+    """Images with the shares of time, and below them the time of a sample in each pixel."""
     scene = "fourteen-specular.gltf"
     names = ("pt", "nee", "mis", "lt", "bdpt")
-    pictures = [Cell(name, scene, by(name) + depth(5), 64, reference=None if name == "lt" else depth(5),
+    images = [Cell(name, scene, by(name) + depth(5), 64, reference=None if name == "lt" else depth(5),
                      profiled=True) for name in names]
     times = [Cell(f"{name}: time of a sample", scene, by(name) + depth(5), 64, profiled=True,
                   layer="time.Y") for name in names]
-    return tuple(pictures + times)
+    return tuple(images + times)
 
 
 def sweep(scene, integrators, counts, edges):

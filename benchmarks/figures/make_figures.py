@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Renders figures: for each a sheet of labelled pictures and their numbers.
+"""Renders figures: for each a sheet of labelled images and their numbers.
 
 make_figures.py --list
 make_figures.py NAME... -o DIR [--scale quick|medium|full] [--bdpt PATH]    (or all for NAME)
 
-Writes DIR/NAME.png, NAME.json and NAME.csv, and the pictures as DIR/NAME/NN.exr. Needs oiiotool."""
+Writes DIR/NAME.png, NAME.json and NAME.csv, and the images as DIR/NAME/NN.exr. Needs oiiotool."""
 
 import argparse
 import csv
@@ -27,7 +27,7 @@ REFERENCE_SEED = 1000  # other numbers than any cell: errors of the same numbers
 
 @dataclasses.dataclass(frozen=True)
 class Scale:
-    """How large pictures are, and the most that cells may take."""
+    """How large images are, and the most that cells may take."""
 
     width: int
     most_spp: int
@@ -75,7 +75,7 @@ class Renderer:
 
     @functools.lru_cache(maxsize=None)
     def file(self, scene):
-        """Where a scene is. Balls are made here."""
+        """Where a scene is. Spheres are made here."""
         ball = BALL.fullmatch(scene)
         if not ball:
             return str(ROOT / "scenes" / scene)
@@ -142,9 +142,9 @@ class Renderer:
         return {"samples": rounds * (cell.spp // rounds), "seconds": sum(report["seconds"] for report in reports),
                 "rays": total, "command": "; ".join(report["command"] for report in reports)}
 
-    def compare(self, picture, reference):
-        """Error and bias of a picture. The error has the noise of the reference in it."""
-        done = subprocess.run([self.bdpt, "compare", str(picture), str(reference), "--relative", "--json", "--metrics",
+    def compare(self, image, reference):
+        """Error and bias of an image. The error has the noise of the reference in it."""
+        done = subprocess.run([self.bdpt, "compare", str(image), str(reference), "--relative", "--json", "--metrics",
                                "relmse"], check=True, stdout=subprocess.PIPE, text=True)
         report = json.loads(done.stdout)
         bias = report["bias"]["mean"]
@@ -188,38 +188,38 @@ def make(name, renderer, scale_name, folder):
     """Renders all cells of a figure and writes its files."""
     figure = FIGURES[name]
     cells, columns = scaled(figure, renderer.scale)
-    pictures = folder / name
-    pictures.mkdir(parents=True, exist_ok=True)
+    images = folder / name
+    images.mkdir(parents=True, exist_ok=True)
     references = folder / "references"
     references.mkdir(exist_ok=True)
     rows, exposures, brightest = [], {}, 0.0
     for number, cell in enumerate(cells):
-        picture = pictures / f"{number:02}.exr"
-        row = {"label": cell.label, "scene": cell.scene, **renderer.cell(cell, picture)}
-        row["mean"] = sheet.mean(picture)
+        image = images / f"{number:02}.exr"
+        row = {"label": cell.label, "scene": cell.scene, **renderer.cell(cell, image)}
+        row["mean"] = sheet.mean(image)
         if cell.without_bvh:
             row.update(renderer.throughput(cell.scene))
         if cell.layer:
-            brightest = max(brightest, 1.5 * sheet.mean(picture, cell.layer)[0])
+            brightest = max(brightest, 1.5 * sheet.mean(image, cell.layer)[0])
         reference = renderer.reference(cell, figure.reference_spp, references)
         if reference:
             file, report = reference
-            exposures[cell.scene] = report["exposure"]  # that of the last is for all pictures of the scene
-            row.update(renderer.compare(picture, file))
+            exposures[cell.scene] = report["exposure"]  # that of the last is for all images of the scene
+            row.update(renderer.compare(image, file))
             row["reference"] = report["command"]
         row.pop("exposure", None)
         rows.append(row)
         print(f"{name} {number + 1}/{len(cells)}: {cell.label}: {', '.join(captions(row))}", flush=True)
     shown = []
     for number, (cell, row) in enumerate(zip(cells, rows)):
-        shown.append(pictures / f"{number:02}.png")
+        shown.append(images / f"{number:02}.png")
         if cell.layer:
             look = sheet.false_colours(cell.layer, brightest)
             lines = [cell.label, f"black to yellow: 0 to {1000 * brightest:.0f} ns"]
         else:
             look = sheet.developed(exposures[cell.scene] if figure.exposure is None else figure.exposure)
             lines = [cell.label, *captions(row)]
-        sheet.shown(pictures / f"{number:02}.exr", size_of(cell.scene, renderer.scale), look, lines, shown[-1])
+        sheet.shown(images / f"{number:02}.exr", size_of(cell.scene, renderer.scale), look, lines, shown[-1])
     sheet.mosaic(shown, columns, folder / f"{name}.png")
     write_numbers(name, figure, scale_name, rows, folder)
 

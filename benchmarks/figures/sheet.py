@@ -1,4 +1,4 @@
-"""Pictures by oiiotool: mean values, maxima, and sheets of cells with captions."""
+"""Images by oiiotool: mean values, maxima, and sheets of cells with captions."""
 
 import functools
 import glob
@@ -17,14 +17,14 @@ def oiiotool(*arguments):
     return done.stdout
 
 
-def mean(picture, channels="R,G,B"):
+def mean(image, channels="R,G,B"):
     """Means of red, green and blue [nit], or of other channels."""
-    line = re.search(r"Stats Avg: (.*) \(float\)", oiiotool(picture, "--ch", channels, "--printstats"))
+    line = re.search(r"Stats Avg: (.*) \(float\)", oiiotool(image, "--ch", channels, "--printstats"))
     return [float(word) for word in line[1].split()]
 
 
 def mean_of_maxima(pairs, output):
-    """Writes the mean of the greater values of pairs of pictures."""
+    """Writes the mean of the greater values of pairs of images."""
     arguments = []
     for number, (first, second) in enumerate(pairs):
         arguments += [first, second, "--max"] + (["--add"] if number else [])
@@ -48,7 +48,7 @@ def font():
 
 
 def developed(exposure):
-    """What makes a picture of radiance, times 2^exposure, as sRGB."""
+    """What makes an image of radiance, times 2^exposure, as sRGB."""
     return ["--ch", "R,G,B", "--mulc", 2 ** exposure, "--clamp:min=0:max=1", "--colorconvert", "linear", "sRGB"]
 
 
@@ -57,8 +57,8 @@ def false_colours(channel, greatest):
     return ["--ch", channel, "--mulc", 1 / greatest, "--clamp:min=0:max=1", "--colormap", "inferno"]
 
 
-def shown(picture, size, look, lines, output, least=CELL):
-    """Writes a cell, `least` pixels wide or more: the picture as `look` makes it, and lines of text below it if there is
+def shown(image, size, look, lines, output, least=CELL):
+    """Writes a cell, `least` pixels wide or more: the image as `look` makes it, and lines of text below it if there is
     a font."""
     width, height = size
     factor = math.ceil(least / width)
@@ -67,7 +67,7 @@ def shown(picture, size, look, lines, output, least=CELL):
     text = []
     for number, line in enumerate(lines if font() else ()):
         text += [f"--text:font={font()}:size=12:x=4:y={height + 15 + LINE * number}:color=1,1,1", line]
-    oiiotool(picture, *look, "--resample:interp=0", f"{width}x{height}", "--create", f"{width}x{height + caption}", 3,
+    oiiotool(image, *look, "--resample:interp=0", f"{width}x{height}", "--create", f"{width}x{height + caption}", 3,
              "--paste", "+0+0", *text, "-d", "uint8", "-o", output)
 
 

@@ -3,7 +3,7 @@
 
 compare_peers.py SCENE... -o DIR --bdpt BIN [--python VENV/bin/python] [--blender BLENDER]
 
-Writes DIR/results.txt, results.csv and results.json, and the pictures. What is not installed is skipped by name."""
+Writes DIR/results.txt, results.csv and results.json, and the images. What is not installed is skipped by name."""
 
 import argparse
 import dataclasses

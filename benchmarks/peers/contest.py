@@ -1,4 +1,4 @@
-"""Renders scenes with all entries in turn, and judges the pictures."""
+"""Renders scenes with all entries in turn, and judges the images."""
 
 import dataclasses
 import json
@@ -50,9 +50,9 @@ def run_bdpt(options, gltf, integrator, seed, limit, output):
             "version": told["version"], "settings": {"sampler": told["settings"]["sampler"]}}
 
 
-def compare(options, picture, reference):
-    """The report of `bdpt compare`, of a picture or a folder of them."""
-    done = subprocess.run([options.bdpt, "compare", str(picture), str(reference), "--relative", "--json", "--metrics",
+def compare(options, image, reference):
+    """The report of `bdpt compare`, of an image or a folder of them."""
+    done = subprocess.run([options.bdpt, "compare", str(image), str(reference), "--relative", "--json", "--metrics",
                            "relmse,mse"], check=True, stdout=subprocess.PIPE, text=True)
     return json.loads(done.stdout)
 
@@ -74,7 +74,7 @@ class Stage:
         self.reference_run = run_bdpt(self.options, self.gltf, "bdpt", REFERENCE_SEED, limit, self.reference)
 
     def run(self, entry, peer, seed, output):
-        """One picture by one entry. Raises Unavailable."""
+        """One image by one entry. Raises Unavailable."""
         options = self.options
         if entry.peer == "bdpt":
             limit = ("--time", f"{options.seconds}s")
@@ -89,8 +89,8 @@ def contest(stage, entries, peers, tell):
     """Runs of each entry (name -> list) in turn, A B C A B C; and why others have none (name -> reason)."""
     runs, skipped = {}, {}
     for entry in entries:
-        blindness = stage.scene and entry.blindness(stage.scene)
-        if blindness:
+        unsupported_kinds = stage.scene and entry.unsupported_kinds(stage.scene)
+        if unsupported_kinds:
             skipped[entry.name] = f"it does not show {blindness}"
         else:
             runs[entry.name] = []
@@ -98,15 +98,15 @@ def contest(stage, entries, peers, tell):
         for entry in [entry for entry in entries if entry.name in runs]:
             folder = stage.folder / entry.name
             folder.mkdir(exist_ok=True)
-            picture = folder / f"{seed}.exr"
+            image = folder / f"{seed}.exr"
             try:
-                run = stage.run(entry, peers.get(entry.peer), seed, picture)
+                run = stage.run(entry, peers.get(entry.peer), seed, image)
             except Unavailable as error:
                 del runs[entry.name]
                 skipped[entry.name] = str(error)
                 tell(f"{stage.name}: {entry.name}: skipped: {error}")
                 continue
-            runs[entry.name].append({**run, "seed": seed, "picture": str(picture)})
+            runs[entry.name].append({**run, "seed": seed, "picture": str(image)})
             tell(f"{stage.name}: {entry.name}, seed {seed}: {run['samples']:.4g} spp in {run['seconds']:.3g} s")
     return runs, skipped
 
@@ -116,9 +116,9 @@ def spread_error(values):
     return statistics.stdev(values) / math.sqrt(len(values)) if len(values) > 1 else 0.0
 
 
-def judge_means(reports, noise):
+def decide_means(reports, noise):
     """Bias of each channel over all seeds in standard errors: the larger one of that between seeds and that within
-    pictures, and the reference's (`noise`)."""
+    images, and the reference's (`noise`)."""
     result = {}
     for channel in ("red", "green", "blue", "mean"):
         values = [report["bias"][channel]["value"] for report in reports]
@@ -130,12 +130,12 @@ def judge_means(reports, noise):
 
 
 def noise_of(folder_report, seeds):
-    """The mean squared error of a picture that is noise, from the spread between seeds."""
+    """The mean squared error of an image that is noise, from the spread between seeds."""
     return seeds * folder_report["bias"]["pixel_standard_error"] ** 2
 
 
 def excess(folder_report, seeds, noise_of_reference):
-    """Mean squared error over noise: 1 where only noise differs, more where pictures show something else."""
+    """Mean squared error over noise: 1 where only noise differs, more where images show something else."""
     noise = noise_of(folder_report, seeds) + noise_of_reference
     return folder_report["metrics"]["mse"]["mean"] / noise if noise > 0 else 1.0
 
@@ -155,7 +155,7 @@ def judge(stage, runs):
         if options.seeds > 1:
             folders[name] = compare(options, pathlib.Path(list_of_runs[0]["picture"]).parent, stage.reference)
     share = runs["bdpt"][0]["samples"] / stage.reference_run["samples"]  # of variance
-    ours = judge_means(reports["bdpt"], {})
+    ours = decide_means(reports["bdpt"], {})
     noise = {channel: ours[channel]["standard_error"] * math.sqrt(options.seeds * share) for channel in ours}
     our_errors = [report["metrics"]["relmse"]["mean"] for report in reports["bdpt"]]
     error_of_reference = share / (1 + share) * statistics.median(our_errors)
@@ -163,7 +163,7 @@ def judge(stage, runs):
     result = {}
     for name, list_of_runs in runs.items():
         errors = own_errors([r["metrics"]["relmse"]["mean"] for r in reports[name]], error_of_reference)
-        means = judge_means(reports[name], noise)
+        means = decide_means(reports[name], noise)
         more = excess(folders[name], options.seeds, squared_noise) if folders else 1.0
         agrees = all(abs(channel["z"]) <= BLAMELESS for channel in means.values()) and more <= BLAMELESS_EXCESS
         result[name] = {"means": means, "excess": more, "agrees": agrees, "relmse": errors,

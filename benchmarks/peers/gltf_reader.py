@@ -136,7 +136,7 @@ class Reader:
             return
         radius *= abs(determinant(transform)) ** (1 / 3)
         emission = tuple(i / (math.pi * radius * radius) for i in intensity)
-        self.changed(f"{name} is a ball of triangles")
+        self.changed(f"{name} is a sphere of triangles")
         self.materials.append(Material(name, "diffuse", (0.0, 0.0, 0.0), emission=emission))
         points, triangles, _ = sphere(SPHERE_SEGMENTS, SPHERE_RINGS, radius)
         positions = tuple(tuple(c + p for c, p in zip(position, point)) for point in points)

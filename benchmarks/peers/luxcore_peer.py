@@ -1,6 +1,6 @@
 """LuxCore: `PATHCPU` and `BIDIRCPU`.
 
-BIDIRCPU has a limit for each subpath and none for the whole path: only pictures without longer paths agree. Rough
+BIDIRCPU has a limit for each subpath and none for the whole path: only images without longer paths agree. Rough
 surfaces have the distribution of GGX with another masking term."""
 
 import math

@@ -28,12 +28,12 @@ class Entry:
     name: str
     peer: str  # of PEERS, or "bdpt"
     job: dict
-    blind_to: frozenset = frozenset()  # kinds of surfaces that it does not show
+    cannot_show: frozenset = frozenset()  # kinds of surfaces that it does not show
     note: str = ""
 
-    def blindness(self, scene):
+    def unsupported_kinds(self, scene):
         """Why it cannot show a scene; empty if it can."""
-        return ", ".join(sorted(self.blind_to & scene.kinds()))
+        return ", ".join(sorted(self.cannot_show & scene.kinds()))
 
 
 ENTRIES = (
@@ -104,7 +104,7 @@ class Peer:
     version: str = ""
 
     def render(self, job, folder, seconds):
-        """What the adapter tells about one picture. Raises Unavailable."""
+        """What the adapter tells about one image. Raises Unavailable."""
         job_file, result = folder / "job.json", folder / "result.json"
         result.unlink(missing_ok=True)
         job_file.write_text(json.dumps({**job, **self.job, "result": str(result)}), encoding="utf-8")

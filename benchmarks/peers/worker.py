@@ -1,4 +1,4 @@
-"""Renders one picture with one peer: worker.py ADAPTER JOB.json, run by the interpreter that has the peer.
+"""Renders one image with one peer: worker.py ADAPTER JOB.json, run by the interpreter that has the peer.
 
 The job has `scene` (a file of scene.to_json), `integrator`, `width`, `height`, `max_depth` (edges), `threads`, `seed`,
 `seconds` or `samples` (per pixel) as the limit, `output` (an EXR file), `result` (a JSON file) and what else the

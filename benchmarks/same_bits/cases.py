@@ -10,7 +10,7 @@ LENS = ("--lens-radius", "0.05", "--focus-distance", "1")
 # So wide, and so far into the box, that light paths hit it.
 WIDE_LENS = ("--lens-radius", "0.1", "--focus-distance", "0.5", "--from", "0.278,0.273,-0.1", "--look-at",
              "0.278,0.273,0.28", "--fov", "100")
-# In the roughest ball of glass-rough.gltf, below the lamp.
+# In the roughest sphere of glass-rough.gltf, below the lamp.
 INSIDE_GLASS = ("--from", "1.05,0.29,0.3", "--look-at", "1.05,1.5,0.31", "--fov", "90")
 LAYERS = "albedo,normal,depth,position,samples,variance,alpha"
 ENVIRONMENT = "ENVIRONMENT"  # stands for the file that `write_environment` makes

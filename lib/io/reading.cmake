@@ -9,7 +9,7 @@ target_sources(bdpt_io PRIVATE
   src/file/read_file.cpp
   src/file/uri.cpp
   src/file/warnings.cpp
-  # pictures
+  # images
   src/image/cube_map.cpp
   src/image/environment.cpp
   src/image/exr_channels.cpp
@@ -17,7 +17,7 @@ target_sources(bdpt_io PRIVATE
   src/image/exr_reader.cpp
   src/image/hdr_reader.cpp
   src/image/oiio_library.cpp
-  src/image/png_picture.cpp
+  src/image/png_image.cpp
   src/image/read_image.cpp
   src/image/texels.cpp
   src/image/webp_header.cpp
@@ -57,7 +57,7 @@ target_sources(bdpt_io PRIVATE
   src/gltf/geometry/placement.cpp
   src/gltf/geometry/primitive_reader.cpp
   src/gltf/geometry/skin.cpp
-  # glTF: materials and their pictures
+  # glTF: materials and their images
   src/gltf/material/image_table.cpp
   src/gltf/material/material.cpp
   src/gltf/material/material_layers.cpp
@@ -96,14 +96,14 @@ target_link_libraries(bdpt_io PRIVATE
   OpenEXR::OpenEXR Imath::Imath TBB::tbb $<BUILD_INTERFACE:nlohmann_json::nlohmann_json> fmt::fmt
   ${CMAKE_DL_LIBS})
 
-# tinygltf gets checked JSON and buffers from memory; it opens no files and decodes no pictures.
+# tinygltf gets checked JSON and buffers from memory; it opens no files and decodes no images.
 target_compile_definitions(bdpt_io PRIVATE
   TINYGLTF_NO_STB_IMAGE TINYGLTF_NO_STB_IMAGE_WRITE TINYGLTF_NO_EXTERNAL_IMAGE TINYGLTF_NO_FS
   TINYGLTF_NO_INCLUDE_JSON)
 # The implementation's warnings are not ours to mend.
 set_source_files_properties(src/gltf/document/tinygltf.cpp PROPERTIES COMPILE_OPTIONS "-w")
 
-# OpenImageIO lives in a module that is loaded with the first picture (src/image/oiio_library.h).
+# OpenImageIO lives in a module that is loaded with the first image (src/image/oiio_library.h).
 add_library(bdpt_oiio MODULE src/oiio_module/oiio_module.cpp)
 bdpt_compile_options(bdpt_oiio)
 target_include_directories(bdpt_oiio PRIVATE src)

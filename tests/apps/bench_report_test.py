@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Opens the report of a small benchmark in Chromium: bench_report_test.py BDPT SCENE [PAGE PICTURE].
+"""Opens the report of a small benchmark in Chromium: bench_report_test.py BDPT SCENE [PAGE IMAGE].
 
 Exit code 77 says that Chromium or chromedriver (Debian: chromium, chromium-driver) are not installed. With PAGE, no
-benchmark is run: that report is opened, and a screenshot of it is written to PICTURE."""
+benchmark is run: that report is opened, and a screenshot of it is written to IMAGE."""
 
 import base64
 import json
@@ -41,16 +41,16 @@ def page_data(page):
     return json.loads(re.search(r'id="bench-data">(.*?)</script>', text, re.DOTALL)[1])
 
 
-def pixel(pictures, name, x, y):
+def pixel(images, name, x, y):
     """Red, green and blue of a pixel of the page's data, read by other code than the page's."""
-    planes = zlib.decompress(base64.b64decode(pictures["images"][name]))
+    planes = zlib.decompress(base64.b64decode(images["images"][name]))
     count = len(planes) // 4
     packed = sum(planes[plane * count + y * SIZE + x] << (8 * plane) for plane in range(4))
-    power = 2.0 ** ((packed >> 27) - 24) / pictures["scale"]
+    power = 2.0 ** ((packed >> 27) - 24) / images["scale"]
     return [(packed >> shift & 511) * power for shift in (0, 9, 18)]
 
 
-def picture(browser, selector):
+def image(browser, selector):
     """What a canvas shows, once all drawing is done."""
     browser.call("POST", "/execute/async", {"script": "const done = arguments[0];"
                  "requestAnimationFrame(() => requestAnimationFrame(() => done(true)));", "args": []})
@@ -79,67 +79,67 @@ def check_flipping(browser):
     shown = {}
     for number in range(1, 7):
         browser.press(str(number))
-        shown[number] = picture(browser, STAGE)
+        shown[number] = image(browser, STAGE)
         names = browser.run("return [...document.querySelectorAll('.shown-name')].map((one) => one.textContent)")
         wanted = f"{number} {[*INTEGRATORS, 'reference'][number - 1]}"
         expect(names[0] == wanted, f"key {number} brings {wanted}")
-    expect(len(set(shown.values())) == 6, "each key brings another picture")
+    expect(len(set(shown.values())) == 6, "each key brings another image")
     browser.press("1")
-    expect(picture(browser, STAGE) == shown[1], "flipping back brings the first one back")
+    expect(image(browser, STAGE) == shown[1], "flipping back brings the first one back")
     browser.press("9")
-    expect(picture(browser, STAGE) == shown[1], "a key without a picture changes nothing")
+    expect(image(browser, STAGE) == shown[1], "a key without an image changes nothing")
     browser.run("document.querySelectorAll('.tile-name')[4].click();")
-    expect(picture(browser, STAGE) == shown[5], "so does a click on its name")
+    expect(image(browser, STAGE) == shown[5], "so does a click on its name")
 
 
 def check_display(browser):
-    seen = {"picture": picture(browser, STAGE)}
+    seen = {"picture": image(browser, STAGE)}
     for key, mode in (("e", "error"), ("v", "variance"), ("t", "time")):
         browser.press(key)
-        seen[mode] = picture(browser, STAGE)
+        seen[mode] = image(browser, STAGE)
         expect(browser.run("return document.querySelectorAll('.viewer .colorbar').length") >= 1, f"{mode} has a colour bar")
-    expect(len(set(seen.values())) == 4, "picture, error, variance and time differ")
+    expect(len(set(seen.values())) == 4, "image, error, variance and time differ")
     browser.press("p")
     for name, change in (("exposure", "slider.value = 2"), ("gamma", "slider.value = 1.5")):
         browser.run(f"const slider = document.getElementById('{name}'); {change};"
                     "slider.dispatchEvent(new Event('input'));")
-        expect(picture(browser, STAGE) != seen["picture"], f"{name} changes the picture")
+        expect(image(browser, STAGE) != seen["picture"], f"{name} changes the image")
         browser.run("document.getElementById('reset').click();")
-        expect(picture(browser, STAGE) == seen["picture"], "reset brings it back")
+        expect(image(browser, STAGE) == seen["picture"], "reset brings it back")
     browser.run("const curve = document.getElementById('curve'); curve.value = 'linear';"
                 "curve.dispatchEvent(new Event('change'));")
-    expect(picture(browser, STAGE) != seen["picture"], "the tone curve changes the picture")
+    expect(image(browser, STAGE) != seen["picture"], "the tone curve changes the image")
 
 
 def check_zoom(browser):
     tiles = [f"document.querySelectorAll('.tile canvas')[{i}]" for i in range(6)]
-    before = [picture(browser, tile) for tile in tiles]
+    before = [image(browser, tile) for tile in tiles]
     browser.run("document.querySelector('.zoom button').click();")
-    zoomed = [picture(browser, tile) for tile in tiles]
-    expect(all(a != b for a, b in zip(before, zoomed)), "zoom goes for all pictures")
+    zoomed = [image(browser, tile) for tile in tiles]
+    expect(all(a != b for a, b in zip(before, zoomed)), "zoom goes for all images")
     browser.run(f"{STAGE}.focus();")
     browser.press("\ue014")  # arrow right
-    panned = [picture(browser, tile) for tile in tiles]
+    panned = [image(browser, tile) for tile in tiles]
     expect(all(a != b for a, b in zip(zoomed, panned)), "so does panning by keys")
     browser.press("0")
-    expect([picture(browser, tile) for tile in tiles] == before, "0 shows the whole again")
+    expect([image(browser, tile) for tile in tiles] == before, "0 shows the whole again")
 
 
 def check_values(browser, data):
     x, y = 7, 15
     box = browser.run(f"const box = {STAGE}.getBoundingClientRect(); return [box.left, box.top, box.width, box.height];")
     browser.move_to(box[0] + (x + 0.5) / SIZE * box[2], box[1] + (y + 0.5) / SIZE * box[3])
-    picture(browser, STAGE)
+    image(browser, STAGE)
     rows = browser.run("return [...document.querySelectorAll('.viewer')[0].querySelectorAll('.readout tbody tr')]"
                        ".map((row) => [...row.querySelectorAll('td.number')].map((cell) => cell.textContent));")
-    pictures = data["scenes"][0]["pictures"]
-    reference = pixel(pictures, "reference", x, y)
+    images = data["scenes"][0]["pictures"]
+    reference = pixel(images, "reference", x, y)
     for name, row in zip([*INTEGRATORS, "reference"], rows):
-        wanted = pixel(pictures, name, x, y)
+        wanted = pixel(images, name, x, y)
         read = [number(text) for text in row[:3]]
         expect(all(abs(a - b) <= 6e-3 * abs(b) for a, b in zip(read, wanted)), f"the value of {name} under the pointer")
         if name != "reference":
-            error = sum((v - r)**2 / (r * r + pictures["epsilon"]) for v, r in zip(wanted, reference)) / 3
+            error = sum((v - r)**2 / (r * r + images["epsilon"]) for v, r in zip(wanted, reference)) / 3
             expect(abs(number(row[3]) - error) <= 0.06 * error + 1e-12, "its error")
 
 
@@ -200,7 +200,7 @@ def check_times(browser, data):
     place = min(max((maps["bdpt"][y * SIZE + x] - least) / (most - least), 0), 1)
     index = 6 * int(255 * place + 0.5)
     wanted = [int(data["heat"][index + k:index + k + 2], 16) for k in (0, 2, 4)]
-    picture(browser, STAGE)
+    image(browser, STAGE)
     swatch = browser.run("return document.querySelectorAll('.readout tbody tr')[4].querySelector('.pixel').style.background")
     expect([int(part) for part in re.findall(r"\d+", swatch)][:3] == wanted, f"a pixel has the colour of its time {swatch} {wanted}")
     browser.press("p")
@@ -211,7 +211,7 @@ def check_access(browser):
         const named = (one) => one.getAttribute('aria-label') || one.textContent.trim() || one.labels?.length;
         return [...document.querySelectorAll('button, select, input, canvas[role], svg.plot, table')]
           .filter((one) => !named(one)).map((one) => one.outerHTML.slice(0, 80));""")
-    expect(unnamed == [], f"all controls, pictures and plots have a name {unnamed}")
+    expect(unnamed == [], f"all controls, images and plots have a name {unnamed}")
     expect(browser.run("return document.documentElement.lang") == "en", "the page says its language")
     dark = []
     for _ in range(2):
@@ -247,7 +247,7 @@ def photograph(page, target):
         browser.open(page.as_uri())
         browser.wait("document.documentElement.dataset.ready")
         browser.press("5")
-        picture(browser, STAGE)
+        image(browser, STAGE)
         browser.screenshot(target)
 
 

@@ -215,7 +215,7 @@ TEST_CASE("events of a benchmark are JSON")
     CHECK(events.back() == "done");
 }
 
-TEST_CASE("pictures of a benchmark have the wanted number of pixels and the camera's proportions")
+TEST_CASE("images of a benchmark have the wanted number of pixels and the camera's proportions")
 {
     const app::Size wide = app::bench_size({1280, 720}, 40000);
     CHECK(wide.width == 267);

@@ -82,7 +82,7 @@ def check_idiff(bdpt, image, reference):
     rms, psnr = (float(re.search(rf"{name} = ([\d.e+-]+)", text)[1]) for name in ("RMS error", "Peak SNR"))
     ours = compare(bdpt, image, reference)
     expect("rmse", ours["rmse"], rms, 1e-5)
-    # Its peak is the greatest value of both pictures, but at least 1.
+    # Its peak is the greatest value of both images, but at least 1.
     stats = "".join(subprocess.run(["oiiotool", "--stats", file], check=True, capture_output=True, text=True).stdout
                     for file in (image, reference))
     peak = max(1.0, *(float(value) for line in re.findall(r"Stats Max:(.*)\(", stats) for value in line.split()))

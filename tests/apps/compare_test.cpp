@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "picture_files.h"
+#include "image_files.h"
 #include "scratch_folder.h"
 #include "subprocess.h"
 
@@ -60,7 +60,7 @@ TEST_CASE("compare prints a table for people")
     CHECK(outcome.exit_code == 0);
     CHECK(outcome.err.empty());
     // 0.25^2 in one channel of three.
-    for (const char* text : {"1 picture of 40 x 20 pixels", "mse          0.0208333",
+    for (const char* text : {"1 image of 40 x 20 pixels", "mse          0.0208333",
                              "rmse          0.144338", "flip_ldr", "red               0.25",
                              "worst tiles of 32 x 32 by relmse", "0,0,32,20", "32,0,40,20"}) {
         CAPTURE(text);
@@ -149,7 +149,7 @@ TEST_CASE("a folder of seeds is compared as one")
     CHECK(report["tiles"]["biased"][0]["channel"] == "red");
     CHECK(report["tiles"]["biased"][0]["p"].get<double>() < 1e-3);
     CHECK(report["metrics"]["rmse"]["standard_deviation"].is_number());
-    CHECK(run({"compare", seeds, r}).out.find("4 pictures of 40 x 20 pixels") != std::string::npos);
+    CHECK(run({"compare", seeds, r}).out.find("4 images of 40 x 20 pixels") != std::string::npos);
 }
 
 TEST_CASE("the error image is drawn on the scale that was asked for")
@@ -243,7 +243,7 @@ TEST_CASE("bad input of compare gives one line and the documented exit code")
     broken.pixels[8 * 3 + 2].b = std::numeric_limits<float>::infinity();
     const std::string infinite = write(folder, "inf.exr", broken);
     const std::string text = (folder / "text.exr").string();
-    write_text(text, "not a picture");
+    write_text(text, "not an image");
     const std::string cut = (folder / "cut.exr").string();
     write_text(cut, read_text(a).substr(0, 500));
     const std::string empty = (folder / "empty").string();

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "picture_files.h"
+#include "image_files.h"
 #include "scene_files.h"
 #include "scratch_folder.h"
 #include "subprocess.h"
@@ -33,8 +33,8 @@ public:
         words.insert(words.end(), more.begin(), more.end());
         return run(words);
     }
-    /// The picture that a successful run gives.
-    ExrFile picture(const Words& more) const
+    /// The image that a successful run gives.
+    ExrFile rendered(const Words& more) const
     {
         const Outcome outcome = render(more);
         CAPTURE(more, outcome.err);
@@ -61,10 +61,10 @@ nlohmann::json settings_of(const ExrFile& file)
 TEST_CASE("option --aov adds layers by their usual names")
 {
     const FilmFolder cube;
-    const ExrFile plain = cube.picture({});
+    const ExrFile plain = cube.rendered({});
     CHECK(plain.header.channels().findChannel("A") == nullptr);
     const ExrFile file =
-        cube.picture({"--aov", "albedo,normal,depth,position,samples,variance,alpha"});
+        cube.rendered({"--aov", "albedo,normal,depth,position,samples,variance,alpha"});
     CHECK(file.image.pixels == plain.image.pixels);
     constexpr std::size_t center = 8 * 32 + 16;
     CHECK(cube.channel("A")[center] == 1.0f);
@@ -80,20 +80,21 @@ TEST_CASE("option --aov adds layers by their usual names")
     CHECK(cube.channel("variance.R")[0] == 0.0f);
     CHECK(cube.channel("variance.R")[center] < 1.0f);
 
-    CHECK(
-        cube.picture({"--aov", "depth", "--half"}).header.channels().findChannel("depth.Z")->type ==
-        Imf::FLOAT);
+    CHECK(cube.rendered({"--aov", "depth", "--half"})
+              .header.channels()
+              .findChannel("depth.Z")
+              ->type == Imf::FLOAT);
 }
 
-TEST_CASE("option --crop writes the pixels of the whole picture, placed in it")
+TEST_CASE("option --crop writes the pixels of the whole image, placed in it")
 {
     const FilmFolder cube;
     const Words filter{"--filter", "tent:2", "--aov", "depth"};
-    const ExrFile whole = cube.picture(filter);
+    const ExrFile whole = cube.rendered(filter);
     const std::vector<float> whole_depth = cube.channel("depth.Z");
     Words words = filter;
     words.insert(words.end(), {"--crop", "10,3,25,16", "--tiled"});
-    const ExrFile crop = cube.picture(words);
+    const ExrFile crop = cube.rendered(words);
     const std::vector<float> depth = cube.channel("depth.Z");
     CHECK(crop.header.dataWindow() == Imath::Box2i({10, 3}, {24, 15}));
     CHECK(crop.header.displayWindow() == Imath::Box2i({0, 0}, {31, 15}));
@@ -118,15 +119,15 @@ TEST_CASE("option --crop writes the pixels of the whole picture, placed in it")
 TEST_CASE("option --filter chooses the pixel filter")
 {
     const FilmFolder cube;
-    const ExrFile box = cube.picture({});
+    const ExrFile box = cube.rendered({});
     CHECK(settings_of(box)["filter"] == "box");
     CHECK(settings_of(box)["filter_radius"] == 0.5);
-    CHECK(cube.picture({"--filter", "box"}).image.pixels == box.image.pixels);
+    CHECK(cube.rendered({"--filter", "box"}).image.pixels == box.image.pixels);
     for (const char* name : {"tent", "gaussian", "blackman-harris", "box:2"}) {
         CAPTURE(name);
-        CHECK_FALSE(cube.picture({"--filter", name}).image.pixels == box.image.pixels);
+        CHECK_FALSE(cube.rendered({"--filter", name}).image.pixels == box.image.pixels);
     }
-    const ExrFile wide = cube.picture({"--filter", "tent:3.5"});
+    const ExrFile wide = cube.rendered({"--filter", "tent:3.5"});
     CHECK(settings_of(wide)["filter"] == "tent");
     CHECK(settings_of(wide)["filter_radius"] == 3.5);
 }
@@ -142,14 +143,14 @@ TEST_CASE("option --clamp limits contributions and says what it took")
     const ExrFile file = read_exr(cube.folder() / "out.exr");
     CHECK(file.image.at(16, 8) == Rgb(0.25f));
     CHECK(settings_of(file)["clamp"] == 0.25);
-    CHECK_FALSE(settings_of(cube.picture({})).contains("clamp"));
+    CHECK_FALSE(settings_of(cube.rendered({})).contains("clamp"));
 }
 
-TEST_CASE("option --profile tells where the time of samples goes, of the same picture")
+TEST_CASE("option --profile tells where the time of samples goes, of the same image")
 {
     const FilmFolder cube;
     const std::string stats = (cube.folder() / "stats.json").string();
-    const ExrFile plain = cube.picture({});
+    const ExrFile plain = cube.rendered({});
     const Outcome outcome = cube.render({"--profile", "--stats", stats});
     CAPTURE(outcome.err);
     REQUIRE(outcome.exit_code == 0);
@@ -175,7 +176,7 @@ TEST_CASE("option --profile tells where the time of samples goes, of the same pi
 
     const Outcome json = cube.render({"--profile", "--json"});
     CHECK(json.out.find("\"event\":\"profile\"") != std::string::npos);
-    cube.picture({"--profile", "--crop", "3,4,4,5", "--integrator", "mis"});
+    cube.rendered({"--profile", "--crop", "3,4,4,5", "--integrator", "mis"});
     CHECK(cube.channel("time.Y").size() == 1);
 }
 
@@ -183,8 +184,8 @@ TEST_CASE("option --stats writes the numbers of the render")
 {
     const FilmFolder cube;
     const std::string stats = (cube.folder() / "stats.json").string();
-    cube.picture({"--stats", stats, "--integrator", "mis", "--max-depth", "1", "--aov", "alpha",
-                  "--clamp", "0.5"});
+    cube.rendered({"--stats", stats, "--integrator", "mis", "--max-depth", "1", "--aov", "alpha",
+                   "--clamp", "0.5"});
     const auto json = nlohmann::json::parse(read_text(stats));
     constexpr int samples = 32 * 16 * 4;
     CHECK(json["version"] == BDPT_VERSION);
@@ -207,7 +208,7 @@ TEST_CASE("option --stats writes the numbers of the render")
     CHECK(json["clamp"]["contributions"].get<int>() > 100);
     CHECK(json["clamp"]["radiance_taken"].size() == 3);
     CHECK(json["stopped_by"].is_null());
-    cube.picture({"--stats", stats});
+    cube.rendered({"--stats", stats});
     CHECK(nlohmann::json::parse(read_text(stats))["clamp"].is_null());
     CHECK_FALSE(nlohmann::json::parse(read_text(stats)).contains("profile"));
     CHECK(cube.folder().names() ==

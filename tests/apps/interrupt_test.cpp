@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "picture_files.h"
+#include "image_files.h"
 #include "scene_files.h"
 #include "scratch_folder.h"
 #include "subprocess.h"
@@ -23,7 +23,7 @@ std::vector<std::string> endless(const ScratchFolder& folder, const std::string&
             "-o",     (folder / "out.exr").string()};
 }
 
-TEST_CASE("a signal finishes the pass, writes the picture and sets the exit code")
+TEST_CASE("a signal finishes the pass, writes the image and sets the exit code")
 {
     const int signal_number = GENERATE(SIGINT, SIGTERM);
     const ScratchFolder folder;
@@ -42,10 +42,10 @@ TEST_CASE("a signal finishes the pass, writes the picture and sets the exit code
     CHECK(done["stopped_by"] == (signal_number == SIGINT ? "SIGINT" : "SIGTERM"));
     CHECK(folder.names() == std::set<std::string>{"cube.bin", "cube.gltf", "out.exr"});
 
-    const ExrFile picture = read_exr(folder / "out.exr");
-    CHECK(picture.image.width == 32);
-    CHECK(picture.image.at(16, 9).g > 0.0f);
-    const int samples = picture.integer("bdpt.spp");
+    const ExrFile exr = read_exr(folder / "out.exr");
+    CHECK(exr.image.width == 32);
+    CHECK(exr.image.at(16, 9).g > 0.0f);
+    const int samples = exr.integer("bdpt.spp");
     CHECK(samples > 0);
     CHECK(done["samples"] == samples);
 }

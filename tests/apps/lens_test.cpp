@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "picture_files.h"
+#include "image_files.h"
 #include "scene_files.h"
 #include "scratch_folder.h"
 #include "subprocess.h"
@@ -34,7 +34,7 @@ public:
         words.insert(words.end(), more.begin(), more.end());
         return run(words);
     }
-    ExrFile picture(const Words& more) const
+    ExrFile rendered(const Words& more) const
     {
         const Outcome outcome = render(more);
         CAPTURE(more, outcome.err);
@@ -62,23 +62,23 @@ std::ptrdiff_t blurred(const ExrFile& file)
 TEST_CASE("option --lens-radius blurs what is out of focus")
 {
     const LensFolder cube;
-    const ExrFile sharp = cube.picture({});
+    const ExrFile sharp = cube.rendered({});
     CHECK_FALSE(settings_of(sharp).contains("lens_radius"));
-    const ExrFile focused = cube.picture({"--lens-radius", "0.25", "--focus-distance", "4"});
-    const ExrFile wrong = cube.picture({"--lens-radius", "0.25", "--focus-distance", "2"});
+    const ExrFile focused = cube.rendered({"--lens-radius", "0.25", "--focus-distance", "4"});
+    const ExrFile wrong = cube.rendered({"--lens-radius", "0.25", "--focus-distance", "2"});
     CHECK(blurred(wrong) > 2 * blurred(focused));
     CHECK(blurred(focused) < 2 * blurred(sharp) + 32);
     CHECK(settings_of(wrong)["lens_radius"] == 0.25);
     CHECK(settings_of(wrong)["focus_distance"] == 2.0);
-    CHECK(cube.picture({"--lens-radius", "0"}).image.pixels == sharp.image.pixels);
+    CHECK(cube.rendered({"--lens-radius", "0"}).image.pixels == sharp.image.pixels);
 }
 
 TEST_CASE("a lens focuses on what is in the middle of the view")
 {
     const LensFolder cube;
-    CHECK(settings_of(cube.picture({"--lens-radius", "0.1"}))["focus_distance"].get<double>() ==
+    CHECK(settings_of(cube.rendered({"--lens-radius", "0.1"}))["focus_distance"].get<double>() ==
           Approx(4.0).epsilon(1e-4));
-    CHECK(settings_of(cube.picture({"--lens-radius", "0.1", "--from", "0,0,3"}))["focus_distance"]
+    CHECK(settings_of(cube.rendered({"--lens-radius", "0.1", "--from", "0,0,3"}))["focus_distance"]
               .get<double>() == Approx(2.0).epsilon(1e-4));
     const Outcome away = cube.render({"--lens-radius", "0.1", "--look-at", "0,0,9"});
     CHECK(away.exit_code == 2);
@@ -89,14 +89,14 @@ TEST_CASE("option --f-stop is the focal length over the diameter of the lens")
 {
     const LensFolder cube;
     // 90 degrees: a focal length of 12 mm
-    const auto settings = settings_of(cube.picture({"--fov", "90", "--f-stop", "2"}));
+    const auto settings = settings_of(cube.rendered({"--fov", "90", "--f-stop", "2"}));
     CHECK(settings["lens_radius"].get<double>() == Approx(0.003));
 }
 
 TEST_CASE("cameras of the file may be orthographic or have a lens")
 {
     const LensFolder cube(special_cameras);
-    const ExrFile parallel = cube.picture({});
+    const ExrFile parallel = cube.rendered({});
     const auto settings = settings_of(parallel);
     CHECK(settings["projection"] == "orthographic");
     CHECK(settings["vertical_extent"] == 3.0);
@@ -112,15 +112,15 @@ TEST_CASE("cameras of the file may be orthographic or have a lens")
         CHECK(outcome.err.find("orthographic") != std::string::npos);
     }
 
-    const auto with_lens = settings_of(cube.picture({"--camera", "1"}));
+    const auto with_lens = settings_of(cube.rendered({"--camera", "1"}));
     CHECK(with_lens["lens_radius"] == 0.5);
     CHECK(with_lens["focus_distance"] == 4.0);
     // The focus of the file's lens stays when the lens changes.
-    const auto other = settings_of(cube.picture({"--camera", "1", "--lens-radius", "0.25"}));
+    const auto other = settings_of(cube.rendered({"--camera", "1", "--lens-radius", "0.25"}));
     CHECK(other["lens_radius"] == 0.25);
     CHECK(other["focus_distance"] == 4.0);
-    CHECK_FALSE(
-        settings_of(cube.picture({"--camera", "1", "--lens-radius", "0"})).contains("lens_radius"));
+    CHECK_FALSE(settings_of(cube.rendered({"--camera", "1", "--lens-radius", "0"}))
+                    .contains("lens_radius"));
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "picture_files.h"
+#include "image_files.h"
 #include "scene_files.h"
 #include "scratch_folder.h"
 #include "subprocess.h"

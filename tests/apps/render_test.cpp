@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "picture_files.h"
+#include "image_files.h"
 #include "scene_files.h"
 #include "scratch_folder.h"
 #include "subprocess.h"
@@ -19,7 +19,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// Renders `scene` small and quickly, with `more` options, and reads the picture.
+/// Renders `scene` small and quickly, with `more` options, and reads the image.
 ExrFile render(const ScratchFolder& folder, const std::string& scene, const Words& more)
 {
     const std::string out = (folder / "out.exr").string();
@@ -61,7 +61,7 @@ std::vector<nlohmann::json> events_of(const std::string& out)
     return events;
 }
 
-TEST_CASE("a file with neither camera nor light gives a picture and warnings")
+TEST_CASE("a file with neither camera nor light gives an image and warnings")
 {
     const ScratchFolder folder;
     const std::string scene = write_cube(folder, "cube", {}).string();
@@ -106,7 +106,7 @@ TEST_CASE("a closed room without light gets a lamp, and --env none takes it away
     dark.insert(dark.end(), {"--env", "none"});
     const Outcome unlit = run(dark);
     REQUIRE(unlit.exit_code == 0);
-    CHECK(unlit.err.find("the picture will be black") != std::string::npos);
+    CHECK(unlit.err.find("the image will be black") != std::string::npos);
     CHECK(mean(read_exr(out).image) == 0.0);
 }
 
@@ -193,7 +193,7 @@ TEST_CASE("option --env chooses the light from all around")
     CHECK(corner({}) == 0.0f);
     CHECK(corner({"--env", "default"}) > 0.4f);
 
-    // The picture of a file: its own output, which is a uniform 1 nit when the cube fills it.
+    // The image of a file: its own output, which is a uniform 1 nit when the cube fills it.
     render(folder, scene, {"--spp", "1", "--size", "8x4", "--from", "0,0,1.01"});
     std::filesystem::rename(folder / "out.exr", folder / "sky.exr");
     CHECK(corner({"--env", (folder / "sky.exr").string()}) >= 1.0f);
@@ -202,7 +202,7 @@ TEST_CASE("option --env chooses the light from all around")
 TEST_CASE("a file's own environment shines, and --env takes its place")
 {
     const ScratchFolder folder;
-    // White pictures of one pixel on all sides, times 7.
+    // White images of one pixel on all sides, times 7.
     constexpr const char* more = R"(
         "extensionsUsed": ["EXT_lights_image_based"],
         "images": [{"uri": "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAAAAAA6fptVAAAACklEQVR4nGP4DwABAQEAsTj2FAAAAABJRU5ErkJggg=="}],
@@ -222,8 +222,8 @@ TEST_CASE("a file's own environment shines, and --env takes its place")
     const auto corner = [&](const Words& more_words) {
         Words words{"--spp", "1", "--size", "16x8"};
         words.insert(words.end(), more_words.begin(), more_words.end());
-        const ExrFile picture = render(folder, file, words);
-        return std::pair(picture.image.at(0, 0).g, settings_of(picture)["environment"]);
+        const ExrFile exr = render(folder, file, words);
+        return std::pair(exr.image.at(0, 0).g, settings_of(exr)["environment"]);
     };
     const auto [own, own_name] = corner({});
     CHECK(own == Approx(7.0f));
@@ -234,7 +234,7 @@ TEST_CASE("a file's own environment shines, and --env takes its place")
     CHECK(corner({"--env", "none"}).first == 0.0f);
 }
 
-TEST_CASE("the seed makes the picture, the threads do not")
+TEST_CASE("the seed makes the image, the threads do not")
 {
     const ScratchFolder folder;
     const std::string scene = write_cube(folder, "cube", {}).string();

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "picture_files.h"
+#include "image_files.h"
 #include "scene_files.h"
 #include "scratch_folder.h"
 #include "subprocess.h"
@@ -106,7 +106,7 @@ TEST_CASE("the film counts as a part of the memory of a render")
                            " for the film)") != std::string::npos);
 }
 
-/// A PNG picture of 64 x 64 pixels, black and white in turn.
+/// A PNG image of 64 x 64 pixels, black and white in turn.
 void write_stripes(const std::filesystem::path& file)
 {
     constexpr int side = 64;
@@ -238,7 +238,7 @@ TEST_CASE("a camera that the user places stands still while the file's own moves
     CHECK(pixels({"--shutter", "0.5", "--from", "0,0,6"}) == pixels({"--from", "0,0,6"}));
 }
 
-TEST_CASE("pictures say which part of a file they show, and what the file says about itself")
+TEST_CASE("images say which part of a file they show, and what the file says about itself")
 {
     const ScratchFolder folder;
     const std::string more = R"("extensionsUsed": ["KHR_materials_variants", "KHR_xmp_json_ld"],

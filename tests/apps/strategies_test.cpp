@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "picture_files.h"
+#include "image_files.h"
 #include "report/strategy_files.h"
 #include "scene_files.h"
 #include "scratch_folder.h"
@@ -59,7 +59,7 @@ double mean(const std::vector<float>& values)
     return sum / static_cast<double>(values.size());
 }
 
-TEST_CASE("option --strategies writes layers that add up to the picture, and a sheet")
+TEST_CASE("option --strategies writes layers that add up to the image, and a sheet")
 {
     const Room room;
     const std::string file = room.path("all.EXR");
@@ -72,9 +72,9 @@ TEST_CASE("option --strategies writes layers that add up to the picture, and a s
           std::set<std::string>{"all.EXR", "all.png", "out.exr", "room.bin", "room.gltf"});
 
     const ExrFile layers = read_exr(file);
-    const ExrFile picture = read_exr(room.path("out.exr"));
-    CHECK(layers.image.pixels == picture.image.pixels);
-    CHECK(layers.text("bdpt.settings") == picture.text("bdpt.settings"));
+    const ExrFile exr = read_exr(room.path("out.exr"));
+    CHECK(layers.image.pixels == exr.image.pixels);
+    CHECK(layers.text("bdpt.settings") == exr.text("bdpt.settings"));
     std::set<std::string> expected{"R", "G", "B"};
     std::vector<double> sum(layers.image.pixels.size());
     const Words strategies = integrator == "lt"
@@ -96,7 +96,7 @@ TEST_CASE("option --strategies writes layers that add up to the picture, and a s
     CHECK(channels(layers) == expected);
     double worst = 0.0;
     for (std::size_t i = 0; i < sum.size(); ++i) {
-        const double whole = static_cast<double>(picture.image.pixels[i].g);
+        const double whole = static_cast<double>(exr.image.pixels[i].g);
         worst = std::max(worst, std::abs(sum[i] - whole) / (whole + 1e-3));
     }
     CHECK(worst < 1e-5);
@@ -114,7 +114,7 @@ TEST_CASE("option --strategies writes layers that add up to the picture, and a s
           nlohmann::json::array({room.path("out.exr"), file, room.path("all.png")}));
 }
 
-TEST_CASE("the picture is the same with and without images of strategies")
+TEST_CASE("the image is the same with and without images of strategies")
 {
     const Room room;
     const Words words{"--max-depth", "6"};
@@ -137,7 +137,7 @@ TEST_CASE("the picture is the same with and without images of strategies")
     CHECK(six.header.channels().findChannel("s06t01.R")->type == Imf::FLOAT);
 }
 
-TEST_CASE("images of strategies of a crop are placed in the whole picture")
+TEST_CASE("images of strategies of a crop are placed in the whole image")
 {
     const Room room;
     const Outcome outcome = room.render({"--strategies", room.path("all.exr"), "--strategy-depth",
@@ -197,7 +197,7 @@ TEST_CASE("wrong words for images of strategies are refused before anything is r
 TEST_CASE("what cannot be written leaves nothing of the images of strategies")
 {
     const Room room;
-    // The layers do not fit on this disk, the picture does.
+    // The layers do not fit on this disk, the image does.
     const Outcome outcome = run(
         Launch{.arguments = {"render", room.scene(), "-o", room.path("out.exr"), "--spp", "2",
                              "--size", "16x8", "--strategies", room.path("all.exr"), "--seed", "3"},

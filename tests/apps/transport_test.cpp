@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "picture_files.h"
+#include "image_files.h"
 #include "scene_files.h"
 #include "scratch_folder.h"
 #include "subprocess.h"
@@ -28,7 +28,7 @@ public:
                      .string())
     {}
 
-    ExrFile picture(const Words& more) const
+    ExrFile rendered(const Words& more) const
     {
         const std::string out = (folder_ / "out.exr").string();
         Words words{"render", scene_, "-o", out, "--spp", "16", "--size", "16x8", "--quiet"};
@@ -53,7 +53,7 @@ double mean(const Image& image)
     return sum / static_cast<double>(image.pixels.size());
 }
 
-TEST_CASE("direct and indirect light add up to the whole picture")
+TEST_CASE("direct and indirect light add up to the whole image")
 {
     const GlowingRoom room;
     const std::string integrator = GENERATE(as<std::string>{}, "bdpt", "mis", "nee", "pt", "lt");
@@ -62,9 +62,9 @@ TEST_CASE("direct and indirect light add up to the whole picture")
     const auto part = [&](const char* which) {
         Words more = words;
         more.insert(more.end(), {"--only", which});
-        return room.picture(more).image;
+        return room.rendered(more).image;
     };
-    const Image whole = room.picture(words).image;
+    const Image whole = room.rendered(words).image;
     const Image direct = part("direct");
     const Image indirect = part("indirect");
     CHECK(mean(direct) > 0.1 * mean(whole));
@@ -78,13 +78,13 @@ TEST_CASE("direct and indirect light add up to the whole picture")
     CHECK(worst < 1e-5);
 }
 
-TEST_CASE("a picture says how light was transported")
+TEST_CASE("an image says how light was transported")
 {
     const GlowingRoom room;
     const auto settings = nlohmann::json::parse(
-        room.picture({"--heuristic", "maximum", "--max-depth", "4", "--only", "indirect",
-                      "--max-camera-depth", "3", "--max-light-depth", "2", "--light-paths", "2",
-                      "--rr-start", "2", "--disable", "s2t1,s0t4"})
+        room.rendered({"--heuristic", "maximum", "--max-depth", "4", "--only", "indirect",
+                       "--max-camera-depth", "3", "--max-light-depth", "2", "--light-paths", "2",
+                       "--rr-start", "2", "--disable", "s2t1,s0t4"})
             .text("bdpt.settings"));
     CHECK(settings["heuristic"] == "maximum");
     CHECK(settings["max_depth"] == 4);
@@ -102,8 +102,8 @@ TEST_CASE("a strategy that is disabled makes no path")
     const GlowingRoom room;
     // Lights are seen by paths of one edge: hit by chance, or joined to the lens.
     const Words seen{"--max-depth", "1"};
-    CHECK(mean(room.picture(seen).image) > 0.9);
-    CHECK(mean(room.picture({"--max-depth", "1", "--disable", "s0t2,s1t1"}).image) == 0.0);
+    CHECK(mean(room.rendered(seen).image) > 0.9);
+    CHECK(mean(room.rendered({"--max-depth", "1", "--disable", "s0t2,s1t1"}).image) == 0.0);
 }
 
 TEST_CASE("every integrator and heuristic shows the same light")
@@ -112,7 +112,7 @@ TEST_CASE("every integrator and heuristic shows the same light")
     const auto light = [&](const Words& words) {
         Words more{"--max-depth", "3"};
         more.insert(more.end(), words.begin(), words.end());
-        return mean(room.picture(more).image);
+        return mean(room.rendered(more).image);
     };
     // 1 nit that is reflected by half, twice
     constexpr double expected = 1.0 + 0.5 + 0.25;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Fails when a scene and its twin, which a converter packed in another way, are not the same picture:
+"""Fails when a scene and its twin, which a converter packed in another way, are not the same image:
 twins_test.py COMMAND ROOT.
 
 Then the other way round: scenes that differ must be found to.

@@ -126,16 +126,16 @@ TEST_CASE("verify: the text says what has failed, and where")
     report.strategies = {{.strategy = {.s = 0, .t = 2}, .whole = sound, .tiles = {sound, wrong}}};
     report.integrators = {
         {.integrator = IntegratorKind::lt, .edges = 1, .whole = wrong, .tiles = {sound, sound}}};
-    report.pictures[2].integrator = IntegratorKind::nee;
-    report.pictures[2].defects = {
+    report.images[2].integrator = IntegratorKind::nee;
+    report.images[2].defects = {
         .invalid = 3, .saturated = 0, .first_invalid = FilmDefects::Place{4, 5, 6}};
-    report.pictures[3].lost = 0.02;
+    report.images[3].lost = 0.02;
     report.weights = {.paths = 1000, .wrong = 7, .worst = 0.25};
     const std::string text = app::verify_text(report, {});
     CHECK(contains(text, "FAIL"));
     CHECK(contains(text, "strategy s=0 t=2, tile 0,4,8,8: 1.5 nit, but 1 expected"));
     CHECK_FALSE(contains(text, "tile 0,0,8,4"));
-    CHECK(contains(text, "lt against bdpt, 1 edges, whole picture"));
+    CHECK(contains(text, "lt against bdpt, 1 edges, whole image"));
     CHECK(contains(text,
                    "nee: 3 contributions were NaN, infinite or negative; the first at pixel "
                    "(4, 5), sample 6"));

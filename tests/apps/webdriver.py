@@ -103,5 +103,5 @@ class Browser:
         return [entry["message"] for entry in self.call("POST", "/se/log", {"type": "browser"})]
 
     def screenshot(self, file):
-        with open(file, "wb") as picture:
-            picture.write(base64.b64decode(self.call("GET", "/screenshot")))
+        with open(file, "wb") as image:
+            image.write(base64.b64decode(self.call("GET", "/screenshot")))

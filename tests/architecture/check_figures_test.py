@@ -122,7 +122,7 @@ class Table(unittest.TestCase):
 
 
 @unittest.skipUnless(shutil.which("oiiotool"), "oiiotool is not there")
-class Pictures(unittest.TestCase):
+class Images(unittest.TestCase):
     def test_means_and_maxima(self):
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
@@ -149,7 +149,7 @@ class Pictures(unittest.TestCase):
             self.assertEqual((green, blue), (1.0, 1.0))
 
     def test_false_colours(self):
-        """A channel besides the picture's, from dark to bright, up to the greatest value."""
+        """A channel besides the image's, from dark to bright, up to the greatest value."""
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
             sums = []

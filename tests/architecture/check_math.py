@@ -2,7 +2,7 @@
 """Fails when our objects call functions of the C library whose last bits depend on the CPU or on the library's version:
 check_math.py NM OBJECT...
 
-Pictures are equal to the bit on all machines, so what reaches the film uses lib/src/math/elementary.h instead.
+Images are equal to the bit on all machines, so what reaches the film uses lib/src/math/elementary.h instead.
 """
 
 import pathlib

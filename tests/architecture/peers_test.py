@@ -146,7 +146,7 @@ class Writer(unittest.TestCase):
 
     @unittest.skipUnless(BDPT, "no command is given")
     def test_bdpt_sees_the_same(self):
-        """Pictures of a scene and of its copy, where nothing is changed."""
+        """Images of a scene and of its copy, where nothing is changed."""
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
             gltf_writer.write(scene("cornell-box-hidden"), folder / "copy.gltf")
@@ -171,7 +171,7 @@ class Adapters(unittest.TestCase):
         self.assertEqual(values["scene.materials.m.emission"], list(lamp.emission))
 
     def test_camera_of_luxcore(self):
-        """Its pictures are a row too low, so its window is moved; the field of view is vertical."""
+        """Its images are a row too low, so its window is moved; the field of view is vertical."""
         camera = scene("cornell-box").camera
         values = luxcore_peer.camera_properties(camera, JOB)
         self.assertEqual(values["scene.camera.screenwindow"], [-2.0, 2.0, -1.1, 0.9])
@@ -187,8 +187,8 @@ class Adapters(unittest.TestCase):
 
     def test_light_tracing_is_kept_from_mirrors(self):
         ptracer = next(entry for entry in peers.ENTRIES if entry.name == "mitsuba-ptracer")
-        self.assertEqual(ptracer.blindness(scene("cornell-box")), "")
-        self.assertEqual(ptracer.blindness(scene("cornell-spheres")), "glass, metal")
+        self.assertEqual(ptracer.unsupported_kinds(scene("cornell-box")), "")
+        self.assertEqual(ptracer.unsupported_kinds(scene("cornell-spheres")), "glass, metal")
 
 
 class Recorder:
@@ -206,11 +206,11 @@ def bias_report(value, error):
 
 class Judgement(unittest.TestCase):
     def test_means(self):
-        """Errors of three pictures, and the reference's, add up as variances."""
-        far = contest.judge_means([bias_report(0.12, 0.03)] * 3, {"mean": 0.01})["mean"]
+        """Errors of three images, and the reference's, add up as variances."""
+        far = contest.decide_means([bias_report(0.12, 0.03)] * 3, {"mean": 0.01})["mean"]
         self.assertAlmostEqual(far["standard_error"], math.hypot(0.03 / math.sqrt(3), 0.01))
         self.assertAlmostEqual(far["z"], 0.12 / far["standard_error"])
-        spread = contest.judge_means([bias_report(v, 0.001) for v in (-1.0, 0.0, 1.0)], {})["mean"]
+        spread = contest.decide_means([bias_report(v, 0.001) for v in (-1.0, 0.0, 1.0)], {})["mean"]
         self.assertAlmostEqual(spread["standard_error"], 1 / math.sqrt(3))
         self.assertEqual(spread["z"], 0)
 
@@ -230,7 +230,7 @@ class Judgement(unittest.TestCase):
         self.assertIsNone(contest.ratio({"relmse": [], "seconds": [1.0]}, ours, "seconds"))
 
     @unittest.skipUnless(BDPT, "no command is given")
-    def test_a_picture_without_indirect_light_differs(self):
+    def test_a_image_without_indirect_light_differs(self):
         options = contest.Options(BDPT, None, None, 3, (16, 16), 16, 2)
         with tempfile.TemporaryDirectory() as folder:
             stage = contest.Stage(options, ROOT / "scenes" / "cornell-box.gltf", pathlib.Path(folder))
@@ -242,10 +242,10 @@ class Judgement(unittest.TestCase):
                 (stage.folder / name).mkdir()
                 runs[name] = []
                 for seed in range(3):
-                    picture = stage.folder / name / f"{seed}.exr"
+                    image = stage.folder / name / f"{seed}.exr"
                     told = contest.run_bdpt(dataclasses.replace(options, max_depth=depth), stage.gltf, integrator, seed,
-                                            ("--spp", "16"), picture)
-                    runs[name].append({**told, "picture": str(picture)})
+                                            ("--spp", "16"), image)
+                    runs[name].append({**told, "picture": str(image)})
             entries = contest.judge(stage, runs)["entries"]
         self.assertEqual({name: entry["agrees"] for name, entry in entries.items()},
                          {"bdpt": True, "bdpt-mis": True, "short": False})

@@ -16,9 +16,9 @@ void check_size(int width, int height, std::size_t pixels)
 {
     fuzz::promise(width > 0 && height > 0 && width <= fuzz::small_limits.image_side &&
                       height <= fuzz::small_limits.image_side,
-                  "pictures keep to their limit");
+                  "images keep to their limit");
     fuzz::promise(pixels == static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
-                  "pictures have as many pixels as they say");
+                  "images have as many pixels as they say");
 }
 
 void decode(ByteView bytes)
@@ -41,7 +41,7 @@ void decode(ByteView bytes)
 
 }  // namespace
 
-/// Pictures of all formats: PNG, JPEG, WebP, OpenEXR and Radiance HDR.
+/// Images of all formats: PNG, JPEG, WebP, OpenEXR and Radiance HDR.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     try {

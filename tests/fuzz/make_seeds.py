@@ -2,7 +2,7 @@
 """Writes the seeds of the fuzzers: make_seeds.py FOLDER. Needs oiiotool for JPEG and WebP; all else is made here.
 
 FOLDER/scene holds scenes that use what the loader has code for; those of tests/data/compressed go with them.
-FOLDER/image holds a picture of each format.
+FOLDER/image holds an image of each format.
 """
 
 import base64
@@ -189,7 +189,7 @@ def stage():
 
 
 def lamps():
-    """Light profiles of types B and C, as data and as a view, and an environment of six pictures."""
+    """Light profiles of types B and C, as data and as a view, and an environment of six images."""
     document = Document()
     document.json["meshes"] = [{"primitives": [{"attributes": square(document)}]}]
     document.node(mesh=0)
@@ -223,7 +223,7 @@ def plain():
 
 def main():
     folder = pathlib.Path(sys.argv[1])
-    pictures = {"grey.png": png(3, 3, 0), "rgb.png": png(5, 2, 2), "rgba.png": png(4, 4), "halves.exr": exr(4, 2),
+    images = {"grey.png": png(3, 3, 0), "rgb.png": png(5, 2, 2), "rgba.png": png(4, 4), "halves.exr": exr(4, 2),
                 "flat.hdr": hdr(4, 2)}
     with tempfile.TemporaryDirectory() as scratch:
         source = pathlib.Path(scratch) / "source.png"
@@ -231,14 +231,14 @@ def main():
         for name in ("small.jpg", "small.webp"):
             made = pathlib.Path(scratch) / name
             subprocess.run(["oiiotool", source, "--nosoftwareattrib", "-o", made], check=True)
-            pictures[name] = made.read_bytes()
+            images[name] = made.read_bytes()
         source.write_bytes(exr(16, 16))
         made = pathlib.Path(scratch) / "tiles.exr"
         subprocess.run(["oiiotool", source, "--nosoftwareattrib", "--tile", "8", "8", "--compression", "zip", "-o", made],
                        check=True)
-        pictures["tiles.exr"] = made.read_bytes()
+        images["tiles.exr"] = made.read_bytes()
     scenes = {"rig.glb": rig(), "stage.glb": stage(), "lamps.glb": lamps(), "fan.gltf": plain()}
-    for name, files in {"image": pictures, "scene": scenes}.items():
+    for name, files in {"image": images, "scene": scenes}.items():
         (folder / name).mkdir(parents=True, exist_ok=True)
         for file, data in files.items():
             (folder / name / file).write_bytes(data)

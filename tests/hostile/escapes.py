@@ -55,7 +55,7 @@ def plant(folder):
         for part, uris in {"buffer": (way + ".bin", "inside.png"), "image": ("inside.bin", way + ".png")}.items():
             file = inside / f"{name}-{part}.gltf"
             file.write_text(json.dumps(scene(*uris)))
-            # Names that only look like ways out are names of files that are not there: a picture may be missing.
+            # Names that only look like ways out are names of files that are not there: an image may be missing.
             yield file, part == "buffer" or name not in {"twice", "backslash", "home", "query"}
     file = inside / "sound.gltf"
     file.write_text(json.dumps(scene("inside.bin", "inside.png")))

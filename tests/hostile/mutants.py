@@ -73,7 +73,7 @@ def remove_member(text, chance):
 
 
 def mutate(data, seed):
-    """One mutant of a scene or a picture."""
+    """One mutant of a scene or an image."""
     chance = random.Random(seed)
     glb = split_glb(data)
     if not glb and not data.lstrip().startswith(b"{"):

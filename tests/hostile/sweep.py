@@ -5,7 +5,7 @@
              [--every N] [--jobs N] [--trace] [--json FILE] [--keep FOLDER]
 
 Each scene goes through `bdpt info` and `bdpt render`, each environment lights SCENE, which must be sound; any other
-picture becomes a texture. Besides the files of the folders: mutants of those that are sound (N of each small one), and
+image becomes a texture. Besides the files of the folders: mutants of those that are sound (N of each small one), and
 scenes that try to read files outside of their folders. Where the Khronos validator's report lies beside a file, the
 verdict is held against it, also for a twin of the file that shows all its meshes.
 
@@ -78,9 +78,9 @@ class Runner:
         opened = set().union(*(escapes.opened_files(part.read_text(errors="replace")) for part in folder.glob("trace.*")))
         return code, text, opened
 
-    def words(self, case, picture, folder):
+    def words(self, case, image, folder):
         """The calls that a file is tried with."""
-        small = ["-o", str(picture), "--size", "8x8", "--spp", "1", "--max-depth", "4", "--threads", "1"]
+        small = ["-o", str(image), "--size", "8x8", "--spp", "1", "--max-depth", "4", "--threads", "1"]
         suffix = case.file.suffix.lower()
         if suffix in SCENES:
             moved = ["--frame-time", "0.4", "--animation", "all"]
@@ -96,12 +96,12 @@ class Runner:
     def run(self, case):
         with tempfile.TemporaryDirectory(dir=self.scratch) as name:
             folder = pathlib.Path(name)
-            picture = folder / "out.exr"
+            image = folder / "out.exr"
             faults, outcomes, opened = [], [], set()
-            for words in self.words(case, picture, folder):
+            for words in self.words(case, image, folder):
                 code, text, files = self.call(words, folder)
                 opened |= files
-                outcome, fault = judge(code, text, picture if words[0] == "render" else None)
+                outcome, fault = judge(code, text, image if words[0] == "render" else None)
                 outcomes.append(outcome)
                 faults += [f"{words[0]}: {fault}"] if fault else []
             if case.expected == "refuse" and outcomes[0] != "refused" and outcomes[-1] != "refused":
@@ -115,7 +115,7 @@ class Runner:
             return Result(case, outcomes[-1], faults, opened)
 
 
-def judge(code, text, picture):
+def judge(code, text, image):
     """(outcome, fault or None) of one call."""
     lines = text.splitlines()
     finding = SANITIZER.search(text)
@@ -126,8 +126,8 @@ def judge(code, text, picture):
     if code == 7:
         return "memory", f"memory: {text.strip()[-200:]}"
     if code == 0:
-        if picture and not picture.exists():
-            return "crash", "crash: exit code 0 without a picture"
+        if image and not image.exists():
+            return "crash", "crash: exit code 0 without an image"
         return ("warned" if any(re.match(r"bdpt: warning: .*?: /", line) for line in lines) else "accepted"), None
     errors = [line for line in lines if line.startswith("bdpt: error: ")]
     others = [line for line in lines if not line.startswith("bdpt: ")]
@@ -135,8 +135,8 @@ def judge(code, text, picture):
         return "refused", f"message: exit code {code}: {text.strip()[-300:]}"
     if any(ord(letter) < 32 for letter in errors[0]):
         return "refused", f"message: control characters: {errors[0]!r}"
-    if picture and picture.exists():
-        return "refused", "message: refused, but there is a picture"
+    if image and image.exists():
+        return "refused", "message: refused, but there is an image"
     return "refused", None
 
 
@@ -244,7 +244,7 @@ def main():
         runner = Runner(options, scratch)
         planted = [Case(file.name, "escapes", file, "refuse" if refuse else None, ("a way out of the folder",))
                    for file, refuse in escapes.plant(scratch / "planted")]
-        # What a sound scene opens is usual: libraries, the module for pictures.
+        # What a sound scene opens is usual: libraries, the module for images.
         sound = runner.run(planted[-1])
         if sound.outcome not in ("accepted", "warned"):
             sys.exit(f"the sound scene does not render: {sound}")

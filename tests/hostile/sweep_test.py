@@ -14,7 +14,7 @@ import mutants  # noqa: E402
 import sweep  # noqa: E402
 import verdicts  # noqa: E402
 
-# {fault} is what the command does; $out is the picture that it should write, if any.
+# {fault} is what the command does; $out is the image that it should write, if any.
 COMMAND = '''#!/bin/sh
 for word; do [ "$previous" = -o ] && out=$word; previous=$word; done
 {fault}
@@ -40,9 +40,9 @@ class Judging(unittest.TestCase):
 
     def test_what_is_fine(self):
         self.assertEqual(self.outcome('echo "bdpt: error: x: no" >&2; exit 4'), ("refused", []))
-        picture = '[ -n "$out" ] && echo picture > "$out"; '
-        self.assertEqual(self.outcome(picture + "exit 0"), ("accepted", []))
-        self.assertEqual(self.outcome(picture + 'echo "bdpt: warning: f: /nodes/0: odd" >&2; exit 0'), ("warned", []))
+        image = '[ -n "$out" ] && echo image > "$out"; '
+        self.assertEqual(self.outcome(image + "exit 0"), ("accepted", []))
+        self.assertEqual(self.outcome(image + 'echo "bdpt: warning: f: /nodes/0: odd" >&2; exit 0'), ("warned", []))
 
     def test_faults(self):
         self.check_fault("kill -SEGV $$", "crash")
@@ -55,8 +55,8 @@ class Judging(unittest.TestCase):
         self.check_fault('echo "bdpt: error: x" >&2; echo more >&2; exit 4', "message")
         self.check_fault('printf "bdpt: error: \\033[2J\\n" >&2; exit 4', "control")
         self.check_fault('echo "bdpt: error: x" >&2; exit 2', "message")
-        self.check_fault('[ -n "$out" ] && echo half > "$out"; echo "bdpt: error: x" >&2; exit 4', "there is a picture")
-        self.check_fault("exit 0", "without a picture")
+        self.check_fault('[ -n "$out" ] && echo half > "$out"; echo "bdpt: error: x" >&2; exit 4', "there is an image")
+        self.check_fault("exit 0", "without an image")
 
     def test_escapes(self):
         with tempfile.TemporaryDirectory() as name:

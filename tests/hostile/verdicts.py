@@ -14,7 +14,7 @@ REFUSE = {
     "INVALID_IBM_ACCESSOR_COUNT", "NODE_LOOP", "NODE_PARENT_OVERRIDE", "UNKNOWN_ASSET_MAJOR_VERSION",
 }
 
-# Errors after which the picture is still defined: real exporters make them, so the file must load.
+# Errors after which the image is still defined: real exporters make them, so the file must load.
 LOAD = {
     "ACCESSOR_ELEMENT_OUT_OF_MAX_BOUND", "ACCESSOR_ELEMENT_OUT_OF_MIN_BOUND", "ACCESSOR_INVALID_SIGN",
     "ACCESSOR_JOINTS_INDEX_DUPLICATE", "ACCESSOR_MAX_MISMATCH", "ACCESSOR_MIN_MISMATCH", "ACCESSOR_NON_CLAMPED",

@@ -48,7 +48,7 @@ run_command() {
   rm -f "$WORK"/loaded.* "$WORK/out.png"
   LD_DEBUG=files LD_DEBUG_OUTPUT=$WORK/loaded "$prefix/bin/bdpt" render \
     "$SOURCE/scenes/furnace.gltf" --env "$sky" -o "$WORK/out.png" --size 16x16 --spp 1 --quiet
-  [[ -s $WORK/out.png ]] || fail "no picture"
+  [[ -s $WORK/out.png ]] || fail "no image"
   local loaded
   loaded=$(sed -n 's/.*calling init: \(.*libbdpt.*\)/\1/p' "$WORK"/loaded.*)
   printf '%s\n' "$loaded"
@@ -99,7 +99,7 @@ use_pkg_config() {
   compile readme readme.cpp bdpt_io
   ln -s "$SOURCE/scenes" scenes
   ./readme
-  [[ -s out.exr ]] || fail "the program in the README wrote no picture"
+  [[ -s out.exr ]] || fail "the program in the README wrote no image"
 }
 
 # Builds the core alone, as quickly as compilers can. What was built before is kept. The libraries for

@@ -13,7 +13,7 @@ MaterialDesc see_through(MaterialDesc material, float alpha)
     return material;
 }
 
-/// Alpha from picture 0.
+/// Alpha from image 0.
 MaterialDesc textured(MaterialDesc material, AlphaMode mode)
 {
     material.alpha_mode = mode;
@@ -23,7 +23,7 @@ MaterialDesc textured(MaterialDesc material, AlphaMode mode)
     return material;
 }
 
-/// Picture 0 has spots of different colours with holes in between.
+/// Image 0 has spots of different colours with holes in between.
 SceneBuilder room()
 {
     SceneBuilder builder;
@@ -60,7 +60,7 @@ EqualityCase in_room(std::string name, SceneBuilder builder, std::optional<int> 
             .seen_by_lt = seen_by_lt};
 }
 
-/// Balls of one mesh, of which each lets rays pass in its own way.
+/// Spheres of one mesh, of which each lets rays pass in its own way.
 SceneBuilder instances()
 {
     SceneBuilder builder = closed_room();
@@ -120,7 +120,7 @@ std::vector<EqualityCase> alpha_cases()
                 panel);
     labels.sphere({0.4f, -0.6f, 0.2f}, 0.35f, metal(Rgb(0.9f), 0.2f));
     cases.push_back(in_room("unlit panels", std::move(labels)));
-    cases.back().detectable_bias_of_light_sampling = 0.07;  // a glossy ball before many lights
+    cases.back().detectable_bias_of_light_sampling = 0.07;  // a glossy sphere before many lights
 
     cases.push_back(in_room("instances with alpha", instances()));
 

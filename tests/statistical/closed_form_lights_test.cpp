@@ -32,7 +32,7 @@ void check_irradiance(SceneBuilder builder, double irradiance)
     }
 }
 
-/// A ball of the given radiance, seen from the origin in the direction of `center`.
+/// A sphere of the given radiance, seen from the origin in the direction of `center`.
 SceneBuilder ball(Vec3 center, float radius, float radiance)
 {
     SceneBuilder builder = lambertian_floor();
@@ -75,9 +75,9 @@ TEST_CASE("sphere light, half below the horizon: E = L (s - sin s cos s)", "[clo
 
 TEST_CASE("sphere spot light: the cone is that of the direction of emission", "[closed-form]")
 {
-    // The patch looks straight up at a ball that shines straight down, with no fall-off between the
-    // cones: light arrives from the directions within the outer cone, however wide the ball looks.
-    // E = L pi sin^2(cone).
+    // The patch looks straight up at a sphere that shines straight down, with no fall-off between
+    // the cones: light arrives from the directions within the outer cone, however wide the sphere
+    // looks. E = L pi sin^2(cone).
     constexpr float cone = 0.4f;
     constexpr float radius = 0.4f;
     SceneBuilder builder = lambertian_floor();

@@ -1,4 +1,4 @@
-// A pixel is the mean of the still pictures of all times: a patch under lights that move, whose
+// A pixel is the mean of the still images of all times: a patch under lights that move, whose
 // irradiance at each time is known on paper.
 
 #include "catch.hpp"

@@ -63,7 +63,7 @@ TEST_CASE("closed Lambertian furnace: L = Le (1 - a^k) / (1 - a)", "[closed-form
 TEST_CASE("roulette keeps the light of dark surfaces", "[closed-form][roulette]")
 {
     // A closed room that reflects so little that hardly any walk goes on: paths of k edges bring Le
-    // a^(k - 1). The survivors of one decision make all of the picture.
+    // a^(k - 1). The survivors of one decision make all of the image.
     const Rgb dark(0.02f, 0.01f, 0.015f);
     const Scene scene = furnace_sphere(emitted, dark);
     const CameraDesc camera = camera_at({0.1f, 0.0f, 0.3f}, {0.0f, 0.1f, -1.0f}, 0.9f);
@@ -127,7 +127,7 @@ TEST_CASE("sun: L = albedo E cos / pi", "[closed-form]")
     }
 }
 
-TEST_CASE("a clear glass ball in a white furnace is invisible", "[closed-form]")
+TEST_CASE("a clear glass sphere in a white furnace is invisible", "[closed-form]")
 {
     SceneBuilder builder;
     builder.sphere({0.0f, 0.0f, 0.0f}, 1.0f, glass(0.0f));

@@ -135,10 +135,10 @@ EqualityCase sunny_sky()
     for (const std::size_t texel : {18U, 19U, 34U, 35U}) {  // two by two
         sky.pixels[texel] = Rgb(40.0f, 35.0f, 25.0f);
     }
-    SceneBuilder room_with_ball = room();
-    room_with_ball.sphere({0.4f, -0.6f, 0.0f}, 0.4f, plastic(white, 0.3f));
-    room_with_ball.light(EnvironmentLightDesc{.radiance = std::move(sky)});
-    return in_room("environment with a sun", std::move(room_with_ball), 2);
+    SceneBuilder room_with_sphere = room();
+    room_with_sphere.sphere({0.4f, -0.6f, 0.0f}, 0.4f, plastic(white, 0.3f));
+    room_with_sphere.light(EnvironmentLightDesc{.radiance = std::move(sky)});
+    return in_room("environment with a sun", std::move(room_with_sphere), 2);
 }
 
 void add_lights(std::vector<EqualityCase>& cases)
@@ -188,7 +188,7 @@ void add_lights(std::vector<EqualityCase>& cases)
     sky.light(EnvironmentLightDesc{
         .radiance = gradient_sky(),
         .world_from_environment = Mat3(glm::rotate(Mat4(1.0f), 0.5f, Vec3(0.6f, 0.8f, 0.0f)))});
-    cases.push_back(in_room("environment picture", std::move(sky), 2));
+    cases.push_back(in_room("environment image", std::move(sky), 2));
     cases.back().detectable_bias_of_light_sampling = 0.05;  // most of the sky lights nothing
 
     SceneBuilder mixed = room();
@@ -207,7 +207,7 @@ void add_sphere_lights(std::vector<EqualityCase>& cases)
         .position = {-0.3f, 0.4f, 0.2f}, .intensity = {2.0f, 1.8f, 1.5f}, .radius = 0.4f});
     cases.push_back(in_room("sphere light", std::move(ball)));
 
-    // The ball pokes through the ceiling and the cone cuts what is seen of it.
+    // The sphere pokes through the ceiling and the cone cuts what is seen of it.
     SceneBuilder spot = room();
     spot.sphere({0.4f, -0.6f, 0.0f}, 0.4f, lambertian(red)).ceiling(lambertian(white));
     spot.light(SpotLightDesc{.position = {-0.4f, 0.9f, 0.1f},
@@ -217,7 +217,7 @@ void add_sphere_lights(std::vector<EqualityCase>& cases)
                              .outer_cone_angle = 1.2f,
                              .radius = 0.5f});
     EqualityCase cut = in_room("sphere spot light", std::move(spot));
-    cut.detectable_bias = 0.04;  // few of the samples of pt leave the ball within its cone
+    cut.detectable_bias = 0.04;  // few of the samples of pt leave the sphere within its cone
     cases.push_back(std::move(cut));
 
     SceneBuilder behind_glass = room(plastic(white, 0.3f));
@@ -226,9 +226,9 @@ void add_sphere_lights(std::vector<EqualityCase>& cases)
         PointLightDesc{.position = {0.0f, -0.1f, 0.0f}, .intensity = Rgb(1.0f), .radius = 0.2f});
     behind_glass.sphere({0.0f, -0.1f, 0.0f}, 0.45f, glass(0.0f));
     cases.push_back(
-        in_room("sphere light in a ball of glass", std::move(behind_glass), std::nullopt));
+        in_room("sphere light in a sphere of glass", std::move(behind_glass), std::nullopt));
 
-    // Two balls and a mirror: each hides the other, and both are seen twice.
+    // Two spheres and a mirror: each hides the other, and both are seen twice.
     SceneBuilder mixed = room();
     mixed.sphere({-0.5f, -0.6f, 0.2f}, 0.35f, metal(Rgb(0.9f), 0.0f)).lamp(0.98f, 0.4f, Rgb(2.0f));
     mixed.light(
@@ -260,29 +260,29 @@ EqualityCase textured_emitter()
 
 void add_materials(std::vector<EqualityCase>& cases)
 {
-    const auto with_ball = [&](std::string name, const MaterialDesc& material,
-                               std::optional<int> seen_by_lt = 1) {
+    const auto with_sphere = [&](std::string name, const MaterialDesc& material,
+                                 std::optional<int> seen_by_lt = 1) {
         SceneBuilder builder = lit_room();
         builder.sphere({0.0f, -0.4f, 0.0f}, 0.55f, material);
         cases.push_back(in_room(std::move(name), std::move(builder), seen_by_lt));
     };
-    with_ball("plastic", plastic(red, 0.3f));
-    with_ball("smooth plastic", plastic(red, 0.0f), std::nullopt);
-    with_ball("rough metal", metal({0.9f, 0.7f, 0.4f}, 0.4f));
-    with_ball("mirror", metal(Rgb(0.95f), 0.0f), std::nullopt);
-    with_ball("thin glass", thin_glass(0.0f), std::nullopt);
-    with_ball("rough thin glass", thin_glass(0.5f));
-    with_ball("rough glass", glass(0.4f));
+    with_sphere("plastic", plastic(red, 0.3f));
+    with_sphere("smooth plastic", plastic(red, 0.0f), std::nullopt);
+    with_sphere("rough metal", metal({0.9f, 0.7f, 0.4f}, 0.4f));
+    with_sphere("mirror", metal(Rgb(0.95f), 0.0f), std::nullopt);
+    with_sphere("thin glass", thin_glass(0.0f), std::nullopt);
+    with_sphere("rough thin glass", thin_glass(0.5f));
+    with_sphere("rough glass", glass(0.4f));
     cases.back().detectable_bias_of_light_sampling = 0.05;
     MaterialDesc tinted = glass(0.0f);
     tinted.attenuation_color = {0.9f, 0.4f, 0.2f};
     tinted.attenuation_distance = 0.5f;
-    with_ball("tinted glass", tinted, std::nullopt);
+    with_sphere("tinted glass", tinted, std::nullopt);
     MaterialDesc half = glass(0.3f);
     half.base_color = {0.5f, 0.8f, 0.6f, 1.0f};
     half.transmission = 0.5f;
     half.ior = 1.33f;
-    with_ball("half transmission", half);
+    with_sphere("half transmission", half);
     cases.push_back(in_room("glossy floor", lit_room(plastic(white, 0.15f))));
 }
 

@@ -38,7 +38,7 @@ struct EqualityCase {
 /// Materials with layers and other extensions of glTF, one each. Not among `equality_cases`.
 [[nodiscard]] std::vector<EqualityCase> layer_cases();
 /// Bodies in bodies, and a camera in one. Not among `equality_cases` either.
-[[nodiscard]] std::vector<EqualityCase> body_cases();
+[[nodiscard]] std::vector<EqualityCase> volume_cases();
 /// Materials whose normal maps lean by up to 70 degrees. Not among `equality_cases` either.
 [[nodiscard]] std::vector<EqualityCase> normal_map_cases();
 

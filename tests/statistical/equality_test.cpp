@@ -140,7 +140,7 @@ TEST_CASE("all integrators agree: layered materials", "[equality][layers]")
 TEST_CASE("all integrators agree: bodies in bodies", "[equality][bodies]")
 {
     std::uint64_t seed = 320000;
-    for (const EqualityCase& test : body_cases()) {
+    for (const EqualityCase& test : volume_cases()) {
         seed += 100;
         DYNAMIC_SECTION(test.name)
         {
@@ -202,7 +202,7 @@ TEST_CASE("several light paths have the time of their sample", "[equality][motio
     check_equal(test, "mis = bdpt, three light paths", mis, bdpt);
 }
 
-/// A room with a rough ball of glass, under a lamp of one colour.
+/// A room with a rough sphere of glass, under a lamp of one colour.
 Scene glass_under(Rgb light, float ior, float dispersion)
 {
     MaterialDesc material = glass(0.35f);
@@ -215,7 +215,7 @@ Scene glass_under(Rgb light, float ior, float dispersion)
     return Scene(std::move(builder.desc));
 }
 
-/// A ball of smooth glass in front of a sky of one colour that is bright on one side.
+/// A sphere of smooth glass in front of a sky of one colour that is bright on one side.
 Scene glass_before_sky(Rgb light, float ior, float dispersion)
 {
     MaterialDesc material = glass(0.0f);
@@ -309,14 +309,14 @@ TEST_CASE("a tiny sphere lights like a point", "[equality]")
         const Scene ball = scene_with(radius);
         std::uint64_t seed = 5000;
         for (const auto kind : {IntegratorKind::mis, IntegratorKind::bdpt}) {
-            // The camera looks past the ball, which it would see as a very bright pixel.
+            // The camera looks past the sphere, which it would see as a very bright pixel.
             EqualityCase test;
             test.name = "tiny sphere";
             test.max_depth = 2;
             test.camera = camera_at({0.0f, 0.0f, 3.4f}, {0.1f, -0.5f, 0.0f}, 0.3f);
             TileMeans expected(point, test.camera, options(test, kind, ++seed));
             TileMeans found(ball, test.camera, options(test, kind, ++seed));
-            check_equal(test, "point = ball", expected, found);
+            check_equal(test, "point = sphere", expected, found);
         }
     }
 }

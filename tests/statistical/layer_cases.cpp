@@ -6,7 +6,7 @@
 namespace bdpt::test {
 namespace {
 
-/// A ball in the room of the other cases, lit by a lamp.
+/// A sphere in the room of the other cases, lit by a lamp.
 EqualityCase ball(std::string name, const MaterialDesc& material)
 {
     const Rgb white(0.7f);
@@ -46,7 +46,7 @@ EqualityCase cloth()
     return ball("sheen", material);
 }
 
-/// The ball has texture coordinates, which give it tangents.
+/// The sphere has texture coordinates, which give it tangents.
 EqualityCase brushed()
 {
     MaterialDesc material = metal({0.9f, 0.7f, 0.4f}, 0.3f);
@@ -63,7 +63,7 @@ EqualityCase film()
     return ball("iridescence", material);
 }
 
-/// A ball of wax, whose inside absorbs.
+/// A sphere of wax, whose inside absorbs.
 EqualityCase translucent()
 {
     MaterialDesc material = plastic({0.5f, 0.3f, 0.2f}, 0.4f);
@@ -141,8 +141,8 @@ MaterialDesc tinted_glass(float roughness, float ior, Rgb color)
     return material;
 }
 
-/// A dense ball and one of little but air in a ball of water, with a stone that is not round.
-EqualityCase balls_in_a_ball()
+/// A dense sphere and one of little but air in a sphere of water, with a stone that is not round.
+EqualityCase spheres_in_a_sphere()
 {
     EqualityCase result = ball("bodies in a body", tinted_glass(0.35f, 1.33f, {0.5f, 0.8f, 0.9f}));
     SceneBuilder builder{.desc = std::move(result.scene)};
@@ -176,9 +176,9 @@ EqualityCase camera_in_a_block()
 
 }  // namespace
 
-std::vector<EqualityCase> body_cases()
+std::vector<EqualityCase> volume_cases()
 {
-    return {balls_in_a_ball(), camera_in_a_block()};
+    return {spheres_in_a_sphere(), camera_in_a_block()};
 }
 
 std::vector<EqualityCase> layer_cases()

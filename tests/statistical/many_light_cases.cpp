@@ -29,7 +29,7 @@ EqualityCase in_room(std::string name, SceneBuilder builder)
 }
 
 /// Panels that face down, up and both ways, over and under a sheet of paper that lets light through
-/// and a ball with smooth normals.
+/// and a sphere with smooth normals.
 EqualityCase panels()
 {
     SceneBuilder builder = room();
@@ -70,7 +70,7 @@ EqualityCase punctual()
     }
     add_panel(builder, {0.5f, 0.8f, 0.0f}, 0.3f, emitter(Rgb(3.0f)), false);
     builder.sphere({0.3f, -0.6f, 0.1f}, 0.35f, plastic({0.6f, 0.2f, 0.2f}, 0.4f));
-    return in_room("points, spots and balls", std::move(builder));
+    return in_room("points, spots and spheres", std::move(builder));
 }
 
 /// The tree beside a sun and a sky.

@@ -19,7 +19,7 @@ TexelImage blocks(std::uint8_t even, std::uint8_t odd)
     return image;
 }
 
-/// A floor and a ball, white where no light passes and black where it does: the mean of both
+/// A floor and a sphere, white where no light passes and black where it does: the mean of both
 /// reflects half as much as both do on average, so that walks which take different copies do not
 /// agree. How large a copy it is changes over the room.
 EqualityCase room_with(CameraDesc camera, std::string name)

@@ -17,7 +17,7 @@ EqualityCase moving_surfaces()
     return result;
 }
 
-/// Lights that are no surface, and balls.
+/// Lights that are no surface, and spheres.
 EqualityCase moving_lights()
 {
     SceneBuilder builder;

@@ -30,7 +30,7 @@ SceneBuilder open_stage_builder()
     return builder;
 }
 
-Scene open_stage()
+Scene open_prepared_scene()
 {
     return Scene(std::move(open_stage_builder().desc));
 }
@@ -110,7 +110,7 @@ void check_each_strategy(Options& options, const Scene& scene, const CameraDesc&
 TEST_CASE("each strategy alone, pinhole", "[strategies]")
 {
     Options options(41000);
-    const Scene scene = open_stage();
+    const Scene scene = open_prepared_scene();
     for (const int edges : {1, 2, 3}) {
         check_each_strategy(options, scene, pinhole(), edges, edges);
     }
@@ -139,7 +139,7 @@ TEST_CASE("each strategy alone, many lights", "[strategies][tree]")
 TEST_CASE("each strategy alone, thin lens: t = 0 as well", "[strategies]")
 {
     Options options(43000);
-    const Scene scene = open_stage();
+    const Scene scene = open_prepared_scene();
     for (const int edges : {1, 2}) {
         check_each_strategy(options, scene, thin_lens(), edges, edges + 1);
     }
@@ -217,7 +217,7 @@ TEST_CASE("a join refracts each channel as if there were no other", "[strategies
 TEST_CASE("each strategy alone, orthographic", "[strategies]")
 {
     Options options(44000);
-    const Scene scene = open_stage();
+    const Scene scene = open_prepared_scene();
     // What else it sees of the lamp is its dark side.
     const CameraDesc at_lamp =
         in_parallel(camera_at({0.0f, 0.35f, 0.9f}, {0.0f, 1.0f, 0.0f}, 0.75f), 0.4f);
@@ -257,7 +257,7 @@ TEST_CASE("each strategy alone, all of it moving", "[strategies][motion]")
 TEST_CASE("all integrators agree through all cameras", "[strategies]")
 {
     Options options(46000);
-    const Scene scene = open_stage();
+    const Scene scene = open_prepared_scene();
     for (const CameraDesc& camera : {pinhole(), thin_lens(), parallel()}) {
         TileMeans mis(scene, camera, options(IntegratorKind::mis, 2, 4));
         for (const auto kind :
@@ -272,7 +272,7 @@ TEST_CASE("all integrators agree through all cameras", "[strategies]")
 TEST_CASE("light seen directly: s = t = 1 and hits share it", "[strategies]")
 {
     Options options(47000);
-    const Scene scene = open_stage();
+    const Scene scene = open_prepared_scene();
     const CameraDesc up = camera_at({0.0f, -0.5f, 0.8f}, {0.0f, 1.0f, 0.0f}, 0.9f);
     TileMeans mis(scene, up, options(IntegratorKind::mis, 1, 1));
     TileMeans bdpt(scene, up, options(IntegratorKind::bdpt, 1, 1));
@@ -284,7 +284,7 @@ TEST_CASE("light seen directly: s = t = 1 and hits share it", "[strategies]")
 TEST_CASE("heuristics, more light paths and roulette change noise only", "[strategies]")
 {
     Options options(48000);
-    const Scene scene = open_stage();
+    const Scene scene = open_prepared_scene();
     const CameraDesc camera = thin_lens();
     TileMeans mis(scene, camera, options(IntegratorKind::mis, 1, 4));
     for (const auto heuristic :
@@ -319,7 +319,7 @@ TEST_CASE("heuristics, more light paths and roulette change noise only", "[strat
 TEST_CASE("strategies that are left out are made up for by the others", "[strategies]")
 {
     Options options(49000);
-    const Scene scene = open_stage();
+    const Scene scene = open_prepared_scene();
     const CameraDesc camera = thin_lens();
     TileMeans mis(scene, camera, options(IntegratorKind::mis, 1, 4));
     RenderOptions fewer = options(IntegratorKind::bdpt, 1, 4);

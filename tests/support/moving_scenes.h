@@ -54,7 +54,7 @@ inline void deform(MeshDesc& mesh, int steps, const std::function<Vec3(Vec3, flo
     });
 }
 
-/// One of each: an emitter that travels, turns and grows, a mirrored ball that is shared with one
+/// One of each: an emitter that travels, turns and grows, a mirrored sphere that is shared with one
 /// that stands still, a mesh that deforms, and one that deforms, shines and travels.
 inline SceneBuilder moving_stage()
 {

@@ -18,7 +18,7 @@
 
 #include "options/output_files.h"
 #include "report/bench_text.h"
-#include "stage/stage.h"
+#include "stage/prepared_scene.h"
 #include "terminal/interrupt.h"
 #include "terminal/text.h"
 
@@ -133,7 +133,7 @@ public:
     [[nodiscard]] std::optional<eval::SceneResult> run(const BenchSubject& subject)
     {
         std::uint64_t content = 0;
-        const Stage stage = prepare_stage(
+        const PreparedScene stage = prepare_scene(
             subject.render, [&](const SceneDesc& desc) { content = eval::content_hash(desc); });
         for (const std::string& warning : stage.warnings) {
             console_.warning(warning);

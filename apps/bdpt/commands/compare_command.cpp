@@ -79,7 +79,7 @@ int run_compare(const CompareArguments& arguments)
     for (const std::string& warning : comparison.warnings) {
         console.warning(warning);
     }
-    std::exception_ptr failure;  // of the picture, which must not take the report along
+    std::exception_ptr failure;  // of the image, which must not take the report along
     if (arguments.error_image) {
         try {
             write_error_image(arguments, report);

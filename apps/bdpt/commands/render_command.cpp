@@ -22,12 +22,12 @@
 #include "options/output_files.h"
 #include "options/strategy_arguments.h"
 #include "options/transport_arguments.h"
-#include "report/pictures.h"
+#include "report/image_files.h"
 #include "report/render_settings.h"
 #include "report/stats_file.h"
 #include "report/strategy_files.h"
 #include "stage/darkness.h"
-#include "stage/stage.h"
+#include "stage/prepared_scene.h"
 #include "terminal/console.h"
 #include "terminal/interrupt.h"
 #include "terminal/text.h"
@@ -57,16 +57,16 @@ std::uint64_t reserved_bytes(const RenderArguments& arguments)
 }
 
 /// Loads the scene into the memory that the film leaves.
-Stage prepare_within_memory(RenderArguments arguments)
+PreparedScene prepare_within_memory(RenderArguments arguments)
 {
     const std::uint64_t film = reserved_bytes(arguments);
     if (film == 0) {
-        return prepare_stage(arguments);
+        return prepare_scene(arguments);
     }
     const std::uint64_t left = *arguments.max_memory - film;
     arguments.scene.limits = io::limits_within(left);
     try {
-        return prepare_stage(arguments);
+        return prepare_scene(arguments);
     } catch (const Error& error) {
         const std::string message = error.what();
         if (message.find("limit is") == std::string::npos &&
@@ -79,7 +79,8 @@ Stage prepare_within_memory(RenderArguments arguments)
 }
 
 /// That the image will show next to nothing, and what helps.
-std::optional<std::string> warning_of_darkness(const RenderArguments& arguments, const Stage& stage)
+std::optional<std::string> warning_of_darkness(const RenderArguments& arguments,
+                                               const PreparedScene& stage)
 {
     constexpr double nearly_all = 0.9;
     if (!stage.only_emitters || arguments.environment) {
@@ -96,7 +97,7 @@ std::optional<std::string> warning_of_darkness(const RenderArguments& arguments,
         arguments.file.string(), 100.0 * dark);
 }
 
-void announce(Console& console, const RenderArguments& arguments, const Stage& stage,
+void announce(Console& console, const RenderArguments& arguments, const PreparedScene& stage,
               const ordered_json& settings)
 {
     const SceneCounts counts = stage.scene.counts();
@@ -111,7 +112,8 @@ void announce(Console& console, const RenderArguments& arguments, const Stage& s
                              eval::to_string(arguments.options.integrator), stage.camera.name));
 }
 
-RenderOptions options_for(const RenderArguments& arguments, const Stage& stage, Console& console)
+RenderOptions options_for(const RenderArguments& arguments, const PreparedScene& stage,
+                          Console& console)
 {
     // With --time alone, more samples than anyone has time for.
     constexpr std::int64_t no_limit = std::int64_t{1} << 31;
@@ -134,8 +136,8 @@ RenderOptions options_for(const RenderArguments& arguments, const Stage& stage, 
     return options;
 }
 
-RenderResult render_stage(const RenderArguments& arguments, const Stage& stage, Console& console,
-                          const std::stop_token& stop)
+RenderResult render_stage(const RenderArguments& arguments, const PreparedScene& stage,
+                          Console& console, const std::stop_token& stop)
 {
     const RenderOptions options = options_for(arguments, stage, console);
 
@@ -157,17 +159,17 @@ RenderArguments with_progress(RenderArguments arguments, Console& console)
     const auto start = std::chrono::steady_clock::now();
     arguments.scene.on_progress = [&console, start](const io::LoadProgress& progress) {
         const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
-        constexpr double worth_telling = 1.0;  // [s]
-        if (passed.count() < worth_telling) {
+        constexpr double report_threshold = 1.0;  // [s]
+        if (passed.count() < report_threshold) {
             return;
         }
-        const double done = static_cast<double>(progress.pictures_done) /
-                            static_cast<double>(progress.pictures_total);
+        const double done =
+            static_cast<double>(progress.images_done) / static_cast<double>(progress.images_total);
         console.task({.fraction = done,
                       .seconds = passed.count(),
                       .seconds_left = passed.count() * (1.0 - done) / done,
-                      .activity = fmt::format("loading textures, {}/{}", progress.pictures_done,
-                                              progress.pictures_total)});
+                      .activity = fmt::format("loading textures, {}/{}", progress.images_done,
+                                              progress.images_total)});
     };
     return arguments;
 }
@@ -187,7 +189,7 @@ void warn_of_defects(Console& console, const FilmDefects& defects)
     }
 }
 
-void tell_of_clamp(Console& console, const Film& film, const Image& image)
+void report_clamp(Console& console, const Film& film, const Image& image)
 {
     const ClampLoss loss = film.clamp_loss();
     if (loss.contributions == 0) {
@@ -218,10 +220,10 @@ Layer time_layer(const TimeProfile& profile)
     return layer;
 }
 
-PictureOptions picture_options(const RenderArguments& arguments, const Stage& stage,
-                               const RenderResult& result, const ordered_json& settings)
+ImageFileOptions image_file_options(const RenderArguments& arguments, const PreparedScene& stage,
+                                    const RenderResult& result, const ordered_json& settings)
 {
-    io::PictureMetadata metadata;
+    io::ImageMetadata metadata;
     metadata.version = BDPT_VERSION;
     metadata.scene = one_line(arguments.file.string());
     metadata.settings = settings.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
@@ -255,8 +257,8 @@ ordered_json head_of_stats(const RenderArguments& arguments, const ordered_json&
     return stats;
 }
 
-/// Where pictures go, images of strategies too.
-std::vector<std::filesystem::path> all_pictures(const RenderArguments& arguments)
+/// Where images go, images of strategies too.
+std::vector<std::filesystem::path> all_image_files(const RenderArguments& arguments)
 {
     std::vector<std::filesystem::path> files = arguments.outputs;
     if (arguments.strategies) {
@@ -275,7 +277,7 @@ std::vector<std::filesystem::path> check_files(const RenderArguments& arguments)
     }
     check_outputs(arguments.outputs, taken);
     taken.insert(taken.end(), arguments.outputs.begin(), arguments.outputs.end());
-    std::vector<std::filesystem::path> written = all_pictures(arguments);
+    std::vector<std::filesystem::path> written = all_image_files(arguments);
     if (arguments.strategies) {
         check_strategy_files(*arguments.strategies, taken);
         const auto more = arguments.strategies->both();
@@ -289,10 +291,10 @@ std::vector<std::filesystem::path> check_files(const RenderArguments& arguments)
 }
 
 void report_done(Console& console, const RenderArguments& arguments, const RenderResult& result,
-                 const PictureReport& pictures, std::optional<int> signal)
+                 const WrittenImages& images, std::optional<int> signal)
 {
     ordered_json outputs = ordered_json::array();
-    for (const std::filesystem::path& output : all_pictures(arguments)) {
+    for (const std::filesystem::path& output : all_image_files(arguments)) {
         outputs.push_back(output.string());
         console.note(fmt::format("wrote {}: {} spp in {:.1f} s", output.string(),
                                  result.film.sample_count(), result.seconds));
@@ -300,7 +302,7 @@ void report_done(Console& console, const RenderArguments& arguments, const Rende
     ordered_json fields{{"samples", result.film.sample_count()},
                         {"seconds", result.seconds},
                         {"outputs", std::move(outputs)}};
-    fields["exposure"] = pictures.exposure ? ordered_json(*pictures.exposure) : ordered_json();
+    fields["exposure"] = images.exposure ? ordered_json(*images.exposure) : ordered_json();
     fields["stopped_by"] = signal ? ordered_json(signal_name(*signal)) : ordered_json();
     console.event("done", fields);
 }
@@ -315,7 +317,7 @@ int run_render(const RenderArguments& arguments)
         console.note("stopping after the pass in flight; interrupt again to end at once");
     });
 
-    const Stage stage = prepare_within_memory(with_progress(arguments, console));
+    const PreparedScene stage = prepare_within_memory(with_progress(arguments, console));
     console.end_progress();
     const ordered_json settings = settings_of(arguments, stage);
     interrupt.allow_stop();
@@ -335,19 +337,19 @@ int run_render(const RenderArguments& arguments)
 
     const auto writing_start = std::chrono::steady_clock::now();
     const Image image = result.film.develop();
-    tell_of_clamp(console, result.film, image);
-    const PictureOptions options = picture_options(arguments, stage, result, settings);
-    const PictureReport pictures = write_pictures(arguments.outputs, image, options);
+    report_clamp(console, result.film, image);
+    const ImageFileOptions options = image_file_options(arguments, stage, result, settings);
+    const WrittenImages images = write_image_files(arguments.outputs, image, options);
     if (arguments.strategies) {
         write_strategy_files(*arguments.strategies, image, result.strategies, options.exr,
                              arguments.exposure.value_or(io::automatic_exposure(image)));
     }
     const std::chrono::duration<double> writing = std::chrono::steady_clock::now() - writing_start;
-    if (pictures.clamped_pixels > 0) {
+    if (images.clamped_pixels > 0) {
         console.warning(
             fmt::format("{} pixels were beyond 65504 and are stored as that; --float "
                         "keeps them",
-                        pictures.clamped_pixels));
+                        images.clamped_pixels));
     }
     const std::optional<int> signal = interrupt.signal();
     if (arguments.stats) {
@@ -362,7 +364,7 @@ int run_render(const RenderArguments& arguments)
         console.note(fmt::format("stopped by {} after {} samples per pixel", signal_name(*signal),
                                  result.film.sample_count()));
     }
-    report_done(console, arguments, result, pictures, signal);
+    report_done(console, arguments, result, images, signal);
     return signal ? 128 + *signal : 0;
 }
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "report/verify_text.h"
-#include "stage/stage.h"
+#include "stage/prepared_scene.h"
 #include "terminal/interrupt.h"
 #include "terminal/text.h"
 
@@ -34,7 +34,7 @@ int run_verify(const VerifyArguments& arguments)
     Interrupt interrupt({}, [&console] {
         console.note("stopping after the batches in flight; interrupt again to end at once");
     });
-    const Stage stage = prepare_stage(what);
+    const PreparedScene stage = prepare_scene(what);
     interrupt.allow_stop();
     const std::string file = what.file.string();
     for (const std::string& warning : stage.warnings) {

@@ -12,7 +12,7 @@
 
 namespace bdpt::app {
 
-/// A picture's size [pixels].
+/// An image's size [pixels].
 struct Size {
     int width = 0;
     int height = 0;

@@ -137,7 +137,7 @@ void add_effort(CLI::App& command, BenchWords& words)
         ->group(group);
 }
 
-void add_picture_options(CLI::App& command, RenderWords& words)
+void add_image_options(CLI::App& command, RenderWords& words)
 {
     const auto group = "How to render";
     command
@@ -183,7 +183,7 @@ void add_bench_options(CLI::App& command, BenchWords& words)
                   "only done and error")
         ->group(group);
     add_effort(command, words);
-    add_picture_options(command, words.render);
+    add_image_options(command, words.render);
     add_view_options(command, words.render);
     command.footer(footer);
 }

@@ -45,7 +45,7 @@ struct BenchArguments {
     std::filesystem::path folder;
     eval::BenchOptions options;
     std::optional<Size> size;
-    int pixels = 0;  ///< of each picture without `size`, at about
+    int pixels = 0;  ///< of each image without `size`, at about
     Format format = Format::text;
     Verbosity verbosity = Verbosity::normal;
 };
@@ -56,7 +56,7 @@ void add_bench_options(CLI::App& command, BenchWords& words);
 /// Throws `Error` (usage) for words that make no sense.
 [[nodiscard]] BenchArguments understand(const BenchWords& words);
 
-/// The picture of about `pixels` pixels with the proportions of `whole`.
+/// The image of about `pixels` pixels with the proportions of `whole`.
 [[nodiscard]] Size bench_size(const Size& whole, int pixels);
 
 }  // namespace bdpt::app

@@ -40,7 +40,7 @@ struct CompareWords {
 
 /// What `bdpt compare` is to do.
 struct CompareArguments {
-    std::filesystem::path image;  ///< a picture, or a folder of them
+    std::filesystem::path image;  ///< an image, or a folder of them
     std::filesystem::path reference;
     std::optional<std::string> layer;
     eval::ComparisonOptions options;

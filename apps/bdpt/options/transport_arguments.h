@@ -37,7 +37,7 @@ void add_transport_options(CLI::App& command, TransportWords& words);
 /// `options` with what `words` say. Throws `Error` (usage) that names the option and the value.
 [[nodiscard]] RenderOptions with_transport(const TransportWords& words, RenderOptions options);
 
-/// The same as members of the settings that are written into pictures.
+/// The same as members of the settings that are written into images.
 [[nodiscard]] nlohmann::ordered_json transport_json(const RenderOptions& options);
 
 }  // namespace bdpt::app

@@ -23,7 +23,7 @@ std::string list_cameras(std::span<const CameraDesc> cameras)
 /// Camera axes that look from `eye` to `target`, upright where that is defined.
 Mat4 look_at(Vec3 eye, Vec3 target)
 {
-    // Nearer to the vertical than this, +y is no longer up in the picture; -z is then.
+    // Nearer to the vertical than this, +y is no longer up in the image; -z is then.
     constexpr float vertical = 0.9999f;
     const Vec3 forward = glm::normalize(target - eye);
     const Vec3 up =

@@ -31,7 +31,7 @@ struct ViewOverrides {
 [[nodiscard]] CameraDesc apply(const ViewOverrides& overrides, const CameraDesc& camera,
                                const std::optional<Vec3>& target);
 
-/// The largest picture in 1280 x 720 with the camera's aspect ratio; 1280 x 720 if it has none.
+/// The largest image in 1280 x 720 with the camera's aspect ratio; 1280 x 720 if it has none.
 [[nodiscard]] Size default_size(const std::optional<float>& aspect_ratio);
 
 }  // namespace bdpt::app

@@ -52,7 +52,7 @@ std::string bias_text(const ComparisonReport& report)
                               optional_text(bias.channels[c].standard_error));
     }
     if (bias.source == eval::BiasSource::blocks) {
-        return result + "(from blocks of one picture; a folder of seeds tells more)\n";
+        return result + "(from blocks of one image; a folder of seeds tells more)\n";
     }
     return result + fmt::format("standard error of a pixel {}, of a tile {}\n",
                                 optional_text(bias.pixel_standard_error),
@@ -87,7 +87,7 @@ std::string compare_text(const ComparisonReport& report,
 {
     const std::size_t count = report.images.size();
     std::string result = fmt::format("{} of {} x {} pixels\n\n{}\n{}\n{}",
-                                     count == 1 ? "1 picture" : fmt::format("{} pictures", count),
+                                     count == 1 ? "1 image" : fmt::format("{} images", count),
                                      report.region.width(), report.region.height(),
                                      metrics_text(report), bias_text(report), tiles_text(report));
     for (const eval::ThresholdResult& threshold : thresholds) {

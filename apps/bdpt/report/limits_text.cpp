@@ -32,9 +32,9 @@ std::vector<Limit> list(const io::ReadLimits& limits)
             {"instances", instances, "meshes placed in a scene"},
             {"mesh_bytes", mesh_bytes, "bytes of vertices, key frames and instances, decoded"},
             {"triangles", triangles, "triangles, each mesh once"},
-            {"image_side", static_cast<std::uint64_t>(image_side), "pixels a side of a picture"},
-            {"image_bytes", image_bytes, "bytes of one picture, decoded"},
-            {"texture_bytes", texture_bytes, "bytes of all pictures, decoded"},
+            {"image_side", static_cast<std::uint64_t>(image_side), "pixels a side of an image"},
+            {"image_bytes", image_bytes, "bytes of one image, decoded"},
+            {"texture_bytes", texture_bytes, "bytes of all images, decoded"},
             {"compression_ratio", compression_ratio, "decoded over encoded size"},
             {"memory_bytes", memory_bytes, "bytes of all that a scene takes, as estimated"}};
 }

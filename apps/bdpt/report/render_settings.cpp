@@ -38,7 +38,7 @@ ordered_json view_json(const CameraDesc& camera)
 
 }  // namespace
 
-ordered_json settings_of(const RenderArguments& arguments, const Stage& stage)
+ordered_json settings_of(const RenderArguments& arguments, const PreparedScene& stage)
 {
     const RenderOptions& options = arguments.options;
     ordered_json settings{{"width", stage.size.width}, {"height", stage.size.height}};

@@ -14,7 +14,7 @@ struct TimeSplit {
     double load = 0.0;   ///< reading files
     double build = 0.0;  ///< the scene ready for rays
     double render = 0.0;
-    double write = 0.0;  ///< pictures
+    double write = 0.0;  ///< images
 };
 
 /// Refuses, before anything is rendered, a file that could not be written: throws `Error` (usage)

@@ -29,8 +29,8 @@ struct StrategyDepth {
 [[nodiscard]] StrategyDepth strategy_depth(const StrategyFiles& files, RenderOptions options,
                                            const CameraDesc& camera);
 
-/// Writes the picture with the layers of all strategies, and the contact sheet. `exposure` [EV] is
-/// that of the picture. Throws `Error` (output).
+/// Writes the image with the layers of all strategies, and the contact sheet. `exposure` [EV] is
+/// that of the image. Throws `Error` (output).
 void write_strategy_files(const StrategyFiles& files, const Image& image,
                           const StrategyFilm& strategies, const io::ExrOptions& options,
                           float exposure);

@@ -32,14 +32,14 @@ std::string rect_text(const PixelRect& rect)
     return fmt::format("{},{},{},{}", rect.x0, rect.y0, rect.x1, rect.y1);
 }
 
-std::string pictures_text(const VerifyReport& report)
+std::string images_text(const VerifyReport& report)
 {
     std::string result = fmt::format("{:<11}{:>12}{:>16}{:>10}\n", "integrator", "mean [nit]",
                                      "standard error", "defects");
-    for (const eval::PictureFinding& picture : report.pictures) {
-        result += fmt::format("{:<11}{:>12.6g}{:>16.2g}{:>10}\n",
-                              eval::to_string(picture.integrator), picture.radiance, picture.error,
-                              picture.defects.invalid + picture.defects.saturated);
+    for (const eval::ImageFinding& image : report.images) {
+        result += fmt::format("{:<11}{:>12.6g}{:>16.2g}{:>10}\n", eval::to_string(image.integrator),
+                              image.radiance, image.error,
+                              image.defects.invalid + image.defects.saturated);
     }
     return result;
 }
@@ -106,7 +106,7 @@ void add_failures(const std::string& name, const MeanComparison& whole,
                            where, test.found, test.expected, test.z, test.p_adjusted);
     };
     if (fails(whole, report)) {
-        lines.push_back(line("whole picture", whole));
+        lines.push_back(line("whole image", whole));
     }
     for (std::size_t i = 0; i < tiles.size(); ++i) {
         if (fails(tiles[i], report)) {
@@ -118,23 +118,22 @@ void add_failures(const std::string& name, const MeanComparison& whole,
 std::vector<std::string> failures(const VerifyReport& report)
 {
     std::vector<std::string> lines;
-    for (const eval::PictureFinding& picture : report.pictures) {
-        if (const auto& place = picture.defects.first_invalid) {
+    for (const eval::ImageFinding& image : report.images) {
+        if (const auto& place = image.defects.first_invalid) {
             lines.push_back(fmt::format(
                 "{}: {} contributions were NaN, infinite or negative; the first at pixel ({}, {}), "
                 "sample {}",
-                eval::to_string(picture.integrator), picture.defects.invalid, place->x, place->y,
+                eval::to_string(image.integrator), image.defects.invalid, place->x, place->y,
                 place->sample_index));
         }
-        if (picture.defects.saturated > 0) {
+        if (image.defects.saturated > 0) {
             lines.push_back(fmt::format("{}: {} contributions were too great for the film",
-                                        eval::to_string(picture.integrator),
-                                        picture.defects.saturated));
+                                        eval::to_string(image.integrator),
+                                        image.defects.saturated));
         }
-        if (loses_light(picture)) {
-            lines.push_back(fmt::format("{}: the paths and the picture of a tile differ by {}",
-                                        eval::to_string(picture.integrator),
-                                        percent(picture.lost)));
+        if (loses_light(image)) {
+            lines.push_back(fmt::format("{}: the paths and the image of a tile differ by {}",
+                                        eval::to_string(image.integrator), percent(image.lost)));
         }
     }
     if (report.weights.wrong > 0) {
@@ -187,7 +186,7 @@ std::string verdict_text(const VerifyReport& report, const eval::VerifyOptions& 
                "have been found. Give it more --time\n";
     }
     const std::string found = fmt::format(
-        "errors of a strategy that change the picture by {} would have been found, by 90 %",
+        "errors of a strategy that change the image by {} would have been found, by 90 %",
         percent(report.detectable));
     if (report.verdict == eval::Verdict::inconclusive) {
         return fmt::format(
@@ -207,7 +206,7 @@ std::string verify_text(const VerifyReport& report, const eval::VerifyOptions& o
         "difference {:.2g}\n\n",
         report.batches, report.seconds, options.max_depth, report.weights.paths,
         report.weights.worst);
-    result += pictures_text(report) + lengths_text(report) + strategies_text(report) +
+    result += images_text(report) + lengths_text(report) + strategies_text(report) +
               integrators_text(report);
     if (report.unchecked > 1e-6) {
         result += fmt::format(

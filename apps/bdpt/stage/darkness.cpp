@@ -23,7 +23,8 @@ int shrunk(int side, int longest)
 
 }  // namespace
 
-double dark_share(const Stage& stage, RenderOptions options, const std::optional<float>& exposure)
+double dark_share(const PreparedScene& stage, RenderOptions options,
+                  const std::optional<float>& exposure)
 {
     const int longest = std::max({stage.size.width, stage.size.height, longest_side});
     options.integrator = IntegratorKind::bdpt;

@@ -4,13 +4,13 @@
 
 #include <optional>
 
-#include "stage/stage.h"
+#include "stage/prepared_scene.h"
 
 namespace bdpt::app {
 
 /// The share of what the camera sees that would be black, by a small render with few samples; 0
 /// when it sees nothing. Exposure [EV] is that of the image; none: automatic.
-[[nodiscard]] double dark_share(const Stage& stage, RenderOptions options,
+[[nodiscard]] double dark_share(const PreparedScene& stage, RenderOptions options,
                                 const std::optional<float>& exposure);
 
 }  // namespace bdpt::app

@@ -6,7 +6,7 @@
 namespace bdpt {
 
 /// What can be measured beside radiance (arbitrary output variables). Those of surfaces are of the
-/// first one that a camera ray meets, averaged over the same rays that the picture is made of, and
+/// first one that a camera ray meets, averaged over the same rays that the image is made of, and
 /// do not depend on the integrator.
 enum class Aov : std::uint8_t {
     /// Linear base colour in [0, 1]; rays that leave the scene count as black.

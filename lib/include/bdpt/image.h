@@ -22,7 +22,7 @@ struct Image {
     }
 };
 
-/// How the values of a picture are stored.
+/// How the values of an image are stored.
 enum class TexelType : std::uint8_t {
     unorm8,   ///< 255 is 1
     unorm16,  ///< 65535 is 1
@@ -36,8 +36,8 @@ enum class TexelType : std::uint8_t {
     return type == TexelType::unorm8 ? 1 : type == TexelType::float32 ? 4 : 2;
 }
 
-/// Row-major texels as they are stored in a picture file; row 0 is the top row. Whether integers
-/// are sRGB-encoded is decided by the material slot that refers to the picture; alpha, halves and
+/// Row-major texels as they are stored in an image file; row 0 is the top row. Whether integers
+/// are sRGB-encoded is decided by the material slot that refers to the image; alpha, halves and
 /// floats are linear. Halves and floats must be finite and not negative; what is above 1 counts in
 /// emission only.
 struct TexelImage {

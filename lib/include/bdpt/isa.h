@@ -5,9 +5,9 @@
 
 namespace bdpt {
 
-/// Instruction set that rays are traced with. Pictures are equal to the bit for the same one only,
+/// Instruction set that rays are traced with. Images are equal to the bit for the same one only,
 /// as the rounding of hits differs between them: pin it where machines of several kinds work on one
-/// picture (docs/decisions/0022-pinned-isa.md).
+/// image (docs/decisions/0022-pinned-isa.md).
 enum class Isa : std::uint8_t {
     native,  ///< the best one of this CPU
     sse2,    ///< of every x86-64 CPU

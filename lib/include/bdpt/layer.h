@@ -5,7 +5,7 @@
 
 namespace bdpt {
 
-/// Named channels of a picture, as files of many layers hold them.
+/// Named channels of an image, as files of many layers hold them.
 struct Layer {
     std::string name;      ///< "normal"; empty: the main layer
     std::string channels;  ///< one letter each, in the order of the values: "XYZ"

@@ -23,8 +23,8 @@ struct PointLightDesc {
     std::string name{};
     Vec3 position{0.0f};
     Rgb intensity{1.0f};  ///< [cd]
-    /// [m] 0: a point. Else a ball of radiance intensity / (pi radius^2), seen like any surface; it
-    /// hides what is behind it and reflects nothing.
+    /// [m] 0: a point. Else a sphere of radiance intensity / (pi radius^2), seen like any surface;
+    /// it hides what is behind it and reflects nothing.
     float radius = 0.0f;
     std::vector<Vec3> motion{};  ///< of the position
 };
@@ -40,7 +40,7 @@ struct SpotLightDesc {
     float inner_cone_angle = 0.0f;        ///< [rad] from the axis
     float outer_cone_angle = 0.7853982f;  ///< [rad] from the axis, in (inner, pi/2]
     /// [m] As for point lights; the falloff is that of the direction in which light leaves the
-    /// ball.
+    /// sphere.
     float radius = 0.0f;
     std::vector<Vec3> motion{};  ///< of the position
     std::vector<Vec3> turn{};    ///< of the direction, by less than 90 degrees a step
@@ -78,7 +78,7 @@ struct DirectionalLightDesc {
 };
 
 /// Light from infinity. `radiance` is equirectangular [nit]: its top row is +y, its centre column
-/// is seen along -z and columns to the right turn towards +x. A 1 x 1 picture is constant.
+/// is seen along -z and columns to the right turn towards +x. A 1 x 1 image is constant.
 struct EnvironmentLightDesc {
     static constexpr std::string_view kind = "environment light";  ///< for people
 

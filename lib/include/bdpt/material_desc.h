@@ -15,7 +15,7 @@ namespace bdpt {
 /// What a texture shows outside of [0, 1]; names as in glTF 2.0.
 enum class Wrap : std::uint8_t { repeat, mirrored_repeat, clamp_to_edge };
 
-/// A picture used by a material slot, with the transform of KHR_texture_transform.
+/// An image used by a material slot, with the transform of KHR_texture_transform.
 struct TextureRef {
     ImageId image{};
     int uv_set = 0;  ///< 0 or 1

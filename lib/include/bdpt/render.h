@@ -3,7 +3,7 @@
 #include <bdpt/aov_film.h>
 #include <bdpt/export.h>
 #include <bdpt/film.h>
-#include <bdpt/found_path.h>
+#include <bdpt/path_contribution.h>
 #include <bdpt/render_options.h>
 #include <bdpt/render_stats.h>
 #include <bdpt/scene.h>
@@ -28,7 +28,7 @@ struct Progress {
 /// Is it measured where the time of samples goes?
 enum class Profiling : std::uint8_t {
     off,
-    /// For `RenderResult::profile`; the picture and the counts stay the same, to the bit. Makes a
+    /// For `RenderResult::profile`; the image and the counts stay the same, to the bit. Makes a
     /// render some per cent slower.
     on,
 };
@@ -42,7 +42,7 @@ struct RenderControl {
     std::function<void(const Progress&)> on_progress;
     /// Called for each path that brings light to the film's region, on many threads at once; slows
     /// the render down.
-    std::function<void(const FoundPath&)> on_path;
+    std::function<void(const PathContribution&)> on_path;
     Profiling profiling = Profiling::off;
     /// No pass starts that would probably end after this [s].
     double time_limit = std::numeric_limits<double>::infinity();

@@ -22,7 +22,7 @@ struct PathCounts {
     [[nodiscard]] bool operator==(const PathCounts&) const = default;
 };
 
-/// How much work a render was. Like the picture it depends on scene, camera and options only.
+/// How much work a render was. Like the image it depends on scene, camera and options only.
 struct RenderStats {
     RayCounts rays;
     PathCounts paths;

@@ -48,9 +48,9 @@ struct InstanceDesc {
     std::vector<Mat4> motion{};
 };
 
-/// How textures are looked up where they have more detail than the picture shows.
+/// How textures are looked up where they have more detail than the image shows.
 enum class TextureFilter : std::uint8_t {
-    /// Between the texels of the picture as it is: many samples a pixel find the average.
+    /// Between the texels of the image as it is: many samples a pixel find the average.
     bilinear,
     /// Between those of a smaller copy, where texels are narrower than half a pixel seen directly
     /// from the camera: the same for all paths that meet the point. Emission, alpha, normals and

@@ -26,7 +26,7 @@ struct StrategyShare {
 /// "s02t03", as layers are named.
 [[nodiscard]] BDPT_EXPORT std::string strategy_name(Strategy strategy);
 
-/// Two images of each strategy: what it brings by itself, and its part of the picture [Veach 1997,
+/// Two images of each strategy: what it brings by itself, and its part of the image [Veach 1997,
 /// fig. 10.3]. The sums are exact and without order like those of `Film`.
 class BDPT_EXPORT StrategyFilm {
 public:
@@ -54,7 +54,7 @@ public:
     void merge(const StrategyFilm& other);
 
     /// Radiance [nit] that the strategy, one of `strategies()`, finds by itself, and what of it is
-    /// in the picture.
+    /// in the image.
     [[nodiscard]] Image unweighted(Strategy strategy) const;
     [[nodiscard]] Image weighted(Strategy strategy) const;
     /// All of them: layers "s02t03" (weighted) and "s02t03.unweighted" with RGB.

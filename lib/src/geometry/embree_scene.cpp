@@ -1,9 +1,9 @@
 #include "geometry/embree_scene.h"
 
+#include "geometry/coordinate_limit.h"
 #include "geometry/embree.h"
 #include "geometry/embree_device.h"
 #include "geometry/embree_spheres.h"
-#include "geometry/reach.h"
 
 #include <bdpt/error.h>
 
@@ -55,7 +55,7 @@ OwnedScene new_scene(RTCDevice device)
 
 /// What decides which hits count, and for whom.
 struct HitFilter {
-    PassRule rule;
+    AnyHitFilter rule;
     std::span<const PlacedMesh> placed;
 };
 
@@ -199,14 +199,14 @@ struct EmbreeScene::State {
 
 EmbreeScene::EmbreeScene(std::span<const InstanceDesc> instances, std::span<PlacedMesh> placed,
                          std::size_t mesh_count, std::span<const Sphere> spheres,
-                         const PassRule& pass_rule, Isa isa)
+                         const AnyHitFilter& any_hit_filter, Isa isa)
     : state_(std::make_unique<State>(isa))
 {
     State& state = *state_;
     RTCDevice device = state.device.get();
     state.placed = placed;
-    state.reach = reach_of(instances, mesh_count);
-    state.filter = {.rule = pass_rule, .placed = placed};
+    state.reach = coordinate_limit_of(instances, mesh_count);
+    state.filter = {.rule = any_hit_filter, .placed = placed};
     state.top = new_scene(device);
 
     std::vector<std::size_t> uses(mesh_count, 0);
@@ -214,8 +214,8 @@ EmbreeScene::EmbreeScene(std::span<const InstanceDesc> instances, std::span<Plac
     for (std::size_t i = 0; i < instances.size(); ++i) {
         const auto mesh = static_cast<std::size_t>(instances[i].mesh);
         ++uses[mesh];
-        if (pass_rule.concerns != nullptr &&
-            pass_rule.concerns(pass_rule.owner, static_cast<std::uint32_t>(i))) {
+        if (any_hit_filter.concerns != nullptr &&
+            any_hit_filter.concerns(any_hit_filter.owner, static_cast<std::uint32_t>(i))) {
             filters[mesh] = &state.filter;
         }
     }

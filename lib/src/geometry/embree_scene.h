@@ -1,6 +1,6 @@
 #pragma once
 
-#include "geometry/pass_rule.h"
+#include "geometry/any_hit_filter.h"
 #include "geometry/placed_mesh.h"
 #include "geometry/ray.h"
 #include "geometry/sphere.h"
@@ -21,11 +21,11 @@ class EmbreeScene {
 public:
     /// `placed[i]` belongs to `instances[i]`; both must outlive this object, and meshes that went
     /// into the top level are told so (PlacedMesh::use_world_positions). `spheres` must outlive it,
-    /// too, and so must the owner of `pass_rule`. Throws `Error` when Embree fails, or (usage) when
-    /// the CPU lacks `isa`.
+    /// too, and so must the owner of `any_hit_filter`. Throws `Error` when Embree fails, or (usage)
+    /// when the CPU lacks `isa`.
     EmbreeScene(std::span<const InstanceDesc> instances, std::span<PlacedMesh> placed,
                 std::size_t mesh_count, std::span<const Sphere> spheres = {},
-                const PassRule& pass_rule = {}, Isa isa = Isa::native);
+                const AnyHitFilter& any_hit_filter = {}, Isa isa = Isa::native);
     EmbreeScene(EmbreeScene&&) noexcept;
     ~EmbreeScene();
 

@@ -52,7 +52,8 @@ struct Edges {
     return max(abs(corners[0]), max(abs(corners[1]), abs(corners[2])));
 }
 
-[[gnu::always_inline]] inline Vec3 interpolated(const std::array<Vec3, 3>& corners, Vec2 barycentrics)
+[[gnu::always_inline]] inline Vec3 interpolated(const std::array<Vec3, 3>& corners,
+                                                Vec2 barycentrics)
 {
     return (1.0f - barycentrics.x - barycentrics.y) * corners[0] + barycentrics.x * corners[1] +
            barycentrics.y * corners[2];
@@ -61,7 +62,8 @@ struct Edges {
 /// Of corners as Embree has them. The intersection test works on the corners relative to the ray's
 /// origin and rounds in all directions, even where a coordinate of all corners is zero. So the
 /// bound takes the greatest coordinate of all, not each axis for itself.
-[[gnu::always_inline]] inline BoundedPoint bounded_point(const std::array<Vec3, 3>& corners, Vec2 barycentrics)
+[[gnu::always_inline]] inline BoundedPoint bounded_point(const std::array<Vec3, 3>& corners,
+                                                         Vec2 barycentrics)
 {
     return {interpolated(corners, barycentrics),
             rounding_bound(rounded_operations) * max_axis(extent(corners))};
@@ -304,7 +306,7 @@ Vec4 PlacedMesh::tangent(std::uint32_t triangle, Vec2 barycentrics, int uv_set, 
         return Vec4(0.0f);
     }
     const Vec3 along_u = std::copysign(1.0f, area) * (d2.y * (b - a) - d1.y * (c - a));
-    // v grows downwards in glTF and the bitangent points up in the picture. A triangle that is not
+    // v grows downwards in glTF and the bitangent points up in the image. A triangle that is not
     // mirrored in the texture has its corners clockwise there, so the area is negative.
     return {along_u, -std::copysign(front_sign(), area * front_sign())};
 }

@@ -10,7 +10,7 @@
 
 namespace bdpt {
 
-/// The surface of a ball. Its normals point outwards.
+/// The surface of a sphere. Its normals point outwards.
 struct Sphere {
     Vec3 center{0.0f};
     float radius = 1.0f;             ///< [m], > 0

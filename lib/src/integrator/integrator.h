@@ -1,7 +1,7 @@
 #pragma once
 
 #include <bdpt/film.h>
-#include <bdpt/found_path.h>
+#include <bdpt/path_contribution.h>
 #include <bdpt/render_options.h>
 #include <bdpt/render_stats.h>
 #include <bdpt/strategy_film.h>
@@ -28,7 +28,7 @@ struct Films {
     Film& film;
     StrategyFilm& strategies;  ///< empty unless images of strategies are asked for
     /// Told of each path that brings light, if there is one.
-    const std::function<void(const FoundPath&)>& on_path;
+    const std::function<void(const PathContribution&)>& on_path;
     /// Where the time of samples is noted, if it is to be.
     TimeSheet* times = nullptr;
 };

@@ -15,7 +15,7 @@
 namespace bdpt {
 namespace {
 
-/// Cosines of the polar angle at the edges of the picture's rows.
+/// Cosines of the polar angle at the edges of the image's rows.
 std::vector<float> row_cosines(int height)
 {
     std::vector<float> cosines;
@@ -52,7 +52,7 @@ std::vector<float> sampling_weights(const Image& image, const std::vector<float>
 }
 
 /// What is left of the weights above half of their mean, after Karlik et al. (2019), who take off
-/// all of it; docs/decisions/0023 says why half. A constant picture keeps its shape.
+/// all of it; docs/decisions/0023 says why half. A constant image keeps its shape.
 std::vector<float> compensated(const std::vector<float>& weights, int width,
                                const std::vector<float>& cosines)
 {

@@ -13,14 +13,14 @@
 
 namespace bdpt {
 
-/// Light from all directions at infinity, from an equirectangular picture that is looked up with
+/// Light from all directions at infinity, from an equirectangular image that is looked up with
 /// bilinear interpolation. Light paths start in proportion to luminance; next-event estimation has
 /// the choice of `EnvironmentSampling`.
 class EnvironmentLight : public InfiniteLight {
 public:
     static constexpr bool is_delta = false;
 
-    /// The picture is copied; negative values have been refused before.
+    /// The image is copied; negative values have been refused before.
     EnvironmentLight(const EnvironmentLightDesc& desc, const BoundingSphere& bounds);
 
     /// `to_light`: unit, from the scene towards infinity.

@@ -13,9 +13,9 @@
 
 namespace bdpt {
 
-/// A point or spot light with a radius: a black ball that emits from its outside. Its radiance is
+/// A point or spot light with a radius: a black sphere that emits from its outside. Its radiance is
 /// intensity / (pi r^2), so that from afar it is the point light; that of a spot falls off with the
-/// *direction* of the light, equally at all points of the ball.
+/// *direction* of the light, equally at all points of the sphere.
 class SphereLight {
 public:
     static constexpr bool is_delta = false;
@@ -27,14 +27,14 @@ public:
 
     /// The point with the unit normal `ng`.
     [[nodiscard]] SegmentEnd surface(Vec3 ng, float time = 0.0f) const;
-    /// In a unit direction away from the ball [nit].
+    /// In a unit direction away from the sphere [nit].
     [[nodiscard]] Rgb radiance(Vec3 direction, float time = 0.0f) const;
 
-    /// Directions are uniform in the spot's cone, and points uniform on the disk that the ball is
+    /// Directions are uniform in the spot's cone, and points uniform on the disk that the sphere is
     /// as seen from there: for a point light that is area times cosine.
     [[nodiscard]] std::optional<EmissionSample> sample_emission(Vec2 u_position, Vec2 u_direction,
                                                                 float time = 0.0f) const;
-    /// Directions are uniform in the cone that the ball fills; none from inside of it.
+    /// Directions are uniform in the cone that the sphere fills; none from inside of it.
     [[nodiscard]] std::optional<IncidentSample> sample_incident(
         Vec3 receiver, Vec2 u, EnvironmentSampling sampling = EnvironmentSampling::plain,
         float time = 0.0f) const;

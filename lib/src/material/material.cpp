@@ -12,7 +12,7 @@
 namespace bdpt {
 namespace {
 
-[[nodiscard]] Body body_of(const MaterialDesc& desc)
+[[nodiscard]] Body volume_of(const MaterialDesc& desc)
 {
     const bool solid = desc.thickness > 0.0f && desc.transmission > 0.0f && !desc.unlit;
     return solid ? Body::solid : Body::thin_walled;
@@ -22,7 +22,7 @@ namespace {
 [[nodiscard]] bool has_medium(const MaterialDesc& desc)
 {
     const bool translucent = desc.thickness > 0.0f && desc.diffuse_transmission.factor > 0.0f;
-    return body_of(desc) == Body::solid || (translucent && !desc.unlit);
+    return volume_of(desc) == Body::solid || (translucent && !desc.unlit);
 }
 
 /// The coefficient that leaves the attenuation colour after the attenuation distance.
@@ -45,17 +45,17 @@ namespace {
 
 /// Those that the base colour is looked up in. What emits or lets light pass is sampled as it is,
 /// and the colours of texels that are not there must not get into those that are.
-[[nodiscard]] Pictures color_pictures(const MaterialDesc& desc, const Pictures& pictures)
+[[nodiscard]] TextureImages color_images(const MaterialDesc& desc, const TextureImages& images)
 {
     const bool as_it_is = desc.unlit || desc.alpha_mode != AlphaMode::opaque;
-    return as_it_is ? pictures.at_full_size() : pictures;
+    return as_it_is ? images.at_full_size() : images;
 }
 
 }  // namespace
 
 std::array<float, wavelengths> channel_indices(const MaterialDesc& desc)
 {
-    if (body_of(desc) != Body::solid) {
+    if (volume_of(desc) != Body::solid) {
         return {desc.ior, desc.ior, desc.ior};
     }
     // Half of the difference of the indices of blue and red, (ior - 1) / Abbe number.
@@ -66,7 +66,7 @@ std::array<float, wavelengths> channel_indices(const MaterialDesc& desc)
 Exterior exterior_within(const MaterialDesc& desc)
 {
     Exterior exterior{.absorption = absorption_of(desc)};
-    if (body_of(desc) == Body::solid) {
+    if (volume_of(desc) == Body::solid) {
         exterior.indices = channel_indices(desc);
     }
     return exterior;
@@ -75,7 +75,7 @@ Exterior exterior_within(const MaterialDesc& desc)
 BoundaryIndices boundary_indices(const MaterialDesc& desc, const Exterior& exterior)
 {
     BoundaryIndices result{.greater_by_less = channel_indices(desc)};
-    if (body_of(desc) != Body::solid) {
+    if (volume_of(desc) != Body::solid) {
         return result;
     }
     for (std::size_t i = 0; i < wavelengths; ++i) {
@@ -87,7 +87,7 @@ BoundaryIndices boundary_indices(const MaterialDesc& desc, const Exterior& exter
     return result;
 }
 
-Material::Material(const MaterialDesc& desc, const Pictures& pictures,
+Material::Material(const MaterialDesc& desc, const TextureImages& images,
                    const ChannelAlbedos& albedos, const LayerTables* tables,
                    const Exterior& exterior)
     : surface_{Rgb{desc.base_color.x, desc.base_color.y, desc.base_color.z},
@@ -96,7 +96,7 @@ Material::Material(const MaterialDesc& desc, const Pictures& pictures,
                desc.specular,
                desc.specular_color,
                desc.transmission,
-               body_of(desc)},
+               volume_of(desc)},
       emission_(desc.emission),
       within_{absorption_of(desc), absorption_of(desc)},
       // What has no inside has the same medium on both sides.
@@ -110,27 +110,26 @@ Material::Material(const MaterialDesc& desc, const Pictures& pictures,
       albedos_(albedos),
       turned_(boundary_indices(desc, exterior).turned),
       base_color_map_(
-          make_texture(desc.base_color_texture, color_pictures(desc, pictures), Encoding::srgb)),
+          make_texture(desc.base_color_texture, color_images(desc, images), Encoding::srgb)),
       metallic_roughness_map_(
-          make_texture(desc.metallic_roughness_texture, pictures, Encoding::linear)),
-      normal_map_(make_normal_map(desc.normal_texture, desc.normal_scale, pictures)),
-      emission_map_(
-          make_texture(desc.emission_texture, pictures.at_full_size(), Encoding::radiance)),
-      specular_map_(make_texture(desc.specular_texture, pictures, Encoding::linear)),
-      specular_color_map_(make_texture(desc.specular_color_texture, pictures, Encoding::srgb)),
-      transmission_map_(make_texture(desc.transmission_texture, pictures, Encoding::linear)),
-      glossiness_map_(make_texture(desc.glossiness_texture, pictures, Encoding::linear))
+          make_texture(desc.metallic_roughness_texture, images, Encoding::linear)),
+      normal_map_(make_normal_map(desc.normal_texture, desc.normal_scale, images)),
+      emission_map_(make_texture(desc.emission_texture, images.at_full_size(), Encoding::radiance)),
+      specular_map_(make_texture(desc.specular_texture, images, Encoding::linear)),
+      specular_color_map_(make_texture(desc.specular_color_texture, images, Encoding::srgb)),
+      transmission_map_(make_texture(desc.transmission_texture, images, Encoding::linear)),
+      glossiness_map_(make_texture(desc.glossiness_texture, images, Encoding::linear))
 {
     const bool any_turned = turned_ != std::array<bool, wavelengths>{};
     disperses_ = albedos.disperse() || turned_[0] != turned_[1] || turned_[1] != turned_[2];
     const bool varies = any_turned || base_color_map_ || metallic_roughness_map_ || specular_map_ ||
                         specular_color_map_ || transmission_map_ || glossiness_map_;
     if (has_layers(desc) && !any_turned) {
-        layers_ = std::make_unique<const MaterialLayers>(desc, pictures, albedos, *tables);
+        layers_ = std::make_unique<const MaterialLayers>(desc, images, albedos, *tables);
     } else if (!varies && !unlit_ && !disperses()) {
         plain_ = plain_model(surface_, albedos_.at(Wavelength::green));
     }
-    needs_footprint_ = pictures.mip_maps != nullptr && !unlit_ && (varies || layers_ != nullptr);
+    needs_footprint_ = images.mip_maps != nullptr && !unlit_ && (varies || layers_ != nullptr);
     tangent_uv_set_ = normal_map_ ? std::optional(normal_map_->uv_set())
                       : layers_   ? layers_->tangent_uv_set()
                                   : std::nullopt;

@@ -16,12 +16,12 @@
 
 namespace bdpt {
 
-/// A `MaterialDesc` made ready for lookups. Refers to the pictures, which must outlive it.
+/// A `MaterialDesc` made ready for lookups. Refers to the images, which must outlive it.
 class Material {
 public:
     /// `albedos` belong to `boundary_indices(desc, exterior)`; `tables` are needed where
     /// `has_layers(desc)`. Throws nothing: `desc` has been validated.
-    Material(const MaterialDesc& desc, const Pictures& pictures, const ChannelAlbedos& albedos,
+    Material(const MaterialDesc& desc, const TextureImages& images, const ChannelAlbedos& albedos,
              const LayerTables* tables = nullptr, const Exterior& exterior = {});
 
     [[nodiscard]] Bsdf bsdf(const ShadingPoint& point) const noexcept;

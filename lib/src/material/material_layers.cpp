@@ -26,23 +26,23 @@ bool has_layers(const MaterialDesc& desc)
                            desc.diffuse_transmission.factor > 0.0f);
 }
 
-MaterialLayers::MaterialLayers(const MaterialDesc& desc, const Pictures& pictures,
+MaterialLayers::MaterialLayers(const MaterialDesc& desc, const TextureImages& images,
                                const ChannelAlbedos& albedos, const LayerTables& tables)
     : coat_(desc.clearcoat),
       sheen_(desc.sheen),
       anisotropy_(desc.anisotropy),
       film_(desc.iridescence),
       transmission_(desc.diffuse_transmission),
-      coat_maps_{make_texture(coat_.texture, pictures, Encoding::linear),
-                 make_texture(coat_.roughness_texture, pictures, Encoding::linear),
-                 make_normal_map(coat_.normal_texture, coat_.normal_scale, pictures)},
-      sheen_maps_{make_texture(sheen_.color_texture, pictures, Encoding::srgb),
-                  make_texture(sheen_.roughness_texture, pictures, Encoding::linear)},
-      film_maps_{make_texture(film_.texture, pictures, Encoding::linear),
-                 make_texture(film_.thickness_texture, pictures, Encoding::linear)},
-      transmission_maps_{make_texture(transmission_.texture, pictures, Encoding::linear),
-                         make_texture(transmission_.color_texture, pictures, Encoding::srgb)},
-      anisotropy_map_(make_texture(anisotropy_.texture, pictures.at_full_size(), Encoding::linear))
+      coat_maps_{make_texture(coat_.texture, images, Encoding::linear),
+                 make_texture(coat_.roughness_texture, images, Encoding::linear),
+                 make_normal_map(coat_.normal_texture, coat_.normal_scale, images)},
+      sheen_maps_{make_texture(sheen_.color_texture, images, Encoding::srgb),
+                  make_texture(sheen_.roughness_texture, images, Encoding::linear)},
+      film_maps_{make_texture(film_.texture, images, Encoding::linear),
+                 make_texture(film_.thickness_texture, images, Encoding::linear)},
+      transmission_maps_{make_texture(transmission_.texture, images, Encoding::linear),
+                         make_texture(transmission_.color_texture, images, Encoding::srgb)},
+      anisotropy_map_(make_texture(anisotropy_.texture, images.at_full_size(), Encoding::linear))
 {
     for (const Wavelength channel : {Wavelength::red, Wavelength::green, Wavelength::blue}) {
         constants_[static_cast<std::size_t>(channel)] = {

@@ -21,7 +21,7 @@ namespace bdpt {
 /// it; must not move while its BSDFs are in use.
 class MaterialLayers {
 public:
-    MaterialLayers(const MaterialDesc& desc, const Pictures& pictures,
+    MaterialLayers(const MaterialDesc& desc, const TextureImages& images,
                    const ChannelAlbedos& albedos, const LayerTables& tables);
 
     /// With `base` below the layers. The normal of `shading` is that of a normal map, or that of

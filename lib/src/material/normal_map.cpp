@@ -52,9 +52,9 @@ Vec3 NormalMap::normal(const ShadingPoint& point) const noexcept
 }
 
 std::optional<NormalMap> make_normal_map(const std::optional<TextureRef>& ref, float scale,
-                                         const Pictures& pictures)
+                                         const TextureImages& images)
 {
-    const std::optional<Texture> map = make_texture(ref, pictures.at_full_size(), Encoding::linear);
+    const std::optional<Texture> map = make_texture(ref, images.at_full_size(), Encoding::linear);
     return map ? std::optional(NormalMap(*map, scale)) : std::nullopt;
 }
 

@@ -15,7 +15,7 @@ struct TangentAxes {
 };
 [[nodiscard]] std::optional<TangentAxes> tangent_axes(const ShadingPoint& point) noexcept;
 
-/// A picture of normals in tangent space [glTF 2.0, sec. 3.9.3].
+/// An image of normals in tangent space [glTF 2.0, sec. 3.9.3].
 class NormalMap {
 public:
     /// `scale` multiplies x and y.
@@ -34,6 +34,6 @@ private:
 /// The map of a slot, if it has one; at full size, as the means of normals are those of a smoother
 /// surface.
 [[nodiscard]] std::optional<NormalMap> make_normal_map(const std::optional<TextureRef>& ref,
-                                                       float scale, const Pictures& pictures);
+                                                       float scale, const TextureImages& images);
 
 }  // namespace bdpt

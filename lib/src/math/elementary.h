@@ -8,7 +8,7 @@
 namespace bdpt {
 
 // The C library picks its variant of these functions by the CPU, and the last bit differs between
-// variants. A picture must be the same on all machines, so whatever reaches the film uses these
+// variants. An image must be the same on all machines, so whatever reaches the film uses these
 // instead: polynomials in IEEE arithmetic that every CPU rounds alike. Sine, cosine and e^x are
 // inline because they stand in every walk.
 

@@ -65,8 +65,8 @@ std::optional<Contribution> connect_to_light(SampleContext& sample,
     const NextEventSampling sampling = weigher.next_event_sampling();
     sampler.start(SampleUse::next_event, static_cast<std::uint32_t>(camera.size()));
     const Vec2 u = sampler.next_2d();
-    const auto choice = world.lights().choose_for_receiver(
-        [&z] { return light_receiver(z); }, u, [&sampler] { return sampler.next_fine(); },
+    const auto choice = world.lights().choose_for_context(
+        [&z] { return light_sample_context(z); }, u, [&sampler] { return sampler.next_fine(); },
         sampling.lights);
     if (!choice) {
         return std::nullopt;
@@ -129,8 +129,8 @@ std::optional<Splat> connect_light_to_lens(SampleContext& sample, PathWeigher& w
     const SegmentEnd receiver = camera.generate_ray(Vec2(0.0f), u_lens).lens;
     sampler.start(SampleUse::next_event, 1);
     const Vec2 u = sampler.next_2d();
-    const auto choice = world.lights().choose_for_receiver(
-        LightReceiver{.p = receiver.p}, u, [&sampler] { return sampler.next_fine(); },
+    const auto choice = world.lights().choose_for_context(
+        LightSampleContext{.p = receiver.p}, u, [&sampler] { return sampler.next_fine(); },
         weigher.next_event_sampling().lights);
     if (!choice || !can_be_seen_directly(world.lights()[choice->id], camera)) {
         return std::nullopt;

@@ -19,7 +19,7 @@ bool can_be_seen_directly(const Light& light, const Camera& camera)
     return !light.is_delta() && !light.is_infinite() && camera.is_perspective();
 }
 
-LightReceiver light_receiver(const PathVertex& x1)
+LightSampleContext light_sample_context(const PathVertex& x1)
 {
     return {.p = x1.end.p,
             .normal = x1.kind == VertexKind::surface ? x1.bsdf->opaque_normal() : std::nullopt};
@@ -29,10 +29,10 @@ AreaPdf next_event_density(const SampleContext& sample, const PathVertex& x0, co
                            NextEventSampling sampling)
 {
     const LightPoint point = light_point(x0, sample.time);
-    const auto receiver = [&x1] { return light_receiver(x1); };
+    const auto receiver = [&x1] { return light_sample_context(x1); };
     const LightSet& lights = sample.world.lights();
     return lights[*x0.light].pdf_incident(x1.end.p, point, sampling.environments) *
-           lights.receiver_probability(*x0.light, receiver, sampling.lights);
+           lights.context_probability(*x0.light, receiver, sampling.lights);
 }
 
 LightDensities light_densities(const SampleContext& sample, const PathVertex& x0,

@@ -14,7 +14,7 @@ struct LightDensities {
 
 /// x_1 as next-event estimation chooses a light for it. The same whichever walk made the vertex:
 /// where light cannot pass, both sides of the path that join there are on one side.
-[[nodiscard]] LightReceiver light_receiver(const PathVertex& x1);
+[[nodiscard]] LightSampleContext light_sample_context(const PathVertex& x1);
 
 /// x_0 on light `x0.light`, sampled from x_1 by next-event estimation.
 [[nodiscard]] AreaPdf next_event_density(const SampleContext& sample, const PathVertex& x0,

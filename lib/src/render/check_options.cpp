@@ -1,6 +1,6 @@
 #include "render/check_options.h"
 
-#include "geometry/reach.h"
+#include "geometry/coordinate_limit.h"
 #include "math/elementary.h"
 
 #include <bdpt/error.h>
@@ -57,9 +57,9 @@ void check_filter(const FilterOptions& filter)
     }
 }
 
-void check_within_reach(const std::string& item, const char* what, float value)
+void check_within_limit(const std::string& item, const char* what, float value)
 {
-    if (!(std::abs(value) <= greatest_reach)) {
+    if (!(std::abs(value) <= greatest_coordinate)) {
         throw Error(ErrorCode::invalid_input, item + ": " + what + " is " + std::to_string(value) +
                                                   " m, beyond what rays reach");
     }
@@ -76,7 +76,7 @@ void check_pose(const std::string& item, const Mat4& world_from_camera)
         }
     }
     for (int row = 0; row < 3; ++row) {
-        check_within_reach(item, "position", world_from_camera[3][row]);
+        check_within_limit(item, "position", world_from_camera[3][row]);
     }
     const Vec3 side = cross(Vec3(world_from_camera[1]), Vec3(world_from_camera[2]));
     if (!(dot(side, side) > 0.0f)) {
@@ -152,8 +152,8 @@ void check_options(const RenderOptions& options)
 void check_camera(const CameraDesc& camera)
 {
     const std::string item = label(camera);
-    const auto check_reach = [&](const char* what, float value) {
-        check_within_reach(item, what, value);
+    const auto check_coordinates = [&](const char* what, float value) {
+        check_within_limit(item, what, value);
     };
     check_pose(item, camera.world_from_camera);
     check_motion(item, camera);
@@ -166,8 +166,8 @@ void check_camera(const CameraDesc& camera)
     check_length("lens radius", camera.lens_radius, true);
     check_length("focus distance", camera.focus_distance, false);
     check_length("vertical extent", camera.vertical_extent, false);
-    check_reach("lens radius", camera.lens_radius);
-    check_reach("vertical extent", camera.vertical_extent);
+    check_coordinates("lens radius", camera.lens_radius);
+    check_coordinates("vertical extent", camera.vertical_extent);
     if (!(camera.vertical_fov > 0.0f && camera.vertical_fov < pi)) {
         throw Error(ErrorCode::invalid_input, item + ": vertical field of view is " +
                                                   std::to_string(camera.vertical_fov) +

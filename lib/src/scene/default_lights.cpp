@@ -27,14 +27,14 @@ bool has_surface(const SceneDesc& desc)
         const auto index = static_cast<std::size_t>(instance.mesh);
         return index < desc.meshes.size() && !desc.meshes[index].triangles.empty();
     };
-    const auto is_ball = [](const LightDesc& light) {
+    const auto is_sphere = [](const LightDesc& light) {
         const auto* point = std::get_if<PointLightDesc>(&light);
         const auto* spot = std::get_if<SpotLightDesc>(&light);
         return (point != nullptr && point->radius > 0.0f) ||
                (spot != nullptr && spot->radius > 0.0f);
     };
     return std::any_of(desc.instances.begin(), desc.instances.end(), has_triangles) ||
-           std::any_of(desc.lights.begin(), desc.lights.end(), is_ball);
+           std::any_of(desc.lights.begin(), desc.lights.end(), is_sphere);
 }
 
 EnvironmentLightDesc default_environment()

@@ -1,7 +1,7 @@
 #include <bdpt/framing.h>
 
 #include "math/elementary.h"
-#include "scene/surroundings.h"
+#include "scene/visibility_probe.h"
 #include "scene/world.h"
 
 #include <glm/common.hpp>
@@ -73,36 +73,36 @@ CameraDesc frame_from_outside(const Bounds& bounds, Vec3 towards_eye, float aspe
 }
 
 /// Points of a grid in the bounds, with what is seen from each.
-std::vector<Surroundings> survey(const World& world)
+std::vector<VisibilityProbe> survey(const World& world)
 {
     constexpr int steps = 5;
     const Bounds& bounds = world.bounds();
-    std::vector<Surroundings> places;
+    std::vector<VisibilityProbe> places;
     for (int i = 0; i < steps * steps * steps; ++i) {
         const Vec3 cell(i % steps, i / steps % steps, i / (steps * steps));
         const Vec3 fraction = 0.1f + 0.8f * cell / static_cast<float>(steps - 1);
-        places.push_back(look_around(world, mix(bounds.min, bounds.max, fraction)));
+        places.push_back(probe_visibility(world, mix(bounds.min, bounds.max, fraction)));
     }
     return places;
 }
 
-std::vector<Surroundings> places_with(const std::vector<Surroundings>& places, float front,
-                                      float shell, float escape)
+std::vector<VisibilityProbe> places_with(const std::vector<VisibilityProbe>& places, float front,
+                                         float shell, float escape)
 {
-    std::vector<Surroundings> result;
+    std::vector<VisibilityProbe> result;
     std::copy_if(places.begin(), places.end(), std::back_inserter(result),
-                 [&](const Surroundings& p) {
+                 [&](const VisibilityProbe& p) {
                      return p.front >= front && p.shell >= shell && p.escaped <= escape;
                  });
     return result;
 }
 
 /// The level direction in which a room lacks a wall, straight if it is nearly straight.
-std::optional<Vec3> missing_wall(const std::vector<Surroundings>& room)
+std::optional<Vec3> missing_wall(const std::vector<VisibilityProbe>& room)
 {
     Vec3 opening(0.0f);
     float escaped = 0.0f;
-    for (const Surroundings& place : room) {
+    for (const VisibilityProbe& place : room) {
         escaped += place.escaped;
         opening += place.escaped * place.escape_direction;
     }
@@ -119,7 +119,7 @@ std::optional<Vec3> missing_wall(const std::vector<Surroundings>& room)
 }
 
 /// The view among the places of a room that sees farthest without anything right before the lens.
-CameraDesc frame_from_inside(const World& world, const std::vector<Surroundings>& room,
+CameraDesc frame_from_inside(const World& world, const std::vector<VisibilityProbe>& room,
                              float aspect)
 {
     constexpr int azimuths = 16;
@@ -129,7 +129,7 @@ CameraDesc frame_from_inside(const World& world, const std::vector<Surroundings>
     const float height = std::max(bounds.max.y - bounds.min.y, 1e-6f);
     CameraDesc best = look_at(room.front().p, room.front().p + Vec3(0.0f, 0.0f, -1.0f), inside_fov);
     float best_score = -1.0f;
-    for (const Surroundings& place : room) {
+    for (const VisibilityProbe& place : room) {
         for (int i = 0; i < azimuths; ++i) {
             const SinCos azimuth = sin_cos(2.0f * pi * static_cast<float>(i) / azimuths);
             const SinCos tilt = sin_cos(pitch);
@@ -147,14 +147,14 @@ CameraDesc frame_from_inside(const World& world, const std::vector<Surroundings>
 }
 
 /// The highest place of a room, near its middle, that does not touch anything.
-Vec3 lamp_in(const World& world, const std::vector<Surroundings>& room)
+Vec3 lamp_in(const World& world, const std::vector<VisibilityProbe>& room)
 {
     const Bounds& bounds = world.bounds();
     const Vec3 center = 0.5f * (bounds.min + bounds.max);
     const float size = glm::length(bounds.max - bounds.min);
     Vec3 best = center;
     float best_score = -std::numeric_limits<float>::infinity();
-    for (const Surroundings& place : room) {
+    for (const VisibilityProbe& place : room) {
         const Vec3 offset = place.p - center;
         const float aside = std::sqrt(offset.x * offset.x + offset.z * offset.z);
         const float crowded = place.clearance < 0.02f * size ? size : 0.0f;
@@ -181,7 +181,7 @@ FramedView frame_scene(const Scene& scene, float aspect)
     view.camera = frame_from_outside(bounds, three_quarters, aspect);
     view.lamp_position = Vec3(view.camera.world_from_camera[3]);
 
-    const std::vector<Surroundings> places = survey(world);
+    const std::vector<VisibilityProbe> places = survey(world);
     const auto box = places_with(places, box_front, box_shell, 1.0f);
     if (box.size() >= box_places) {
         if (const auto towards_eye = missing_wall(box)) {
@@ -194,8 +194,8 @@ FramedView frame_scene(const Scene& scene, float aspect)
     if (closed.size() >= closed_places) {
         view.camera = frame_from_inside(world, closed, aspect);
         view.lamp_position = lamp_in(world, closed);
-        view.enclosed =
-            look_around(world, Vec3(view.camera.world_from_camera[3])).escaped < enclosed_escape;
+        view.enclosed = probe_visibility(world, Vec3(view.camera.world_from_camera[3])).escaped <
+                        enclosed_escape;
     }
     return view;
 }

@@ -66,18 +66,18 @@ public:
     /// For next-event estimation; nothing where no light can shine. `receiver` or what it returns
     /// is the receiver, which the choice by power does not ask for.
     template <typename Receiver>
-    [[nodiscard]] std::optional<Choice> choose_for_receiver(const Receiver& receiver, Vec2 u,
-                                                            LightSampling sampling) const
+    [[nodiscard]] std::optional<Choice> choose_for_context(const Receiver& receiver, Vec2 u,
+                                                           LightSampling sampling) const
     {
         return uses_tree(sampling) ? next_event_.choose(stated(receiver), fine_uniform(u))
                                    : choose_for_emission(u);
     }
     /// The same, with numbers as for emission.
     template <typename Receiver, typename DrawFine>
-    [[nodiscard]] std::optional<ChoiceAndNumbers> choose_for_receiver(const Receiver& receiver,
-                                                                      Vec2 u,
-                                                                      const DrawFine& draw_fine,
-                                                                      LightSampling sampling) const
+    [[nodiscard]] std::optional<ChoiceAndNumbers> choose_for_context(const Receiver& receiver,
+                                                                     Vec2 u,
+                                                                     const DrawFine& draw_fine,
+                                                                     LightSampling sampling) const
     {
         if (!uses_tree(sampling)) {
             return choose_for_emission(u, draw_fine);
@@ -88,8 +88,8 @@ public:
     }
     /// Of choosing light `id` so; positive if it can shine at the receiver.
     template <typename Receiver>
-    [[nodiscard]] float receiver_probability(LightId id, const Receiver& receiver,
-                                             LightSampling sampling) const
+    [[nodiscard]] float context_probability(LightId id, const Receiver& receiver,
+                                            LightSampling sampling) const
     {
         return uses_tree(sampling) ? next_event_.probability(id, stated(receiver))
                                    : emission_probability(id);
@@ -111,7 +111,7 @@ public:
 
 private:
     template <typename Receiver>
-    [[nodiscard]] static LightReceiver stated(const Receiver& receiver)
+    [[nodiscard]] static LightSampleContext stated(const Receiver& receiver)
     {
         if constexpr (std::is_invocable_v<const Receiver&>) {
             return receiver();

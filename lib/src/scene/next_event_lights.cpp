@@ -40,7 +40,7 @@ NextEventLights::NextEventLights(std::span<const Light> lights) : slots_(lights.
     placed_share_ = 0.25 + 0.5 * placed_power / (placed_power + by_power_.total());
 }
 
-std::optional<NextEventLights::Choice> NextEventLights::choose(const LightReceiver& receiver,
+std::optional<NextEventLights::Choice> NextEventLights::choose(const LightSampleContext& receiver,
                                                                double u) const noexcept
 {
     constexpr double below_one = 1.0 - 0x1p-53;
@@ -61,7 +61,7 @@ std::optional<NextEventLights::Choice> NextEventLights::choose(const LightReceiv
                   .probability = choice.probability * static_cast<float>(rest)};
 }
 
-float NextEventLights::probability(LightId id, const LightReceiver& receiver) const noexcept
+float NextEventLights::probability(LightId id, const LightSampleContext& receiver) const noexcept
 {
     const Slot slot = slots_[static_cast<std::size_t>(id)];
     switch (slot.group) {

@@ -26,9 +26,9 @@ public:
     explicit NextEventLights(std::span<const Light> lights);
 
     /// `u` in [0, 1). Nothing where no light can shine.
-    [[nodiscard]] std::optional<Choice> choose(const LightReceiver& receiver,
+    [[nodiscard]] std::optional<Choice> choose(const LightSampleContext& receiver,
                                                double u) const noexcept;
-    [[nodiscard]] float probability(LightId id, const LightReceiver& receiver) const noexcept;
+    [[nodiscard]] float probability(LightId id, const LightSampleContext& receiver) const noexcept;
 
     /// Lights that have a place and power.
     [[nodiscard]] std::size_t placed_count() const noexcept { return placed_.size(); }

@@ -50,7 +50,7 @@ bool World::may_be_passed(std::uint32_t instance) const noexcept
            (material.least_opacity() < 1.0f || !placed_[instance].mesh().colors.empty());
 }
 
-bool World::is_passed(const Crossing& crossing) const noexcept
+bool World::is_passed(const AnyHit& crossing) const noexcept
 {
     const Material& material = material_of(crossing.instance);
     if (material.alpha_mode() == AlphaMode::opaque) {
@@ -61,7 +61,7 @@ bool World::is_passed(const Crossing& crossing) const noexcept
     return crossing.segment.at_surface(crossing.instance, crossing.triangle) >= opacity;
 }
 
-PassRule World::pass_rule() const noexcept
+AnyHitFilter World::any_hit_filter() const noexcept
 {
     return {.owner = this,
             .concerns =
@@ -69,7 +69,7 @@ PassRule World::pass_rule() const noexcept
                     return static_cast<const World*>(world)->may_be_passed(instance);
                 },
             .passes =
-                [](const void* world, const Crossing& crossing) noexcept {
+                [](const void* world, const AnyHit& crossing) noexcept {
                     return static_cast<const World*>(world)->is_passed(crossing);
                 }};
 }

@@ -7,7 +7,7 @@
 #include "material/bsdf.h"
 #include "material/material.h"
 #include "math/footprint.h"
-#include "scene/bodies.h"
+#include "scene/enclosing_volumes.h"
 #include "scene/light_set.h"
 #include "scene/medium.h"
 #include "texture/mip_maps.h"
@@ -90,8 +90,8 @@ private:
 
     [[nodiscard]] const Material& material_of(std::uint32_t instance) const noexcept;
     [[nodiscard]] bool may_be_passed(std::uint32_t instance) const noexcept;
-    [[nodiscard]] bool is_passed(const Crossing& crossing) const noexcept;
-    [[nodiscard]] PassRule pass_rule() const noexcept;
+    [[nodiscard]] bool is_passed(const AnyHit& crossing) const noexcept;
+    [[nodiscard]] AnyHitFilter any_hit_filter() const noexcept;
     /// Unit, on the front: of the triangle, and interpolated.
     struct ShadingNormals {
         Vec3 ng;
@@ -118,7 +118,7 @@ private:
     SceneCounts counts_;
     std::unique_ptr<const EmbreeScene> embree_;
     std::vector<IntensityProfile> profiles_;
-    std::unique_ptr<const Bodies> bodies_;  // if there are any
+    std::unique_ptr<const EnclosingVolumes> bodies_;  // if there are any
     std::vector<std::string> warnings_;
     std::unique_ptr<const LightSet> lights_;
 };

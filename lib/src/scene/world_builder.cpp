@@ -31,14 +31,14 @@ Bounds bounds_of(std::span<const PlacedMesh> placed, std::span<const Sphere> sph
             }
         }
     }
-    const auto add_ball = [&bounds](Vec3 center, float radius) {
+    const auto add_sphere = [&bounds](Vec3 center, float radius) {
         bounds.min = min(bounds.min, center - radius);
         bounds.max = max(bounds.max, center + radius);
     };
     for (const Sphere& sphere : spheres) {
-        add_ball(sphere.center, sphere.radius);
+        add_sphere(sphere.center, sphere.radius);
         for (const Vec3& center : sphere.motion) {
-            add_ball(center, sphere.radius);
+            add_sphere(center, sphere.radius);
         }
     }
     return bounds.min.x <= bounds.max.x ? bounds : Bounds{};
@@ -77,9 +77,9 @@ void WorldBuilder::build(Isa isa)
     add_materials();
     place_meshes();
     w.embree_ = std::make_unique<const EmbreeScene>(
-        w.desc_.instances, w.placed_, w.desc_.meshes.size(), w.spheres_, w.pass_rule(), isa);
+        w.desc_.instances, w.placed_, w.desc_.meshes.size(), w.spheres_, w.any_hit_filter(), isa);
     w.warnings_ = precision_warnings(w.desc_);
-    find_bodies();
+    find_enclosing_volumes();
     add_lights();
 }
 
@@ -99,8 +99,8 @@ Material WorldBuilder::make_material(const MaterialDesc& desc, const Exterior& e
     World& w = world_;
     const auto [red, green, blue] = boundary_indices(desc, exterior).greater_by_less;
     const bool mip_mapped = w.desc_.texture_filter == TextureFilter::mip_mapped;
-    const Pictures pictures(w.desc_.images, mip_mapped ? &w.mip_maps_ : nullptr);
-    Material material(desc, pictures, {albedo_of(red), albedo_of(green), albedo_of(blue)},
+    const TextureImages texture_images(w.desc_.images, mip_mapped ? &w.mip_maps_ : nullptr);
+    Material material(desc, texture_images, {albedo_of(red), albedo_of(green), albedo_of(blue)},
                       w.layer_tables_.get(), exterior);
     w.disperses_ = w.disperses_ || material.disperses();
     return material;

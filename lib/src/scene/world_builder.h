@@ -23,10 +23,10 @@ private:
     [[nodiscard]] Material make_material(const MaterialDesc& desc, const Exterior& exterior);
     [[nodiscard]] const SpecularAlbedo& albedo_of(float ior);
 
-    void find_bodies();
+    void find_enclosing_volumes();
     /// Those of bodies that light passes through.
     [[nodiscard]] std::vector<std::uint32_t> body_instances() const;
-    void warn_of_open_bodies();
+    void warn_of_open_volumes();
     /// `around`: for each instance the one that it lies within, if any.
     void give_surroundings(const std::vector<std::optional<std::uint32_t>>& around);
 

@@ -22,12 +22,12 @@ using ForRows = std::function<void(int count, const std::function<void(int begin
 [[nodiscard]] TexelImage half_size(const TexelImage& image, Encoding encoding,
                                    const ForRows& for_rows);
 
-/// Smaller copies of pictures, each made when it is first asked for.
+/// Smaller copies of images, each made when it is first asked for.
 class MipMaps {
 public:
     explicit MipMaps(ForRows for_rows) : for_rows_(std::move(for_rows)) {}
 
-    /// Copies of picture number `index`, from half the size down to one texel; none of a picture of
+    /// Copies of image number `index`, from half the size down to one texel; none of an image of
     /// one texel. They stay where they are.
     [[nodiscard]] std::span<const TexelImage> of(std::size_t index, const TexelImage& image,
                                                  Encoding encoding);

@@ -18,7 +18,7 @@ namespace bdpt {
 template <TexelType type, int channels>
 class TexelReader {
 public:
-    /// `bytes` are those of the picture.
+    /// `bytes` are those of the image.
     TexelReader(const std::uint8_t* bytes, const TexelCoding& coding)
         : bytes_(bytes), coding_(coding)
     {}
@@ -85,7 +85,7 @@ private:
     TexelCoding coding_;
 };
 
-/// Calls `work` with the template arguments <type, channels> of the picture.
+/// Calls `work` with the template arguments <type, channels> of the image.
 template <typename Work>
 decltype(auto) with_layout(TexelType type, int channels, const Work& work)
 {

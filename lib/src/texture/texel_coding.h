@@ -6,7 +6,7 @@
 
 namespace bdpt {
 
-/// How the red, green and blue of a picture are stored; alpha is always linear.
+/// How the red, green and blue of an image are stored; alpha is always linear.
 enum class Encoding : std::uint8_t {
     linear,
     srgb,      ///< integers are; halves and floats are linear

@@ -50,7 +50,7 @@ struct Span {
 }  // namespace
 
 // KHR_texture_transform scales first, then rotates, then offsets. It turns the coordinates counter-
-// clockwise as seen on the picture, whose v points down: its example of the lower left quadrant and
+// clockwise as seen on the image, whose v points down: its example of the lower left quadrant and
 // Khronos's TextureTransformTest agree on that, while the signs in its GLSL listing do not.
 Texture::Texture(const TextureRef& ref, const TexelImage& image, Encoding encoding,
                  std::span<const TexelImage> coarser)

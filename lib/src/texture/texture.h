@@ -15,17 +15,17 @@
 
 namespace bdpt {
 
-/// A picture as one material slot sees it: transform, wrap modes, decoding, bilinear filter. Refers
+/// An image as one material slot sees it: transform, wrap modes, decoding, bilinear filter. Refers
 /// to the image, which must outlive it and have at least one texel.
 class Texture {
 public:
-    /// `coarser`: copies of the picture, each half as wide as the one before, for lookups with a
+    /// `coarser`: copies of the image, each half as wide as the one before, for lookups with a
     /// footprint; may be empty.
     Texture(const TextureRef& ref, const TexelImage& image, Encoding encoding,
             std::span<const TexelImage> coarser = {});
 
     /// Linear RGBA in [0, 1], radiance of any size, at the surface's own coordinates. (0, 0) is the
-    /// picture's upper left corner and v grows downwards; texel centres lie at (i + 0.5) / size;
+    /// image's upper left corner and v grows downwards; texel centres lie at (i + 0.5) / size;
     /// texels are decoded before they are mixed. A coordinate that is not finite or beyond 4e6
     /// counts as 0.
     [[nodiscard]] Vec4 lookup(const std::array<Vec2, 2>& uv) const noexcept
@@ -40,13 +40,13 @@ public:
         return bilinear(footprint == nullptr || coarser_.empty() ? *image_ : level(*footprint), uv);
     }
 
-    /// Where `lookup` looks, in texels of the picture repeated without end.
+    /// Where `lookup` looks, in texels of the image repeated without end.
     [[nodiscard]] Vec2 texel_position(const std::array<Vec2, 2>& uv) const noexcept;
 
-    /// Average over the whole picture.
+    /// Average over the whole image.
     [[nodiscard]] Vec4 mean() const;
 
-    /// The least and the greatest alpha of the picture.
+    /// The least and the greatest alpha of the image.
     [[nodiscard]] std::pair<float, float> alpha_range() const;
 
     /// 0 or 1
@@ -71,18 +71,18 @@ private:
     Vec2 offset_;
 };
 
-/// The pictures of a scene, and their smaller copies if there are to be any. Refers to both.
-struct Pictures {
-    Pictures() = default;
-    Pictures(std::span<const TexelImage> all, MipMaps* copies = nullptr)
+/// The images of a scene, and their smaller copies if there are to be any. Refers to both.
+struct TextureImages {
+    TextureImages() = default;
+    TextureImages(std::span<const TexelImage> all, MipMaps* copies = nullptr)
         : images(all), mip_maps(copies)
     {}
-    Pictures(const std::vector<TexelImage>& all, MipMaps* copies = nullptr)
+    TextureImages(const std::vector<TexelImage>& all, MipMaps* copies = nullptr)
         : images(all), mip_maps(copies)
     {}
 
     /// Without the copies.
-    [[nodiscard]] Pictures at_full_size() const { return {images}; }
+    [[nodiscard]] TextureImages at_full_size() const { return {images}; }
 
     std::span<const TexelImage> images;
     MipMaps* mip_maps = nullptr;
@@ -90,17 +90,18 @@ struct Pictures {
 
 /// The texture of a slot, if it has one.
 [[nodiscard]] inline std::optional<Texture> make_texture(const std::optional<TextureRef>& ref,
-                                                         const Pictures& pictures,
+                                                         const TextureImages& texture_images,
                                                          Encoding encoding)
 {
     if (!ref) {
         return std::nullopt;
     }
     const auto index = static_cast<std::size_t>(ref->image);
-    const TexelImage& image = pictures.images[index];
-    return pictures.mip_maps == nullptr
+    const TexelImage& image = texture_images.images[index];
+    return texture_images.mip_maps == nullptr
                ? Texture(*ref, image, encoding)
-               : Texture(*ref, image, encoding, pictures.mip_maps->of(index, image, encoding));
+               : Texture(*ref, image, encoding,
+                         texture_images.mip_maps->of(index, image, encoding));
 }
 
 }  // namespace bdpt

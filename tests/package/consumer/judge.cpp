@@ -1,4 +1,4 @@
-// Holds a flat picture against another.
+// Holds a flat image against another.
 #include <bdpt/eval/metrics/metric.h>
 #include <bdpt/image.h>
 

@@ -1,4 +1,4 @@
-// Reads a picture of one pixel, (1, 1, 1), and writes it as EXR and PNG beside it.
+// Reads an image of one pixel, (1, 1, 1), and writes it as EXR and PNG beside it.
 #include <bdpt/error.h>
 #include <bdpt/io/environment.h>
 #include <bdpt/io/exr.h>

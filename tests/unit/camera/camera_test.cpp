@@ -78,7 +78,7 @@ TEST_CASE("the top row of the film looks up, and the node's scale does not matte
     CHECK(dot(scaled, plain.generate_ray({1.0f, 2.0f}, Vec2(0.5f)).direction) == Approx(1.0));
 }
 
-TEST_CASE("a node's shear and mirror images do not reach the picture", "[camera]")
+TEST_CASE("a node's shear and mirror images do not reach the image", "[camera]")
 {
     const CameraDesc desc = test::camera_at({1.0f, 2.0f, 3.0f}, {0.0f, 0.5f, -1.0f}, 0.8f);
     const Camera plain(desc, 8, 6);

@@ -31,7 +31,7 @@ TEST_CASE("integrators have names, and names integrators")
     CHECK_FALSE(parse_integrator(""));
 }
 
-TEST_CASE("all that a picture depends on is in the hash of a scene, names are not")
+TEST_CASE("all that an image depends on is in the hash of a scene, names are not")
 {
     const SceneDesc base = test::lit_floor();
     const std::vector<std::function<void(SceneDesc&)>> changes{
@@ -128,7 +128,7 @@ TEST_CASE("runs are looked at at powers of two and at their goals")
           std::vector<std::int64_t>{1, 2});
 }
 
-/// A picture that is `signal` and noise of the given size in both halves.
+/// An image that is `signal` and noise of the given size in both halves.
 HalvedImage noisy(float signal, float noise, std::uint64_t seed)
 {
     HalvedImage result{.image = flat(40, 40, Rgb(0.0f)),
@@ -178,28 +178,28 @@ TEST_CASE("two renders count by the inverse of their noise")
 TEST_CASE("what all renders lack is found, noise is not taken for it")
 {
     const Image reference = flat(40, 40, Rgb(1.0f));
-    std::vector<Image> pictures;
+    std::vector<Image> images;
     for (const std::uint64_t seed : {1u, 11u, 21u, 31u}) {
-        pictures.push_back(noisy(1.0f, 0.6f, seed).image);
+        images.push_back(noisy(1.0f, 0.6f, seed).image);
     }
-    CHECK_FALSE(error_floor(pictures, reference, 0.0));
-    CHECK_FALSE(error_floor(std::span(pictures).first(2), reference, 0.0));
+    CHECK_FALSE(error_floor(images, reference, 0.0));
+    CHECK_FALSE(error_floor(std::span(images).first(2), reference, 0.0));
 
-    for (Image& picture : pictures) {
+    for (Image& image : images) {
         for (std::size_t i = 0; i < 400; ++i) {  // a quarter is too dark by a half
-            picture.pixels[i] -= Rgb(0.5f);
+            image.pixels[i] -= Rgb(0.5f);
         }
     }
     const double lacking = 0.25 * 0.25 / 1.01;
-    const auto floor = error_floor(pictures, reference, 0.0);
+    const auto floor = error_floor(images, reference, 0.0);
     REQUIRE(floor);
     CHECK(*floor == Approx(lacking).epsilon(0.1));
-    CHECK(error_floor(std::span(pictures).first(2), reference, 0.0).has_value());
+    CHECK(error_floor(std::span(images).first(2), reference, 0.0).has_value());
     // What the reference's noise explains does not count.
-    const auto less = error_floor(pictures, reference, 0.4 * lacking);
+    const auto less = error_floor(images, reference, 0.4 * lacking);
     REQUIRE(less);
     CHECK(*less == Approx(*floor - 0.4 * lacking));
-    CHECK_FALSE(error_floor(pictures, reference, 0.9 * lacking));
+    CHECK_FALSE(error_floor(images, reference, 0.9 * lacking));
 }
 
 TEST_CASE("pixels of the page keep nine bits of their greatest component")

@@ -77,7 +77,7 @@ bool starts(const std::string& text, const std::string& head)
     return text.rfind(head, 0) == 0;
 }
 
-TEST_CASE("a benchmark keeps runs, pictures and the reference, in turn")
+TEST_CASE("a benchmark keeps runs, images and the reference, in turn")
 {
     const Fixture bench;
     const SceneResult result = bench.run();
@@ -104,7 +104,7 @@ TEST_CASE("a benchmark keeps runs, pictures and the reference, in turn")
         return power;
     }());
 
-    SECTION("a picture is, to the bit, a render of just those samples")
+    SECTION("an image is, to the bit, a render of just those samples")
     {
         RenderOptions options = bench.options.render;
         options.integrator = IntegratorKind::bdpt;
@@ -114,8 +114,7 @@ TEST_CASE("a benchmark keeps runs, pictures and the reference, in turn")
         options.sampling.samples = {0, goals.equal_time};
         const Image whole = render(bench.scene, test::floor_camera(), options).film.develop();
         const Image kept =
-            io::read_image(picture_file(bench.folder.path(), "floor", IntegratorKind::bdpt, 1))
-                .image;
+            io::read_image(image_file(bench.folder.path(), "floor", IntegratorKind::bdpt, 1)).image;
         CHECK(kept.pixels == whole.pixels);
         // And its error is the one that was written down.
         const Image reference = io::read_image(result.reference_file).image;
@@ -139,7 +138,7 @@ TEST_CASE("a benchmark keeps runs, pictures and the reference, in turn")
             CHECK(run.stats.rays.camera >= run.stats.paths.camera);
         }
     }
-    SECTION("strategies together have the light of the picture")
+    SECTION("strategies together have the light of the image")
     {
         const json strategies = json::parse(test::read_text(bench.run_file("strategies.json")));
         CHECK(strategies["depth"] == 2);
@@ -220,7 +219,7 @@ TEST_CASE("what is broken in the folder is told, and nothing is made in its plac
                                                   {"plan.json", "[1]"},
                                                   {"reference", "{}"},
                                                   {"reference", "\xff"},
-                                                  {"reference picture", "no picture"}}));
+                                                  {"reference image", "no image"}}));
     fs::path broken = bench.run_file(file);
     if (file.starts_with("reference")) {
         broken = result.reference_file;
@@ -229,8 +228,8 @@ TEST_CASE("what is broken in the folder is told, and nothing is made in its plac
     test::write_text(broken, text);
     const std::string message = bench.failure();
     CAPTURE(message);
-    // What is no picture at all is a file of an unknown kind.
-    CHECK(starts(message, (file == "reference picture" ? "5 " : "4 ") + broken.string() + ": "));
+    // What is no image at all is a file of an unknown kind.
+    CHECK(starts(message, (file == "reference image" ? "5 " : "4 ") + broken.string() + ": "));
     CHECK(message.find('\n') == std::string::npos);
     CHECK(test::read_text(broken) == text);
 }
@@ -362,10 +361,10 @@ TEST_CASE("JSON, CSV and page have all runs and what is needed to repeat them")
     const std::size_t begin = page.find(open) + open.size();
     const json embedded = json::parse(page.substr(begin, page.find("</script>", begin) - begin));
     CHECK(embedded["command"] == "bdpt bench </script>");
-    const json& pictures = embedded["scenes"][0]["pictures"];
-    CHECK(pictures["images"].size() == 3);
-    CHECK(pictures["variance"].size() == 2);
-    CHECK(pictures["time"].size() == 2);
+    const json& images = embedded["scenes"][0]["pictures"];
+    CHECK(images["images"].size() == 3);
+    CHECK(images["variance"].size() == 2);
+    CHECK(images["time"].size() == 2);
     CHECK(embedded["scenes"][0]["strategies"]["strategies"].size() >= 4);
     for (const char* outside : {"http://", "https://", "src=", "@import"}) {
         const std::size_t found = page.find(outside);

@@ -66,7 +66,7 @@ TEST_CASE("a crop is compared within itself, at its place")
           std::string::npos);
 }
 
-TEST_CASE("pictures of different size are refused")
+TEST_CASE("images of different size are refused")
 {
     const ScratchFolder folder;
     io::write_exr(folder / "a.exr", flat(3, 2, Rgb(1.0f)), {});
@@ -78,7 +78,7 @@ TEST_CASE("pictures of different size are refused")
     CHECK(failure(second, folder / "b.exr") == text);
 }
 
-TEST_CASE("the seeds of a folder are its pictures, by name, without the reference")
+TEST_CASE("the seeds of a folder are its images, by name, without the reference")
 {
     const ScratchFolder folder;
     fs::create_directory(folder / "seeds");
@@ -92,7 +92,7 @@ TEST_CASE("the seeds of a folder are its pictures, by name, without the referenc
     CHECK(seed_files(seeds, seeds / "reference.exr") == expected);
     // The same file by another name.
     CHECK(seed_files(seeds, folder / "seeds/../seeds/./reference.exr") == expected);
-    // A picture is itself, also when it is the reference or is not there.
+    // An image is itself, also when it is the reference or is not there.
     CHECK(seed_files(folder / "no.exr", folder / "no.exr") ==
           std::vector<fs::path>{folder / "no.exr"});
     fs::create_directory(folder / "empty");

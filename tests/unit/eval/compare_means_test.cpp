@@ -113,7 +113,7 @@ TEST_CASE("second moments are told apart by size")
     CHECK(sum.above(10.0) == 220.0);
 }
 
-TEST_CASE("tiles cover the picture, and each pixel is in the tile that it is said to be in")
+TEST_CASE("tiles cover the image, and each pixel is in the tile that it is said to be in")
 {
     for (const int grid : {1, 3, 5}) {
         const TileGrid tiles(7, 5, grid);

@@ -22,7 +22,7 @@ ComparisonOptions quick(Metric metric = Metric::mse)
     return {.metrics = {metric}, .scale = {}, .map_metric = metric};
 }
 
-TEST_CASE("several pictures give mean, spread and extremes of each metric")
+TEST_CASE("several images give mean, spread and extremes of each metric")
 {
     Comparison comparison("r", flat(2, 1, Rgb(1.0f)), quick(Metric::rmse));
     for (const float value : {2.0f, 3.0f, 7.0f}) {
@@ -71,7 +71,7 @@ TEST_CASE("the bias of seeds has the error that their spread says")
     CHECK(report.biased_tiles[2].p == 1.0);
 }
 
-TEST_CASE("one picture's bias has the error that its blocks say")
+TEST_CASE("one image's bias has the error that its blocks say")
 {
     Image image = flat(16, 8, Rgb(1.0f));
     for (int y = 0; y < 8; ++y) {
@@ -156,7 +156,7 @@ TEST_CASE("a biased tile is found among noise, and noise is not called biased")
           Approx(std::sqrt(1.0 / 12 / 8)).epsilon(0.05));
 }
 
-TEST_CASE("pictures that cannot be compared are refused by name")
+TEST_CASE("images that cannot be compared are refused by name")
 {
     const auto message = [](const Image& reference, const Image& image,
                             const ComparisonOptions& options) -> std::string {

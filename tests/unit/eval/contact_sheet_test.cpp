@@ -69,7 +69,7 @@ TEST_CASE("each row has a stop more than the one above")
     CHECK(extra_exposure({.s = 3, .t = 3}) == 4.0f);
 }
 
-TEST_CASE("pictures are shrunk to the means of squares")
+TEST_CASE("images are shrunk to the means of squares")
 {
     Image image{5, 3, {}};
     for (int i = 0; i < 15; ++i) {

@@ -39,7 +39,7 @@ TEST_CASE("a point becomes the product of both kernels")
     CHECK(result.row(0)[2] == 0.0f);
 }
 
-TEST_CASE("kernels may be larger than the picture")
+TEST_CASE("kernels may be larger than the image")
 {
     const Kernel kernel(21, 1.0f / 21.0f);
     const Plane result = convolve(plane_of(2, 1, {5.0f, 5.0f}), kernel, kernel);

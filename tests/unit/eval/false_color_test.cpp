@@ -72,7 +72,7 @@ TEST_CASE("errors have the colours of the bar below them")
     }
 }
 
-TEST_CASE("the same error has the same colour in every picture of one scale")
+TEST_CASE("the same error has the same colour in every image of one scale")
 {
     const FalseColorOptions options{.scale = 1.0, .title = ""};
     const io::DisplayImage dark = false_color({2, 1, {0.25, 0.0}}, options);
@@ -110,7 +110,7 @@ TEST_CASE("numbers stand under the bar, and the title under them")
     CHECK(ink(options, 0, 160, 27, 34) == ink_of("flip_ldr"));
 }
 
-TEST_CASE("large pictures have large letters")
+TEST_CASE("large images have large letters")
 {
     const io::DisplayImage small = false_color({600, 1, std::vector<double>(600)}, {});
     const io::DisplayImage large = false_color({1300, 1, std::vector<double>(1300)}, {});
@@ -118,7 +118,7 @@ TEST_CASE("large pictures have large letters")
     CHECK(large.width == 1300);
 }
 
-TEST_CASE("all letters that are used have a picture of their own")
+TEST_CASE("all letters that are used have an image of their own")
 {
     std::set<std::string> shapes;
     const std::string_view used = "0123456789.+-e_relmsemapepsnrflip_ldr";

@@ -111,7 +111,7 @@ TEST_CASE("black and white are as far apart as FLIP can tell, green and blue the
     CHECK(of_flat(Rgb(0.5f), Rgb(0.5f)) == 0.0);
 }
 
-TEST_CASE("FLIP is from 0 to 1, symmetrical, and 0 for equal pictures only")
+TEST_CASE("FLIP is from 0 to 1, symmetrical, and 0 for equal images only")
 {
     const Image a = random_image(24, 20, 1);
     const Image b = random_image(24, 20, 2);

@@ -15,27 +15,27 @@ using test::row_of;
 using test::scaled;
 
 // Two pixels. x - r is (0.5, 0, -1) and (0, 2, 0); |r| is (0.5, 1, 2) and (0, 2, 4).
-const Image picture = row_of({Rgb(1.0f, 1.0f, 1.0f), Rgb(0.0f, 4.0f, 4.0f)});
+const Image pixel_row = row_of({Rgb(1.0f, 1.0f, 1.0f), Rgb(0.0f, 4.0f, 4.0f)});
 const Image reference = row_of({Rgb(0.5f, 1.0f, 2.0f), Rgb(0.0f, 2.0f, 4.0f)});
 
 TEST_CASE("metrics of two pixels have the values worked out by hand")
 {
     // Squares are 0.25, 0, 1, 0, 4, 0: their sum is 5.25.
-    CHECK(evaluate(Metric::mse, picture, reference) == Approx(5.25 / 6));
-    CHECK(evaluate(Metric::rmse, picture, reference) == Approx(std::sqrt(0.875)));
+    CHECK(evaluate(Metric::mse, pixel_row, reference) == Approx(5.25 / 6));
+    CHECK(evaluate(Metric::rmse, pixel_row, reference) == Approx(std::sqrt(0.875)));
     // Over r^2 + 0.01 of 0.26, 4.01 and 4.01.
-    CHECK(evaluate(Metric::relmse, picture, reference) ==
+    CHECK(evaluate(Metric::relmse, pixel_row, reference) ==
           Approx((0.25 / 0.26 + 1.0 / 4.01 + 4.0 / 4.01) / 6));
     // Over |r| + 0.01 of 0.51, 2.01 and 2.01.
-    CHECK(evaluate(Metric::mape, picture, reference) ==
+    CHECK(evaluate(Metric::mape, pixel_row, reference) ==
           Approx((0.5 / 0.51 + 1.0 / 2.01 + 2.0 / 2.01) / 6));
     // Over |x| + |r| + 0.01 of 1.51, 3.01 and 6.01.
-    CHECK(evaluate(Metric::smape, picture, reference) ==
+    CHECK(evaluate(Metric::smape, pixel_row, reference) ==
           Approx((0.5 / 1.51 + 1.0 / 3.01 + 2.0 / 6.01) / 6));
     // The reference's greatest component is 4, so 10 log10(16 / 0.875) dB.
-    CHECK(evaluate(Metric::psnr, picture, reference) == Approx(12.62112).epsilon(1e-6));
+    CHECK(evaluate(Metric::psnr, pixel_row, reference) == Approx(12.62112).epsilon(1e-6));
     // With a peak of 1: 10 log10(1 / 0.875).
-    CHECK(evaluate(Metric::psnr, picture, reference, {.peak = 1.0}) ==
+    CHECK(evaluate(Metric::psnr, pixel_row, reference, {.peak = 1.0}) ==
           Approx(0.5799195).epsilon(1e-6));
 }
 
@@ -45,20 +45,20 @@ TEST_CASE("epsilon is absolute or relative to the mean of the reference")
     const double m = 9.5 / 6;
     MetricOptions options{.epsilon = 0.1, .epsilon_unit = EpsilonUnit::reference_mean};
     const double e = 0.1 * m * m;
-    CHECK(evaluate(Metric::relmse, picture, reference, options) ==
+    CHECK(evaluate(Metric::relmse, pixel_row, reference, options) ==
           Approx((0.25 / (0.25 + e) + 1.0 / (4 + e) + 4.0 / (4 + e)) / 6));
     const double d = 0.1 * m;
-    CHECK(evaluate(Metric::mape, picture, reference, options) ==
+    CHECK(evaluate(Metric::mape, pixel_row, reference, options) ==
           Approx((0.5 / (0.5 + d) + 1.0 / (2 + d) + 2.0 / (2 + d)) / 6));
     options.epsilon_unit = EpsilonUnit::absolute;
-    CHECK(evaluate(Metric::smape, picture, reference, options) ==
+    CHECK(evaluate(Metric::smape, pixel_row, reference, options) ==
           Approx((0.5 / 1.6 + 1.0 / 3.1 + 2.0 / 6.1) / 6));
 }
 
 TEST_CASE("terms are those of each pixel, and their mean gives the metric")
 {
     const MetricScale scale = make_scale(reference, {});
-    const ErrorMap squares = error_terms(Metric::rmse, picture, reference, scale);
+    const ErrorMap squares = error_terms(Metric::rmse, pixel_row, reference, scale);
     REQUIRE(squares.values.size() == 2);
     CHECK(squares.at(0, 0) == Approx(1.25 / 3));
     CHECK(squares.at(1, 0) == Approx(4.0 / 3));
@@ -67,7 +67,7 @@ TEST_CASE("terms are those of each pixel, and their mean gives the metric")
     CHECK(mean(squares) == Approx(0.875));
 }
 
-TEST_CASE("a picture that equals its reference has no error")
+TEST_CASE("an image that equals its reference has no error")
 {
     const Image image = random_image(9, 7, 1, 20.0f);
     for (const Metric metric : all_metrics) {
@@ -94,18 +94,18 @@ TEST_CASE("what is relative does not depend on the unit of light")
           Approx(2.0 * evaluate(Metric::rmse, image, truth)));
 }
 
-TEST_CASE("metrics that divide by the reference alone tell which picture is the reference")
+TEST_CASE("metrics that divide by the reference alone tell which image is the reference")
 {
     for (const Metric metric : {Metric::mse, Metric::rmse, Metric::smape, Metric::flip_ldr}) {
         CAPTURE(to_string(metric));
         const MetricOptions fixed{.peak = 1.0, .exposure = 0.0f};
-        CHECK(evaluate(metric, picture, reference, fixed) ==
-              Approx(evaluate(metric, reference, picture, fixed)));
+        CHECK(evaluate(metric, pixel_row, reference, fixed) ==
+              Approx(evaluate(metric, reference, pixel_row, fixed)));
     }
     for (const Metric metric : {Metric::relmse, Metric::mape}) {
         CAPTURE(to_string(metric));
-        CHECK(std::abs(evaluate(metric, picture, reference) -
-                       evaluate(metric, reference, picture)) > 0.01);
+        CHECK(std::abs(evaluate(metric, pixel_row, reference) -
+                       evaluate(metric, reference, pixel_row)) > 0.01);
     }
 }
 

@@ -134,7 +134,7 @@ TEST_CASE("a summary tells of equal time, equal samples and equal error")
     }
 }
 
-TEST_CASE("the noise of the reference is not an error of the picture")
+TEST_CASE("the noise of the reference is not an error of the image")
 {
     const auto all = summarize(two_integrators(0.2), 0.8);
     CHECK(all[0].equal_time.error.median == Approx(0.8));

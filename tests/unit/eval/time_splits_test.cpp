@@ -42,7 +42,7 @@ struct Fixture {
                                  .camera = test::floor_camera(),
                                  .width = 12,
                                  .height = 9};
-        Meter meter(0.1, control);
+        BenchProgressMeter meter(0.1, control);
         return measure_time_splits(subject, options, files, goals, meter, control);
     }
 };

@@ -2,7 +2,7 @@
 
 #include "verify/evidence.h"
 
-#include <bdpt/found_path.h>
+#include <bdpt/path_contribution.h>
 
 #include <algorithm>
 #include <array>
@@ -21,7 +21,7 @@ struct ToyFault {
     double weights = 1.0;                                   ///< of all weights
     double own_density = 1.0;  ///< of strategy 1, as the others think of it
     bool claims_all = false;   ///< strategy 2 is thought to see all that it is blind for
-    bool only_left = false;    ///< the factors hold in the left half of the picture only
+    bool only_left = false;    ///< the factors hold in the left half of the image only
 };
 
 /// A renderer whose paths of two edges are points x of [0, 1), all of them as bright: 1 nit.
@@ -34,12 +34,12 @@ public:
 
     ToyLight(std::uint64_t seed, ToyFault fault) : random_(seed), fault_(fault) {}
 
-    /// A batch of a picture of 4 x 4 pixels.
+    /// A batch of an image of 4 x 4 pixels.
     eval::Batch batch(const eval::TileGrid& grid)
     {
         using namespace eval;
         const RadianceSums none(grid, 2);
-        Batch result{.bdpt = PathSums(grid, 2), .others = {none, none, none, none}, .pictures = {}};
+        Batch result{.bdpt = PathSums(grid, 2), .others = {none, none, none, none}, .images = {}};
         for (int pixel = 0; pixel < 16; ++pixel) {
             const Vec2 raster(static_cast<float>(pixel % 4) + 0.5f,
                               static_cast<float>(pixel / 4) + 0.5f);

@@ -17,7 +17,7 @@ namespace {
 
 using test::SceneBuilder;
 
-/// A lamp above a floor, a glass ball, and a point light: strategies are blind for much.
+/// A lamp above a floor, a glass sphere, and a point light: strategies are blind for much.
 Scene stage()
 {
     SceneBuilder builder;

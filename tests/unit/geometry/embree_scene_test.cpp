@@ -28,7 +28,7 @@ struct Traced {
                                 instance.world_from_object);
         }
         embree = std::make_unique<EmbreeScene>(desc.instances, placed, desc.meshes.size(),
-                                               std::span<const Sphere>{}, PassRule{}, isa);
+                                               std::span<const Sphere>{}, AnyHitFilter{}, isa);
     }
 
     SceneDesc desc;
@@ -209,7 +209,7 @@ TEST_CASE("rays that leave a surface neither meet it again nor skip what is near
                     const bool outwards = dot(w, ng) > 0.0f;
                     const auto hit = scene.embree->intersect({.origin = origin, .direction = w});
                     if (outwards) {
-                        // The ball is convex: nothing is outside but the far-away copy.
+                        // The sphere is convex: nothing is outside but the far-away copy.
                         CHECK((!hit || hit->instance == 1));
                     } else if (!hit) {
                         ++escaped_inside;

@@ -257,7 +257,7 @@ TEST_CASE("Embree hits what moves where it is at the ray's time", "[motion][geom
     }
 }
 
-TEST_CASE("Embree hits balls that move where they are at the ray's time", "[motion][geometry]")
+TEST_CASE("Embree hits spheres that move where they are at the ray's time", "[motion][geometry]")
 {
     test::Random random(9);
     std::vector<std::vector<Vec3>> motions;

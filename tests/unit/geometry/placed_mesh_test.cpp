@@ -8,7 +8,7 @@
 namespace bdpt {
 namespace {
 
-/// A square in the plane z = 0 that looks along +z, with the picture upright: u to the right (+x)
+/// A square in the plane z = 0 that looks along +z, with the image upright: u to the right (+x)
 /// and v downwards (-y).
 MeshDesc upright()
 {
@@ -29,7 +29,7 @@ Vec3 bitangent(const PlacedMesh& mesh)
 
 }  // namespace
 
-TEST_CASE("derived tangents follow u, and the bitangent points up in the picture", "[geometry]")
+TEST_CASE("derived tangents follow u, and the bitangent points up in the image", "[geometry]")
 {
     const MeshDesc mesh = upright();
     const PlacedMesh plain(mesh, Mat4(1.0f));
@@ -45,9 +45,9 @@ TEST_CASE("derived tangents follow u, and the bitangent points up in the picture
     for (Vec2& uv : flipped.uvs[0]) {
         uv.x = 1.0f - uv.x;
     }
-    const PlacedMesh mirrored_picture(flipped, Mat4(1.0f));
-    CHECK(normalize(Vec3(mirrored_picture.tangent(0, {0.3f, 0.3f}, 0))).x == Approx(-1.0f));
-    CHECK(bitangent(mirrored_picture).y == Approx(1.0f));
+    const PlacedMesh mirrored_image(flipped, Mat4(1.0f));
+    CHECK(normalize(Vec3(mirrored_image.tangent(0, {0.3f, 0.3f}, 0))).x == Approx(-1.0f));
+    CHECK(bitangent(mirrored_image).y == Approx(1.0f));
 }
 
 TEST_CASE("a mesh's own tangents are placed, with their handedness", "[geometry]")
@@ -91,7 +91,7 @@ TEST_CASE("attributes are interpolated, and absent ones have their defaults", "[
 
 TEST_CASE("a pixel covers texture coordinates as the triangle is placed", "[geometry]")
 {
-    // Skewed in the plane and in the picture: 4 m of x are 1 of u, 1 m of y is 2 of v.
+    // Skewed in the plane and in the image: 4 m of x are 1 of u, 1 m of y is 2 of v.
     MeshDesc mesh;
     mesh.positions = {{0, 0, 0}, {4, 0, 0}, {1, 1, 0}};
     mesh.uvs[0] = {{0, 0}, {1, 0}, {0.25f, 2}};

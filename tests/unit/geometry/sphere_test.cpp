@@ -76,7 +76,7 @@ TEST_CASE("rays find the nearest of spheres and instances", "[geometry]")
     CHECK(first(-2.0f, -1.0f)->sphere == no_sphere);
     CHECK(first(-2.0f, -1.0f)->instance == 0);
     CHECK(first(-10.0f, -1.0f)->sphere == 1);
-    // An instance whose box is met first, but that is hit behind the ball, leaves no trace.
+    // An instance whose box is met first, but that is hit behind the sphere, leaves no trace.
     const auto before_instance =
         scene.embree->intersect({.origin = {0.9f, 0.0f, -3.0f}, .direction = {0.0f, 0.0f, -1.0f}});
     REQUIRE(before_instance.has_value());

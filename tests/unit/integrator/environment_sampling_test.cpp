@@ -34,7 +34,7 @@ RenderOptions options_of(IntegratorKind integrator)
     return options;
 }
 
-/// Is the picture the same to the bit, however environments are sampled?
+/// Is the image the same to the bit, however environments are sampled?
 bool is_always_plain(const Scene& scene, RenderOptions options)
 {
     options.sampling.environment = EnvironmentSampling::plain;

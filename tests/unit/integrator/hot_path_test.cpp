@@ -24,8 +24,8 @@ using test::SceneBuilder;
 
 constexpr int size = 16;  // of the image [pixels]
 
-/// Picture 0: colours, half of them see-through; 1: slopes, for a normal map.
-void add_pictures(SceneDesc& desc)
+/// Image 0: colours, half of them see-through; 1: slopes, for a normal map.
+void add_images(SceneDesc& desc)
 {
     TexelImage colors{.width = 4, .height = 4, .bytes = {}};
     TexelImage slopes{.width = 4, .height = 4, .bytes = {}};
@@ -42,7 +42,7 @@ void add_pictures(SceneDesc& desc)
 SceneDesc everything()
 {
     SceneBuilder builder;
-    add_pictures(builder.desc);
+    add_images(builder.desc);
     const TextureRef colors{.image = ImageId{0}};
     const TextureRef slopes{.image = ImageId{1}};
     MaterialDesc bumpy = test::plastic(Rgb(0.6f), 0.3f);
@@ -176,7 +176,7 @@ void check(const World& world, const CameraDesc& desc, const RenderOptions& opti
                          .splats = SplatImage::present,
                          .clamp = options.film.clamp});
     StrategyFilm strategies;
-    const std::function<void(const FoundPath&)> nobody;
+    const std::function<void(const PathContribution&)> nobody;
     const Films films{.film = film, .strategies = strategies, .on_path = nobody};
     std::uint64_t rays = 0;
     check_costs_nothing_a_sample([&](std::int64_t samples) {
@@ -269,7 +269,7 @@ TEST_CASE("hot path: nor does a profile", "[hot_path]")
         Film film(FilmLayout{
             .width = size, .height = size, .region = region, .splats = SplatImage::present});
         StrategyFilm strategies;
-        const std::function<void(const FoundPath&)> nobody;
+        const std::function<void(const PathContribution&)> nobody;
         PixelTicks pixels(region);
         SampleTicks ticks;
         TimeSheet sheet{

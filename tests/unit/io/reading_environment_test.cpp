@@ -144,7 +144,7 @@ TEST_CASE("negative, infinite and NaN pixels become black with a warning")
     CHECK(warns(loaded.warnings, {"pixel (0, 0): -1", "and 2 more"}));
 }
 
-TEST_CASE("Radiance pictures are read")
+TEST_CASE("Radiance images are read")
 {
     // Mantissas and a common exponent: value = mantissa * 2^(exponent - 136).
     const std::string pixels{

@@ -139,7 +139,7 @@ TEST_CASE("nothing outside of the scene's folder is read")
         CHECK(error.code() == ErrorCode::invalid_input);
         CHECK(contains(error.what(), "/buffers/0/uri: "));
     }
-    // Pictures too, even if no material uses them.
+    // Images too, even if no material uses them.
     GltfFixture fixture = GltfFixture::triangle();
     fixture.json["images"] = {{{"uri", up}}};
     const Error error = load_error(folder.write("scene.gltf", fixture.text()));

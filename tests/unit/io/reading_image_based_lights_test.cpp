@@ -1,6 +1,6 @@
 #include "catch.hpp"
 #include "gltf_fixture.h"
-#include "picture_fixture.h"
+#include "image_fixture.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -41,14 +41,14 @@ std::string even(const Texel& texel, int size = 16)
     return quartered({texel, texel, texel, texel}, size);
 }
 
-/// A scene under one cube of these six pictures.
-GltfFixture under_cube(const std::vector<std::string>& pictures)
+/// A scene under one cube of these six images.
+GltfFixture under_cube(const std::vector<std::string>& images)
 {
     GltfFixture fixture = GltfFixture::triangle();
     nlohmann::json sides = nlohmann::json::array();
-    for (const std::string& picture : pictures) {
+    for (const std::string& image : images) {
         sides.push_back(fixture.json["images"].size());
-        fixture.json["images"].push_back({{"bufferView", fixture.add_view(picture)}});
+        fixture.json["images"].push_back({{"bufferView", fixture.add_view(image)}});
     }
     fixture.json["extensionsUsed"] = {"EXT_lights_image_based"};
     fixture.json["extensions"]["EXT_lights_image_based"]["lights"] = {
@@ -137,14 +137,14 @@ TEST_CASE("the sides of a cube are as OpenGL has them, but flipped")
     const std::array<Texel, 4> quarters{Texel{255, 0, 0, 255}, Texel{0, 255, 0, 255},
                                         Texel{0, 0, 255, 255}, Texel{255, 255, 255, 255}};
     for (std::size_t side = 0; side < 6; ++side) {
-        std::vector<std::string> pictures(6, even({0, 0, 0, 255}));
-        pictures[side] = quartered(quarters);
-        const EnvironmentLightDesc light = environment_of(under_cube(pictures).load());
+        std::vector<std::string> images(6, even({0, 0, 0, 255}));
+        images[side] = quartered(quarters);
+        const EnvironmentLightDesc light = environment_of(under_cube(images).load());
         const auto at = [&](float s, float t) {
             return seen(light, sides[side].major + s * sides[side].s + t * sides[side].t);
         };
         CAPTURE(side);
-        // Saved pictures are flipped about their vertical axis: left is where s is 1.
+        // Saved images are flipped about their vertical axis: left is where s is 1.
         CHECK(close(at(0.5f, -0.5f), Rgb(1, 0, 0)));
         CHECK(close(at(-0.5f, -0.5f), Rgb(0, 1, 0)));
         CHECK(close(at(0.5f, 0.5f), Rgb(0, 0, 1)));
@@ -180,12 +180,12 @@ TEST_CASE("rotation and intensity of an environment")
 
 TEST_CASE("colours of a cube are sRGB, and alpha divides them")
 {
-    std::vector<std::string> pictures = six_colors();
-    pictures[0] = even({188, 128, 0, 51});
-    pictures[1] = even({188, 128, 0, 0});
-    pictures[2] = orange_jpeg();
-    pictures[3] = png(1, 1, 8, 2, {raw({255, 188, 0})});
-    const LoadedScene loaded = under_cube(pictures).load();
+    std::vector<std::string> images = six_colors();
+    images[0] = even({188, 128, 0, 51});
+    images[1] = even({188, 128, 0, 0});
+    images[2] = orange_jpeg();
+    images[3] = png(1, 1, 8, 2, {raw({255, 188, 0})});
+    const LoadedScene loaded = under_cube(images).load();
     const EnvironmentLightDesc light = environment_of(loaded);
     CHECK(close(seen(light, {1, 0, 0}), 5.0f * Rgb(0.50289f, 0.21586f, 0.0f)));
     CHECK(close(seen(light, {-1, 0, 0}), Rgb(0)));
@@ -209,9 +209,9 @@ TEST_CASE("light of single texels is neither lost nor made")
             rows.push_back(raw(row));
         }
         for (const std::size_t side : {0U, 3U}) {
-            std::vector<std::string> pictures(6, even({0, 0, 0, 255}));
-            pictures[side] = png(16, 16, 8, 6, rows);
-            const Image image = environment_of(under_cube(pictures).load()).radiance;
+            std::vector<std::string> images(6, even({0, 0, 0, 255}));
+            images[side] = png(16, 16, 8, 6, rows);
+            const Image image = environment_of(under_cube(images).load()).radiance;
             double sum = 0.0;
             for (int y = 0; y < image.height; ++y) {
                 const double zone = std::cos(3.141592653589793 * y / image.height) -
@@ -252,7 +252,7 @@ TEST_CASE("only the scene that refers to an environment has it")
     CHECK(fixture.load(second).scene.lights.empty());
 }
 
-TEST_CASE("large cubes become pictures within the limits")
+TEST_CASE("large cubes become images within the limits")
 {
     GltfFixture fixture = under_cube(six_colors());
     GltfOptions options;
@@ -280,7 +280,7 @@ TEST_CASE("large cubes become pictures within the limits")
 TEST_CASE("a cube that cannot be read leaves the scene without environment")
 {
     GltfFixture broken = under_cube(six_colors());
-    broken.json["images"][4] = {{"bufferView", broken.add_view("no picture")}};
+    broken.json["images"][4] = {{"bufferView", broken.add_view("no image")}};
     const LoadedScene loaded = broken.load();
     CHECK(loaded.scene.lights.empty());
     CHECK(warns(loaded.warnings, {"/extensions/EXT_lights_image_based/lights/0/specularImages/0/4",

@@ -116,7 +116,7 @@ TEST_CASE("impossible cones and intensities are brought into their ranges")
     CHECK(only_light<SpotLightDesc>(sharp).inner_cone_angle > 0.4999f);
 }
 
-TEST_CASE("extras.radius makes a ball, in the units of the node")
+TEST_CASE("extras.radius makes a sphere, in the units of the node")
 {
     const auto point = only_light<PointLightDesc>(
         with_lights({{{"type", "point"}, {"extras", {{"radius", 0.25}}}}}).load());

@@ -1,7 +1,7 @@
 #include "catch.hpp"
 #include "gltf_fixture.h"
 #include "image/webp_header.h"
-#include "picture_fixture.h"
+#include "image_fixture.h"
 
 #include <bdpt/scene_desc.h>
 
@@ -12,15 +12,15 @@ using namespace bdpt::io;
 
 namespace {
 
-/// One triangle for each picture, with a material whose base colour it is.
-GltfFixture with_images(const std::vector<std::string>& pictures)
+/// One triangle for each image, with a material whose base colour it is.
+GltfFixture with_images(const std::vector<std::string>& images)
 {
     GltfFixture fixture = GltfFixture::triangle();
     const nlohmann::json primitive = fixture.json["meshes"][0]["primitives"][0];
     fixture.json["meshes"][0]["primitives"] = nlohmann::json::array();
-    for (std::size_t i = 0; i < pictures.size(); ++i) {
+    for (std::size_t i = 0; i < images.size(); ++i) {
         fixture.json["images"].push_back(
-            {{"uri", "data:application/octet-stream;base64," + base64(pictures[i])}});
+            {{"uri", "data:application/octet-stream;base64," + base64(images[i])}});
         fixture.json["textures"].push_back({{"source", i}});
         fixture.json["materials"].push_back(
             {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", i}}}}}});
@@ -41,23 +41,23 @@ std::string grey(int value, int side = 1)
 
 std::vector<std::string> many()
 {
-    std::vector<std::string> pictures;
+    std::vector<std::string> images;
     for (int i = 0; i < 100; ++i) {
-        pictures.push_back(grey(i, 1 + i % 7));
+        images.push_back(grey(i, 1 + i % 7));
     }
-    return pictures;
+    return images;
 }
 
 }  // namespace
 
-TEST_CASE("pictures that are decoded at once keep their order, and their materials")
+TEST_CASE("images that are decoded at once keep their order, and their materials")
 {
-    std::vector<std::string> pictures = many();
-    pictures[3] = "GIF89a";
-    pictures[40] = pictures[40].substr(0, 40);
+    std::vector<std::string> images = many();
+    images[3] = "GIF89a";
+    images[40] = images[40].substr(0, 40);
     GltfOptions options;
-    options.limits.image_bytes = 1000;  // batches of a few pictures
-    const LoadedScene loaded = with_images(pictures).load(options);
+    options.limits.image_bytes = 1000;  // batches of a few images
+    const LoadedScene loaded = with_images(images).load(options);
     REQUIRE(loaded.scene.images.size() == 98);
     REQUIRE(loaded.scene.materials.size() == 100);
     for (std::size_t i = 0; i < 100; ++i) {
@@ -76,19 +76,19 @@ TEST_CASE("pictures that are decoded at once keep their order, and their materia
     CHECK(warns(loaded.warnings, {"/images/3: ", "1 more"}));
 }
 
-TEST_CASE("the error about a picture is that of the first one, whichever thread is faster")
+TEST_CASE("the error about an image is that of the first one, whichever thread is faster")
 {
-    std::vector<std::string> pictures = many();
-    pictures[20] = png(30000, 30000, 8, 0, {raw({0})});
-    pictures[21] = png(10000, 10000, 8, 2, {raw({0})});
-    pictures[10] = png(20000, 20000, 8, 0, {raw({0})});
-    const GltfFixture fixture = with_images(pictures);
+    std::vector<std::string> images = many();
+    images[20] = png(30000, 30000, 8, 0, {raw({0})});
+    images[21] = png(10000, 10000, 8, 2, {raw({0})});
+    images[10] = png(20000, 20000, 8, 0, {raw({0})});
+    const GltfFixture fixture = with_images(images);
     for (int i = 0; i < 5; ++i) {
-        CHECK(contains(fixture.error().what(), "/images/10: picture of 20000 x 20000"));
+        CHECK(contains(fixture.error().what(), "/images/10: image of 20000 x 20000"));
     }
 }
 
-TEST_CASE("pictures count against the limit for all before they are decoded")
+TEST_CASE("images count against the limit for all before they are decoded")
 {
     GltfOptions options;
     options.limits.texture_bytes = 3 * 49 + 5;
@@ -97,16 +97,16 @@ TEST_CASE("pictures count against the limit for all before they are decoded")
     const GltfFixture one_more =
         with_images({grey(1, 7), grey(2, 7), grey(3, 7), grey(4, 2), grey(5, 2)});
     CHECK(contains(one_more.error(options).what(),
-                   "/images/4: all pictures together need more than 152 B"));
+                   "/images/4: all images together need more than 152 B"));
     // The header counts, also of what turns out to be broken.
     const GltfFixture broken =
         with_images({grey(1, 7), grey(2, 7), grey(3, 7).substr(0, 60), grey(4, 2), grey(5, 2)});
-    CHECK(contains(broken.error(options).what(), "/images/4: all pictures together"));
+    CHECK(contains(broken.error(options).what(), "/images/4: all images together"));
 }
 
 TEST_CASE("all that a scene takes counts against one limit")
 {
-    // 102 bytes of pictures; buffers and vertices of three triangles in all, with what traces them.
+    // 102 bytes of images; buffers and vertices of three triangles in all, with what traces them.
     const GltfFixture fixture = with_images({grey(1, 7), grey(2, 7), grey(3, 2)});
     GltfOptions options;
     const auto fits = [&](std::uint64_t bytes) {
@@ -145,20 +145,20 @@ TEST_CASE("limits within a memory are those of all, and of each part")
     CHECK(large.triangles == ReadLimits{}.triangles);
 }
 
-TEST_CASE("loading tells of each picture, one at a time, and what the callback throws is passed on")
+TEST_CASE("loading tells of each image, one at a time, and what the callback throws is passed on")
 {
     const GltfFixture fixture = with_images(many());
     GltfOptions options;
     std::size_t calls = 0;
     options.on_progress = [&](const LoadProgress& progress) {
         ++calls;
-        CHECK(progress.pictures_done == calls);
-        CHECK(progress.pictures_total == 100);
+        CHECK(progress.images_done == calls);
+        CHECK(progress.images_total == 100);
     };
     static_cast<void>(fixture.load(options));
     CHECK(calls == 100);
     options.on_progress = [](const LoadProgress& progress) {
-        if (progress.pictures_done == 50) {
+        if (progress.images_done == 50) {
             throw Error(ErrorCode::usage, "enough");
         }
     };
@@ -169,11 +169,11 @@ TEST_CASE("loading tells of each picture, one at a time, and what the callback t
     CHECK(calls == 0);
 }
 
-TEST_CASE("the size of a WebP picture is in its header")
+TEST_CASE("the size of a WebP image is in its header")
 {
     const auto size = [](const std::string& file) {
         const Bytes bytes(file.begin(), file.end());
-        const PictureSize found = webp_size(bytes);
+        const EncodedImageSize found = webp_size(bytes);
         return std::pair(found.width, found.height);
     };
     CHECK(size(red_webp()) == std::pair(2, 2));
@@ -192,7 +192,7 @@ TEST_CASE("the size of a WebP picture is in its header")
     CHECK_THROWS_AS(size(riff + "ALPH" + std::string(14, '\0')), std::runtime_error);
 }
 
-TEST_CASE("a WebP picture is refused by its header, before it is decoded")
+TEST_CASE("a WebP image is refused by its header, before it is decoded")
 {
     std::string bomb = red_webp();
     REQUIRE(bomb.substr(12, 4) == "VP8 ");

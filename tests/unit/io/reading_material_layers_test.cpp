@@ -1,6 +1,6 @@
 #include "catch.hpp"
 #include "gltf_fixture.h"
-#include "picture_fixture.h"
+#include "image_fixture.h"
 
 #include <bdpt/scene_desc.h>
 
@@ -44,13 +44,13 @@ TEST_CASE("clearcoat is read")
     CHECK(coat.factor == 0.75f);
     CHECK(coat.roughness == 0.25f);
     CHECK(coat.normal_scale == 0.5f);
-    CHECK(grey_picture(loaded, coat.texture) == 1);
-    CHECK(grey_picture(loaded, coat.roughness_texture) == 2);
-    CHECK(grey_picture(loaded, coat.normal_texture) == 3);
+    CHECK(grey_image(loaded, coat.texture) == 1);
+    CHECK(grey_image(loaded, coat.roughness_texture) == 2);
+    CHECK(grey_image(loaded, coat.normal_texture) == 3);
     CHECK(coat.normal_texture->uv_set == 1);
 }
 
-TEST_CASE("a coat that is not there has no pictures")
+TEST_CASE("a coat that is not there has no images")
 {
     const LoadedScene loaded =
         with_extension("KHR_materials_clearcoat", {{"clearcoatTexture", texture(1)},
@@ -78,8 +78,8 @@ TEST_CASE("sheen is read")
     const SheenDesc& sheen = loaded.scene.materials.at(0).sheen;
     CHECK(sheen.color == Rgb(0.75f, 0.5f, 0.25f));
     CHECK(sheen.roughness == 0.25f);
-    CHECK(grey_picture(loaded, sheen.color_texture) == 1);
-    CHECK(grey_picture(loaded, sheen.roughness_texture) == 2);
+    CHECK(grey_image(loaded, sheen.color_texture) == 1);
+    CHECK(grey_image(loaded, sheen.roughness_texture) == 2);
     const LoadedScene none =
         with_extension("KHR_materials_sheen", {{"sheenColorTexture", texture(1)}}).load();
     CHECK(none.scene.materials.at(0).sheen.color == Rgb(0.0f));
@@ -97,7 +97,7 @@ TEST_CASE("anisotropy is read")
     const AnisotropyDesc& anisotropy = loaded.scene.materials.at(0).anisotropy;
     CHECK(anisotropy.strength == 0.75f);
     CHECK(anisotropy.rotation == -1.5f);
-    CHECK(grey_picture(loaded, anisotropy.texture) == 1);
+    CHECK(grey_image(loaded, anisotropy.texture) == 1);
 }
 
 TEST_CASE("iridescence is read")
@@ -116,8 +116,8 @@ TEST_CASE("iridescence is read")
     CHECK(film.ior == 1.75f);
     CHECK(film.thickness_minimum == 200.0f);
     CHECK(film.thickness_maximum == 800.0f);
-    CHECK(grey_picture(loaded, film.texture) == 1);
-    CHECK(grey_picture(loaded, film.thickness_texture) == 2);
+    CHECK(grey_image(loaded, film.texture) == 1);
+    CHECK(grey_image(loaded, film.thickness_texture) == 2);
     const LoadedScene defaults =
         with_extension("KHR_materials_iridescence", {{"iridescenceFactor", 1}}).load();
     CHECK(defaults.scene.materials.at(0).iridescence.ior == 1.3f);
@@ -137,8 +137,8 @@ TEST_CASE("diffuse transmission is read")
     const DiffuseTransmissionDesc& through = loaded.scene.materials.at(0).diffuse_transmission;
     CHECK(through.factor == 0.5f);
     CHECK(through.color == Rgb(0.25f, 0.5f, 1.0f));
-    CHECK(grey_picture(loaded, through.texture) == 1);
-    CHECK(grey_picture(loaded, through.color_texture) == 2);
+    CHECK(grey_image(loaded, through.texture) == 1);
+    CHECK(grey_image(loaded, through.color_texture) == 2);
 }
 
 TEST_CASE("specular-glossiness becomes a dielectric with a specular colour")
@@ -162,9 +162,9 @@ TEST_CASE("specular-glossiness becomes a dielectric with a specular colour")
     // Times 0.04, the reflectance of index 1.5.
     CHECK(material.specular_color.r == Approx(25.0));
     CHECK(material.specular_color.b == Approx(6.25));
-    CHECK(grey_picture(loaded, material.base_color_texture) == 1);
-    CHECK(grey_picture(loaded, material.specular_color_texture) == 2);
-    CHECK(grey_picture(loaded, material.glossiness_texture) == 2);
+    CHECK(grey_image(loaded, material.base_color_texture) == 1);
+    CHECK(grey_image(loaded, material.specular_color_texture) == 2);
+    CHECK(grey_image(loaded, material.glossiness_texture) == 2);
     CHECK_FALSE(material.metallic_roughness_texture);
     const MaterialDesc defaults =
         with_extension("KHR_materials_pbrSpecularGlossiness", nlohmann::json::object())

@@ -1,6 +1,6 @@
 #include "catch.hpp"
 #include "gltf_fixture.h"
-#include "picture_fixture.h"
+#include "image_fixture.h"
 
 #include <bdpt/scene_desc.h>
 
@@ -24,7 +24,7 @@ MaterialDesc load_material(const nlohmann::json& material)
     return with_material(material).load().scene.materials.at(0);
 }
 
-/// A document with six one-pixel pictures, whose grey level tells them apart, and a texture each.
+/// A document with six one-pixel images, whose grey level tells them apart, and a texture each.
 GltfFixture with_textures(const nlohmann::json& material)
 {
     GltfFixture fixture = with_material(material);
@@ -159,7 +159,7 @@ TEST_CASE("an unlit material is its base colour, its alpha and its sides")
     CHECK(material.double_sided);
     CHECK(material.alpha_mode == AlphaMode::blend);
     CHECK(material.base_color == Vec4(0.5f, 0.25f, 1.0f, 0.75f));
-    CHECK(grey_picture(loaded, material.base_color_texture) == 2);
+    CHECK(grey_image(loaded, material.base_color_texture) == 2);
     CHECK_FALSE(material.emission_texture.has_value());
     CHECK_FALSE(material.normal_texture.has_value());
     CHECK(material.emission == Rgb(0.0f));
@@ -167,7 +167,7 @@ TEST_CASE("an unlit material is its base colour, its alpha and its sides")
     CHECK_FALSE(load_material(nlohmann::json::object()).unlit);
 }
 
-TEST_CASE("every texture slot finds its picture")
+TEST_CASE("every texture slot finds its image")
 {
     const LoadedScene loaded =
         with_textures(
@@ -184,22 +184,22 @@ TEST_CASE("every texture slot finds its picture")
                 {{"transmissionFactor", 0.5}, {"transmissionTexture", {{"index", 1}}}}}}}})
             .load();
     const MaterialDesc& material = loaded.scene.materials.at(0);
-    CHECK(grey_picture(loaded, material.emission_texture) == 0);
-    CHECK(grey_picture(loaded, material.normal_texture) == 1);
+    CHECK(grey_image(loaded, material.emission_texture) == 0);
+    CHECK(grey_image(loaded, material.normal_texture) == 1);
     CHECK(material.normal_scale == 0.5f);
-    CHECK(grey_picture(loaded, material.base_color_texture) == 3);
-    CHECK(grey_picture(loaded, material.metallic_roughness_texture) == 4);
-    CHECK(grey_picture(loaded, material.specular_texture) == 5);
-    CHECK(grey_picture(loaded, material.specular_color_texture) == 0);
-    CHECK(grey_picture(loaded, material.transmission_texture) == 1);
+    CHECK(grey_image(loaded, material.base_color_texture) == 3);
+    CHECK(grey_image(loaded, material.metallic_roughness_texture) == 4);
+    CHECK(grey_image(loaded, material.specular_texture) == 5);
+    CHECK(grey_image(loaded, material.specular_color_texture) == 0);
+    CHECK(grey_image(loaded, material.transmission_texture) == 1);
     // Each once, and not that of the occlusion.
     CHECK(loaded.scene.images.size() == 5);
     CHECK(loaded.warnings.empty());
 }
 
-TEST_CASE("a picture of metal and roughness counts if one of its factors does")
+TEST_CASE("an image of metal and roughness counts if one of its factors does")
 {
-    const auto picture_with = [](float metallic, float roughness) {
+    const auto image_with = [](float metallic, float roughness) {
         const LoadedScene loaded = with_textures({{"pbrMetallicRoughness",
                                                    {{"metallicFactor", metallic},
                                                     {"roughnessFactor", roughness},
@@ -209,15 +209,15 @@ TEST_CASE("a picture of metal and roughness counts if one of its factors does")
         CHECK(material.metallic == metallic);
         CHECK(material.roughness == roughness);
         return material.metallic_roughness_texture
-                   ? grey_picture(loaded, material.metallic_roughness_texture)
+                   ? grey_image(loaded, material.metallic_roughness_texture)
                    : -1;
     };
-    CHECK(picture_with(0.0f, 0.5f) == 4);
-    CHECK(picture_with(0.5f, 0.0f) == 4);
-    CHECK(picture_with(0.0f, 0.0f) == -1);
+    CHECK(image_with(0.0f, 0.5f) == 4);
+    CHECK(image_with(0.5f, 0.0f) == 4);
+    CHECK(image_with(0.0f, 0.0f) == -1);
 }
 
-TEST_CASE("pictures without influence are not decoded")
+TEST_CASE("images without influence are not decoded")
 {
     const LoadedScene loaded =
         with_textures(
@@ -266,7 +266,7 @@ TEST_CASE("texture transforms are read wherever a texture is")
     }
 }
 
-TEST_CASE("a third set of texture coordinates costs the texture, not the picture")
+TEST_CASE("a third set of texture coordinates costs the texture, not the image")
 {
     const LoadedScene loaded =
         with_textures({{"normalTexture", {{"index", 0}, {"texCoord", 2}}}}).load();

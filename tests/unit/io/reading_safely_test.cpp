@@ -65,10 +65,9 @@ TEST_CASE("OpenEXR is not asked to make room for more than there is")
         return exr_with("dataWindow", 16, text(x0) + text(y0) + text(x1) + text(y1) + end);
     };
     CHECK(header_error(window(0xffffffff, 0, 0, 16382)).empty());
-    CHECK(contains(header_error(window(0, 0, 1, 16384)), "picture of 2 x 16385 pixels"));
-    CHECK(
-        contains(header_error(window(0x80000000, 0, 0x7fffffff, 1)), "picture of 4294967296 x 2"));
-    CHECK(contains(header_error(window(3, 0, 1, 1)), "picture of -1 x 2"));
+    CHECK(contains(header_error(window(0, 0, 1, 16384)), "image of 2 x 16385 pixels"));
+    CHECK(contains(header_error(window(0x80000000, 0, 0x7fffffff, 1)), "image of 4294967296 x 2"));
+    CHECK(contains(header_error(window(3, 0, 1, 1)), "image of -1 x 2"));
     // A second part, as the flag for parts says.
     std::string parts = exr_with("a", 0, "") + end + "b\0c\0"s + text(7);
     CHECK(header_error(parts).empty());

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "picture_files.h"
+#include "image_files.h"
 #include "scratch_folder.h"
 
 namespace bdpt::io {
@@ -118,7 +118,7 @@ TEST_CASE("a crop is placed in its image")
     const ScratchFolder folder;
     const Image image = ramp(6, 4);
     const auto storage = GENERATE(ExrStorage::scanlines, ExrStorage::tiles);
-    PictureMetadata metadata;
+    ImageMetadata metadata;
     metadata.camera.vertical_fov = 2.0f * std::atan(0.5f);
     write_exr(folder / "a.exr", image,
               {.metadata = metadata,

@@ -16,7 +16,7 @@ namespace {
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// A smooth picture of four decades with a few very bright and some black pixels, as a room with a
+/// A smooth image of four decades with a few very bright and some black pixels, as a room with a
 /// lamp has them.
 Image room(float scale)
 {
@@ -41,7 +41,7 @@ float luminance_of(Rgb c)
     return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b;
 }
 
-TEST_CASE("automatic exposure follows the scale of the picture")
+TEST_CASE("automatic exposure follows the scale of the image")
 {
     const float reference = automatic_exposure(room(1.0f));
     for (const float scale : {1e-4f, 1e-2f, 3.0f, 1e3f, 1e6f}) {
@@ -50,7 +50,7 @@ TEST_CASE("automatic exposure follows the scale of the picture")
     }
 }
 
-TEST_CASE("a tone-mapped picture does not depend on the scale of its pixels")
+TEST_CASE("a tone-mapped image does not depend on the scale of its pixels")
 {
     const Image image = room(1.0f);
     const DisplayImage reference = tone_map(image, automatic_exposure(image));
@@ -64,22 +64,22 @@ TEST_CASE("a tone-mapped picture does not depend on the scale of its pixels")
         CAPTURE(scale);
         CHECK(largest <= 1);
     }
-    // And it is a picture: neither white nor black.
+    // And it is an image: neither white nor black.
     const auto [darkest, brightest] =
         std::minmax_element(reference.rgb.begin(), reference.rgb.end());
     CHECK(*darkest == 0);
     CHECK(*brightest == 255);
 }
 
-TEST_CASE("a uniform picture is exposed to middle grey")
+TEST_CASE("a uniform image is exposed to middle grey")
 {
     const float exposure = automatic_exposure(filled(Rgb(20.0f)));
     CHECK(20.0f * std::exp2(exposure) == Approx(0.18f));
 }
 
-TEST_CASE("a bright picture stays brighter than grey, one with highlights does not get darker")
+TEST_CASE("a bright image stays brighter than grey, one with highlights does not get darker")
 {
-    // A tenth of the picture differs from the rest by a factor of 100.
+    // A tenth of the image differs from the rest by a factor of 100.
     const auto exposed_rest = [](float tenth) {
         Image image = filled(Rgb(4.0f));
         std::fill_n(image.pixels.begin(), 10, Rgb(4.0f * tenth));
@@ -126,7 +126,7 @@ TEST_CASE("pixels that show nothing and a few lamps do not move the exposure")
     }
 }
 
-TEST_CASE("pictures without anything to see have a defined exposure")
+TEST_CASE("images without anything to see have a defined exposure")
 {
     CHECK(automatic_exposure(filled(Rgb(0.0f))) == 0.0f);
     CHECK(automatic_exposure(filled(Rgb(nan))) == 0.0f);
@@ -146,7 +146,7 @@ TEST_CASE("the filmic curve goes from 0 to 1 and never falls")
             const Rgb value = filmic(std::exp2(stop) * hue);
             CAPTURE(stop, hue.r, hue.g, hue.b);
             for (int channel = 0; channel < 3; ++channel) {
-                // Half a step of an 8-bit picture's 1/255 is invisible; 1e-6 is rounding.
+                // Half a step of an 8-bit image's 1/255 is invisible; 1e-6 is rounding.
                 CHECK(value[channel] >= previous[channel] - 1e-6f);
                 CHECK(value[channel] <= 1.0f);
             }

@@ -64,7 +64,7 @@ double flux_of(const EnvironmentLight& light, const BoundingSphere& bounds)
 
 }  // namespace
 
-TEST_CASE("environment: the picture closes behind, without a seam", "[light]")
+TEST_CASE("environment: the image closes behind, without a seam", "[light]")
 {
     // A column each; the centre is at -z, columns to the right turn towards +x.
     constexpr int columns = 6;
@@ -162,7 +162,7 @@ TEST_CASE("environment: compensated sampling leaves out half of the mean", "[lig
               share(level, 3.25f));
     }
 
-    // A constant picture keeps its density.
+    // A constant image keeps its density.
     for (const int columns : {1, 7, 512}) {
         const Image grey{.width = columns,
                          .height = 3,
@@ -174,7 +174,7 @@ TEST_CASE("environment: compensated sampling leaves out half of the mean", "[lig
     }
 }
 
-TEST_CASE("environment: directions of the picture", "[light]")
+TEST_CASE("environment: directions of the image", "[light]")
 {
     Image image{.width = 4, .height = 2, .pixels = std::vector<Rgb>(8, Rgb(0.0f))};
     const auto seen = [&](int texel, Vec3 direction) {
@@ -253,7 +253,7 @@ TEST_CASE("light paths bring to a surface what next-event estimation finds there
     builder.light(EnvironmentLightDesc{.radiance = sky()});
     builder.light(DirectionalLightDesc{.direction = {0.3f, -1, 0.2f}, .illuminance = Rgb(2.0f)});
     builder.light(PointLightDesc{.position = {0.0f, 1.0f, 0.5f}, .intensity = Rgb(1.0f)});
-    // Some of these receivers see the balls' lower halves only, or the edge of the cone.
+    // Some of these receivers see the spheres' lower halves only, or the edge of the cone.
     builder.light(
         PointLightDesc{.position = {0.0f, 0.7f, 0.2f}, .intensity = Rgb(1.0f), .radius = 0.5f});
     builder.light(SpotLightDesc{.position = {0.5f, 1.0f, 0.0f},

@@ -38,7 +38,7 @@ LightBounds point_at(Vec3 p, double intensity = 1.0)
     return {.min = p, .max = p, .normals = {}, .intensity = intensity};
 }
 
-double sum_of_probabilities(const LightTree& tree, const LightReceiver& receiver)
+double sum_of_probabilities(const LightTree& tree, const LightSampleContext& receiver)
 {
     double sum = 0.0;
     for (std::uint32_t i = 0; i < tree.size(); ++i) {
@@ -205,7 +205,7 @@ TEST_CASE("lights in any number and place make a tree", "[light][tree]")
     const LightTree tree(lights);
     CHECK(tree.size() == lights.size());
     for (int i = 0; i < 20; ++i) {
-        const LightReceiver receiver{.p = 3.0f * random.direction()};
+        const LightSampleContext receiver{.p = 3.0f * random.direction()};
         const double sum = sum_of_probabilities(tree, receiver);
         CHECK(sum <= 1.0 + 1e-4);
         CHECK(sum > 0.5);
@@ -236,8 +236,8 @@ TEST_CASE("among lights that shine along their row all behind are seen", "[light
     }
     const LightTree tree(spots);
     for (int i = 0; i < 299; ++i) {
-        const LightReceiver receiver{.p = {0.0f, 0.0f, static_cast<float>(i) + 0.5f},
-                                     .normal = Vec3(0, 0, 1)};
+        const LightSampleContext receiver{.p = {0.0f, 0.0f, static_cast<float>(i) + 0.5f},
+                                          .normal = Vec3(0, 0, 1)};
         for (int light = i + 1; light < 300; ++light) {
             CAPTURE(i, light);
             REQUIRE(tree.probability(static_cast<std::uint32_t>(light), receiver) > 0.0f);

@@ -18,7 +18,7 @@ namespace {
 
 using test::SceneBuilder;
 
-/// Triangles that turn and grow, balls and points that travel, spots and a sun that turn.
+/// Triangles that turn and grow, spheres and points that travel, spots and a sun that turn.
 World lights_that_move()
 {
     SceneBuilder builder = test::moving_stage();
@@ -35,9 +35,9 @@ World lights_that_move()
     builder.light(point).light(spot);
     PointLightDesc ball = point;
     ball.radius = 0.2f;
-    SpotLightDesc spot_ball = spot;
-    spot_ball.radius = 0.1f;
-    builder.light(ball).light(spot_ball);
+    SpotLightDesc spot_sphere = spot;
+    spot_sphere.radius = 0.1f;
+    builder.light(ball).light(spot_sphere);
     builder.light(DirectionalLightDesc{.direction = {0.0f, -1.0f, -0.5f},
                                        .illuminance = Rgb(0.5f),
                                        .turn = {{0.9f, -1.0f, -0.5f}}});
@@ -141,10 +141,10 @@ TEST_CASE("the tree of lights loses none of those that move, at any time", "[mot
     int contributions = 0;
     for (int k = 0; k < 2000; ++k) {
         const Vec3 p = 3.0f * Vec3(random.next(), random.next(), random.next()) - 1.5f;
-        const LightReceiver receiver{.p = p, .normal = random.direction()};
+        const LightSampleContext receiver{.p = p, .normal = random.direction()};
         for (std::uint32_t i = 0; i < lights.size(); ++i) {
             const float chosen =
-                lights.receiver_probability(LightId{i}, receiver, LightSampling::tree);
+                lights.context_probability(LightId{i}, receiver, LightSampling::tree);
             const float time = random.next();
             const auto incident = lights[LightId{i}].sample_incident(
                 p, random.next_2d(), EnvironmentSampling::plain, time);

@@ -38,7 +38,7 @@ SpotLightDesc lamp(float radius)
 
 }  // namespace
 
-TEST_CASE("sphere: next-event directions are uniform in the cone that the ball fills", "[light]")
+TEST_CASE("sphere: next-event directions are uniform in the cone that the sphere fills", "[light]")
 {
     // From far away to nearly touching; distances in radii.
     for (const double distance : {1e4, 30.0, 2.0, 1.1, 1.0001}) {
@@ -95,7 +95,7 @@ TEST_CASE("sphere: the density of next-event points integrates to one", "[light]
     }
 }
 
-TEST_CASE("sphere: there is no light inside of the ball", "[light]")
+TEST_CASE("sphere: there is no light inside of the sphere", "[light]")
 {
     const SphereLight light(bulb(0.25f), 0);
     const SegmentEnd top = light.surface({0.0f, 1.0f, 0.0f});
@@ -215,7 +215,7 @@ TEST_CASE("sphere lights are surfaces: seen, in the way, black", "[world]")
     CHECK(world.transmittance({.p = {0.3f, -0.2f, 4.0f}}, {.p = {0.3f, -0.2f, -4.0f}}, {}) ==
           Rgb(0.0f));
 
-    // The spot shines down from all of its ball, and nowhere else.
+    // The spot shines down from all of its sphere, and nowhere else.
     const auto below = world.intersect({.p = {5.3f, -4.0f, 0.0f}}, {0, 1, 0}, {});
     REQUIRE(below.has_value());
     CHECK(below->light == LightId{2});
@@ -223,7 +223,7 @@ TEST_CASE("sphere lights are surfaces: seen, in the way, black", "[world]")
     CHECK(world.intersect({.p = {9.0f, 0.0f, 0.0f}}, {-1, 0, 0}, {})->emission == Rgb(0.0f));
 }
 
-TEST_CASE("a ball never hides its own sampled points, from wherever it is lit", "[world]")
+TEST_CASE("a sphere never hides its own sampled points, from wherever it is lit", "[world]")
 {
     test::Random random(16);
     for (const float radius : {1e-4f, 0.1f, 30.0f}) {
@@ -251,7 +251,7 @@ TEST_CASE("a ball never hides its own sampled points, from wherever it is lit", 
     }
 }
 
-TEST_CASE("a ball never hides its own outline from far away", "[world]")
+TEST_CASE("a sphere never hides its own outline from far away", "[world]")
 {
     test::Random random(17);
     test::SceneBuilder builder;

@@ -29,7 +29,7 @@ TexelImage spotted(int size)
     return image;
 }
 
-/// One square of 2 x 2 m with the picture on it.
+/// One square of 2 x 2 m with the image on it.
 SceneDesc screen(TexelImage image)
 {
     test::SceneBuilder builder;
@@ -140,7 +140,7 @@ TEST_CASE("textured emitter: the flux of light paths is the power, with little v
 
 TEST_CASE("textured emitter: triangles are chosen by what they really emit", "[light]")
 {
-    // The picture's left half is bright. Four squares show parts of it.
+    // The image's left half is bright. Four squares show parts of it.
     TexelImage halves{.width = 2, .height = 1, .bytes = {255, 255, 255, 255, 0, 0, 0, 255}};
     test::SceneBuilder builder;
     builder.desc.images.push_back(halves);
@@ -159,7 +159,7 @@ TEST_CASE("textured emitter: triangles are chosen by what they really emit", "[l
 
 TEST_CASE("textured emitter: no point has a density of zero", "[light]")
 {
-    // The spot of the larger picture lies between the samples that are taken of it.
+    // The spot of the larger image lies between the samples that are taken of it.
     for (const int size : {8, 2000}) {
         const World world(screen(spotted(size)));
         test::Random random(24);

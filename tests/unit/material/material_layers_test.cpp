@@ -55,7 +55,7 @@ float srgb(double encoded)
     return static_cast<float>(std::pow((encoded + 0.055) / 1.055, 2.4));
 }
 
-/// The picture is worth as much as the factors that `same` has.
+/// The image is worth as much as the factors that `same` has.
 void check_texture(const MaterialDesc& textured, const MaterialDesc& same, const TexelImage& image)
 {
     check_equal(scattered(textured, {image}), scattered(same));

@@ -233,7 +233,7 @@ TEST_CASE("a mapped normal from below is turned up as little as possible")
     CHECK(cosine == Approx(0.99995f * wi.x + 0.01f * wi.z).epsilon(1e-3));
 }
 
-TEST_CASE("emission is factor times sRGB texture, and its mean that of the picture")
+TEST_CASE("emission is factor times sRGB texture, and its mean that of the image")
 {
     const SpecularAlbedo albedo(1.5f);
     const std::vector<TexelImage> images{{2, 1, {0, 102, 255, 255, 255, 102, 0, 255}}};

@@ -172,8 +172,8 @@ TEST_CASE("next-event estimation has the density that others are weighed against
             if (x1.kind != VertexKind::surface || !x1.connectible) {
                 continue;
             }
-            const auto choice = world.lights().choose_for_receiver(
-                light_receiver(x1), sampler.next_fine(), sampling.lights);
+            const auto choice = world.lights().choose_for_context(
+                light_sample_context(x1), sampler.next_fine(), sampling.lights);
             if (!choice) {
                 continue;
             }

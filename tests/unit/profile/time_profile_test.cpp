@@ -59,7 +59,7 @@ std::uint64_t pieces(const SampleTicks& ticks, Phase phase)
     return ticks.phases[static_cast<std::size_t>(phase)].pieces;
 }
 
-/// Calls `check(ticks, stats)` for each sample of the picture that is clocked; how many are.
+/// Calls `check(ticks, stats)` for each sample of the image that is clocked; how many are.
 int for_clocked_samples(const RenderOptions& options,
                         const std::function<void(const SampleTicks&, const RenderStats&)>& check)
 {
@@ -70,7 +70,7 @@ int for_clocked_samples(const RenderOptions& options,
     Film film({.width = columns, .height = rows, .region = whole, .splats = SplatImage::present});
     StrategyFilm strategies(whole, {});
     PixelTicks pixels(whole);
-    const std::function<void(const FoundPath&)> nobody;
+    const std::function<void(const PathContribution&)> nobody;
     int clocked = 0;
     for (int y = 0; y < rows; ++y) {
         for (int x = 0; x < columns; ++x) {
@@ -92,8 +92,7 @@ int for_clocked_samples(const RenderOptions& options,
 
 }  // namespace
 
-TEST_CASE("a picture is the same, to the bit, when the time of its samples is measured",
-          "[profile]")
+TEST_CASE("an image is the same, to the bit, when the time of its samples is measured", "[profile]")
 {
     const Scene scene(closed_room());
     const auto kind = GENERATE(IntegratorKind::pt, IntegratorKind::nee, IntegratorKind::mis,

@@ -108,18 +108,18 @@ TEST_CASE("AOVs of a wall are what geometry says", "[aov]")
     }
 }
 
-TEST_CASE("AOVs are of the very rays that make the picture", "[aov]")
+TEST_CASE("AOVs are of the very rays that make the image", "[aov]")
 {
     // Paths of one edge on a surface of one nit: the pixel is the share of rays that hit.
     MaterialDesc lamp = test::emitter(Rgb(1.0f));
     lamp.double_sided = true;
     test::SceneBuilder builder;
-    // Rays that pass a surface have not met it, in the AOVs as in the picture.
+    // Rays that pass a surface have not met it, in the AOVs as in the image.
     const bool passable = GENERATE(false, true);
     lamp.alpha_mode = passable ? AlphaMode::blend : AlphaMode::opaque;
     lamp.base_color.w = 0.3f;
     builder.sphere({5.0f, 2.0f, 3.0f}, 1.3f, lamp, 16);
-    // They have the time of the sample, too, whatever moves: nothing, the ball, or the camera
+    // They have the time of the sample, too, whatever moves: nothing, the sphere, or the camera
     // across the direction in which it looks.
     const int moving = GENERATE(0, 1, 2);
     const auto aside = [](float t) { return test::translation({0.0f, 0.4f * t, 1.2f * t}); };
@@ -159,7 +159,7 @@ TEST_CASE("AOVs are of the very rays that make the picture", "[aov]")
                 }
             }
             CHECK(partial > 10);
-            // Front and back of the ball: 1 - 0.7^2.
+            // Front and back of the sphere: 1 - 0.7^2.
             if (moving == 0) {
                 CHECK(inside == Approx(passable ? 0.51 : 1.0).margin(0.1));
             }

@@ -171,7 +171,7 @@ TEST_CASE("a square that slides covers pixels for as long as it is there", "[mot
     check(mesh, uneven);
 }
 
-TEST_CASE("a moment of a motion is the still picture of it, in AOVs too", "[motion][aov]")
+TEST_CASE("a moment of a motion is the still image of it, in AOVs too", "[motion][aov]")
 {
     // While nothing moves but the time is drawn, all that time can do is nothing.
     const auto still = [](bool with_steps) {
@@ -207,7 +207,7 @@ TEST_CASE("a moment of a motion is the still picture of it, in AOVs too", "[moti
     }
 }
 
-TEST_CASE("moving pictures are pure", "[motion][purity]")
+TEST_CASE("moving images are pure", "[motion][purity]")
 {
     const Scene scene = everything();
     const CameraDesc camera = moving_lens();

@@ -90,7 +90,7 @@ Image sum_of_weighted(const StrategyFilm& film)
     return {film.region().width(), film.region().height(), {sums.begin(), sums.end()}};
 }
 
-/// That the images are parts of the picture, and do not change it.
+/// That the images are parts of the whole image, and do not change it.
 void check_sum(const Scene& scene, const CameraDesc& camera, RenderOptions o)
 {
     const RenderResult result = render(scene, camera, o);
@@ -115,7 +115,7 @@ std::vector<std::string> names(const Scene& scene, const CameraDesc& camera, con
 
 }  // namespace
 
-TEST_CASE("weighted images add up to the picture", "[strategy images]")
+TEST_CASE("weighted images add up to the whole image", "[strategy images]")
 {
     const Scene scene = stage();
     for (const auto heuristic : {Heuristic::balance, Heuristic::power, Heuristic::cutoff,
@@ -176,7 +176,7 @@ TEST_CASE("a smaller depth keeps the images of the short paths", "[strategy imag
     }
 }
 
-TEST_CASE("an unweighted image is the picture by that strategy alone", "[strategy images]")
+TEST_CASE("an unweighted image is what that strategy renders alone", "[strategy images]")
 {
     const Scene scene = stage();
     RenderOptions o = options();
@@ -197,9 +197,9 @@ TEST_CASE("an unweighted image is the picture by that strategy alone", "[strateg
                 alone.bidirectional.disabled.push_back(other);
             }
         }
-        const Image picture = render(scene, camera, alone).film.develop();
-        CHECK(difference(film.unweighted(strategy), picture) < 1e-5);
-        CHECK(mean(picture).g > 0.0);
+        const Image image = render(scene, camera, alone).film.develop();
+        CHECK(difference(film.unweighted(strategy), image) < 1e-5);
+        CHECK(mean(image).g > 0.0);
     }
 }
 

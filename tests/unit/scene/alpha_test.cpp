@@ -66,8 +66,8 @@ void check_share(int count, int samples, double expected)
     CHECK(std::abs(count - samples * expected) <= 5.0 * deviation);
 }
 
-/// A picture of 4 x 4 texels with the same colour and the given alphas.
-TexelImage alpha_picture(const std::array<std::uint8_t, 16>& alphas)
+/// An image of 4 x 4 texels with the same colour and the given alphas.
+TexelImage alpha_image(const std::array<std::uint8_t, 16>& alphas)
 {
     TexelImage image{.width = 4, .height = 4, .bytes = {}};
     for (const std::uint8_t alpha : alphas) {
@@ -172,7 +172,7 @@ TEST_CASE("a mask cuts exactly", "[alpha]")
     material.base_color_texture = TextureRef{
         .image = ImageId{0}, .wrap_u = Wrap::clamp_to_edge, .wrap_v = Wrap::clamp_to_edge};
     SceneDesc desc = stack({material}, false);
-    desc.images.push_back(alpha_picture(alphas));
+    desc.images.push_back(alpha_image(alphas));
     const World world(std::move(desc));
     for (int i = 0; i < 16; ++i) {
         const float x = (static_cast<float>(i % 4) + 0.5f) / 2.0f - 1.0f;
@@ -197,7 +197,7 @@ TEST_CASE("even alpha at the cutoff leaves no speckles", "[alpha]")
     material.alpha_cutoff = 77.0f / 255.0f;
     material.base_color_texture = TextureRef{.image = ImageId{0}, .scale = {3.3f, 1.7f}};
     SceneDesc desc = stack({material}, false);
-    desc.images.push_back(alpha_picture(alphas));
+    desc.images.push_back(alpha_image(alphas));
     const World world(std::move(desc));
     for (int i = 0; i < 3000; ++i) {
         const float x = std::fmod(static_cast<float>(i) * 0.0137f, 1.98f) - 0.99f;
@@ -242,7 +242,7 @@ TEST_CASE("alpha of factor, texture and vertex colours multiply", "[alpha]")
     MeshDesc mesh = square();
     mesh.colors.assign(4, Vec4(1.0f, 1.0f, 1.0f, 0.5f));
     builder.place(builder.add_mesh(std::move(mesh)), material, Mat4(1.0f));
-    builder.desc.images.push_back(alpha_picture(alphas));
+    builder.desc.images.push_back(alpha_image(alphas));
     const World world(std::move(builder.desc));
     int met = 0;
     for (int i = 0; i < samples; ++i) {
@@ -277,7 +277,7 @@ TEST_CASE("what is sampled of a light counts by its opacity", "[alpha]")
     lamp.unlit = unlit;
     lamp.base_color_texture = TextureRef{.image = ImageId{0}};
     SceneDesc desc = stack({lamp}, false);
-    desc.images.push_back(alpha_picture(alphas));
+    desc.images.push_back(alpha_image(alphas));
     const World world(std::move(desc));
     const Vec3 receiver = above.p;
     double seen = 0.0;

@@ -36,7 +36,7 @@ SceneDesc everything(std::uint64_t seed, int count)
 }
 
 /// Somewhere about the cube; every third time within a light's own box or very near to it.
-LightReceiver random_receiver(const World& world, Random& random)
+LightSampleContext random_context(const World& world, Random& random)
 {
     Vec3 p = 1.5f * Vec3(random.next(), random.next(), random.next()) - 0.75f;
     const auto id =
@@ -46,19 +46,19 @@ LightReceiver random_receiver(const World& world, Random& random)
         p = mix(bounds->min, bounds->max, Vec3(random.next(), random.next(), random.next())) +
             near * random.direction();
     }
-    LightReceiver receiver{.p = p};
+    LightSampleContext receiver{.p = p};
     if (random.next() < 0.7f) {
         receiver.normal = random.direction();
     }
     return receiver;
 }
 
-std::vector<double> probabilities(const World& world, const LightReceiver& receiver)
+std::vector<double> probabilities(const World& world, const LightSampleContext& receiver)
 {
     std::vector<double> result;
     for (std::uint32_t id = 0; id < world.lights().size(); ++id) {
         result.push_back(static_cast<double>(
-            world.lights().receiver_probability(LightId{id}, receiver, by_tree)));
+            world.lights().context_probability(LightId{id}, receiver, by_tree)));
     }
     return result;
 }
@@ -73,9 +73,9 @@ TEST_CASE("no light is lost that can shine at a point", "[light][tree]")
         const LightSet& lights = world.lights();
         Random random(100 + seed);
         for (int i = 0; i < 60; ++i) {
-            const LightReceiver receiver = random_receiver(world, random);
+            const LightSampleContext receiver = random_context(world, random);
             for (std::uint32_t id = 0; id < lights.size(); ++id) {
-                const float chosen = lights.receiver_probability(LightId{id}, receiver, by_tree);
+                const float chosen = lights.context_probability(LightId{id}, receiver, by_tree);
                 for (int k = 0; k < 8; ++k) {
                     const auto incident =
                         lights[LightId{id}].sample_incident(receiver.p, random.next_2d());
@@ -103,12 +103,12 @@ TEST_CASE("lights are chosen as often as their probabilities say", "[light][tree
         const World world(everything(seed, 60));
         Random random(200 + seed);
         for (int i = 0; i < 12; ++i) {
-            const LightReceiver receiver = random_receiver(world, random);
+            const LightSampleContext receiver = random_context(world, random);
             std::vector<double> expected = probabilities(world, receiver);
             std::vector<double> counts(expected.size() + 1, 0.0);
             for (int k = 0; k < samples; ++k) {
                 const auto choice =
-                    world.lights().choose_for_receiver(receiver, random.next_2d(), by_tree);
+                    world.lights().choose_for_context(receiver, random.next_2d(), by_tree);
                 const std::size_t id =
                     choice ? static_cast<std::size_t>(choice->id) : expected.size();
                 if (choice) {
@@ -149,12 +149,12 @@ TEST_CASE("light from infinity has a share of its own", "[light][tree]")
     double placed = 0.0;
     std::vector<double> infinite;
     for (const double share : {0.0, 1.0}) {
-        const LightReceiver receiver{.p = Vec3(static_cast<float>(share))};
+        const LightSampleContext receiver{.p = Vec3(static_cast<float>(share))};
         placed = 0.0;
         infinite.clear();
         for (std::uint32_t id = 0; id < lights.size(); ++id) {
             const auto p =
-                static_cast<double>(lights.receiver_probability(LightId{id}, receiver, by_tree));
+                static_cast<double>(lights.context_probability(LightId{id}, receiver, by_tree));
             if (lights[LightId{id}].is_infinite()) {
                 infinite.push_back(p);
             } else {
@@ -175,19 +175,20 @@ TEST_CASE("scenes of lights at infinity, or at places, alone", "[light][tree]")
     SceneBuilder sun;
     sun.light(DirectionalLightDesc{});
     const World far(std::move(sun.desc));
-    CHECK(far.lights().receiver_probability(LightId{0}, LightReceiver{}, by_tree) == 1.0f);
-    CHECK(far.lights().choose_for_receiver(LightReceiver{}, {0.9f, 0.0f}, by_tree)->probability ==
-          1.0f);
+    CHECK(far.lights().context_probability(LightId{0}, LightSampleContext{}, by_tree) == 1.0f);
+    CHECK(
+        far.lights().choose_for_context(LightSampleContext{}, {0.9f, 0.0f}, by_tree)->probability ==
+        1.0f);
     SceneBuilder dark;
     dark.light(PointLightDesc{.intensity = Rgb(0.0f)});
     const World black(std::move(dark.desc));
-    CHECK(black.lights().receiver_probability(LightId{0}, LightReceiver{}, by_tree) == 0.0f);
+    CHECK(black.lights().context_probability(LightId{0}, LightSampleContext{}, by_tree) == 0.0f);
     CHECK_FALSE(
-        black.lights().choose_for_receiver(LightReceiver{}, {0.5f, 0.0f}, by_tree).has_value());
+        black.lights().choose_for_context(LightSampleContext{}, {0.5f, 0.0f}, by_tree).has_value());
     SceneBuilder lamp;
     lamp.light(PointLightDesc{.position = {1, 0, 0}});
     const World near(std::move(lamp.desc));
-    CHECK(near.lights().receiver_probability(LightId{0}, LightReceiver{}, by_tree) == 1.0f);
+    CHECK(near.lights().context_probability(LightId{0}, LightSampleContext{}, by_tree) == 1.0f);
 }
 
 TEST_CASE("few lights are chosen by power, many by the tree", "[light][tree]")
@@ -195,11 +196,11 @@ TEST_CASE("few lights are chosen by power, many by the tree", "[light][tree]")
     for (const int count : {2, 300}) {
         const World world(std::move(test::random_lights(9, count).desc));
         const LightSet& lights = world.lights();
-        const LightReceiver receiver{.p = {0.2f, 0.3f, 0.4f}};
+        const LightSampleContext receiver{.p = {0.2f, 0.3f, 0.4f}};
         bool differs = false;
         for (std::uint32_t id = 0; id < lights.size(); ++id) {
             const auto p = [&](LightSampling sampling) {
-                return lights.receiver_probability(LightId{id}, receiver, sampling);
+                return lights.context_probability(LightId{id}, receiver, sampling);
             };
             CHECK(p(LightSampling::automatic) ==
                   p(count == 2 ? LightSampling::power : LightSampling::tree));

@@ -39,7 +39,7 @@ TEST_CASE("Beer-Lambert: the attenuation colour is left after the attenuation di
     CHECK(inside.g == Approx(0.25f).epsilon(0.01));
     CHECK(inside.b == Approx(1.0f));
     CHECK(world.transmittance(back->end, front->end, {}) == inside);
-    // Outside there is nothing to absorb, and the ball hides what is behind it.
+    // Outside there is nothing to absorb, and the sphere hides what is behind it.
     CHECK(world.transmittance({.p = {0, 0, 5}}, front->end, {}) == Rgb(1.0f));
     CHECK(world.transmittance({.p = {0, 0, 5}}, back->end, {}) == Rgb(0.0f));
     CHECK(world.transmittance_to_infinity(front->end, {0, 0, 1}, {}) == Rgb(1.0f));
@@ -88,8 +88,8 @@ TEST_CASE("lights are chosen by power, and dark ones never", "[world]")
     const World world(std::move(builder.desc));
     CHECK(world.lights().emission_probability(LightId{0}) == Approx(0.75f));
     CHECK(world.lights().emission_probability(LightId{1}) == 0.0f);
-    CHECK(world.lights().receiver_probability(LightId{2}, LightReceiver{}, LightSampling::power) ==
-          Approx(0.25f));
+    CHECK(world.lights().context_probability(LightId{2}, LightSampleContext{},
+                                             LightSampling::power) == Approx(0.25f));
     for (int i = 0; i < 100; ++i) {
         const auto choice =
             world.lights().choose_for_emission({(static_cast<float>(i) + 0.5f) / 100.0f, 0.5f});

@@ -34,7 +34,7 @@ TexelImage stripes(int size)
     return image;
 }
 
-/// Steps along the axes of texture coordinates, in texels of a picture of this size.
+/// Steps along the axes of texture coordinates, in texels of an image of this size.
 UvFootprint footprint(float texels_along, float texels_across, int size)
 {
     UvFootprint result;
@@ -43,7 +43,7 @@ UvFootprint footprint(float texels_along, float texels_across, int size)
     return result;
 }
 
-/// Pictures of 16, 8, 4, 2 and 1 texels a side; each is even, and tells its size by its value.
+/// Images of 16, 8, 4, 2 and 1 texels a side; each is even, and tells its size by its value.
 struct Levels {
     std::vector<TexelImage> all;
 
@@ -174,17 +174,17 @@ TEST_CASE("what emits, lets light pass or bends normals is looked up as it is")
     const SpecularAlbedo albedo(1.5f);
     std::vector<TexelImage> images{stripes(16)};
     MipMaps maps(in_two_parts);
-    const Pictures pictures(images, &maps);
+    const TextureImages texture_images(images, &maps);
     const UvFootprint wide = footprint(100.0f, 100.0f, 16);
     // A place in the middle of a black stripe.
     const ShadingPoint point{
         .tangent = {1, 0, 0, 1}, .uv = {Vec2(0.5f / 16.0f), Vec2(0.0f)}, .footprint = &wide};
     const auto base = [&](const MaterialDesc& desc) {
-        return Material(desc, pictures, albedo).bsdf(point).base_color().r;
+        return Material(desc, texture_images, albedo).bsdf(point).base_color().r;
     };
     MaterialDesc desc;
     desc.base_color_texture = TextureRef{};
-    CHECK(Material(desc, pictures, albedo).needs_footprint());
+    CHECK(Material(desc, texture_images, albedo).needs_footprint());
     CHECK_FALSE(Material(desc, images, albedo).needs_footprint());
     CHECK(base(desc) == Approx(0.5f).epsilon(0.01));
     desc.alpha_mode = AlphaMode::mask;
@@ -192,17 +192,17 @@ TEST_CASE("what emits, lets light pass or bends normals is looked up as it is")
     desc.alpha_mode = AlphaMode::opaque;
     desc.unlit = true;
     CHECK(base(desc) == 0.0f);
-    CHECK_FALSE(Material(desc, pictures, albedo).needs_footprint());
+    CHECK_FALSE(Material(desc, texture_images, albedo).needs_footprint());
 
     MaterialDesc lamp;
     lamp.emission = Rgb(1.0f);
     lamp.emission_texture = TextureRef{};
-    CHECK(Material(lamp, pictures, albedo).emission({.uv = point.uv}) == Rgb(0.0f));
+    CHECK(Material(lamp, texture_images, albedo).emission({.uv = point.uv}) == Rgb(0.0f));
 
     MaterialDesc bumpy;
     bumpy.base_color_texture = TextureRef{};
     bumpy.normal_texture = TextureRef{};
-    const Material with_copies(bumpy, pictures, albedo);
+    const Material with_copies(bumpy, texture_images, albedo);
     const Material without(bumpy, images, albedo);
     CHECK(with_copies.bsdf(point).shading_normal() == without.bsdf(point).shading_normal());
 }

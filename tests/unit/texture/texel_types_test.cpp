@@ -43,7 +43,7 @@ float srgb(double encoded)
 
 }  // namespace
 
-TEST_CASE("pictures of one to four channels are grey, with alpha, colours, with alpha")
+TEST_CASE("images of one to four channels are grey, with alpha, colours, with alpha")
 {
     check(look(texel(TexelType::unorm8, 1, {51}), Encoding::linear), {0.2f, 0.2f, 0.2f, 1.0f});
     check(look(texel(TexelType::unorm8, 2, {51, 102}), Encoding::linear), {0.2f, 0.2f, 0.2f, 0.4f});

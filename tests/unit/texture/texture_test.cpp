@@ -132,7 +132,7 @@ TEST_CASE("the sRGB table is the standard's curve")
 
 TEST_CASE("KHR_texture_transform scales, turns and shifts, in that order")
 {
-    // A picture without bound, so to say: coordinates are read off a large ramp.
+    // An image without bound, so to say: coordinates are read off a large ramp.
     constexpr int size = 256;
     TexelImage image{size, size, {}};
     for (int y = 0; y < size; ++y) {
@@ -156,7 +156,7 @@ TEST_CASE("KHR_texture_transform scales, turns and shifts, in that order")
         CHECK(b.x == Approx(0.1f).margin(1e-3));
         CHECK(b.y == Approx(0.55f).margin(1e-3));
     }
-    SECTION("counter-clockwise as seen on the picture")
+    SECTION("counter-clockwise as seen on the image")
     {
         // The arrow of Khronos's TextureTransformTest ends at (0.68, 0.68); turned by 22.5 degrees,
         // its tip shows where the quad's own coordinates are (0.368, 0.888).

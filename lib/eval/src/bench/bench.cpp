@@ -13,8 +13,8 @@
 
 #include "bench/bench_files.h"
 #include "bench/hasher.h"
-#include "bench/meter.h"
 #include "bench/plan.h"
+#include "bench/progress_meter.h"
 #include "bench/reference_cache.h"
 #include "bench/strategy_shares.h"
 #include "bench/time_splits.h"
@@ -65,14 +65,14 @@ void keep(const Trial& trial, const BenchFiles& files, const BenchScene& scene,
     exr.metadata.samples_per_pixel = goals.equal_time;
     exr.metadata.camera = scene.camera;
     exr.metadata.created = std::chrono::system_clock::now();
-    io::write_exr(files.picture(goals.integrator, trial.run.seed), trial.picture, exr);
+    io::write_exr(files.image(goals.integrator, trial.run.seed), trial.image, exr);
     // Comes last: a run without its numbers is none.
     write_json(files.run(goals.integrator, trial.run.seed), run_json(trial.run));
 }
 
 /// False if stopped.
 bool run_all(const BenchScene& scene, const BenchOptions& options, const BenchFiles& files,
-             const Reference& reference, Meter& meter, const BenchControl& control,
+             const Reference& reference, BenchProgressMeter& meter, const BenchControl& control,
              SceneResult& result)
 {
     for (int seed = 0; seed < options.seeds; ++seed) {
@@ -99,23 +99,23 @@ bool run_all(const BenchScene& scene, const BenchOptions& options, const BenchFi
     return true;
 }
 
-/// What the pictures of each integrator have in common beside the reference.
+/// What the images of each integrator have in common beside the reference.
 std::vector<ErrorFloor> find_floors(const SceneResult& result, const BenchFiles& files,
                                     const Reference& reference)
 {
     std::vector<ErrorFloor> floors;
     for (const BenchGoals& goals : result.goals) {
-        std::vector<Image> pictures;
+        std::vector<Image> images;
         for (const BenchRun& run : result.runs) {
             if (run.integrator == goals.integrator) {
-                const fs::path file = files.picture(run.integrator, run.seed);
-                pictures.push_back(io::read_image(file).image);
-                check_size(pictures.back(), result.width, result.height, file);
+                const fs::path file = files.image(run.integrator, run.seed);
+                images.push_back(io::read_image(file).image);
+                check_size(images.back(), result.width, result.height, file);
             }
         }
-        const auto floor = pictures.size() < 2
+        const auto floor = images.size() < 2
                                ? std::nullopt
-                               : error_floor(pictures, reference.image, reference.noise);
+                               : error_floor(images, reference.image, reference.noise);
         if (floor) {
             floors.push_back({.integrator = goals.integrator, .relmse = *floor});
         }
@@ -133,10 +133,10 @@ double planned_seconds(const BenchOptions& options)
            (options.strategy_depth > 0 ? options.seconds : 0.0);
 }
 
-fs::path picture_file(const fs::path& folder, const std::string& scene, IntegratorKind integrator,
-                      std::uint64_t seed)
+fs::path image_file(const fs::path& folder, const std::string& scene, IntegratorKind integrator,
+                    std::uint64_t seed)
 {
-    return BenchFiles(folder, scene).picture(integrator, seed);
+    return BenchFiles(folder, scene).image(integrator, seed);
 }
 
 std::vector<fs::path> scene_files(const fs::path& folder, const std::string& scene,
@@ -148,7 +148,7 @@ std::vector<fs::path> scene_files(const fs::path& folder, const std::string& sce
         for (int seed = 0; seed < options.seeds; ++seed) {
             const auto number = static_cast<std::uint64_t>(seed);
             result.push_back(files.run(kind, number));
-            result.push_back(files.picture(kind, number));
+            result.push_back(files.image(kind, number));
         }
         result.push_back(files.time_split(kind));
     }
@@ -160,7 +160,7 @@ std::optional<SceneResult> run_scene(const BenchScene& scene, const BenchOptions
 {
     const BenchFiles files(folder, scene.name);
     files.create();
-    Meter meter(planned_seconds(options), control);
+    BenchProgressMeter meter(planned_seconds(options), control);
     // A folder that does not fit is refused before a reference is rendered for it.
     std::optional<Plan> plan;
     if (!options.reference) {

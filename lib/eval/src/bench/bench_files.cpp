@@ -55,7 +55,7 @@ fs::path BenchFiles::run(IntegratorKind integrator, std::uint64_t seed) const
     return folder_ / "scenes" / scene_ / (run_name(integrator, seed) + ".json");
 }
 
-fs::path BenchFiles::picture(IntegratorKind integrator, std::uint64_t seed) const
+fs::path BenchFiles::image(IntegratorKind integrator, std::uint64_t seed) const
 {
     return folder_ / "scenes" / scene_ / (run_name(integrator, seed) + ".exr");
 }
@@ -70,7 +70,7 @@ fs::path BenchFiles::time_split(IntegratorKind integrator) const
     return folder_ / "scenes" / scene_ / (std::string(to_string(integrator)) + "-time.json");
 }
 
-fs::path BenchFiles::reference_picture(const std::string& key) const
+fs::path BenchFiles::reference_image(const std::string& key) const
 {
     return folder_ / "references" / (scene_ + "-" + key + ".exr");
 }

@@ -20,12 +20,11 @@ public:
 
     [[nodiscard]] std::filesystem::path plan() const;
     [[nodiscard]] std::filesystem::path run(IntegratorKind integrator, std::uint64_t seed) const;
-    [[nodiscard]] std::filesystem::path picture(IntegratorKind integrator,
-                                                std::uint64_t seed) const;
+    [[nodiscard]] std::filesystem::path image(IntegratorKind integrator, std::uint64_t seed) const;
     [[nodiscard]] std::filesystem::path strategies() const;
     [[nodiscard]] std::filesystem::path time_split(IntegratorKind integrator) const;
     /// `key` tells references of one scene apart.
-    [[nodiscard]] std::filesystem::path reference_picture(const std::string& key) const;
+    [[nodiscard]] std::filesystem::path reference_image(const std::string& key) const;
     [[nodiscard]] std::filesystem::path reference_facts(const std::string& key) const;
 
     /// Makes the folders. Throws `Error` (output).
@@ -36,7 +35,7 @@ private:
     std::string scene_;
 };
 
-/// What pictures of a scene depend on, but for integrator, samples and seed.
+/// What images of a scene depend on, but for integrator, samples and seed.
 [[nodiscard]] nlohmann::ordered_json render_settings(const BenchScene& scene,
                                                      const RenderOptions& options);
 
@@ -46,7 +45,7 @@ private:
 /// Atomically. Throws `Error` (output).
 void write_json(const std::filesystem::path& file, const nlohmann::ordered_json& json);
 
-/// Throws `Error` (invalid_input) for a picture of another size.
+/// Throws `Error` (invalid_input) for an image of another size.
 void check_size(const Image& image, int width, int height, const std::filesystem::path& file);
 
 /// A run as JSON and back. The latter throws `Error` (invalid_input) that names `file`.

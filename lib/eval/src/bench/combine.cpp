@@ -8,7 +8,7 @@
 namespace bdpt::eval {
 namespace {
 
-/// Above this, noise does not explain the difference of two pictures.
+/// Above this, noise does not explain the difference of two images.
 constexpr double most_disagreement = 2.0;
 
 /// Mean of (a - b)^2 / (r^2 + e), where r is `base`.
@@ -59,7 +59,7 @@ CombinedReference combine(const HalvedImage& all_light, const HalvedImage& most_
     const double noise = noise_a + noise_b;
     const double difference =
         relative_difference(all_light.image, most_light.image, middle, epsilon);
-    // Two pictures without noise agree only if they are the same but for rounding.
+    // Two images without noise agree only if they are the same but for rounding.
     const double agreement = difference / std::max(noise, 1e-10);
     const double share = agreement > most_disagreement ? 1.0 : noise > 0.0 ? noise_b / noise : 0.5;
     CombinedReference result{.image = mix(all_light.image, most_light.image, share),

@@ -12,7 +12,7 @@
 namespace bdpt::eval {
 namespace {
 
-// What holds descriptions, and pictures. All else goes by the lists of fields (bdpt/fields.h).
+// What holds descriptions, and images. All else goes by the lists of fields (bdpt/fields.h).
 template <HasFields Desc>
 void add(Hasher& hasher, const Desc& desc);
 
@@ -84,7 +84,7 @@ template <typename T>
 void add_value(Hasher& hasher, std::string_view name, const T& value)
 {
     if constexpr (std::is_same_v<T, std::string> || std::is_same_v<T, std::optional<float>>) {
-        return;  // names, and what their author had in mind, show in no picture
+        return;  // names, and what their author had in mind, show in no image
     } else if constexpr (std::is_same_v<T, std::optional<TextureRef>>) {
         return;  // all at the end
     } else if constexpr (is_vector<T>) {

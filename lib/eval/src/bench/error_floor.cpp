@@ -26,16 +26,16 @@ double product(const Image& a, const Image& b, const Image& reference, double ep
 
 }  // namespace
 
-std::optional<double> error_floor(std::span<const Image> pictures, const Image& reference,
+std::optional<double> error_floor(std::span<const Image> images, const Image& reference,
                                   double noise)
 {
     const double epsilon = bench_scale(reference).squared_epsilon;
     Moments own;     // relMSE of each
     Moments common;  // of each pair
-    for (std::size_t i = 0; i < pictures.size(); ++i) {
-        own.add(product(pictures[i], pictures[i], reference, epsilon));
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        own.add(product(images[i], images[i], reference, epsilon));
         for (std::size_t j = 0; j < i; ++j) {
-            common.add(product(pictures[i], pictures[j], reference, epsilon));
+            common.add(product(images[i], images[j], reference, epsilon));
         }
     }
     const double floor = common.mean() - noise;

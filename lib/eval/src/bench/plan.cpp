@@ -61,7 +61,7 @@ Plan::Plan(const BenchScene& scene, const BenchOptions& options, const BenchFile
     }
 }
 
-bool Plan::complete(const BenchScene& scene, const BenchOptions& options, Meter& meter,
+bool Plan::complete(const BenchScene& scene, const BenchOptions& options, BenchProgressMeter& meter,
                     const BenchControl& control)
 {
     for (const IntegratorKind kind : options.integrators) {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "bench/bench_files.h"
-#include "bench/meter.h"
+#include "bench/progress_meter.h"
 
 namespace bdpt::eval {
 
@@ -25,8 +25,8 @@ public:
          const std::string& reference);
 
     /// Finds out what is not known yet, and keeps it. False if stopped.
-    [[nodiscard]] bool complete(const BenchScene& scene, const BenchOptions& options, Meter& meter,
-                                const BenchControl& control);
+    [[nodiscard]] bool complete(const BenchScene& scene, const BenchOptions& options,
+                                BenchProgressMeter& meter, const BenchControl& control);
 
     /// Of a complete plan. Throws `Error` (invalid_input) for numbers that make no sense.
     [[nodiscard]] BenchGoals goals(IntegratorKind kind) const;

@@ -33,7 +33,7 @@ void check_finite(const Image& image, const fs::path& file)
     }
 }
 
-/// What the layer "variance" of a picture says about its own noise; 0 without the layer.
+/// What the layer "variance" of an image says about its own noise; 0 without the layer.
 double noise_by_layer(const fs::path& file, const Image& image)
 {
     io::LoadedImage variance;
@@ -73,7 +73,7 @@ struct HalvedRender {
 };
 
 std::optional<HalvedRender> render_halves(const BenchScene& scene, const BenchOptions& options,
-                                          IntegratorKind integrator, Meter& meter,
+                                          IntegratorKind integrator, BenchProgressMeter& meter,
                                           const BenchControl& control)
 {
     const TrialSetup setup = make_setup(scene, options.render, integrator, reference_seed, control);
@@ -141,7 +141,7 @@ std::optional<KeyedReference> kept_reference(const std::string& key, const Bench
                         ": lacks what a reference of bdpt bench has; delete it "
                         "to have it made again");
     }
-    const fs::path file = files.reference_picture(key);
+    const fs::path file = files.reference_image(key);
     Reference reference{.image = io::read_image(file).image,
                         .noise = noise->get<double>(),
                         .origin = origin->get<std::string>()};
@@ -161,7 +161,7 @@ std::string reference_key(const BenchScene& scene, const BenchOptions& options)
 }
 
 std::optional<KeyedReference> reference_for(const BenchScene& scene, const BenchOptions& options,
-                                            const BenchFiles& files, Meter& meter,
+                                            const BenchFiles& files, BenchProgressMeter& meter,
                                             const BenchControl& control)
 {
     if (options.reference) {
@@ -184,7 +184,7 @@ std::optional<KeyedReference> reference_for(const BenchScene& scene, const Bench
                                         .noise = combined.noise,
                                         .origin = origin_of(combined, *bdpt, *mis)},
                           .key = key,
-                          .file = files.reference_picture(key)};
+                          .file = files.reference_image(key)};
     keep(result, files, scene, options);
     return result;
 }

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "bench/bench_files.h"
-#include "bench/meter.h"
+#include "bench/progress_meter.h"
 
 namespace bdpt::eval {
 
@@ -23,7 +23,8 @@ struct KeyedReference {
 /// stopped. Throws `Error` like `run_scene`.
 [[nodiscard]] std::optional<KeyedReference> reference_for(const BenchScene& scene,
                                                           const BenchOptions& options,
-                                                          const BenchFiles& files, Meter& meter,
+                                                          const BenchFiles& files,
+                                                          BenchProgressMeter& meter,
                                                           const BenchControl& control);
 
 /// Where the reference of the options would be kept.

@@ -23,7 +23,7 @@ constexpr std::uint64_t first_seed = 2'000'000;  // no run and no reference has 
 constexpr int batches = 8;          // independent renders that variances are taken from
 constexpr int thumbnail_side = 64;  // [pixels] at most
 
-/// Pictures of one kind of one strategy, from several renders.
+/// Images of one kind of one strategy, from several renders.
 class ImageMoments {
 public:
     void add(const Image& image)
@@ -84,7 +84,7 @@ struct StrategyMoments {
     ImageMoments unweighted;
 };
 
-/// The deepest pictures that are asked for and fit into memory.
+/// The deepest images that are asked for and fit into memory.
 int affordable_depth(RenderOptions options, const CameraDesc& camera, int asked)
 {
     for (int depth = std::min(asked, options.transport.max_depth); depth > 0; --depth) {
@@ -135,8 +135,8 @@ std::vector<std::uint8_t> length_map(const std::vector<StrategyMoments>& all)
 }  // namespace
 
 void measure_strategies(const BenchScene& scene, const BenchOptions& options,
-                        const BenchFiles& files, const Reference& reference, Meter& meter,
-                        const BenchControl& control)
+                        const BenchFiles& files, const Reference& reference,
+                        BenchProgressMeter& meter, const BenchControl& control)
 {
     if (read_json(files.strategies())) {
         meter.skip(options.seconds);
@@ -147,7 +147,7 @@ void measure_strategies(const BenchScene& scene, const BenchOptions& options,
         affordable_depth(setup.options, scene.camera, options.strategy_depth);
     if (setup.options.bidirectional.strategy_depth == 0) {
         if (control.on_note) {
-            control.on_note(scene.name + ": no pictures of strategies: they take too much memory");
+            control.on_note(scene.name + ": no images of strategies: they take too much memory");
         }
         return;
     }

@@ -4,15 +4,15 @@
 #include <bdpt/eval/bench/reference.h>
 
 #include "bench/bench_files.h"
-#include "bench/meter.h"
+#include "bench/progress_meter.h"
 
 namespace bdpt::eval {
 
 /// What each strategy of bdpt brings: share of light and of variance, weighted and by itself, with
-/// small pictures for the report; and the mean length of paths in each pixel. Kept in a file, and
+/// small images for the report; and the mean length of paths in each pixel. Kept in a file, and
 /// not made again. Nothing is kept if stopped. Throws `Error` (output, out of memory).
 void measure_strategies(const BenchScene& scene, const BenchOptions& options,
-                        const BenchFiles& files, const Reference& reference, Meter& meter,
-                        const BenchControl& control);
+                        const BenchFiles& files, const Reference& reference,
+                        BenchProgressMeter& meter, const BenchControl& control);
 
 }  // namespace bdpt::eval

@@ -78,7 +78,7 @@ TimeSplit parse_split(const ordered_json& json, IntegratorKind integrator, const
 
 /// None if stopped.
 std::optional<TimeSplit> measure(const TrialSetup& setup, const BenchGoals& goals,
-                                 const fs::path& file, const Meter& meter)
+                                 const fs::path& file, const BenchProgressMeter& meter)
 {
     RenderOptions options = setup.options;
     options.sampling.samples.end = std::max<std::int64_t>(
@@ -111,8 +111,8 @@ std::optional<TimeSplit> measure(const TrialSetup& setup, const BenchGoals& goal
 
 std::vector<TimeSplit> measure_time_splits(const BenchScene& scene, const BenchOptions& options,
                                            const BenchFiles& files,
-                                           const std::vector<BenchGoals>& goals, Meter& meter,
-                                           const BenchControl& control)
+                                           const std::vector<BenchGoals>& goals,
+                                           BenchProgressMeter& meter, const BenchControl& control)
 {
     std::vector<TimeSplit> splits;
     for (const BenchGoals& one : goals) {

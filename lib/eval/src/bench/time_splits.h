@@ -6,7 +6,7 @@
 #include <string>
 
 #include "bench/bench_files.h"
-#include "bench/meter.h"
+#include "bench/progress_meter.h"
 
 namespace bdpt::eval {
 
@@ -16,11 +16,9 @@ inline constexpr double split_share = 0.5;
 /// The time split of each integrator that `goals` name, in their order; of fewer when stopped. Each
 /// is kept in a file with a map of its pixels, and not made again. Throws `Error`: output when a
 /// file cannot be written, invalid_input when one that is there is broken.
-[[nodiscard]] std::vector<TimeSplit> measure_time_splits(const BenchScene& scene,
-                                                         const BenchOptions& options,
-                                                         const BenchFiles& files,
-                                                         const std::vector<BenchGoals>& goals,
-                                                         Meter& meter, const BenchControl& control);
+[[nodiscard]] std::vector<TimeSplit> measure_time_splits(
+    const BenchScene& scene, const BenchOptions& options, const BenchFiles& files,
+    const std::vector<BenchGoals>& goals, BenchProgressMeter& meter, const BenchControl& control);
 
 /// The map of time per pixel that is in the file of a time split, packed for the report: 0 for no
 /// time, else 1 + 12 log2(t / 2^-28 s) for a sample that takes t. None if there is no such file.

@@ -41,12 +41,12 @@ std::optional<TimedRender> render_range(const TrialSetup& setup, SampleRange sam
         .result = std::move(result), .cpu_seconds = used, .wall_seconds = passed.count()};
 }
 
-/// Notes the errors of `picture`.
-void judge(const Image& picture, const Reference& reference, const MetricScale& scale,
+/// Notes the errors of `image`.
+void judge(const Image& image, const Reference& reference, const MetricScale& scale,
            Checkpoint& point)
 {
     const auto error = [&](Metric metric) {
-        return mean(error_terms(metric, picture, reference.image, scale));
+        return mean(error_terms(metric, image, reference.image, scale));
     };
     point.relmse = error(Metric::relmse);
     point.mape = error(Metric::mape);
@@ -83,7 +83,8 @@ std::optional<std::int64_t> samples_in(const TrialSetup& setup, double seconds)
     return 2 * static_cast<std::int64_t>(std::clamp(fitting, 2.0, most) / 2.0);
 }
 
-std::optional<Film> render_all(const TrialSetup& setup, std::int64_t samples, const Meter& meter)
+std::optional<Film> render_all(const TrialSetup& setup, std::int64_t samples,
+                               const BenchProgressMeter& meter)
 {
     auto timed = render_range(setup, {.begin = 0, .end = samples}, [&](const Progress& progress) {
         meter.tell(static_cast<double>(progress.samples_done) / static_cast<double>(samples));
@@ -118,7 +119,7 @@ std::vector<std::int64_t> checkpoint_samples(const BenchGoals& goals)
 }
 
 std::optional<Trial> make_trial(const TrialSetup& setup, const BenchGoals& goals,
-                                const Reference& reference, const Meter& meter)
+                                const Reference& reference, const BenchProgressMeter& meter)
 {
     const MetricScale scale = bench_scale(reference.image);
     const std::vector<std::int64_t> ends = checkpoint_samples(goals);
@@ -146,11 +147,11 @@ std::optional<Trial> make_trial(const TrialSetup& setup, const BenchGoals& goals
         point.samples = end;
         point.cpu_seconds += std::max(timed->cpu_seconds, least_seconds);
         point.wall_seconds += timed->wall_seconds;
-        Image picture = film->develop();
-        judge(picture, reference, scale, point);
+        Image image = film->develop();
+        judge(image, reference, scale, point);
         trial.run.checkpoints.push_back(point);
         if (end == goals.equal_time) {
-            trial.picture = std::move(picture);
+            trial.image = std::move(image);
         }
     }
     const FilmDefects defects = film->defects();

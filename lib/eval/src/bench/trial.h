@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "bench/meter.h"
+#include "bench/progress_meter.h"
 
 namespace bdpt::eval {
 
@@ -33,17 +33,18 @@ inline constexpr std::int64_t most_samples = std::int64_t{1} << 20;
 
 /// A render of `samples` samples from the first on; none if stopped.
 [[nodiscard]] std::optional<Film> render_all(const TrialSetup& setup, std::int64_t samples,
-                                             const Meter& meter);
+                                             const BenchProgressMeter& meter);
 
-/// A run with its picture at equal time.
+/// A run with its image at equal time.
 struct Trial {
     BenchRun run;
-    Image picture;
+    Image image;
 };
 
 /// Makes it; none if stopped.
 [[nodiscard]] std::optional<Trial> make_trial(const TrialSetup& setup, const BenchGoals& goals,
-                                              const Reference& reference, const Meter& meter);
+                                              const Reference& reference,
+                                              const BenchProgressMeter& meter);
 
 /// A render of `samples` samples from the first on, looked at at its end; none if stopped.
 [[nodiscard]] std::optional<Checkpoint> measure_once(const TrialSetup& setup, std::int64_t samples,

@@ -86,16 +86,16 @@ Bias BiasEstimator::bias_of_one() const
 
 double BiasEstimator::pixel_standard_error() const
 {
-    const double pictures = static_cast<double>(means_[0].count());
+    const double images = static_cast<double>(means_[0].count());
     // The squares about each pixel's mean are all squares less those of the means.
     double squares = squares_;
     for (const std::vector<double>& sums : sums_) {
         for (const double sum : sums) {
-            squares -= sum * sum / pictures;
+            squares -= sum * sum / images;
         }
     }
     const double numbers = 3.0 * static_cast<double>(sums_[0].size());
-    return std::sqrt(std::max(squares, 0.0) / (numbers * pictures * (pictures - 1.0)));
+    return std::sqrt(std::max(squares, 0.0) / (numbers * images * (images - 1.0)));
 }
 
 double BiasEstimator::tile_standard_error() const

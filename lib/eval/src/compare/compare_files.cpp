@@ -39,8 +39,8 @@ std::string to_text(const PixelRect& rect)
            "," + std::to_string(rect.y1);
 }
 
-/// A picture and where it comes from.
-struct Picture {
+/// An image and where it comes from.
+struct NamedImage {
     std::string name;
     Image image;
     PixelRect filled;
@@ -50,7 +50,7 @@ class Reader {
 public:
     explicit Reader(const std::optional<std::string>& layer) { options_.layer = layer; }
 
-    [[nodiscard]] Picture read(const fs::path& file)
+    [[nodiscard]] NamedImage read(const fs::path& file)
     {
         io::LoadedImage loaded = io::read_image(file, options_);
         for (const std::string& warning : loaded.warnings) {
@@ -66,26 +66,25 @@ private:
     std::vector<std::string> warnings_;
 };
 
-void check_size(const Picture& picture, const Picture& reference)
+void check_size(const NamedImage& input, const NamedImage& reference)
 {
     const auto size = [](const Image& image) {
         return std::to_string(image.width) + " x " + std::to_string(image.height);
     };
-    if (picture.image.width != reference.image.width ||
-        picture.image.height != reference.image.height) {
-        throw Error(ErrorCode::invalid_input, picture.name + ": has " + size(picture.image) +
+    if (input.image.width != reference.image.width ||
+        input.image.height != reference.image.height) {
+        throw Error(ErrorCode::invalid_input, input.name + ": has " + size(input.image) +
                                                   " pixels, but the reference " + reference.name +
                                                   " has " + size(reference.image));
     }
 }
 
-PixelRect common_region(const Picture& picture, const Picture& reference)
+PixelRect common_region(const NamedImage& input, const NamedImage& reference)
 {
-    const PixelRect region = intersection(picture.filled, reference.filled);
+    const PixelRect region = intersection(input.filled, reference.filled);
     if (region.width() <= 0 || region.height() <= 0) {
-        throw Error(
-            ErrorCode::invalid_input,
-            picture.name + ": has no pixels in common with the reference " + reference.name);
+        throw Error(ErrorCode::invalid_input,
+                    input.name + ": has no pixels in common with the reference " + reference.name);
     }
     return region;
 }
@@ -97,28 +96,28 @@ FileComparison compare_files(std::span<const fs::path> files, const fs::path& re
                              const ComparisonOptions& options)
 {
     Reader reader(layer);
-    const Picture truth = reader.read(reference);
-    Picture picture = reader.read(files[0]);
-    check_size(picture, truth);
-    const PixelRect region = common_region(picture, truth);
+    const NamedImage truth = reader.read(reference);
+    NamedImage input = reader.read(files[0]);
+    check_size(input, truth);
+    const PixelRect region = common_region(input, truth);
     if (region.width() < truth.image.width || region.height() < truth.image.height) {
-        reader.warn(picture.name + ": compared within " + to_text(region) +
-                    " only, where both pictures have data");
+        reader.warn(input.name + ": compared within " + to_text(region) +
+                    " only, where both images have data");
     }
     ComparisonOptions placed = options;
     placed.x0 = region.x0;
     placed.y0 = region.y0;
     Comparison comparison(truth.name, crop(truth.image, region), std::move(placed));
-    comparison.add(picture.name, crop(picture.image, region));
+    comparison.add(input.name, crop(input.image, region));
     for (const fs::path& file : files.subspan(1)) {
-        picture = reader.read(file);
-        check_size(picture, truth);
-        if (!(intersection(picture.filled, region) == region)) {
-            throw Error(ErrorCode::invalid_input, picture.name + ": has data within " +
-                                                      to_text(picture.filled) + ", but " +
+        input = reader.read(file);
+        check_size(input, truth);
+        if (!(intersection(input.filled, region) == region)) {
+            throw Error(ErrorCode::invalid_input, input.name + ": has data within " +
+                                                      to_text(input.filled) + ", but " +
                                                       to_text(region) + " is compared");
         }
-        comparison.add(picture.name, crop(picture.image, region));
+        comparison.add(input.name, crop(input.image, region));
     }
     return {.report = comparison.report(), .warnings = reader.take_warnings()};
 }

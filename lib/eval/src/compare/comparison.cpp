@@ -19,7 +19,7 @@ std::string size_text(const Image& image)
     return std::to_string(image.width) + " x " + std::to_string(image.height);
 }
 
-/// Throws `Error` for the first pixel that is no number; (x0, y0) is the picture's place.
+/// Throws `Error` for the first pixel that is no number; (x0, y0) is the image's place.
 void check_finite(const std::string& name, const Image& image, int x0, int y0)
 {
     constexpr std::array<const char*, 3> channels{"red", "green", "blue"};
@@ -124,24 +124,24 @@ std::vector<TileBias> Comparison::biased_tiles() const
 
 MetricSummary Comparison::summarize(std::size_t metric) const
 {
-    const double pictures = static_cast<double>(images_.size());
+    const double images = static_cast<double>(images_.size());
     std::vector<double> values;
     for (const ImageErrors& image : images_) {
         values.push_back(image.values[metric]);
     }
     const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
     MetricSummary result{.metric = options_.metrics[metric],
-                         .mean = std::accumulate(values.begin(), values.end(), 0.0) / pictures,
+                         .mean = std::accumulate(values.begin(), values.end(), 0.0) / images,
                          .deviation = std::nullopt,
                          .least = *least,
                          .greatest = *greatest};
-    // The PSNR of a picture without errors is infinite.
+    // The PSNR of an image without errors is infinite.
     if (values.size() > 1 && std::isfinite(result.mean)) {
         double squares = 0.0;
         for (const double value : values) {
             squares += (value - result.mean) * (value - result.mean);
         }
-        result.deviation = std::sqrt(squares / (pictures - 1.0));
+        result.deviation = std::sqrt(squares / (images - 1.0));
     }
     return result;
 }

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_picture(const fs::directory_entry& entry)
+bool is_image(const fs::directory_entry& entry)
 {
     std::string extension = entry.path().extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
@@ -38,7 +38,7 @@ std::vector<fs::path> seed_files(const fs::path& path, const fs::path& reference
     std::vector<fs::path> files;
     for (auto entry = fs::directory_iterator(path, failure);
          !failure && entry != fs::directory_iterator(); entry.increment(failure)) {
-        if (is_picture(*entry) && !same_file(entry->path(), reference)) {
+        if (is_image(*entry) && !same_file(entry->path(), reference)) {
             files.push_back(entry->path());
         }
     }

@@ -23,7 +23,7 @@ double metric_value(const ComparisonReport& report, Metric metric)
 double lowest_p(const ComparisonReport& report)
 {
     if (report.biased_tiles.empty()) {
-        throw Error(ErrorCode::usage, "threshold p: needs pictures of at least two seeds");
+        throw Error(ErrorCode::usage, "threshold p: needs images of at least two seeds");
     }
     return report.biased_tiles.front().p;
 }

@@ -7,7 +7,7 @@
 
 namespace bdpt::eval {
 
-/// Squares of `size` pixels a side that cover the picture, in rows; those at the right and the
+/// Squares of `size` pixels a side that cover the image, in rows; those at the right and the
 /// lower border are cut.
 [[nodiscard]] std::vector<PixelRect> make_tiles(int width, int height, int size);
 

@@ -12,7 +12,7 @@
 namespace bdpt::eval {
 namespace {
 
-constexpr int longest_side = 160;  // of a picture on the sheet [pixels]
+constexpr int longest_side = 160;  // of an image on the sheet [pixels]
 constexpr int gap = 4;             // between cells [pixels]
 constexpr std::uint8_t background = 40;
 
@@ -47,12 +47,12 @@ CellShape shape_of(const StrategyFilm& film)
     return shape;
 }
 
-void paste(io::DisplayImage& sheet, const io::DisplayImage& picture, SheetPlace place)
+void paste(io::DisplayImage& sheet, const io::DisplayImage& image, SheetPlace place)
 {
-    for (int y = 0; y < picture.height; ++y) {
-        const auto from = picture.rgb.begin() + std::ptrdiff_t{3} * picture.width * y;
+    for (int y = 0; y < image.height; ++y) {
+        const auto from = image.rgb.begin() + std::ptrdiff_t{3} * image.width * y;
         std::copy_n(
-            from, std::ptrdiff_t{3} * picture.width,
+            from, std::ptrdiff_t{3} * image.width,
             sheet.rgb.begin() + 3 * (std::ptrdiff_t{sheet.width} * (place.y + y) + place.x));
     }
 }

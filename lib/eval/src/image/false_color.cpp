@@ -24,7 +24,7 @@ constexpr int numbers_top = bar_top + bar_height + 3;
 constexpr int title_top = numbers_top + glyph_height + 3;
 constexpr int strip_height = title_top + glyph_height + 4;
 constexpr int least_width = 160;    // three numbers side by side
-constexpr int width_at_zoom = 640;  // pictures this wide have glyphs of twice the size, and so on
+constexpr int width_at_zoom = 640;  // images this wide have glyphs of twice the size, and so on
 constexpr int margin = 4;
 
 class Canvas {

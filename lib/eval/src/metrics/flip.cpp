@@ -172,7 +172,7 @@ double redistributed(double difference, double greatest)
                              : p_shown + (difference - knee) / (greatest - knee) * (1.0 - p_shown);
 }
 
-/// What a picture is to the eye: its colours after blurring, and its features.
+/// What an image is to the eye: its colours after blurring, and its features.
 struct Percept {
     std::vector<Vec3> colors;  // hunt_lab
     Plane edges;

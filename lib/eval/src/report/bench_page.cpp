@@ -42,33 +42,32 @@ std::string heat_text()
     return result;
 }
 
-/// The pictures of an integrator at equal time, one for each seed that it has runs with.
-std::vector<Image> read_pictures(const SceneResult& scene, IntegratorKind kind,
-                                 const fs::path& folder)
+/// The images of an integrator at equal time, one for each seed that it has runs with.
+std::vector<Image> read_images(const SceneResult& scene, IntegratorKind kind,
+                               const fs::path& folder)
 {
     std::vector<Image> result;
     for (const BenchRun& run : scene.runs) {
         if (run.integrator == kind) {
-            result.push_back(
-                io::read_image(picture_file(folder, scene.name, kind, run.seed)).image);
+            result.push_back(io::read_image(image_file(folder, scene.name, kind, run.seed)).image);
         }
     }
     return result;
 }
 
-/// Variance between pictures over r^2 + e: mean of the channels, as bytes of logarithms.
-std::vector<std::uint8_t> variance_map(const std::vector<Image>& pictures, const Image& reference,
+/// Variance between images over r^2 + e: mean of the channels, as bytes of logarithms.
+std::vector<std::uint8_t> variance_map(const std::vector<Image>& images, const Image& reference,
                                        double epsilon)
 {
-    const auto count = static_cast<double>(pictures.size());
+    const auto count = static_cast<double>(images.size());
     std::vector<std::uint8_t> result;
     for (std::size_t i = 0; i < reference.pixels.size(); ++i) {
         double relative = 0.0;
         for (int c = 0; c < 3; ++c) {
             double sum = 0.0;
             double squares = 0.0;
-            for (const Image& picture : pictures) {
-                const double value = static_cast<double>(picture.pixels[i][c]);
+            for (const Image& image : images) {
+                const double value = static_cast<double>(image.pixels[i][c]);
                 sum += value;
                 squares += value * value;
             }
@@ -84,28 +83,28 @@ std::vector<std::uint8_t> variance_map(const std::vector<Image>& pictures, const
     return result;
 }
 
-ordered_json pictures_json(const SceneResult& scene, const fs::path& folder, const Image& reference,
-                           double scale)
+ordered_json image_list_json(const SceneResult& scene, const fs::path& folder,
+                             const Image& reference, double scale)
 {
     const double epsilon = bench_scale(reference).squared_epsilon;
-    ordered_json pictures = ordered_json::object();
+    ordered_json images = ordered_json::object();
     ordered_json variances = ordered_json::object();
     for (const BenchGoals& goals : scene.goals) {
-        const std::vector<Image> all = read_pictures(scene, goals.integrator, folder);
+        const std::vector<Image> all = read_images(scene, goals.integrator, folder);
         if (all.empty()) {
             continue;
         }
         const std::string name(to_string(goals.integrator));
-        pictures[name] = packed_image(all.front(), scale);
+        images[name] = packed_image(all.front(), scale);
         if (all.size() > 1) {
             variances[name] = packed_bytes(variance_map(all, reference, epsilon));
         }
     }
-    pictures["reference"] = packed_image(reference, scale);
+    images["reference"] = packed_image(reference, scale);
     return {{"scale", scale},
             {"exposure", io::automatic_exposure(reference)},
             {"epsilon", epsilon},
-            {"images", std::move(pictures)},
+            {"images", std::move(images)},
             {"variance", std::move(variances)}};
 }
 
@@ -163,7 +162,7 @@ std::string bench_page(const BenchRecord& record, const fs::path& folder)
     for (const SceneResult& scene : record.scenes) {
         ordered_json json = scene_json(scene, record.options.seconds);
         const Image reference = io::read_image(scene.reference_file).image;
-        json["pictures"] = pictures_json(scene, folder, reference, page_scale(scene.light_scale));
+        json["pictures"] = image_list_json(scene, folder, reference, page_scale(scene.light_scale));
         std::optional<ordered_json> strategies =
             read_json(BenchFiles(folder, scene.name).strategies());
         json["pictures"]["time"] = times_json(scene, BenchFiles(folder, scene.name));

@@ -76,7 +76,7 @@ std::string packed_bytes(std::span<const std::uint8_t> bytes)
                                  static_cast<uLong>(bytes.size()), Z_BEST_COMPRESSION);
     if (result != Z_OK) {
         throw Error(result == Z_MEM_ERROR ? ErrorCode::out_of_memory : ErrorCode::internal,
-                    "cannot compress a picture for the report");
+                    "cannot compress an image for the report");
     }
     return base64(std::span(compressed).first(size));
 }

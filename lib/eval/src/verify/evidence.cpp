@@ -4,7 +4,7 @@
 
 namespace bdpt::eval {
 
-PictureCheck& PictureCheck::operator+=(const PictureCheck& later)
+ImageCheck& ImageCheck::operator+=(const ImageCheck& later)
 {
     if (!defects.first_invalid) {
         defects.first_invalid = later.defects.first_invalid;
@@ -28,7 +28,7 @@ void Evidence::add(const Batch& batch)
     ++batches_;
     add_strategies(batch);
     add_lengths(batch);
-    add_pictures(batch);
+    add_images(batch);
     const WeightFinding& weights = batch.bdpt.weights();
     weights_.paths += weights.paths;
     weights_.wrong += weights.wrong;
@@ -99,7 +99,7 @@ void Evidence::add_lengths(const Batch& batch)
     }
 }
 
-void Evidence::add_pictures(const Batch& batch)
+void Evidence::add_images(const Batch& batch)
 {
     std::array<double, 5> sums{};
     for (std::size_t tile = 0; tile < grid_.size(); ++tile) {
@@ -112,8 +112,8 @@ void Evidence::add_pictures(const Batch& batch)
         }
     }
     for (std::size_t i = 0; i < sums.size(); ++i) {
-        pictures_[i].add(sums[i] / grid_.pixels());
-        checks_[i] += batch.pictures[i];
+        images_[i].add(sums[i] / grid_.pixels());
+        checks_[i] += batch.images[i];
     }
 }
 

@@ -31,22 +31,22 @@ constexpr std::array<IntegratorKind, 4> other_integrators{IntegratorKind::pt, In
 constexpr int roulette_start = 3;
 
 /// What one integrator said about itself in a batch.
-struct PictureCheck {
+struct ImageCheck {
     FilmDefects defects;
-    double lost = 0.0;  ///< as `PictureFinding::lost`
+    double lost = 0.0;  ///< as `ImageFinding::lost`
 
     /// Adds what a later render said.
-    PictureCheck& operator+=(const PictureCheck& later);
+    ImageCheck& operator+=(const ImageCheck& later);
 };
 
 /// One batch: independent samples of all integrators.
 struct Batch {
     PathSums bdpt;
-    std::array<RadianceSums, 4> others;    ///< in the order of `other_integrators`
-    std::array<PictureCheck, 5> pictures;  ///< bdpt, then in that order
+    std::array<RadianceSums, 4> others;  ///< in the order of `other_integrators`
+    std::array<ImageCheck, 5> images;    ///< bdpt, then in that order
 };
 
-/// What many batches say about a strategy in a tile or in the whole picture.
+/// What many batches say about a strategy in a tile or in the whole image.
 struct StrategyEvidence {
     Moments difference;  ///< tested - expected, a mean over samples and pixels
     StrategySums sums;
@@ -61,7 +61,7 @@ struct LengthEvidence {
     LengthSums sums;
 };
 
-/// All batches together, by cell: the tiles, then the whole picture.
+/// All batches together, by cell: the tiles, then the whole image.
 class Evidence {
 public:
     Evidence(const TileGrid& grid, int max_depth);
@@ -87,8 +87,8 @@ public:
         return finders_[row_.pair(edges, u, finder)];
     }
     /// Over all lengths: bdpt, then `other_integrators`.
-    [[nodiscard]] const std::array<Moments, 5>& pictures() const { return pictures_; }
-    [[nodiscard]] const std::array<PictureCheck, 5>& checks() const { return checks_; }
+    [[nodiscard]] const std::array<Moments, 5>& images() const { return images_; }
+    [[nodiscard]] const std::array<ImageCheck, 5>& checks() const { return checks_; }
     [[nodiscard]] const WeightFinding& weights() const { return weights_; }
     /// Pixels of a cell.
     [[nodiscard]] double pixels(std::size_t cell) const
@@ -105,7 +105,7 @@ public:
 private:
     void add_strategies(const Batch& batch);
     void add_lengths(const Batch& batch);
-    void add_pictures(const Batch& batch);
+    void add_images(const Batch& batch);
 
     const TileGrid& grid_;
     StrategyRow row_;
@@ -113,8 +113,8 @@ private:
     std::vector<StrategyEvidence> strategies_;  // by cell, then by index
     std::vector<LengthEvidence> lengths_;       // by cell, then by length
     std::vector<double> finders_;               // by pair
-    std::array<Moments, 5> pictures_;
-    std::array<PictureCheck, 5> checks_;
+    std::array<Moments, 5> images_;
+    std::array<ImageCheck, 5> checks_;
     WeightFinding weights_;
 };
 

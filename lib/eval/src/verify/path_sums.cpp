@@ -33,7 +33,7 @@ void add_pair(SecondMoment& moment, double weighted, double all, double a, doubl
     moment.add(size * y, weighted * size / sum * y * y * y);
 }
 
-double share_of(const FoundPath& path, std::size_t s)
+double share_of(const PathContribution& path, std::size_t s)
 {
     return s < path.shares.size() ? static_cast<double>(path.shares[s]) : 0.0;
 }
@@ -84,7 +84,7 @@ PathSums::PathSums(const TileGrid& grid, int max_depth)
       finders_(row_.pairs())
 {}
 
-void PathSums::check_weight(const FoundPath& path, double definition)
+void PathSums::check_weight(const PathContribution& path, double definition)
 {
     constexpr double tolerance = 1e-3;  // far above what rounding does
     const double difference = std::abs(static_cast<double>(path.weight) - definition);
@@ -95,7 +95,7 @@ void PathSums::check_weight(const FoundPath& path, double definition)
     weights_.worst = std::isnan(difference) ? 1.0 : std::max(weights_.worst, difference);
 }
 
-void PathSums::add(const FoundPath& path)
+void PathSums::add(const PathContribution& path)
 {
     const int edges = path.strategy.s + path.strategy.t - 1;
     const double unweighted = mean_channel(path.unweighted);
@@ -141,7 +141,8 @@ void PathSums::add(const FoundPath& path)
                   path, measure);
 }
 
-void PathSums::add_to_strategies(const FoundPath& path, const Measure& measure, std::size_t first)
+void PathSums::add_to_strategies(const PathContribution& path, const Measure& measure,
+                                 std::size_t first)
 {
     const auto& [weighted, all, squares, moment, largest] = measure;
     const auto own = static_cast<std::size_t>(path.strategy.s);
@@ -173,7 +174,7 @@ void PathSums::add_to_strategies(const FoundPath& path, const Measure& measure, 
     }
 }
 
-void PathSums::add_to_length(LengthSums& sums, const FoundPath& path, const Measure& measure)
+void PathSums::add_to_length(LengthSums& sums, const PathContribution& path, const Measure& measure)
 {
     const std::size_t n = path.shares.size() - 1;  // vertices
     const double hit = share_of(path, 0);

@@ -4,7 +4,7 @@
 #include "verify/tile_grid.h"
 
 #include <bdpt/eval/verify/verify_report.h>
-#include <bdpt/found_path.h>
+#include <bdpt/path_contribution.h>
 
 #include <cstddef>
 #include <vector>
@@ -126,7 +126,7 @@ public:
 
     /// Those with more than `max_depth` edges or values that are not finite are ignored. Knows its
     /// shares; weighed by the power heuristic.
-    void add(const FoundPath& path);
+    void add(const PathContribution& path);
 
     [[nodiscard]] const StrategySums& strategy(std::size_t tile, std::size_t index) const
     {
@@ -137,7 +137,7 @@ public:
         return lengths_[tile * static_cast<std::size_t>(row_.max_depth()) +
                         static_cast<std::size_t>(edges - 1)];
     }
-    /// In the whole picture, for paths of `edges` edges: how much the estimate `expected` of the
+    /// In the whole image, for paths of `edges` edges: how much the estimate `expected` of the
     /// strategy with `u` light vertices owes to paths that the one with `finder` has found.
     [[nodiscard]] double expected_from(int edges, std::size_t u, std::size_t finder) const
     {
@@ -146,7 +146,7 @@ public:
     [[nodiscard]] const WeightFinding& weights() const { return weights_; }
 
 private:
-    void check_weight(const FoundPath& path, double definition);
+    void check_weight(const PathContribution& path, double definition);
     /// What a path is to any strategy, by the balance and the power heuristic.
     struct Measure {
         double weighted;  // as it was found
@@ -155,8 +155,9 @@ private:
         double moment;    // second moment of a sample of bdpt along this path
         double largest;   // greatest such sample
     };
-    void add_to_strategies(const FoundPath& path, const Measure& measure, std::size_t first);
-    static void add_to_length(LengthSums& sums, const FoundPath& path, const Measure& measure);
+    void add_to_strategies(const PathContribution& path, const Measure& measure, std::size_t first);
+    static void add_to_length(LengthSums& sums, const PathContribution& path,
+                              const Measure& measure);
 
     const TileGrid& grid_;
     StrategyRow row_;

@@ -3,7 +3,7 @@
 #include "verify/second_moment.h"
 #include "verify/tile_grid.h"
 
-#include <bdpt/found_path.h>
+#include <bdpt/path_contribution.h>
 
 #include <cmath>
 #include <cstddef>
@@ -23,7 +23,7 @@ public:
     {}
 
     /// Longer ones and values that are not finite are ignored.
-    void add(const FoundPath& path)
+    void add(const PathContribution& path)
     {
         const int edges = path.strategy.s + path.strategy.t - 1;
         const Rgb& c = path.unweighted;

@@ -58,9 +58,9 @@ double lost(const Image& image, const PixelRect& tile, double sum, double sample
 }
 
 template <typename SumOfTile>
-PictureCheck check_picture(const Film& film, const TileGrid& grid, const SumOfTile& sum_of_tile)
+ImageCheck check_image(const Film& film, const TileGrid& grid, const SumOfTile& sum_of_tile)
 {
-    PictureCheck check{.defects = film.defects(), .lost = 0.0};
+    ImageCheck check{.defects = film.defects(), .lost = 0.0};
     const Image image = film.develop();
     for (std::size_t tile = 0; tile < grid.size(); ++tile) {
         check.lost = std::max(check.lost, lost(image, grid.tiles()[tile], sum_of_tile(tile),
@@ -77,13 +77,13 @@ Batch render_batch(const Scene& scene, const CameraDesc& camera, const VerifyOpt
     const RadianceSums none(grid, options.max_depth);
     Batch batch{.bdpt = PathSums(grid, options.max_depth),
                 .others = {none, none, none, none},
-                .pictures = {}};
+                .images = {}};
     const int longest = options.max_depth;
     RenderControl to_bdpt;
-    to_bdpt.on_path = [&](const FoundPath& path) { batch.bdpt.add(path); };
+    to_bdpt.on_path = [&](const PathContribution& path) { batch.bdpt.add(path); };
     const RenderResult bdpt = render(
         scene, camera, render_options(options, IntegratorKind::bdpt, number, 1, longest), to_bdpt);
-    batch.pictures[0] = check_picture(bdpt.film, grid, [&](std::size_t tile) {
+    batch.images[0] = check_image(bdpt.film, grid, [&](std::size_t tile) {
         double sum = 0.0;
         for (int edges = 1; edges <= longest; ++edges) {
             sum += batch.bdpt.length(tile, edges).radiance;
@@ -93,9 +93,9 @@ Batch render_batch(const Scene& scene, const CameraDesc& camera, const VerifyOpt
     for (std::size_t i = 0; i < other_integrators.size(); ++i) {
         const IntegratorKind kind = other_integrators[i];
         RadianceSums& sums = batch.others[i];
-        PictureCheck& check = batch.pictures[i + 1];
+        ImageCheck& check = batch.images[i + 1];
         RenderControl to_sums;
-        to_sums.on_path = [&](const FoundPath& path) { sums.add(path); };
+        to_sums.on_path = [&](const PathContribution& path) { sums.add(path); };
         // Lengths that take the same number of samples are rendered together.
         int shortest = 1;
         while (shortest <= longest) {
@@ -105,7 +105,7 @@ Batch render_batch(const Scene& scene, const CameraDesc& camera, const VerifyOpt
             }
             const RenderResult other = render(
                 scene, camera, render_options(options, kind, number, shortest, last), to_sums);
-            check += check_picture(other.film, grid, [&](std::size_t tile) {
+            check += check_image(other.film, grid, [&](std::size_t tile) {
                 return sums.between(tile, shortest, last);
             });
             shortest = last + 1;

@@ -7,7 +7,7 @@ namespace bdpt::eval {
 namespace {
 
 /// What can hide behind the noise if strategy v of paths of `edges` edges is wrong by a factor 1 +
-/// c, as a fraction of the picture. That moves what is expected of each strategy u by c times what
+/// c, as a fraction of the image. That moves what is expected of each strategy u by c times what
 /// of it v has found, but for v itself, of whose difference c times what the others found remains.
 double detectable_by_strategies(const Evidence& evidence, const VerifyReport& report,
                                 const StrategyFinding& v, double distance)

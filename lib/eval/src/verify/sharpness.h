@@ -7,13 +7,13 @@
 
 namespace bdpt::eval {
 
-/// Samples of bdpt in the whole picture from which on what is said to be detectable can be relied
+/// Samples of bdpt in the whole image from which on what is said to be detectable can be relied
 /// on. With fewer, ordinary samples pass for rare ones, and an error raises the noise that it hides
 /// in.
 constexpr double trusted_samples = 262144.0;
 
 /// Fills in what each comparison could detect, and returns the worst of all strategies: errors that
-/// change the mean of the picture by that fraction are found with 90 % chance. A difference is
+/// change the mean of the image by that fraction are found with 90 % chance. A difference is
 /// found from `distance` standard errors on.
 [[nodiscard]] double find_detectable(const Evidence& evidence, VerifyReport& report,
                                      double distance);

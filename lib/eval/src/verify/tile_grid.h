@@ -9,7 +9,7 @@
 
 namespace bdpt::eval {
 
-/// A picture cut into `grid` x `grid` tiles of about equal size.
+/// An image cut into `grid` x `grid` tiles of about equal size.
 class TileGrid {
 public:
     /// `grid` is at most the lesser side.
@@ -38,7 +38,7 @@ public:
                static_cast<double>(tiles_[tile].height());
     }
 
-    /// The tile of the pixel that holds `raster`, which is in the picture.
+    /// The tile of the pixel that holds `raster`, which is in the image.
     [[nodiscard]] std::size_t tile_at(Vec2 raster) const
     {
         return static_cast<std::size_t>(place(raster.y, height_) * grid_ + place(raster.x, width_));

@@ -1,8 +1,8 @@
 #include <bdpt/eval/verify/verify.h>
 
 #include "verify/evidence.h"
-#include "verify/judge.h"
 #include "verify/render_batch.h"
+#include "verify/verdict.h"
 
 #include <bdpt/error.h>
 
@@ -37,7 +37,7 @@ void check_options(const VerifyOptions& options)
     constexpr int widest = 4096;
     require(options.width >= 1 && options.width <= widest && options.height >= 1 &&
                 options.height <= widest,
-            "the picture must have 1 to 4096 pixels along each side");
+            "the image must have 1 to 4096 pixels along each side");
     require(options.grid >= 1 && options.grid <= std::min(options.width, options.height),
             "there must be 1 tile or more along each side, and not more than pixels");
     require(options.max_depth >= 1 && options.max_depth <= longest,

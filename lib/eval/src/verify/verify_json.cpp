@@ -32,7 +32,7 @@ ordered_json to_json(const MeanComparison& test, const VerifyReport& report)
             {"failed", fails(test, report)}};
 }
 
-/// `finding` has a comparison of the whole picture, and one for each tile.
+/// `finding` has a comparison of the whole image, and one for each tile.
 template <typename Finding>
 void add_tests(ordered_json& object, const Finding& finding, const VerifyReport& report)
 {
@@ -47,15 +47,15 @@ void add_tests(ordered_json& object, const Finding& finding, const VerifyReport&
     object["tiles"] = std::move(tiles);
 }
 
-ordered_json to_json(const PictureFinding& picture)
+ordered_json to_json(const ImageFinding& image)
 {
-    ordered_json object{{"integrator", to_string(picture.integrator)},
-                        {"radiance", number(picture.radiance)},
-                        {"error", number(picture.error)},
-                        {"invalid", picture.defects.invalid},
-                        {"saturated", picture.defects.saturated},
-                        {"lost", number(picture.lost)}};
-    if (const auto& place = picture.defects.first_invalid) {
+    ordered_json object{{"integrator", to_string(image.integrator)},
+                        {"radiance", number(image.radiance)},
+                        {"error", number(image.error)},
+                        {"invalid", image.defects.invalid},
+                        {"saturated", image.defects.saturated},
+                        {"lost", number(image.lost)}};
+    if (const auto& place = image.defects.first_invalid) {
         object["first_invalid"] = {
             {"x", place->x}, {"y", place->y}, {"sample", place->sample_index}};
     }
@@ -91,8 +91,8 @@ std::string verify_json(const VerifyReport& report, std::string_view scene)
                          {{"paths", report.weights.paths},
                           {"wrong", report.weights.wrong},
                           {"worst", number(report.weights.worst)}}}};
-    for (const PictureFinding& picture : report.pictures) {
-        object["integrators"].push_back(to_json(picture));
+    for (const ImageFinding& image : report.images) {
+        object["integrators"].push_back(to_json(image));
     }
     for (const LengthFinding& length : report.lengths) {
         object["lengths"].push_back({{"edges", length.edges},

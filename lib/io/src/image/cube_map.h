@@ -7,8 +7,8 @@
 
 namespace bdpt::io {
 
-/// Six pictures of all that is around, in the order +x, -x, +y, -y, +z, -z: each is what one sees
-/// in that direction. +y is up in the pictures of the sides, -z in that of +y, and +z in that of -y
+/// Six images of all that is around, in the order +x, -x, +y, -y, +z, -z: each is what one sees
+/// in that direction. +y is up in the images of the sides, -z in that of +y, and +z in that of -y
 /// [EXT_lights_image_based, "Prefiltered Specular Radiance Cubemaps": the faces of OpenGL,
 /// flipped].
 struct CubeMap {
@@ -21,7 +21,7 @@ struct CubeMap {
 /// The same with half as many texels a side, each the mean of four.
 [[nodiscard]] CubeMap halved(const CubeMap& cube);
 
-/// The same as an equirectangular picture, as `EnvironmentLightDesc` has it, twice as wide as high.
+/// The same as an equirectangular image, as `EnvironmentLightDesc` has it, twice as wide as high.
 /// Each texel is the mean over its solid angle.
 [[nodiscard]] Image to_equirectangular(const CubeMap& cube, int height);
 

@@ -49,7 +49,7 @@ LoadedEnvironment load(const std::filesystem::path& file, const ReadLimits& limi
     mend_pixels(loaded.light.radiance, warnings);
     const Image& image = loaded.light.radiance;
     if (image.width != 2 * image.height && image.width * image.height != 1) {
-        warnings.add("an equirectangular picture should be twice as wide as high",
+        warnings.add("an equirectangular image should be twice as wide as high",
                      fmt::format("{} x {} pixels", image.width, image.height));
     }
     loaded.warnings = warnings.lines();

@@ -165,8 +165,7 @@ void check_window(Cursor box, const ReadLimits& limits)
     const std::int64_t height = read() - top + 1;
     const std::int64_t most = limits.image_side;
     if (width < 1 || height < 1 || width > most || height > most) {
-        fail(
-            fmt::format("picture of {} x {} pixels; 1 to {} a side are read", width, height, most));
+        fail(fmt::format("image of {} x {} pixels; 1 to {} a side are read", width, height, most));
     }
 }
 

@@ -74,10 +74,10 @@ Window checked_size(const Imath::Box2i& box, std::size_t encoded, const ReadLimi
     if (width < 1 || height < 1 || width > most || height > most) {
         throw Error(
             ErrorCode::invalid_input,
-            fmt::format("picture of {} x {} pixels; 1 to {} a side are read", width, height, most));
+            fmt::format("image of {} x {} pixels; 1 to {} a side are read", width, height, most));
     }
     const Window window{static_cast<int>(width), static_cast<int>(height)};
-    check_picture_size(window.width, window.height, sizeof(Rgb), encoded, limits);
+    check_image_size(window.width, window.height, sizeof(Rgb), encoded, limits);
     return window;
 }
 
@@ -163,7 +163,7 @@ PixelRect filled_part(const Imath::Box2i& data, const Imath::Box2i& display)
     return rect;
 }
 
-/// The channels of `layer`, or those of the picture itself.
+/// The channels of `layer`, or those of the image itself.
 ColorChannels choose_channels(const Imf::ChannelList& channels,
                               const std::optional<std::string>& layer, Warnings& warnings)
 {
@@ -181,8 +181,8 @@ ColorChannels choose_channels(const Imf::ChannelList& channels,
     return *colors;
 }
 
-ExrPicture read(ByteView file, const std::optional<std::string>& layer, const ReadLimits& limits,
-                Warnings& warnings)
+ExrImage read(ByteView file, const std::optional<std::string>& layer, const ReadLimits& limits,
+              Warnings& warnings)
 {
     check_exr_header(file, limits);
     MemoryStream stream(file);
@@ -210,8 +210,8 @@ bool is_exr(ByteView file)
     return file.size() >= 4 && Imf::isImfMagic(reinterpret_cast<const char*>(file.data()));
 }
 
-ExrPicture read_exr(ByteView file, const std::optional<std::string>& layer,
-                    const ReadLimits& limits, Warnings& warnings)
+ExrImage read_exr(ByteView file, const std::optional<std::string>& layer, const ReadLimits& limits,
+                  Warnings& warnings)
 {
     try {
         return read(file, layer, limits, warnings);

@@ -16,7 +16,7 @@ namespace bdpt::io {
 [[nodiscard]] bool is_exr(ByteView file);
 
 /// What an OpenEXR file shows: the display window, black where there is no data.
-struct ExrPicture {
+struct ExrImage {
     Image image;
     PixelRect filled;  ///< where there is data
 };
@@ -26,7 +26,7 @@ struct ExrPicture {
 ///
 /// Throws `Error`: not_found (no such layer), invalid_input (broken, or over a limit), unsupported
 /// (deep data, other channels).
-[[nodiscard]] ExrPicture read_exr(ByteView file, const std::optional<std::string>& layer,
-                                  const ReadLimits& limits, Warnings& warnings);
+[[nodiscard]] ExrImage read_exr(ByteView file, const std::optional<std::string>& layer,
+                                const ReadLimits& limits, Warnings& warnings);
 
 }  // namespace bdpt::io

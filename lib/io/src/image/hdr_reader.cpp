@@ -25,16 +25,16 @@ bool is_hdr(ByteView file)
 Image read_hdr(ByteView file, const ReadLimits& limits)
 {
     try {
-        const OiioPicture picture = OiioLibrary().open("hdr", file);
-        const BdptPictureHeader& header = picture.header();
+        const OiioImage oiio_image = OiioLibrary().open("hdr", file);
+        const BdptImageHeader& header = oiio_image.header();
         if (header.channels < 3) {
             throw std::runtime_error(fmt::format("{} channels", header.channels));
         }
         const auto channels = static_cast<std::size_t>(header.channels);
-        check_picture_size(header.width, header.height, channels * sizeof(float), file.size(),
-                           limits);
-        std::vector<float> values(picture.value_count());
-        picture.read(values.data());
+        check_image_size(header.width, header.height, channels * sizeof(float), file.size(),
+                         limits);
+        std::vector<float> values(oiio_image.value_count());
+        oiio_image.read(values.data());
         Image image{header.width, header.height, {}};
         image.pixels.reserve(values.size() / channels);
         for (std::size_t i = 0; i + 2 < values.size(); i += channels) {

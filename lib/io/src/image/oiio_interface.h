@@ -2,14 +2,14 @@
 
 #include <cstddef>
 
-// What the module bdpt_oiio offers. It is opened when the first picture is decoded and not before:
+// What the module bdpt_oiio offers. It is opened when the first image is decoded and not before:
 // OpenImageIO with all its dependencies would cost every start of the program 0.3 s and 130 MB.
 // Plain C types, no exceptions. Errors are a message in `message`, which ends with a zero byte.
 extern "C" {
 
-struct BdptPicture;  // an open picture
+struct BdptImage;  // an open image
 
-struct BdptPictureHeader {
+struct BdptImageHeader {
     int width;
     int height;
     int channels;
@@ -20,21 +20,20 @@ struct BdptPictureHeader {
 constexpr int bdpt_oiio_interface_version = 2;
 int bdpt_oiio_version();
 
-/// Opens a picture in memory, which must stay there until it is closed. `format` is a name of
-/// OpenImageIO's. Returns null on failure. Pictures may be opened and read on several threads at
+/// Opens an image in memory, which must stay there until it is closed. `format` is a name of
+/// OpenImageIO's. Returns null on failure. Images may be opened and read on several threads at
 /// once, each on one at a time.
-BdptPicture* bdpt_oiio_open(const char* format, const unsigned char* bytes, std::size_t size,
-                            BdptPictureHeader* header, char* message, std::size_t message_size);
+BdptImage* bdpt_oiio_open(const char* format, const unsigned char* bytes, std::size_t size,
+                          BdptImageHeader* header, char* message, std::size_t message_size);
 
 /// Reads all pixels, width * height * channels values, top row first, as they are stored: no colour
 /// conversion, alpha not multiplied in. Integers are scaled to the full range of the target.
 /// Returns 0 on failure.
-int bdpt_oiio_read_bytes(BdptPicture* picture, unsigned char* pixels, char* message,
+int bdpt_oiio_read_bytes(BdptImage* image, unsigned char* pixels, char* message,
                          std::size_t message_size);
-int bdpt_oiio_read_words(BdptPicture* picture, unsigned short* pixels, char* message,
+int bdpt_oiio_read_words(BdptImage* image, unsigned short* pixels, char* message,
                          std::size_t message_size);
-int bdpt_oiio_read_floats(BdptPicture* picture, float* pixels, char* message,
-                          std::size_t message_size);
+int bdpt_oiio_read_floats(BdptImage* image, float* pixels, char* message, std::size_t message_size);
 
-void bdpt_oiio_close(BdptPicture* picture);
+void bdpt_oiio_close(BdptImage* image);
 }

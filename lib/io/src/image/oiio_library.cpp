@@ -65,7 +65,7 @@ void* load_module()
         return module;
     }
     throw Error(ErrorCode::internal,
-                fmt::format("pictures cannot be read: no {} (tried {})", module_name, tried));
+                fmt::format("images cannot be read: no {} (tried {})", module_name, tried));
 }
 
 template <typename Function>
@@ -81,10 +81,10 @@ Function find_function(void* module, const char* name)
 using Message = std::array<char, 512>;
 
 template <typename Read, typename Value>
-void read_by(Read* read, BdptPicture* picture, Value* values)
+void read_by(Read* read, BdptImage* image, Value* values)
 {
     Message message{};
-    if (read(picture, values, message.data(), message.size()) == 0) {
+    if (read(image, values, message.data(), message.size()) == 0) {
         throw std::runtime_error(message.data());
     }
 }
@@ -110,18 +110,18 @@ OiioLibrary::OiioLibrary()
     functions_.close = find_function<decltype(&bdpt_oiio_close)>(module, "bdpt_oiio_close");
 }
 
-OiioPicture OiioLibrary::open(const char* format, ByteView bytes) const
+OiioImage OiioLibrary::open(const char* format, ByteView bytes) const
 {
     return {functions_, format, bytes};
 }
 
-OiioPicture::OiioPicture(const Functions& functions, const char* format, ByteView bytes)
-    : functions_(functions), picture_(nullptr, functions.close)
+OiioImage::OiioImage(const Functions& functions, const char* format, ByteView bytes)
+    : functions_(functions), image_(nullptr, functions.close)
 {
     Message message{};
-    picture_.reset(functions_.open(format, bytes.data(), bytes.size(), &header_, message.data(),
-                                   message.size()));
-    if (!picture_) {
+    image_.reset(functions_.open(format, bytes.data(), bytes.size(), &header_, message.data(),
+                                 message.size()));
+    if (!image_) {
         throw std::runtime_error(message.data());
     }
     if (header_.width < 1 || header_.height < 1 || header_.channels < 1 || header_.channels > 64) {
@@ -130,48 +130,48 @@ OiioPicture::OiioPicture(const Functions& functions, const char* format, ByteVie
     }
 }
 
-std::size_t OiioPicture::value_count() const
+std::size_t OiioImage::value_count() const
 {
     return static_cast<std::size_t>(header_.width) * static_cast<std::size_t>(header_.height) *
            static_cast<std::size_t>(header_.channels);
 }
 
-void OiioPicture::read(std::uint8_t* values) const
+void OiioImage::read(std::uint8_t* values) const
 {
-    read_by(functions_.read_bytes, picture_.get(), values);
+    read_by(functions_.read_bytes, image_.get(), values);
 }
 
-void OiioPicture::read(std::uint16_t* values) const
+void OiioImage::read(std::uint16_t* values) const
 {
-    read_by(functions_.read_words, picture_.get(), values);
+    read_by(functions_.read_words, image_.get(), values);
 }
 
-void OiioPicture::read(float* values) const
+void OiioImage::read(float* values) const
 {
-    read_by(functions_.read_floats, picture_.get(), values);
+    read_by(functions_.read_floats, image_.get(), values);
 }
 
-void check_picture_size(int width, int height, std::uint64_t bytes_per_pixel, std::uint64_t encoded,
-                        const ReadLimits& limits)
+void check_image_size(int width, int height, std::uint64_t bytes_per_pixel, std::uint64_t encoded,
+                      const ReadLimits& limits)
 {
-    // Small pictures of one colour are packed a thousandfold in good faith.
+    // Small images of one colour are packed a thousandfold in good faith.
     constexpr std::uint64_t harmless = std::uint64_t{64} << 20;
     if (width > limits.image_side || height > limits.image_side) {
         throw Error(ErrorCode::invalid_input,
-                    fmt::format("picture of {} x {} pixels, but the limit is {} a side", width,
+                    fmt::format("image of {} x {} pixels, but the limit is {} a side", width,
                                 height, limits.image_side));
     }
     const std::uint64_t decoded =
         static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * bytes_per_pixel;
     if (decoded > limits.image_bytes) {
         throw Error(ErrorCode::invalid_input,
-                    fmt::format("picture of {} x {} pixels needs {}, but the limit is {}", width,
+                    fmt::format("image of {} x {} pixels needs {}, but the limit is {}", width,
                                 height, human_bytes(static_cast<long double>(decoded)),
                                 human_bytes(static_cast<long double>(limits.image_bytes))));
     }
     if (decoded > harmless && decoded / limits.compression_ratio > encoded) {
         throw Error(ErrorCode::invalid_input,
-                    fmt::format("picture of {} x {} pixels in {} bytes: more than {} times packed",
+                    fmt::format("image of {} x {} pixels in {} bytes: more than {} times packed",
                                 width, height, encoded, limits.compression_ratio));
     }
 }

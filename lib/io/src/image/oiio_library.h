@@ -11,11 +11,11 @@
 
 namespace bdpt::io {
 
-/// A picture that OpenImageIO has opened in memory, which must stay there. It may be read on
+/// An image that OpenImageIO has opened in memory, which must stay there. It may be read on
 /// another thread.
-class OiioPicture {
+class OiioImage {
 public:
-    [[nodiscard]] const BdptPictureHeader& header() const { return header_; }
+    [[nodiscard]] const BdptImageHeader& header() const { return header_; }
     /// Values of all pixels.
     [[nodiscard]] std::size_t value_count() const;
 
@@ -35,11 +35,11 @@ private:
         decltype(&bdpt_oiio_close) close = nullptr;
     };
 
-    OiioPicture(const Functions& functions, const char* format, ByteView bytes);
+    OiioImage(const Functions& functions, const char* format, ByteView bytes);
 
     Functions functions_;
-    BdptPictureHeader header_{};
-    std::unique_ptr<BdptPicture, decltype(&bdpt_oiio_close)> picture_;
+    BdptImageHeader header_{};
+    std::unique_ptr<BdptImage, decltype(&bdpt_oiio_close)> image_;
 };
 
 /// OpenImageIO, loaded into the process with the first object of this class; it stays there. To
@@ -49,17 +49,17 @@ public:
     /// Throws `Error` (internal) when the module cannot be found or loaded.
     OiioLibrary();
 
-    /// Opens a picture in memory; `format` is one of OpenImageIO's names. Throws
+    /// Opens an image in memory; `format` is one of OpenImageIO's names. Throws
     /// std::runtime_error when it cannot be opened.
-    [[nodiscard]] OiioPicture open(const char* format, ByteView bytes) const;
+    [[nodiscard]] OiioImage open(const char* format, ByteView bytes) const;
 
 private:
-    OiioPicture::Functions functions_;
+    OiioImage::Functions functions_;
 };
 
-/// Refuses pictures beyond the limits. `encoded` is the size of the file, `decoded` that of the
+/// Refuses images beyond the limits. `encoded` is the size of the file, `decoded` that of the
 /// pixels [bytes]. Throws `Error` (invalid_input).
-void check_picture_size(int width, int height, std::uint64_t bytes_per_pixel, std::uint64_t encoded,
-                        const ReadLimits& limits);
+void check_image_size(int width, int height, std::uint64_t bytes_per_pixel, std::uint64_t encoded,
+                      const ReadLimits& limits);
 
 }  // namespace bdpt::io

@@ -18,9 +18,9 @@ LoadedImage load(const std::filesystem::path& file, const ImageOptions& options)
     const Bytes bytes = read_file(file, options.limits.file_bytes);
     if (is_exr(bytes)) {
         Warnings warnings;
-        ExrPicture picture = read_exr(bytes, options.layer, options.limits, warnings);
-        return {.image = std::move(picture.image),
-                .filled = picture.filled,
+        ExrImage exr_image = read_exr(bytes, options.layer, options.limits, warnings);
+        return {.image = std::move(exr_image.image),
+                .filled = exr_image.filled,
                 .warnings = warnings.lines()};
     }
     if (!is_hdr(bytes)) {

@@ -37,32 +37,32 @@ const char* find_format(ByteView bytes)
         return "webp";
     }
     if (starts_with(bytes, "\xabKTX")) {
-        throw std::runtime_error("KTX pictures are not supported");
+        throw std::runtime_error("KTX images are not supported");
     }
     throw std::runtime_error("neither PNG, JPEG nor WebP");
 }
 
 /// Reads all values of type T into the bytes of `image`.
 template <typename T>
-void read_values(const OiioPicture& picture, TexelImage& image)
+void read_values(const OiioImage& oiio_image, TexelImage& image)
 {
-    image.bytes.resize(picture.value_count() * sizeof(T));
+    image.bytes.resize(oiio_image.value_count() * sizeof(T));
     if constexpr (sizeof(T) == 1) {
-        picture.read(image.bytes.data());
+        oiio_image.read(image.bytes.data());
     } else {
         // A vector of bytes is allocated for any type, and nobody reads the words as such.
-        picture.read(reinterpret_cast<T*>(image.bytes.data()));
+        oiio_image.read(reinterpret_cast<T*>(image.bytes.data()));
     }
 }
 
 }  // namespace
 
-EncodedPicture::EncodedPicture(const OiioLibrary& library, ByteView bytes, const ReadLimits& limits)
+EncodedImage::EncodedImage(const OiioLibrary& library, ByteView bytes, const ReadLimits& limits)
     : library_(&library), bytes_(bytes)
 {
     std::uint64_t texel_bytes = 4;
     if (is_webp(bytes)) {
-        const PictureSize size = webp_size(bytes);
+        const EncodedImageSize size = webp_size(bytes);
         width_ = size.width;
         height_ = size.height;
     } else if (is_png(bytes)) {
@@ -72,18 +72,18 @@ EncodedPicture::EncodedPicture(const OiioLibrary& library, ByteView bytes, const
         texel_bytes = static_cast<std::uint64_t>(png_->channels() * png_->value_bytes());
     } else {
         opened_.emplace(library.open(find_format(bytes), bytes));
-        const BdptPictureHeader& header = opened_->header();
+        const BdptImageHeader& header = opened_->header();
         width_ = header.width;
         height_ = header.height;
         texel_bytes =
             static_cast<std::uint64_t>(header.channels) * (header.value_bytes == 2 ? 2 : 1);
     }
-    check_picture_size(width_, height_, texel_bytes, bytes.size(), limits);
+    check_image_size(width_, height_, texel_bytes, bytes.size(), limits);
     decoded_bytes_ =
         static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_) * texel_bytes;
 }
 
-TexelImage EncodedPicture::decode() &&
+TexelImage EncodedImage::decode() &&
 {
     if (png_) {
         TexelImage image{
@@ -93,9 +93,9 @@ TexelImage EncodedPicture::decode() &&
         png_->read(image.bytes.data());
         return image;
     }
-    const OiioPicture picture =
+    const OiioImage oiio_image =
         opened_ ? std::move(*opened_) : library_->open(find_format(bytes_), bytes_);
-    const BdptPictureHeader& header = picture.header();
+    const BdptImageHeader& header = oiio_image.header();
     if (header.width != width_ || header.height != height_) {
         throw std::runtime_error(fmt::format("{} x {} pixels, but {} x {} by the header",
                                              header.width, header.height, width_, height_));
@@ -107,9 +107,9 @@ TexelImage EncodedPicture::decode() &&
         .width = header.width, .height = header.height, .bytes = {}, .channels = header.channels};
     if (header.value_bytes == 2) {
         image.type = TexelType::unorm16;
-        read_values<std::uint16_t>(picture, image);
+        read_values<std::uint16_t>(oiio_image, image);
     } else {
-        read_values<std::uint8_t>(picture, image);
+        read_values<std::uint8_t>(oiio_image, image);
     }
     return image;
 }
@@ -117,7 +117,7 @@ TexelImage EncodedPicture::decode() &&
 TexelImage decode_texels(ByteView bytes, const ReadLimits& limits)
 {
     const OiioLibrary library;
-    return EncodedPicture(library, bytes, limits).decode();
+    return EncodedImage(library, bytes, limits).decode();
 }
 
 }  // namespace bdpt::io

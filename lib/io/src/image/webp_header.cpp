@@ -31,7 +31,7 @@ std::uint32_t number(ByteView file, std::size_t offset, std::size_t bytes)
     return value;
 }
 
-PictureSize size_of(std::uint32_t width, std::uint32_t height)
+EncodedImageSize size_of(std::uint32_t width, std::uint32_t height)
 {
     return {static_cast<int>(width), static_cast<int>(height)};
 }
@@ -43,7 +43,7 @@ bool is_webp(ByteView file)
     return has(file, 0, "RIFF") && has(file, 8, "WEBP");
 }
 
-PictureSize webp_size(ByteView file)
+EncodedImageSize webp_size(ByteView file)
 {
     constexpr std::uint32_t fourteen_bits = 0x3fff;
     if (file.size() < header_end) {

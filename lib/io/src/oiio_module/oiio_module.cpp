@@ -25,8 +25,8 @@ void report(const std::string& text, char* message, std::size_t size)
 
 }  // namespace
 
-struct BdptPicture {
-    BdptPicture(const unsigned char* bytes, std::size_t size) : file(bytes, size) {}
+struct BdptImage {
+    BdptImage(const unsigned char* bytes, std::size_t size) : file(bytes, size) {}
 
     OIIO::Filesystem::IOMemReader file;
     std::unique_ptr<OIIO::ImageInput> input;
@@ -55,15 +55,15 @@ void divide_by_alpha(const OIIO::ImageSpec& spec, unsigned char* pixels)
 }
 
 template <typename T>
-int read_pixels(BdptPicture* picture, OIIO::TypeDesc type, T* pixels, char* message,
+int read_pixels(BdptImage* image, OIIO::TypeDesc type, T* pixels, char* message,
                 std::size_t message_size)
 {
     try {
-        const int channels = picture->input->spec().nchannels;
-        if (picture->input->read_image(0, 0, 0, channels, type, pixels)) {
+        const int channels = image->input->spec().nchannels;
+        if (image->input->read_image(0, 0, 0, channels, type, pixels)) {
             return 1;
         }
-        report(picture->input->geterror(), message, message_size);
+        report(image->input->geterror(), message, message_size);
     } catch (const std::exception& error) {
         report(error.what(), message, message_size);
     } catch (...) {
@@ -81,37 +81,37 @@ __attribute__((visibility("default"))) int bdpt_oiio_version()
     return bdpt_oiio_interface_version;
 }
 
-__attribute__((visibility("default"))) BdptPicture* bdpt_oiio_open(
-    const char* format, const unsigned char* bytes, std::size_t size, BdptPictureHeader* header,
+__attribute__((visibility("default"))) BdptImage* bdpt_oiio_open(
+    const char* format, const unsigned char* bytes, std::size_t size, BdptImageHeader* header,
     char* message, std::size_t message_size)
 {
     try {
-        // Whoever calls decodes several pictures at once; a pool of threads would outlive that.
+        // Whoever calls decodes several images at once; a pool of threads would outlive that.
         // Once, as OpenImageIO must not be told so by two threads at the same time.
         [[maybe_unused]] static const bool is_told = OIIO::attribute("threads", 1);
-        auto picture = std::make_unique<BdptPicture>(bytes, size);
-        picture->input = OIIO::ImageInput::create(format);
-        if (!picture->input) {
+        auto image = std::make_unique<BdptImage>(bytes, size);
+        image->input = OIIO::ImageInput::create(format);
+        if (!image->input) {
             report(OIIO::geterror(), message, message_size);
             return nullptr;
         }
         OIIO::ImageSpec wish;
         wish.attribute("oiio:UnassociatedAlpha", 1);
-        OIIO::Filesystem::IOProxy* proxy = &picture->file;
+        OIIO::Filesystem::IOProxy* proxy = &image->file;
         wish.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
         OIIO::ImageSpec spec;
-        if (!picture->input->open(std::string("memory.") + format, spec, wish)) {
-            report(picture->input->geterror(), message, message_size);
+        if (!image->input->open(std::string("memory.") + format, spec, wish)) {
+            report(image->input->geterror(), message, message_size);
             return nullptr;
         }
         if (spec.depth > 1 || spec.deep) {
-            report("neither volumes nor deep pictures are read", message, message_size);
+            report("neither volumes nor deep images are read", message, message_size);
             return nullptr;
         }
         const bool integers = !spec.format.is_floating_point();
         *header = {spec.width, spec.height, spec.nchannels,
                    integers ? static_cast<int>(spec.format.basesize()) : 0};
-        return picture.release();
+        return image.release();
     } catch (const std::exception& error) {
         report(error.what(), message, message_size);
     } catch (...) {
@@ -120,35 +120,35 @@ __attribute__((visibility("default"))) BdptPicture* bdpt_oiio_open(
     return nullptr;
 }
 
-__attribute__((visibility("default"))) int bdpt_oiio_read_bytes(BdptPicture* picture,
+__attribute__((visibility("default"))) int bdpt_oiio_read_bytes(BdptImage* image,
                                                                 unsigned char* pixels,
                                                                 char* message,
                                                                 std::size_t message_size)
 {
-    const int done = read_pixels(picture, OIIO::TypeDesc::UINT8, pixels, message, message_size);
+    const int done = read_pixels(image, OIIO::TypeDesc::UINT8, pixels, message, message_size);
     if (done == 1) {
-        divide_by_alpha(picture->input->spec(), pixels);
+        divide_by_alpha(image->input->spec(), pixels);
     }
     return done;
 }
 
-__attribute__((visibility("default"))) int bdpt_oiio_read_words(BdptPicture* picture,
+__attribute__((visibility("default"))) int bdpt_oiio_read_words(BdptImage* image,
                                                                 unsigned short* pixels,
                                                                 char* message,
                                                                 std::size_t message_size)
 {
-    return read_pixels(picture, OIIO::TypeDesc::UINT16, pixels, message, message_size);
+    return read_pixels(image, OIIO::TypeDesc::UINT16, pixels, message, message_size);
 }
 
-__attribute__((visibility("default"))) int bdpt_oiio_read_floats(BdptPicture* picture,
-                                                                 float* pixels, char* message,
+__attribute__((visibility("default"))) int bdpt_oiio_read_floats(BdptImage* image, float* pixels,
+                                                                 char* message,
                                                                  std::size_t message_size)
 {
-    return read_pixels(picture, OIIO::TypeDesc::FLOAT, pixels, message, message_size);
+    return read_pixels(image, OIIO::TypeDesc::FLOAT, pixels, message, message_size);
 }
 
-__attribute__((visibility("default"))) void bdpt_oiio_close(BdptPicture* picture)
+__attribute__((visibility("default"))) void bdpt_oiio_close(BdptImage* image)
 {
-    const std::unique_ptr<BdptPicture> owned(picture);
+    const std::unique_ptr<BdptImage> owned(image);
 }
 }

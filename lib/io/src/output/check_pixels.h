@@ -8,7 +8,7 @@
 
 namespace bdpt::io {
 
-/// Throws `Error` (usage) when a picture that is to be written has no pixels, or has not
+/// Throws `Error` (usage) when an image that is to be written has no pixels, or has not
 /// `width` * `height` of them.
 inline void check_pixels(const std::filesystem::path& file, int width, int height,
                          std::size_t pixels)
@@ -16,7 +16,7 @@ inline void check_pixels(const std::filesystem::path& file, int width, int heigh
     const bool sound = width > 0 && height > 0 &&
                        pixels == static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     if (!sound) {
-        throw Error(ErrorCode::usage, fmt::format("{}: a picture of {} x {} with {} pixels",
+        throw Error(ErrorCode::usage, fmt::format("{}: an image of {} x {} with {} pixels",
                                                   file.string(), width, height, pixels));
     }
 }

@@ -63,7 +63,7 @@ Imath::M44f to_imath(const Mat4& matrix)
     return result;
 }
 
-void add_metadata(Imf::Header& header, const PictureMetadata& metadata, float aspect)
+void add_metadata(Imf::Header& header, const ImageMetadata& metadata, float aspect)
 {
     const float seconds = static_cast<float>(metadata.render_seconds);
     const int samples = static_cast<int>(
@@ -87,7 +87,7 @@ void add_metadata(Imf::Header& header, const PictureMetadata& metadata, float as
     header.insert("renderTimeSeconds", Imf::FloatAttribute(seconds));
 }
 
-/// The picture in the whole image; Imath's boxes hold their upper corner.
+/// The crop in the whole image; Imath's boxes hold their upper corner.
 Imath::Box2i data_window(const Image& image, const ExrPlacement& placement)
 {
     return {{placement.x, placement.y},
@@ -198,7 +198,7 @@ Content make_content(const Image& image, std::span<const Layer> layers, const Ex
         if (layer.width != image.width || layer.height != image.height ||
             layer.values.size() != expected) {
             throw Error(ErrorCode::usage,
-                        fmt::format("layer \"{}\" has {}x{} pixels and {} values, the picture "
+                        fmt::format("layer \"{}\" has {}x{} pixels and {} values, the image "
                                     "{}x{} pixels",
                                     layer.name, layer.width, layer.height, layer.values.size(),
                                     image.width, image.height));

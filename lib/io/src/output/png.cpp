@@ -23,7 +23,7 @@ using Text = std::vector<std::pair<std::string, std::string>>;
 
 Text all_text(const PngOptions& options)
 {
-    const PictureMetadata& metadata = options.metadata;
+    const ImageMetadata& metadata = options.metadata;
     const std::time_t created = std::chrono::system_clock::to_time_t(metadata.created);
     Text text{{"Software", software_name(metadata)},
               {"Creation Time", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(created))},

@@ -48,7 +48,7 @@ float automatic_exposure(const Image& image)
         return 0.0f;
     }
     // Stray light 17 stops below the highlights is black to the eye, and must not count however
-    // much of the picture it fills.
+    // much of the image it fills.
     constexpr double black_below = 17.0;
     const auto first = std::lower_bound(
         logs.begin(), logs.end(), logs[(logs.size() - 1) - (logs.size() - 1) / 100] - black_below);
@@ -61,8 +61,8 @@ float automatic_exposure(const Image& image)
     const double brightest = *(end - 1);
     const double average = std::accumulate(begin, end, 0.0) / static_cast<double>(end - begin);
     const double range = brightest - darkest;
-    // 1 for a picture that is bright but for a few shadows, as one against the sky is. The reverse
-    // would darken pictures with a few highlights, and is left out.
+    // 1 for an image that is bright but for a few shadows, as one against the sky is. The reverse
+    // would darken images with a few highlights, and is left out.
     const double skew = range > 0.0 ? (2.0 * average - darkest - brightest) / range : 0.0;
     const double key = middle_grey * std::exp2(std::max(0.0, skew));
     return static_cast<float>(std::log2(key) - average);

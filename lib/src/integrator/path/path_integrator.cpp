@@ -19,7 +19,7 @@ struct PathIntegrator::Ray {
     SolidAnglePdf pdf;
     /// Light sampling at the origin, which is that receiver, could have found what this ray hits.
     bool competes = false;
-    LightReceiver receiver{};
+    LightSampleContext receiver{};
 };
 
 PathIntegrator::PathIntegrator(const World& world, const MovingCamera& camera,
@@ -189,7 +189,7 @@ Rgb PathIntegrator::emission(const Ray& ray, LightId light, const LightPoint& hi
     }
     const LightSet& lights = world_.lights();
     const float probability =
-        lights.receiver_probability(light, ray.receiver, next_event_sampling_.lights);
+        lights.context_probability(light, ray.receiver, next_event_sampling_.lights);
     const AreaPdf pdf =
         lights[light].pdf_incident(ray.origin.p, hit, next_event_sampling_.environments) *
         probability;
@@ -208,10 +208,10 @@ Rgb PathIntegrator::sample_light(SampleContext& sample, const SurfacePoint& poin
     const Vec2 u = sampler.next_2d();
     const auto draw_fine = [&sampler] { return sampler.next_fine(); };
     const auto receiver = [&point] {
-        return LightReceiver{.p = point.end.p, .normal = point.bsdf.opaque_normal()};
+        return LightSampleContext{.p = point.end.p, .normal = point.bsdf.opaque_normal()};
     };
     const auto choice =
-        world_.lights().choose_for_receiver(receiver, u, draw_fine, next_event_sampling_.lights);
+        world_.lights().choose_for_context(receiver, u, draw_fine, next_event_sampling_.lights);
     if (!choice) {
         return Rgb(0.0f);
     }

@@ -56,7 +56,7 @@ float usable(double probability)
 
 }  // namespace
 
-LightQuad::Four<double> LightQuad::importance(const LightReceiver& receiver) const noexcept
+LightQuad::Four<double> LightQuad::importance(const LightSampleContext& receiver) const noexcept
 {
     const Vec3 p = receiver.p;
     const Vec3 normal = receiver.normal.value_or(Vec3(0.0f));
@@ -99,7 +99,7 @@ LightTree::LightTree(std::span<const LightBounds> lights)
     *this = LightTreeBuilder(lights).take();
 }
 
-LightTree::View LightTree::look(const Node& node, const LightReceiver& receiver) const noexcept
+LightTree::View LightTree::look(const Node& node, const LightSampleContext& receiver) const noexcept
 {
     View view;
     for (std::uint32_t q = 0; q < node.quad_count; ++q) {
@@ -112,7 +112,7 @@ LightTree::View LightTree::look(const Node& node, const LightReceiver& receiver)
     return view;
 }
 
-std::optional<LightTree::Choice> LightTree::sample(const LightReceiver& receiver,
+std::optional<LightTree::Choice> LightTree::sample(const LightSampleContext& receiver,
                                                    double u) const noexcept
 {
     if (nodes_.empty()) {
@@ -152,7 +152,7 @@ std::optional<LightTree::Choice> LightTree::sample(const LightReceiver& receiver
     }
 }
 
-float LightTree::probability(std::uint32_t light, const LightReceiver& receiver) const noexcept
+float LightTree::probability(std::uint32_t light, const LightSampleContext& receiver) const noexcept
 {
     double probability = 1.0;
     for (std::uint32_t slot = slots_[light]; slot != no_slot;) {

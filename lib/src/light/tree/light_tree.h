@@ -1,6 +1,6 @@
 #pragma once
 
-#include "light/light_receiver.h"
+#include "light/light_sample_context.h"
 #include "light/tree/light_bounds.h"
 
 #include <array>
@@ -37,7 +37,7 @@ struct LightQuad {
 
     /// Roughly the illuminance at the receiver by each; greater than zero if any of its lights can
     /// shine there [Conty Estevez and Kulla 2018, eq. 3].
-    [[nodiscard]] Four<double> importance(const LightReceiver& receiver) const noexcept;
+    [[nodiscard]] Four<double> importance(const LightSampleContext& receiver) const noexcept;
 };
 
 /// Chooses one of many lights by how much it may bring to a point: a tree whose nodes bound their
@@ -61,12 +61,12 @@ public:
     [[nodiscard]] std::size_t size() const noexcept { return slots_.size(); }
 
     /// `u` in [0, 1). None where it turns out on the way that none of the lights shines there.
-    [[nodiscard]] std::optional<Choice> sample(const LightReceiver& receiver,
+    [[nodiscard]] std::optional<Choice> sample(const LightSampleContext& receiver,
                                                double u) const noexcept;
     /// Of choosing `light`; positive if it can shine there, unless its share of all the light is
     /// too small for a float. The sum over all lights is 1 but for what `sample` ends with nothing.
     [[nodiscard]] float probability(std::uint32_t light,
-                                    const LightReceiver& receiver) const noexcept;
+                                    const LightSampleContext& receiver) const noexcept;
 
 private:
     friend class LightTreeBuilder;
@@ -85,7 +85,7 @@ private:
         std::array<double, most_children> importance;
         double sum = 0.0;
     };
-    [[nodiscard]] View look(const Node& node, const LightReceiver& receiver) const noexcept;
+    [[nodiscard]] View look(const Node& node, const LightSampleContext& receiver) const noexcept;
 
     std::vector<Node> nodes_;  ///< the root first
     std::vector<LightQuad> quads_;

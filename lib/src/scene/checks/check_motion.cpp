@@ -1,7 +1,7 @@
 #include "scene/checks/check_motion.h"
 
+#include "geometry/coordinate_limit.h"
 #include "geometry/motion.h"
-#include "geometry/reach.h"
 #include "scene/checks/validate_lights.h"
 #include "scene/checks/value_checks.h"
 
@@ -91,7 +91,7 @@ void check(const InstanceDesc& instance, const std::string& item, const MeshDesc
     const auto check_extent = [&](const Mat4& transform) {
         const float placed = placed_extent(extent, transform);
         if (!(placed <= reach)) {
-            fail(item, ": reaches ", placed, reach_text(reach));
+            fail(item, ": reaches ", placed, limit_text(reach));
         }
     };
     check_extent(instance.world_from_object);
@@ -117,7 +117,7 @@ void check_positions(const std::string& item, const std::vector<Vec3>& motion, f
             fail(step_label(item, i), ": position is not finite");
         }
         if (extent > reach) {
-            fail(step_label(item, i), ": is ", extent, reach_text(reach));
+            fail(step_label(item, i), ": is ", extent, limit_text(reach));
         }
     }
 }

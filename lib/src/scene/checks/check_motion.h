@@ -5,7 +5,7 @@
 namespace bdpt {
 
 /// Checks all that moves in a scene that is valid when the shutter opens; `reach` as in
-/// geometry/reach.h. Throws `Error` (invalid_input).
+/// geometry/coordinate_limit.h. Throws `Error` (invalid_input).
 void check_motion(const SceneDesc& desc, float reach);
 
 }  // namespace bdpt

@@ -1,6 +1,6 @@
 #include "scene/checks/validate.h"
 
-#include "geometry/reach.h"
+#include "geometry/coordinate_limit.h"
 #include "scene/checks/check_motion.h"
 #include "scene/checks/check_texels.h"
 #include "scene/checks/validate_lights.h"
@@ -119,7 +119,7 @@ void check(const InstanceDesc& instance, const std::string& item, const SceneDes
 }
 
 /// What is traced must be within reach of rays, as they are single-precision numbers.
-void check_reach(const SceneDesc& desc, float reach)
+void check_coordinates(const SceneDesc& desc, float reach)
 {
     std::vector<Vec3> extents;
     extents.reserve(desc.meshes.size());
@@ -131,7 +131,7 @@ void check_reach(const SceneDesc& desc, float reach)
         const float extent = placed_extent(extents[static_cast<std::size_t>(instance.mesh)],
                                            instance.world_from_object);
         if (!(extent <= reach)) {
-            fail(label("instance", i, instance.name), ": reaches ", extent, reach_text(reach));
+            fail(label("instance", i, instance.name), ": reaches ", extent, limit_text(reach));
         }
     }
 }
@@ -160,8 +160,8 @@ void validate(const SceneDesc& desc)
     for (std::size_t i = 0; i < desc.instances.size(); ++i) {
         check(desc.instances[i], label("instance", i, desc.instances[i].name), desc);
     }
-    const float reach = reach_of(desc.instances, desc.meshes.size());
-    check_reach(desc, reach);
+    const float reach = coordinate_limit_of(desc.instances, desc.meshes.size());
+    check_coordinates(desc, reach);
     validate_lights(desc, reach);
     check_motion(desc, reach);
 }

@@ -1,6 +1,6 @@
 #include "scene/checks/validate_lights.h"
 
-#include "geometry/reach.h"
+#include "geometry/coordinate_limit.h"
 #include "math/elementary.h"
 #include "scene/checks/value_checks.h"
 
@@ -31,13 +31,13 @@ void check_position(const std::string& item, Vec3 position, float reach)
     const float extent =
         std::max({std::abs(position.x), std::abs(position.y), std::abs(position.z)});
     if (extent > reach) {
-        fail(item, ": is ", extent, reach_text(reach));
+        fail(item, ": is ", extent, limit_text(reach));
     }
 }
 
 void check_radius(const std::string& item, float radius, Rgb intensity)
 {
-    constexpr float least = 1e-15f;  // the area of the ball stays a normal float
+    constexpr float least = 1e-15f;  // the area of the sphere stays a normal float
     constexpr float most = 1e15f;
     if (radius == 0.0f) {
         return;
@@ -150,7 +150,7 @@ struct LightCheck {
         const Image& image = light.radiance;
         if (image.width < 1 || image.height < 1 ||
             image.pixels.size() != area(image.width, image.height)) {
-            fail(item, ": picture of ", image.width, " x ", image.height, " with ",
+            fail(item, ": image of ", image.width, " x ", image.height, " with ",
                  image.pixels.size(), " pixels");
         }
         for (std::size_t i = 0; i < image.pixels.size(); ++i) {
@@ -186,11 +186,11 @@ void validate_lights(const SceneDesc& desc, float reach)
     }
 }
 
-std::string reach_text(float reach)
+std::string limit_text(float reach)
 {
     std::ostringstream text;
     text << " m from the origin, but " << reach << " m is the most";
-    if (reach < greatest_reach) {
+    if (reach < greatest_coordinate) {
         text << ", as a mesh that is used more than once or moves is scaled down very much";
     }
     return text.str();

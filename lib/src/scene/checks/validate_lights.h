@@ -11,6 +11,6 @@ namespace bdpt {
 void validate_lights(const SceneDesc& desc, float reach);
 
 /// How far things may be, and why: the end of a message.
-[[nodiscard]] std::string reach_text(float reach);
+[[nodiscard]] std::string limit_text(float reach);
 
 }  // namespace bdpt

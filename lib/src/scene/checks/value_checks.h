@@ -41,7 +41,7 @@ template <typename Light>
     }
 }
 
-/// Pixels of a picture.
+/// Pixels of an image.
 [[nodiscard]] inline std::size_t area(int width, int height)
 {
     return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);

@@ -8,7 +8,7 @@ function refresh() {
   viewers.forEach((viewer) => viewer.invalidate());
 }
 
-/** Brings the picture with number `i` to all stages. */
+/** Brings the image with number `i` to all stages. */
 function show(i) {
   const most = Math.max(...viewers.map((viewer) => viewer.names.length));
   if (i < 0 || i >= most) {
@@ -102,7 +102,7 @@ function fillHeader() {
     html("h2", null, "How it was measured"),
     html("p", null, "relMSE is the mean of (x − r)² / (r² + e), with e a hundredth of the squared mean of the reference r. The reference's own ",
       "noise is subtracted. Times are CPU time of all threads. Runs took turns (A B C A B C), so that a busy machine was busy for all. ",
-      "Bands and ranges reach from the least to the greatest of all seeds; pictures are those of the first seed at equal time."),
+      "Bands and ranges reach from the least to the greatest of all seeds; images are those of the first seed at equal time."),
     html("p", null, "Made by ", html("code", null, data.command)));
 }
 
@@ -140,6 +140,6 @@ async function main() {
 main().catch((error) => {
   document.documentElement.dataset.ready = "failed";
   byId("scenes").append(html("p", { class: "wrap caution", role: "alert" },
-    `This browser could not show the pictures: ${error.message}. Chrome or Edge 80, Firefox 113, Safari 16.4 or newer can.`));
+    `This browser could not show the images: ${error.message}. Chrome or Edge 80, Firefox 113, Safari 16.4 or newer can.`));
   console.error(error);
 });

@@ -1,8 +1,8 @@
-// Canvases that show one of a scene's pictures, all through the same window.
+// Canvases that show one of a scene's images, all through the same window.
 
 const MOST_ZOOM = 64;
 
-/** Which part of a picture is seen: the centre [0, 1] and how many times the whole is magnified. */
+/** Which part of an image is seen: the centre [0, 1] and how many times the whole is magnified. */
 class View {
   constructor() {
     this.reset();
@@ -14,7 +14,7 @@ class View {
     this.zoom = 1;
   }
 
-  /** Magnifies by `factor`; the place (x, y) of the picture stays where it is. */
+  /** Magnifies by `factor`; the place (x, y) of the image stays where it is. */
   zoomAt(factor, x, y) {
     const zoom = Math.min(Math.max(this.zoom * factor, 1), MOST_ZOOM);
     this.x = x + (this.x - x) * this.zoom / zoom;
@@ -36,7 +36,7 @@ class View {
   }
 }
 
-/** A canvas on the page that a picture is seen through. */
+/** A canvas on the page that an image is seen through. */
 class Pane {
   constructor(view, width, height, label) {
     this.view = view;
@@ -45,7 +45,7 @@ class Pane {
       style: `aspect-ratio:${width}/${height}` });
   }
 
-  /** Draws the picture `source`, a canvas, and a mark at `cursor`, a place in it. */
+  /** Draws the image `source`, a canvas, and a mark at `cursor`, a place in it. */
   draw(source, cursor) {
     const ratio = window.devicePixelRatio || 1;
     const width = Math.max(Math.round(this.canvas.clientWidth * ratio), 1);
@@ -79,7 +79,7 @@ class Pane {
     }
   }
 
-  /** The place in [0, 1] of the picture that is under the pointer. */
+  /** The place in [0, 1] of the image that is under the pointer. */
   place(event) {
     const box = this.canvas.getBoundingClientRect();
     const { x, y, zoom } = this.view;
@@ -110,7 +110,7 @@ class Pane {
       changed(pixel(this.place(event)));
     });
     canvas.addEventListener("wheel", (event) => {
-      // Without a key the wheel is for the page, unless the picture has the focus.
+      // Without a key the wheel is for the page, unless the image has the focus.
       if (event.ctrlKey || event.metaKey || document.activeElement === canvas) {
         event.preventDefault();
         this.view.zoomAt(2 ** (-event.deltaY / 240), ...this.place(event));

@@ -127,11 +127,11 @@ function convergencePlot(scene, title, xLabel, xOf, id) {
   spreadLabels(labels, top + 8, height - bottom);
   const texts = labels.map((label) =>
     svg("text", { x: width - right + 8, y: label.y, class: `label series-${label.name}` }, label.name));
-  const picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "plot", role: "img",
+  const image = svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "plot", role: "img",
     "aria-label": `${title} in ${scene.name}: the numbers are in the table below` },
   svg("defs", null, svg("clipPath", { id }, svg("rect", { x: left, y: top, width: width - left - right, height: height - top - bottom }))),
   grid(xAxis, yAxis, xLabel, "relMSE"), slopeGuides(xAxis, yAxis, id), series.map((one) => one.group), texts);
-  return html("figure", { class: "plot-box" }, html("figcaption", null, title), picture);
+  return html("figure", { class: "plot-box" }, html("figcaption", null, title), image);
 }
 
 /** What the plots show, as a table. */

@@ -67,8 +67,8 @@ async function strategySection(scene, heat) {
   return html("section", { class: "strategies" }, html("h3", null, "Strategies of bdpt"),
     html("p", { class: "note" }, `Rows: length of paths in edges, up to ${strategies.depth}; columns: s, vertices from the light, growing to the right. ` +
       "Each row is shown one stop brighter than the one above. ",
-    html("span", { class: "key energy" }, "share of the picture's energy"), " ",
+    html("span", { class: "key energy" }, "share of the image's energy"), " ",
     html("span", { class: "key variance" }, "share of the variance of all")),
-    html("div", { class: "pyramids" }, await pyramid(scene, "weighted", "Weighted: their part of the picture"),
+    html("div", { class: "pyramids" }, await pyramid(scene, "weighted", "Weighted: their part of the image"),
       await pyramid(scene, "unweighted", "Unweighted: what each finds by itself")));
 }

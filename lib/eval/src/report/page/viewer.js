@@ -1,9 +1,9 @@
-// The pictures of a scene: one large, all of them small beside each other, their values under the pointer.
+// The images of a scene: one large, all of them small beside each other, their values under the pointer.
 
 const REFERENCE = "reference";
-const MODES = { picture: "Picture", error: "Error", variance: "Variance", time: "Time" };
+const MODES = { picture: "Image", error: "Error", variance: "Variance", time: "Time" };
 
-/** How all pictures of the page are shown. */
+/** How all images of the page are shown. */
 const display = { mode: "picture", exposure: 0, gamma: 1, curve: "filmic", metric: "relative", shown: 0 };
 
 class Viewer {
@@ -16,7 +16,7 @@ class Viewer {
     this.cursor = null;
     this.visible = false;
     this.stale = true;
-    this.stage = new Pane(this.view, scene.width, scene.height, `${scene.name}: the picture that is shown`);
+    this.stage = new Pane(this.view, scene.width, scene.height, `${scene.name}: the image that is shown`);
     this.stage.canvas.tabIndex = 0;
     this.stage.canvas.classList.add("stage");
     this.tiles = this.names.map((name) => new Pane(this.view, scene.width, scene.height, `${scene.name} by ${name}`));
@@ -35,12 +35,12 @@ class Viewer {
     return this.rgb[this.rgb.length - 1];
   }
 
-  /** The number of the picture on the stage. */
+  /** The number of the image on the stage. */
   get shown() {
     return Math.min(display.shown, this.names.length - 1);
   }
 
-  /** `more` comes beside the large picture. */
+  /** `more` comes beside the large image. */
   element(more) {
     const redraw = (cursor) => {
       this.cursor = cursor && cursor[0] >= 0 && cursor[1] >= 0 && cursor[0] < this.scene.width &&
@@ -61,7 +61,7 @@ class Viewer {
     const buttons = html("div", { class: "zoom" },
       html("button", { type: "button", title: "Zoom in", "aria-label": "Zoom in", onclick: zoomTo(2) }, "+"),
       html("button", { type: "button", title: "Zoom out", "aria-label": "Zoom out", onclick: zoomTo(0.5) }, "−"),
-      html("button", { type: "button", title: "Whole picture", onclick: () => { this.view.reset(); this.requestDraw(); } }, "Fit"));
+      html("button", { type: "button", title: "Whole image", onclick: () => { this.view.reset(); this.requestDraw(); } }, "Fit"));
     const root = html("div", { class: "viewer" },
       html("div", { class: "stage-box" }, this.stage.canvas, html("div", { class: "stage-label" }, this.title, this.hint),
         buttons),
@@ -87,7 +87,7 @@ class Viewer {
     return html("figure", { class: "tile" }, this.tiles[i].canvas, html("figcaption", null, button, numbers));
   }
 
-  /** Values of all pictures at the pointer, which also choose what is shown. */
+  /** Values of all images at the pointer, which also choose what is shown. */
   readout() {
     this.rows = this.names.map((name, i) => {
       const cells = [0, 1, 2, 3].map(() => html("td", { class: "number" }, "–"));
@@ -98,7 +98,7 @@ class Viewer {
     });
     this.where = html("caption", { class: "where" }, "Radiance under the pointer");
     return html("table", { class: "readout" }, this.where,
-      html("thead", null, html("tr", null, html("th", { scope: "col" }, "Picture"), html("th", null, html("span", { class: "hidden" }, "Colour")),
+      html("thead", null, html("tr", null, html("th", { scope: "col" }, "Image"), html("th", null, html("span", { class: "hidden" }, "Colour")),
         ["R", "G", "B", "Error"].map((text) => html("th", { scope: "col", class: "number" }, text)))),
       html("tbody", null, this.rows.map((one) => one.row)));
   }
@@ -156,7 +156,7 @@ class Viewer {
     this.drawReadout();
   }
 
-  /** Paints the picture with number `i` as `display` says. */
+  /** Paints the image with number `i` as `display` says. */
   develop(i) {
     const context = this.sources[i].getContext("2d", { willReadFrequently: true });
     const image = context.createImageData(this.scene.width, this.scene.height);
@@ -180,7 +180,7 @@ class Viewer {
     const content = {
       picture: () => html("p", { class: "note" },
         `Shown at ${digits(this.scene.pictures.exposure + display.exposure)} EV. Drag to pan, double-click or Ctrl + wheel to zoom; keys 1 to ${this.names.length} flip, P, E, V, T choose what is shown, comma and full stop the exposure.`),
-      error: () => colorBar(this.heat, `Error of this picture, ${metric.label}`, metric.ticks),
+      error: () => colorBar(this.heat, `Error of this image, ${metric.label}`, metric.ticks),
       variance: () => colorBar(this.heat, "Variance between seeds, relative", METRICS.relative.ticks),
       time: () => colorBar(this.heat, "Time of a sample", timeTicks(this.timeRange)),
     };

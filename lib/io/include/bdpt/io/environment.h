@@ -16,7 +16,7 @@ struct LoadedEnvironment {
     std::vector<std::string> warnings;  ///< one line each, without the file's name
 };
 
-/// Reads an equirectangular picture in OpenEXR or Radiance HDR format; which of the two it is, its
+/// Reads an equirectangular image in OpenEXR or Radiance HDR format; which of the two it is, its
 /// first bytes say. Pixels are taken as linear Rec. 709 [nit]; negative, infinite and NaN ones
 /// become 0, with a warning.
 ///

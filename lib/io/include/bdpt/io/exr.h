@@ -2,7 +2,7 @@
 
 #include <bdpt/export.h>
 #include <bdpt/image.h>
-#include <bdpt/io/picture_metadata.h>
+#include <bdpt/io/image_metadata.h>
 #include <bdpt/layer.h>
 
 #include <cstddef>
@@ -25,7 +25,7 @@ enum class ExrStorage : std::uint8_t {
     tiles,  ///< of 64 x 64 pixels, one level: for viewers and compositors that read parts
 };
 
-/// Where a cropped picture lies in the whole image [pixels].
+/// Where a cropped image lies in the whole image [pixels].
 struct ExrPlacement {
     int x = 0;
     int y = 0;
@@ -36,9 +36,9 @@ struct ExrPlacement {
 /// How an EXR file is written, and what it says about the image.
 struct ExrOptions {
     ExrChannelType type = ExrChannelType::single_float;  ///< of the main layer; others have floats
-    PictureMetadata metadata;
+    ImageMetadata metadata;
     ExrStorage storage = ExrStorage::scanlines;
-    std::optional<ExrPlacement> placement{};  ///< none: the picture is the whole image
+    std::optional<ExrPlacement> placement{};  ///< none: it is not cropped
 };
 
 /// What could not be written as it was.
@@ -48,8 +48,8 @@ struct ExrReport {
 };
 
 /// Writes channels R, G, B (linear Rec. 709 [nit]) with ZIP compression, atomically. The data
-/// window is the picture, the display window the whole image. Beside our own entries the header has
-/// those that other tools show: "renderTimeSeconds", "samplesPerPixel", "worldToCamera",
+/// window is the rendered part, the display window the whole image. Beside our own entries the
+/// header has those that other tools show: "renderTimeSeconds", "samplesPerPixel", "worldToCamera",
 /// "worldToNDC". Throws `Error` (output).
 BDPT_EXPORT ExrReport write_exr(const std::filesystem::path& file, const Image& image,
                                 const ExrOptions& options);

@@ -24,8 +24,8 @@ struct Shutter {
 
 /// How far a scene is loaded.
 struct LoadProgress {
-    std::size_t pictures_done = 0;
-    std::size_t pictures_total = 0;
+    std::size_t images_done = 0;
+    std::size_t images_total = 0;
 };
 
 /// What to load of a file, and how much at most.
@@ -39,10 +39,10 @@ struct GltfOptions {
     /// Moment of the animation to show [s]; none: its start, or with no animation the nodes rest.
     std::optional<double> time{};
     /// What the animation moves in this time gets a motion (bdpt/motion.h); none, or of no length:
-    /// the picture is of one moment.
+    /// the image is of one moment.
     std::optional<Shutter> shutter{};
     ReadLimits limits{};
-    /// Called while pictures are decoded, each time that one is done; on any thread, but never on
+    /// Called while images are decoded, each time that one is done; on any thread, but never on
     /// two at once. What it throws ends the loading and reaches the caller.
     std::function<void(const LoadProgress&)> on_progress{};
 };
@@ -50,7 +50,7 @@ struct GltfOptions {
 /// What we make of a glTF extension.
 enum class ExtensionStatus : std::uint8_t {
     supported,
-    ignored,  ///< known, and the picture is right or close without it; `note` says what is lost
+    ignored,  ///< known, and the image is right or close without it; `note` says what is lost
     unknown,
 };
 

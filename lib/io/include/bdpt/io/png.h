@@ -1,17 +1,17 @@
 #pragma once
 
 #include <bdpt/export.h>
-#include <bdpt/io/picture_metadata.h>
+#include <bdpt/io/image_metadata.h>
 #include <bdpt/io/tone_map.h>
 
 #include <filesystem>
 
 namespace bdpt::io {
 
-/// What goes into the file beside the picture.
+/// What goes into the file beside the image.
 struct PngOptions {
-    float exposure = 0.0f;  ///< [EV] that the picture was made with; for the record
-    PictureMetadata metadata;
+    float exposure = 0.0f;  ///< [EV] that the image was made with; for the record
+    ImageMetadata metadata;
 };
 
 /// Writes an 8-bit RGB PNG with an sRGB chunk and the metadata as text, atomically. Throws `Error`:

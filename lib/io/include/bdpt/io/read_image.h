@@ -13,10 +13,10 @@
 /// Files: glTF to `SceneDesc`, images to and from EXR, PNG and Radiance HDR.
 namespace bdpt::io {
 
-/// What to read of a picture's file, and how much at most.
+/// What to read of an image's file, and how much at most.
 struct ImageOptions {
     /// "albedo" reads albedo.R, albedo.G, albedo.B; X, Y, Z serve as well, and a single channel
-    /// gives grey. None: the picture itself, or else the first layer that has colours.
+    /// gives grey. None: the image itself, or else the first layer that has colours.
     std::optional<std::string> layer{};
     ReadLimits limits{};
 };

@@ -22,11 +22,11 @@ struct ReadLimits {
     std::uint64_t mesh_bytes = std::uint64_t{16} << 30;
     std::uint64_t triangles = 500'000'000;                 ///< of all meshes, each mesh once
     int image_side = 16384;                                ///< [pixels]
-    std::uint64_t image_bytes = std::uint64_t{2} << 30;    ///< of one picture, decoded
-    std::uint64_t texture_bytes = std::uint64_t{8} << 30;  ///< of all pictures together, decoded
-    /// Decoded over encoded size of a picture. Pictures of less than 64 MiB are not asked.
+    std::uint64_t image_bytes = std::uint64_t{2} << 30;    ///< of one image, decoded
+    std::uint64_t texture_bytes = std::uint64_t{8} << 30;  ///< of all images together, decoded
+    /// Decoded over encoded size of an image. Images of less than 64 MiB are not asked.
     std::uint64_t compression_ratio = 1000;
-    /// Of buffers, vertices, pictures and what rays are traced with, together, as estimated while a
+    /// Of buffers, vertices, images and what rays are traced with, together, as estimated while a
     /// scene is loaded.
     std::uint64_t memory_bytes = std::uint64_t{64} << 30;
 };

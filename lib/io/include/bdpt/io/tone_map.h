@@ -15,11 +15,11 @@ struct DisplayImage {
     std::vector<std::uint8_t> rgb;  ///< 3 * width * height
 };
 
-/// The exposure [EV] that brings the picture's log-average luminance to a key: 0.18, or up to 0.36
-/// for a picture that is bright but for a few shadows [after Reinhard 2002, Parameter Estimation
+/// The exposure [EV] that brings the image's log-average luminance to a key: 0.18, or up to 0.36
+/// for an image that is bright but for a few shadows [after Reinhard 2002, Parameter Estimation
 /// for Photographic Tone Reproduction]. Black, NaN and infinite pixels do not count, nor do the
 /// brightest and darkest hundredth. Scaling all pixels by k lowers it by log2(k). 0 for a black
-/// picture.
+/// image.
 [[nodiscard]] BDPT_EXPORT float automatic_exposure(const Image& image);
 
 /// From scene-linear to display-linear [0, 1]: a filmic curve [Narkowicz 2016, ACES Filmic Tone

@@ -41,15 +41,14 @@ constexpr std::array table{
     ExtensionSupport{"KHR_texture_transform", supported, ""},
     ExtensionSupport{"EXT_lights_ies", supported, "TILT is ignored"},
     ExtensionSupport{"EXT_lights_image_based", supported,
-                     "the sharpest pictures only; --env takes its place"},
+                     "the sharpest images only; --env takes its place"},
     ExtensionSupport{"EXT_mesh_gpu_instancing", supported, ""},
     ExtensionSupport{"EXT_meshopt_compression", supported, "where meshoptimizer is installed"},
     ExtensionSupport{"EXT_texture_webp", supported, ""},
-    // Supported by doing nothing: they have no influence on a picture.
-    ExtensionSupport{"FB_ngon_encoding", supported, "no influence on the picture"},
-    ExtensionSupport{"KHR_xmp", supported, "what is said about the file goes into pictures"},
-    ExtensionSupport{"KHR_xmp_json_ld", supported,
-                     "what is said about the file goes into pictures"},
+    // Supported by doing nothing: they have no influence on an image.
+    ExtensionSupport{"FB_ngon_encoding", supported, "no influence on the image"},
+    ExtensionSupport{"KHR_xmp", supported, "what is said about the file goes into images"},
+    ExtensionSupport{"KHR_xmp_json_ld", supported, "what is said about the file goes into images"},
     ExtensionSupport{"KHR_animation_pointer", supported,
                      "only what the core specification animates moves"},
     ExtensionSupport{"MSFT_packing_normalRoughnessMetallic", supported,
@@ -57,10 +56,10 @@ constexpr std::array table{
     ExtensionSupport{"MSFT_packing_occlusionRoughnessMetallic", supported,
                      "the core textures are used"},
     ExtensionSupport{"MSFT_lod", supported, "the finest level is shown"},
-    // Without these the picture lacks something.
-    ExtensionSupport{"KHR_texture_basisu", ignored, "only fallback pictures are read"},
-    ExtensionSupport{"MSFT_texture_dds", ignored, "only fallback pictures are read"},
-    ExtensionSupport{"EXT_texture_avif", ignored, "only fallback pictures are read"},
+    // Without these the image lacks something.
+    ExtensionSupport{"KHR_texture_basisu", ignored, "only fallback images are read"},
+    ExtensionSupport{"MSFT_texture_dds", ignored, "only fallback images are read"},
+    ExtensionSupport{"EXT_texture_avif", ignored, "only fallback images are read"},
 };
 
 /// Does this build lack the library for an extension?
@@ -110,8 +109,9 @@ std::vector<ExtensionUse> list_extensions(const JsonPlace& root)
             }
             ExtensionUse use = describe(place);
             use.required = std::string_view(list) == "extensionsRequired";
-            if (std::none_of(uses.begin(), uses.end(),
-                             [&use](const ExtensionUse& other) { return other.name == use.name; })) {
+            if (std::none_of(uses.begin(), uses.end(), [&use](const ExtensionUse& other) {
+                    return other.name == use.name;
+                })) {
                 uses.push_back(std::move(use));
             }
         }

@@ -63,7 +63,7 @@ std::uint8_t code_of(const TexelImage& texels, std::size_t texel, int channel)
     return static_cast<std::uint8_t>(wide >> 8U);
 }
 
-/// Radiance from RGBD: colours are sRGB, and alpha divides them. A picture without alpha has 255.
+/// Radiance from RGBD: colours are sRGB, and alpha divides them. An image without alpha has 255.
 Image decode_rgbd(const TexelImage& texels, const std::string& place, LoadContext& context)
 {
     Image image{texels.width, texels.height, {}};
@@ -165,7 +165,7 @@ Image flatten(CubeMap cube, const std::string& place, LoadContext& context)
         1, static_cast<int>(std::min({most, affordable, context.limits.image_side / 2.0})));
     const int wanted = std::max(2 * longest_side(cube), least);
     if (wanted > highest) {
-        context.warn("an environment loses detail, as a picture of all of it would be too large",
+        context.warn("an environment loses detail, as an image of all of it would be too large",
                      fmt::format("{}: {} x {} pixels", place, 2 * wanted, wanted));
     }
     while (longest_side(cube) > 1 && 2 * longest_side(cube) > highest) {
@@ -210,7 +210,7 @@ std::optional<EnvironmentLightDesc> read_image_based_light(const GltfModel& mode
         CubeMap cube = read_cube(model, levels[0], place + "/specularImages/0", context);
         desc.radiance = flatten(std::move(cube), place, context);
     } catch (const UnreadableCube& error) {
-        context.warn("a picture of the environment cannot be read; the scene does without it",
+        context.warn("an image of the environment cannot be read; the scene does without it",
                      error.what());
         return std::nullopt;
     }

@@ -20,19 +20,19 @@ namespace bdpt::io {
 
 namespace {
 
-/// A failure that costs one picture only, unlike `Error`.
-struct UnreadablePicture : std::runtime_error {
+/// A failure that costs one image only, unlike `Error`.
+struct UnreadableImage : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-Bytes read_picture_file(const std::string& uri, const LoadContext& context)
+Bytes read_image_file(const std::string& uri, const LoadContext& context)
 {
     const std::filesystem::path file = resolve_uri(context.folder, uri);
     try {
         return read_file(file, context.limits.file_bytes);
     } catch (const Error& error) {
         if (error.code() == ErrorCode::not_found) {
-            throw UnreadablePicture(quote(uri) + ": " + error.what());
+            throw UnreadableImage(quote(uri) + ": " + error.what());
         }
         throw;
     }
@@ -40,15 +40,15 @@ Bytes read_picture_file(const std::string& uri, const LoadContext& context)
 
 }  // namespace
 
-/// A picture on its way; what goes wrong with it is kept until its turn.
+/// An image on its way; what goes wrong with it is kept until its turn.
 struct ImageTable::Job {
     std::size_t index = 0;
     Bytes own_bytes{};  // if it is not in a buffer
     ByteView bytes{};
-    std::optional<EncodedPicture> encoded{};
+    std::optional<EncodedImage> encoded{};
     TexelImage image{};
     std::exception_ptr failure{};
-    bool fatal = false;  // does it end more than this picture?
+    bool fatal = false;  // does it end more than this image?
 
     template <typename Work>
     void attempt(const Work& work)
@@ -72,8 +72,8 @@ struct ImageTable::Job {
     }
 };
 
-/// Reads the bytes and the header. What a picture takes is counted even if it turns out to be
-/// broken, so that the verdict does not depend on the order in which pictures are decoded.
+/// Reads the bytes and the header. What an image takes is counted even if it turns out to be
+/// broken, so that the verdict does not depend on the order in which images are decoded.
 void ImageTable::open(const OiioLibrary& library, Job& job)
 {
     const tinygltf::Image& source = model_.structs.images[job.index];
@@ -83,11 +83,11 @@ void ImageTable::open(const OiioLibrary& library, Job& job)
         const auto& data = model_.structs.buffers[static_cast<std::size_t>(view.buffer)].data;
         job.bytes = ByteView(data).subspan(view.byteOffset, view.byteLength);
     } else if (source.uri.empty()) {
-        throw UnreadablePicture("neither \"uri\" nor \"bufferView\"");
+        throw UnreadableImage("neither \"uri\" nor \"bufferView\"");
     } else {
         job.own_bytes = is_data_uri(source.uri)
                             ? decode_data_uri(source.uri, context_.limits.file_bytes)
-                            : read_picture_file(source.uri, context_);
+                            : read_image_file(source.uri, context_);
         job.bytes = job.own_bytes;
     }
     job.encoded.emplace(library, job.bytes, context_.limits);
@@ -95,13 +95,13 @@ void ImageTable::open(const OiioLibrary& library, Job& job)
     if (total_bytes_ > context_.limits.texture_bytes) {
         throw Error(
             ErrorCode::invalid_input,
-            fmt::format("all pictures together need more than {}",
+            fmt::format("all images together need more than {}",
                         human_bytes(static_cast<long double>(context_.limits.texture_bytes))));
     }
     context_.budget.spend_memory(job.encoded->decoded_bytes());
 }
 
-/// Decodes the pictures of a batch at once, and adds them in their order.
+/// Decodes the images of a batch at once, and adds them in their order.
 void ImageTable::finish(std::deque<Job>& batch, const std::function<void()>& tell)
 {
     tbb::parallel_for(
@@ -137,7 +137,7 @@ void ImageTable::add(Job& job)
     } catch (const Error& error) {
         throw Error(error.code(), place + ": " + error.what());
     } catch (const std::runtime_error& error) {
-        context_.warn("the picture cannot be read; the texture does without it",
+        context_.warn("the image cannot be read; the texture does without it",
                       place + ": " + error.what());
     }
 }
@@ -149,17 +149,17 @@ void ImageTable::decode(const std::vector<std::size_t>& indices,
         return;
     }
     const OiioLibrary library;
-    LoadProgress progress{.pictures_done = 0, .pictures_total = indices.size()};
+    LoadProgress progress{.images_done = 0, .images_total = indices.size()};
     std::mutex mutex;
     const auto tell = [&] {
         const std::lock_guard lock(mutex);
-        ++progress.pictures_done;
+        ++progress.images_done;
         if (on_progress) {
             on_progress(progress);
         }
     };
-    // Pictures are opened one after the other and decoded in batches, which take no more memory
-    // together than one picture may.
+    // Images are opened one after the other and decoded in batches, which take no more memory
+    // together than one image may.
     std::deque<Job> batch;
     std::uint64_t batch_memory = 0;
     for (const std::size_t index : indices) {

@@ -18,21 +18,21 @@
 
 namespace bdpt::io {
 
-/// Decodes the pictures of a document, several at once and each only once.
+/// Decodes the images of a document, several at once and each only once.
 class ImageTable {
 public:
-    /// The arguments must outlive the table. Pictures are added to `images`.
+    /// The arguments must outlive the table. Images are added to `images`.
     ImageTable(const GltfModel& model, std::vector<TexelImage>& images, LoadContext& context)
         : model_(model), images_(images), context_(context)
     {}
 
-    /// Decodes these pictures of the document and adds them in that order; those that cannot be
+    /// Decodes these images of the document and adds them in that order; those that cannot be
     /// read or decoded are left out, with a warning. `on_progress` may be empty. Throws `Error`
     /// (invalid_input) about the first that is beyond the limits, whichever thread was first.
     void decode(const std::vector<std::size_t>& indices,
                 const std::function<void(const LoadProgress&)>& on_progress);
 
-    /// Picture `index` of the document, which is decoded now if it has not been; none if it cannot
+    /// Image `index` of the document, which is decoded now if it has not been; none if it cannot
     /// be read or decoded.
     [[nodiscard]] std::optional<ImageId> get(std::size_t index);
 

@@ -11,7 +11,7 @@
 namespace bdpt::io {
 
 /// A glTF material with its KHR_materials extensions [glTF 2.0, sec. 3.9]. Values beyond their
-/// ranges are brought back, with a warning. Pictures that have no influence are not decoded.
+/// ranges are brought back, with a warning. Images that have no influence are not decoded.
 [[nodiscard]] MaterialDesc read_material(const tinygltf::Model& model, std::size_t index,
                                          TextureResolver& textures, LoadContext& context);
 

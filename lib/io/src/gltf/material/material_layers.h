@@ -7,7 +7,7 @@
 namespace bdpt::io {
 
 /// Adds what KHR_materials_{anisotropy, clearcoat, diffuse_transmission, iridescence, sheen} say.
-/// Pictures that have no influence are not decoded.
+/// Images that have no influence are not decoded.
 void read_layers(const MaterialValues& values, MaterialDesc& desc);
 
 }  // namespace bdpt::io

@@ -24,7 +24,7 @@ std::vector<MaterialDesc> read_all(const tinygltf::Model& model, const std::vect
     return materials;
 }
 
-/// Pictures that the materials ask for, in the order in which they do.
+/// Images that the materials ask for, in the order in which they do.
 std::vector<std::size_t> wanted_images(const tinygltf::Model& model,
                                        const std::vector<int>& indices, LoadContext& context)
 {

@@ -18,7 +18,7 @@ Vec2 pair_or(const tinygltf::Value& object, const std::string& key, Vec2 fallbac
             static_cast<float>(pair.Get(1).GetNumberAsDouble())};
 }
 
-/// The pictures of a texture, the best first: WebP by its extension, then the one for everybody.
+/// The images of a texture, the best first: WebP by its extension, then the one for everybody.
 std::vector<std::size_t> sources(const tinygltf::Texture& texture)
 {
     std::vector<std::size_t> result;
@@ -32,8 +32,8 @@ std::vector<std::size_t> sources(const tinygltf::Texture& texture)
     return result;
 }
 
-/// The extensions by which a texture has pictures that we cannot read, in parentheses.
-std::string unread_pictures(const tinygltf::Texture& texture)
+/// The extensions by which a texture has images that we cannot read, in parentheses.
+std::string unread_images(const tinygltf::Texture& texture)
 {
     std::string names;
     for (const char* name : {"KHR_texture_basisu", "EXT_texture_avif", "MSFT_texture_dds"}) {
@@ -107,15 +107,15 @@ std::optional<TextureRef> TextureResolver::resolve(const TextureInfo& info,
         return std::nullopt;
     }
     const auto& texture = model_.textures[static_cast<std::size_t>(info.index)];
-    const std::vector<std::size_t> pictures = sources(texture);
-    if (pictures.empty()) {
-        context_.warn("the texture has no PNG, JPEG or WebP picture; the material does without it",
-                      fmt::format("/textures/{}{}", info.index, unread_pictures(texture)));
+    const std::vector<std::size_t> images = sources(texture);
+    if (images.empty()) {
+        context_.warn("the texture has no PNG, JPEG or WebP image; the material does without it",
+                      fmt::format("/textures/{}{}", info.index, unread_images(texture)));
         return std::nullopt;
     }
     std::optional<ImageId> image;
-    for (std::size_t i = 0; i < pictures.size() && !image; ++i) {
-        image = find_image_(pictures[i]);
+    for (std::size_t i = 0; i < images.size() && !image; ++i) {
+        image = find_image_(images[i]);
     }
     if (!image) {
         return std::nullopt;

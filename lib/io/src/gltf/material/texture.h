@@ -40,7 +40,7 @@ template <typename Info>
 /// Resolves references to textures.
 class TextureResolver {
 public:
-    /// Gives the picture of an index; none if it cannot be read.
+    /// Gives the image of an index; none if it cannot be read.
     using FindImage = std::function<std::optional<ImageId>(std::size_t)>;
 
     TextureResolver(const tinygltf::Model& model, FindImage find_image, LoadContext& context)

@@ -27,7 +27,7 @@ struct SceneChoice {
     Shutter shutter{};                    ///< counted from `time`
 };
 
-/// Turns one scene of a document into a description and cameras; meshes, materials and pictures
+/// Turns one scene of a document into a description and cameras; meshes, materials and images
 /// that it does not use are left out. Throws `Error`.
 [[nodiscard]] LoadedScene build_scene(CheckedGltf checked, const SceneChoice& choice,
                                       const std::function<void(const LoadProgress&)>& on_progress,

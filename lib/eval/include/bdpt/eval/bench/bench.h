@@ -59,11 +59,11 @@ struct SceneResult {
 /// CPU time that a scene takes at about, with its reference [s].
 [[nodiscard]] BDPT_EXPORT double planned_seconds(const BenchOptions& options);
 
-/// Where a run's picture at equal time is.
-[[nodiscard]] BDPT_EXPORT std::filesystem::path picture_file(const std::filesystem::path& folder,
-                                                             const std::string& scene,
-                                                             IntegratorKind integrator,
-                                                             std::uint64_t seed);
+/// Where a run's image at equal time is.
+[[nodiscard]] BDPT_EXPORT std::filesystem::path image_file(const std::filesystem::path& folder,
+                                                           const std::string& scene,
+                                                           IntegratorKind integrator,
+                                                           std::uint64_t seed);
 
 /// All files that `run_scene` may write, for whoever has to clean up after it.
 [[nodiscard]] BDPT_EXPORT std::vector<std::filesystem::path> scene_files(
@@ -72,7 +72,7 @@ struct SceneResult {
 /// Runs every integrator with every seed in turn (A B C A B C ...), so that a machine that gets
 /// slower or busier does so for all. A run is rendered up to the samples that take `seconds`, which
 /// are found out first, or to those of the comparison at equal samples, whichever are more, and
-/// looked at on its way. All runs, their pictures and the reference are kept in `folder`; those
+/// looked at on its way. All runs, their images and the reference are kept in `folder`; those
 /// that are there already are not made again. None if stopped before there was a reference.
 ///
 /// Throws `Error`, whose message names the file: output when one cannot be written; usage when the

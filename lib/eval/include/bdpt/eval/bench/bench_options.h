@@ -21,10 +21,10 @@ struct BenchOptions {
     /// integrator manages in `seconds`.
     std::optional<std::int64_t> samples{};
     int seeds = 5;  ///< runs of each integrator, [1, 10000]; their seeds are 0, 1, 2 ...
-    /// A picture, or a folder with NAME.exr for each scene; none: references are rendered.
+    /// An image, or a folder with NAME.exr for each scene; none: references are rendered.
     std::optional<std::filesystem::path> reference{};
     double reference_seconds = 60.0;  ///< of each of the two renders that a reference is made of
-    int strategy_depth = 5;  ///< longest paths [edges] in the pictures of strategies; 0: none
+    int strategy_depth = 5;  ///< longest paths [edges] in the images of strategies; 0: none
 };
 
 }  // namespace bdpt::eval

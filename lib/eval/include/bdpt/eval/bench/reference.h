@@ -8,10 +8,10 @@
 
 namespace bdpt::eval {
 
-/// What the pictures of a scene converge to, as well as it is known.
+/// What the images of a scene converge to, as well as it is known.
 struct Reference {
     Image image;
-    double noise = 0.0;  ///< relMSE that its own noise adds to that of every picture
+    double noise = 0.0;  ///< relMSE that its own noise adds to that of every image
     std::string origin;  ///< for people: how it came about
 };
 
@@ -19,14 +19,14 @@ struct Reference {
 /// unit of light does not matter. Throws `Error` (invalid_input) for a black reference.
 [[nodiscard]] BDPT_EXPORT MetricScale bench_scale(const Image& reference);
 
-/// A picture and the two halves of the samples that it is the mean of.
+/// An image and the two halves of the samples that it is the mean of.
 struct HalvedImage {
     Image image;
     Image first;
     Image second;
 };
 
-/// relMSE of a picture's own noise, as its halves tell it, relative to `base` of the same size.
+/// relMSE of an image's own noise, as its halves tell it, relative to `base` of the same size.
 /// Throws like `bench_scale`.
 [[nodiscard]] BDPT_EXPORT double noise_of(const HalvedImage& image, const Image& base);
 
@@ -34,7 +34,7 @@ struct HalvedImage {
 struct CombinedReference {
     Image image;
     double noise = 0.0;      ///< relMSE
-    double share = 0.0;      ///< weight of the first picture, by the inverse of its noise
+    double share = 0.0;      ///< weight of the first image, by the inverse of its noise
     double agreement = 0.0;  ///< squared difference of the two over what their noise explains
 };
 

@@ -15,15 +15,15 @@ namespace bdpt::eval {
 /// that is taken as the truth: in all, and in each tile.
 class BDPT_EXPORT BiasEstimator {
 public:
-    /// The tiles lie in pictures of `width` x `height` pixels.
+    /// The tiles lie in images of `width` x `height` pixels.
     BiasEstimator(int width, int height, std::vector<PixelRect> tiles);
 
     /// Both have that size.
     void add(const Image& image, const Image& reference);
 
-    /// Of at least one picture.
+    /// Of at least one image.
     [[nodiscard]] Bias bias() const;
-    /// A test for each tile and channel, the surest bias first; none for one picture.
+    /// A test for each tile and channel, the surest bias first; none for one image.
     [[nodiscard]] std::vector<TileBias> tile_tests() const;
 
 private:
@@ -35,7 +35,7 @@ private:
     int height_;
     std::vector<PixelRect> tiles_;
     std::array<std::vector<double>, 3> sums_;  // of differences; a number a pixel, by channel
-    double squares_ = 0.0;                     // of differences, over pixels, channels and pictures
+    double squares_ = 0.0;                     // of differences, over pixels, channels and images
     std::array<Moments, 4> means_;             // red, green, blue, and their mean
     std::array<std::vector<Moments>, 3> tile_means_;  // a number a tile, by channel
 };

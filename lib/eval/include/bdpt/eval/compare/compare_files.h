@@ -18,12 +18,12 @@ struct FileComparison {
     std::vector<std::string> warnings;  ///< one line each, with the file's name
 };
 
-/// Reads the pictures, one at a time, and holds them against the reference, within the part of the
-/// image that the reference and the first picture both have data for; the others must have data for
+/// Reads the images, one at a time, and holds them against the reference, within the region
+/// that the reference and the first image both have data for; the others must have data for
 /// all of it. `layer` is that of `io::ImageOptions`; the options' x0 and y0 are found out.
 ///
 /// Throws `Error`, whose message names the file: those of `io::read_image` and `Comparison`, and
-/// invalid_input for pictures of different size or without pixels in common.
+/// invalid_input for images of different size or without pixels in common.
 [[nodiscard]] BDPT_EXPORT FileComparison compare_files(std::span<const std::filesystem::path> files,
                                                        const std::filesystem::path& reference,
                                                        const std::optional<std::string>& layer,

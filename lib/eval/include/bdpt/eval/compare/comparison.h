@@ -19,12 +19,12 @@ struct ComparisonOptions {
     Metric map_metric = Metric::relmse;  ///< of the map and the worst tiles; not psnr
     int tile_size = 32;                  ///< [pixels] a side, at least 1
     int worst_tiles = 5;                 ///< how many are reported at most; at least 1
-    /// Where the pictures lie in the whole image [pixels]: for messages and reported tiles.
+    /// Where the images lie in the whole image [pixels]: for messages and reported tiles.
     int x0 = 0;
     int y0 = 0;
 };
 
-/// Holds pictures, one after the other, against a reference. Pictures that are added are renders of
+/// Holds images, one after the other, against a reference. Images that are added are renders of
 /// one scene with different seeds; the reference is taken as the truth.
 class BDPT_EXPORT Comparison {
 public:
@@ -32,18 +32,18 @@ public:
     /// for a reference without pixels or with NaN or infinity.
     Comparison(const std::string& name, Image reference, ComparisonOptions options);
 
-    /// Throws `Error` (invalid_input) when the picture has another size than the reference, or
+    /// Throws `Error` (invalid_input) when the image has another size than the reference, or
     /// NaN or infinity.
     void add(const std::string& name, const Image& image);
 
-    /// Of at least one picture.
+    /// Of at least one image.
     [[nodiscard]] ComparisonReport report() const;
 
 private:
     [[nodiscard]] std::vector<TileError> worst_tiles(const ErrorMap& terms) const;
     [[nodiscard]] std::vector<TileBias> biased_tiles() const;
     [[nodiscard]] MetricSummary summarize(std::size_t metric) const;
-    /// From our pictures to the whole image.
+    /// From our images to the whole image.
     [[nodiscard]] PixelRect placed(const PixelRect& rect) const;
 
     Image reference_;

@@ -13,17 +13,17 @@
 
 namespace bdpt::eval {
 
-/// The metrics of one picture, in the order of the report's.
+/// The metrics of one image, in the order of the report's.
 struct ImageErrors {
     std::string name;
     std::vector<double> values;
 };
 
-/// A metric over all pictures.
+/// A metric over all images.
 struct MetricSummary {
     Metric metric = Metric::relmse;
     double mean = 0.0;
-    std::optional<double> deviation{};  ///< standard deviation; none for one picture
+    std::optional<double> deviation{};  ///< standard deviation; none for one image
     double least = 0.0;
     double greatest = 0.0;
 };
@@ -36,21 +36,21 @@ struct Estimate {
 
 /// Where standard errors of the bias come from.
 enum class BiasSource : std::uint8_t {
-    seeds,   ///< the spread between pictures of different seeds
-    blocks,  ///< the spread between blocks of pixels of the only picture; noise must not reach over
+    seeds,   ///< the spread between images of different seeds
+    blocks,  ///< the spread between blocks of pixels of the only image; noise must not reach over
              ///< a block
 };
 
-/// Mean of picture minus reference: of red, green, blue, and of the mean of the three.
+/// Mean of image minus reference: of red, green, blue, and of the mean of the three.
 struct Bias {
     BiasSource source = BiasSource::blocks;
     std::array<Estimate, 4> channels;
-    /// Root mean square over pixels (tiles) and channels; none for one picture.
+    /// Root mean square over pixels (tiles) and channels; none for one image.
     std::optional<double> pixel_standard_error{};
     std::optional<double> tile_standard_error{};
 };
 
-/// A tile and the metric in it, averaged over the pictures.
+/// A tile and the metric in it, averaged over the images.
 struct TileError {
     PixelRect tile{};  ///< in the whole image
     double value = 0.0;
@@ -66,7 +66,7 @@ struct TileBias {
     double p = 1.0;  ///< of Student's t-test, Holm-corrected for all tiles and channels
 };
 
-/// All that is known about pictures that were held against a reference.
+/// All that is known about images that were held against a reference.
 struct ComparisonReport {
     PixelRect region;  ///< what was compared, in the whole image
     MetricScale scale;
@@ -76,8 +76,8 @@ struct ComparisonReport {
     int tile_size = 0;
     Metric map_metric = Metric::relmse;
     std::vector<TileError> worst_tiles;  ///< by `map_metric`, the worst first
-    std::vector<TileBias> biased_tiles;  ///< the lowest p first; empty for one picture
-    /// `map_metric` of each pixel; of several pictures from the mean of their terms.
+    std::vector<TileBias> biased_tiles;  ///< the lowest p first; empty for one image
+    /// `map_metric` of each pixel; of several images from the mean of their terms.
     ErrorMap map;
 };
 

@@ -7,7 +7,7 @@
 
 namespace bdpt::eval {
 
-/// The pictures that are to be held against `reference`: `path` itself, or, when it is a folder,
+/// The images that are to be held against `reference`: `path` itself, or, when it is a folder,
 /// all .exr and .hdr files in it but the reference and hidden ones, by name. Throws `Error`
 /// (not_found) when the folder cannot be read or holds none.
 [[nodiscard]] BDPT_EXPORT std::vector<std::filesystem::path> seed_files(

@@ -13,7 +13,7 @@ namespace bdpt::eval {
 
 /// What a threshold is for.
 enum class ThresholdKind : std::uint8_t {
-    metric,  ///< the metric's mean over the pictures
+    metric,  ///< the metric's mean over the images
     bias,    ///< the greatest of the three channels' absolute bias
     p,       ///< the lowest p of all tiles
 };
@@ -37,7 +37,7 @@ struct ThresholdResult {
 };
 
 /// Holds a report against a threshold. Throws `Error` (usage) when the report does not have the
-/// metric, or has one picture and so no p.
+/// metric, or has one image and so no p.
 [[nodiscard]] BDPT_EXPORT ThresholdResult check_threshold(const ComparisonReport& report,
                                                           const Threshold& threshold);
 

@@ -40,12 +40,12 @@ private:
     SheetSize size_;
 };
 
-/// Exposure [EV] of a strategy's images beyond that of the picture: one stop for each edge after
-/// the first, so that the faint light of long paths can be seen [Veach 1997, fig. 10.3].
+/// Exposure [EV] of a strategy's images beyond that of the whole image: one stop for each edge
+/// after the first, so that the faint light of long paths can be seen [Veach 1997, fig. 10.3].
 [[nodiscard]] BDPT_EXPORT float extra_exposure(Strategy strategy);
 
 /// The weighted images of all strategies, below them the unweighted ones, each group as a pyramid
-/// of labelled cells; large images are shrunk. Both have the exposure [EV] of the picture and
+/// of labelled cells; large images are shrunk. Both have the exposure [EV] of the image and
 /// `extra_exposure`. `film` is not empty.
 [[nodiscard]] BDPT_EXPORT io::DisplayImage contact_sheet(const StrategyFilm& film, float exposure);
 

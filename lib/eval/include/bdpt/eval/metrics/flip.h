@@ -10,13 +10,13 @@ namespace bdpt::eval {
 /// 2020, sec. 4].
 inline constexpr double default_pixels_per_degree = 67.0206432765823;
 
-/// The difference that people see when two pictures of one size alternate on a screen, from 0
+/// The difference that people see when two images of one size alternate on a screen, from 0
 /// (none) to 1 [Andersson et al. 2020, FLIP: A Difference Evaluator for Alternating Images]. Pixels
 /// are linear light of an sRGB screen; they are clamped to [0, 1].
 [[nodiscard]] BDPT_EXPORT ErrorMap flip(const Image& image, const Image& reference,
                                         double pixels_per_degree = default_pixels_per_degree);
 
-/// The exposures [EV] at which a picture is looked at: `count` of them, evenly from `start` to
+/// The exposures [EV] at which an image is looked at: `count` of them, evenly from `start` to
 /// `stop`.
 struct FlipExposures {
     double start = 0.0;
@@ -32,7 +32,7 @@ struct FlipExposures {
 
 /// Those from where the brightest pixel of `reference` is shown at 0.85 to where the median is,
 /// about one EV apart, at least two [Andersson et al. 2021, Visualizing and Communicating Errors in
-/// Rendered Images, sec. 4]. A median below 2^-23 counts as that. A black picture is looked at
+/// Rendered Images, sec. 4]. A median below 2^-23 counts as that. A black image is looked at
 /// once, at 0 EV.
 [[nodiscard]] BDPT_EXPORT FlipExposures flip_exposures(const Image& reference);
 

@@ -12,7 +12,7 @@
 
 namespace bdpt::eval {
 
-/// A measure of how far a picture x is from its reference r. Means are over pixels and channels.
+/// A measure of how far an image x is from its reference r. Means are over pixels and channels.
 enum class Metric : std::uint8_t {
     relmse,    ///< mean of (x - r)^2 / (r^2 + squared_epsilon)
     mse,       ///< mean of (x - r)^2
@@ -21,7 +21,7 @@ enum class Metric : std::uint8_t {
     smape,     ///< mean of |x - r| / (|x| + |r| + epsilon) [Vogels et al. 2018]
     psnr,      ///< 10 log10(peak^2 / MSE) [dB]; infinite without an error; more is better
     flip,      ///< mean of HDR-FLIP
-    flip_ldr,  ///< mean of FLIP between the pictures as `io::filmic` shows them
+    flip_ldr,  ///< mean of FLIP between the images as `io::filmic` shows them
 };
 
 /// In the order of the enumerators.
@@ -38,7 +38,7 @@ inline constexpr std::array all_metrics{Metric::relmse, Metric::mse,     Metric:
 [[nodiscard]] BDPT_EXPORT bool grows_with_error(Metric metric);
 
 /// What the metric averages: for each pixel the mean over its channels of the terms above, before
-/// any root or logarithm; mse, rmse and psnr average the same. The pictures have one size and are
+/// any root or logarithm; mse, rmse and psnr average the same. The images have one size and are
 /// finite.
 [[nodiscard]] BDPT_EXPORT ErrorMap error_terms(Metric metric, const Image& image,
                                                const Image& reference, const MetricScale& scale);
@@ -49,7 +49,7 @@ inline constexpr std::array all_metrics{Metric::relmse, Metric::mse,     Metric:
 /// The mean of the values, which are at least one.
 [[nodiscard]] BDPT_EXPORT double mean(const ErrorMap& map);
 
-/// The metric of a whole picture.
+/// The metric of a whole image.
 [[nodiscard]] BDPT_EXPORT double evaluate(Metric metric, const Image& image, const Image& reference,
                                           const MetricOptions& options = {});
 

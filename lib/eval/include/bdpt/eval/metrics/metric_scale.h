@@ -11,11 +11,11 @@ namespace bdpt::eval {
 
 /// What the small number under relative errors is a multiple of.
 enum class EpsilonUnit : std::uint8_t {
-    absolute,        ///< 1, or 1 nit: pictures of about unit brightness
-    reference_mean,  ///< the mean of the reference: pictures of any brightness
+    absolute,        ///< 1, or 1 nit: images of about unit brightness
+    reference_mean,  ///< the mean of the reference: images of any brightness
 };
 
-/// What metrics need to know beside the two pictures.
+/// What metrics need to know beside the two images.
 struct MetricOptions {
     double epsilon = 0.01;  ///< > 0; keeps relative errors of black pixels finite
     EpsilonUnit epsilon_unit = EpsilonUnit::absolute;
@@ -25,7 +25,7 @@ struct MetricOptions {
     std::optional<float> exposure{};  ///< [EV] of LDR-FLIP; none: io::automatic_exposure(reference)
 };
 
-/// The options with all that depends on the reference filled in: the same for every picture that is
+/// The options with all that depends on the reference filled in: the same for every image that is
 /// held against it, so that their errors can be compared.
 struct MetricScale {
     double epsilon = 0.01;          ///< added to |r| in MAPE and to |x| + |r| in SMAPE

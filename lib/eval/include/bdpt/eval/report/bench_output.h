@@ -25,7 +25,7 @@ struct BenchRecord {
 /// A line for each checkpoint of each run.
 [[nodiscard]] BDPT_EXPORT std::string bench_csv(const BenchRecord& record);
 
-/// One HTML page with everything in it, from the record and the pictures that `folder` has. Throws
+/// One HTML page with everything in it, from the record and the images that `folder` has. Throws
 /// `Error` like `io::read_image`, or out_of_memory.
 [[nodiscard]] BDPT_EXPORT std::string bench_page(const BenchRecord& record,
                                                  const std::filesystem::path& folder);

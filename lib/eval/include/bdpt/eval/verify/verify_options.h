@@ -19,13 +19,13 @@ constexpr int direct_samples = 64;
 struct VerifyOptions {
     int width = 32;  ///< [pixels]
     int height = 32;
-    /// Tiles along each side of the picture; not more than there are pixels.
+    /// Tiles along each side of the image; not more than there are pixels.
     int grid = 4;
     /// Longest paths that are tested [edges], at least 1.
     int max_depth = 5;
     /// Chance of `Verdict::fail` for a renderer without fault.
     double false_alarm = 1e-3;
-    /// Errors of a strategy that change the mean of the picture by this fraction must be found with
+    /// Errors of a strategy that change the mean of the image by this fraction must be found with
     /// 90 % chance; else the verdict is `inconclusive`.
     double detectable_bias = 0.01;
     double seconds = 120.0;  ///< after which no more batches start

@@ -14,7 +14,7 @@ namespace bdpt::eval {
 
 /// What `verify` says of a scene.
 enum class Verdict : std::uint8_t {
-    pass,          ///< nothing disagrees, and what would bias the picture would have been seen
+    pass,          ///< nothing disagrees, and what would bias the image would have been seen
     fail,          ///< something disagrees
     inconclusive,  ///< nothing disagrees, but the noise could hide it
 };
@@ -27,8 +27,8 @@ struct MeanComparison {
     double z = 0.0;           ///< difference in standard errors
     double p = 1.0;           ///< chance of such a difference if both means are equal
     double p_adjusted = 1.0;  ///< after Holm's correction for all tests of its family
-    /// Errors that change the mean of the picture by this fraction are found with 90 % chance;
-    /// infinite if it takes another comparison to find them. Of the whole picture only.
+    /// Errors that change the mean of the image by this fraction are found with 90 % chance;
+    /// infinite if it takes another comparison to find them. Of the whole image only.
     double detectable = std::numeric_limits<double>::infinity();
 };
 
@@ -37,11 +37,11 @@ struct StrategyFinding {
     Strategy strategy;
     /// Of the light of paths of this length, what the strategy cannot make; in [0, 1].
     double blind = 0.0;
-    double weighted = 0.0;    ///< what it brings to the picture, on average [nit]
+    double weighted = 0.0;    ///< what it brings to the image, on average [nit]
     double unweighted = 0.0;  ///< what it finds by itself, on average [nit]; may be very noisy
     /// Part of `weighted` along paths that no other strategy can make [nit].
     double solitary = 0.0;
-    MeanComparison whole;               ///< in the whole picture
+    MeanComparison whole;               ///< in the whole image
     std::vector<MeanComparison> tiles;  ///< in rows
 };
 
@@ -56,20 +56,20 @@ struct IntegratorFinding {
 /// The light of all paths of one length.
 struct LengthFinding {
     int edges = 0;
-    double radiance = 0.0;  ///< on average over the picture, by bdpt [nit]
+    double radiance = 0.0;  ///< on average over the image, by bdpt [nit]
     double error = 0.0;     ///< its standard error [nit]
     /// What pt, nee and mis can make of it, and what lt can; in [0, 1].
     double seen_from_camera = 0.0;
     double seen_from_light = 0.0;
 };
 
-/// An integrator's mean of the picture, over all lengths that are tested.
-struct PictureFinding {
+/// An integrator's mean of the image, over all lengths that are tested.
+struct ImageFinding {
     IntegratorKind integrator = IntegratorKind::bdpt;
     double radiance = 0.0;  ///< [nit]
     double error = 0.0;     ///< standard error [nit]
     FilmDefects defects;
-    /// The greatest difference of a tile between the picture and the sum of the paths that were
+    /// The greatest difference of a tile between the image and the sum of the paths that were
     /// reported for it, relative to the tile.
     double lost = 0.0;
 };
@@ -88,35 +88,35 @@ struct VerifyReport {
     Verdict verdict = Verdict::inconclusive;
     std::int64_t batches = 0;
     double seconds = 0.0;
-    /// The mean of the picture [nit].
+    /// The mean of the image [nit].
     double radiance = 0.0;
-    /// Errors of a strategy that change the mean of the picture by this fraction would have been
+    /// Errors of a strategy that change the mean of the image by this fraction would have been
     /// found with 90 % chance. Infinite with too few samples to tell.
     double detectable = std::numeric_limits<double>::infinity();
-    /// Fraction of the picture along paths that only one strategy of bdpt, and neither pt, nee nor
+    /// Fraction of the image along paths that only one strategy of bdpt, and neither pt, nee nor
     /// mis, can make: nothing checks it.
     double unchecked = 0.0;
     double false_alarm = 0.0;  ///< that was allowed
     std::vector<PixelRect> tiles;
-    std::array<PictureFinding, 5> pictures;  ///< bdpt, pt, nee, mis, lt
+    std::array<ImageFinding, 5> images;  ///< bdpt, pt, nee, mis, lt
     WeightFinding weights;
     std::vector<LengthFinding> lengths;
     std::vector<StrategyFinding> strategies;
     std::vector<IntegratorFinding> integrators;
 };
 
-/// Does this comparison fail? Each of the two families of tests, whole pictures and tiles, has half
+/// Does this comparison fail? Each of the two families of tests, whole images and tiles, has half
 /// of the false alarms.
 [[nodiscard]] inline bool fails(const MeanComparison& comparison, const VerifyReport& report)
 {
     return comparison.p_adjusted <= 0.5 * report.false_alarm;
 }
 
-/// Does the picture lack what its paths brought, or hold what no path did? Rounding to single
+/// Does the image lack what its paths brought, or hold what no path did? Rounding to single
 /// floats loses far less.
-[[nodiscard]] inline bool loses_light(const PictureFinding& picture)
+[[nodiscard]] inline bool loses_light(const ImageFinding& image)
 {
-    return !(picture.lost <= 1e-3);
+    return !(image.lost <= 1e-3);
 }
 
 }  // namespace bdpt::eval

@@ -1,4 +1,4 @@
-#include "report/pictures.h"
+#include "report/image_files.h"
 
 #include <bdpt/io/png.h>
 #include <bdpt/io/tone_map.h>
@@ -9,10 +9,10 @@ namespace bdpt::app {
 
 namespace fs = std::filesystem;
 
-PictureReport write_pictures(std::span<const fs::path> outputs, const Image& image,
-                             const PictureOptions& options)
+WrittenImages write_image_files(std::span<const fs::path> outputs, const Image& image,
+                                const ImageFileOptions& options)
 {
-    PictureReport report;
+    WrittenImages report;
     for (const fs::path& output : outputs) {
         if (has_extension(output, ".exr")) {
             report.clamped_pixels =

@@ -51,7 +51,7 @@ constexpr auto all_integrators = {IntegratorKind::bdpt, IntegratorKind::pt, Inte
 
 }  // namespace
 
-TEST_CASE("found paths add up to the picture, and telling of them does not change it", "[paths]")
+TEST_CASE("found paths add up to the image, and telling of them does not change it", "[paths]")
 {
     const Scene scene = room();
     for (const IntegratorKind integrator : all_integrators) {
@@ -63,7 +63,7 @@ TEST_CASE("found paths add up to the picture, and telling of them does not chang
             what.film.crop = PixelRect{.x0 = 2, .y0 = 0, .x1 = 12, .y1 = 7};
             std::vector<Vec3> sums(70, Vec3(0.0f));
             RenderControl control;
-            control.on_path = [&](const FoundPath& path) {
+            control.on_path = [&](const PathContribution& path) {
                 const auto x = static_cast<std::size_t>(path.raster.x);
                 const auto y = static_cast<std::size_t>(path.raster.y);
                 REQUIRE(what.film.crop->contains(static_cast<int>(std::floor(path.raster.x)),
@@ -94,7 +94,7 @@ TEST_CASE("shares of all strategies sum to one and are those behind the weight",
                 int paths = 0;
                 int blind = 0;
                 RenderControl control;
-                control.on_path = [&](const FoundPath& path) {
+                control.on_path = [&](const PathContribution& path) {
                     const auto& shares = path.shares;
                     REQUIRE(shares.size() ==
                             static_cast<std::size_t>(path.strategy.s + path.strategy.t + 1));
@@ -131,7 +131,7 @@ TEST_CASE("path tracers tell strategies with at most one vertex from the light",
         int hits = 0;
         int joins = 0;
         RenderControl control;
-        control.on_path = [&](const FoundPath& path) {
+        control.on_path = [&](const PathContribution& path) {
             REQUIRE(path.strategy.s <= 1);
             REQUIRE(path.shares.empty());
             REQUIRE(path.weight == 1.0f);

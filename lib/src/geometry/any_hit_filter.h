@@ -9,7 +9,7 @@
 namespace bdpt {
 
 /// Where a ray meets a triangle that it may pass.
-struct Crossing {
+struct AnyHit {
     std::uint32_t instance = 0;
     std::uint32_t triangle = 0;
     Vec2 barycentrics{0.0f};  ///< of the second and third corner
@@ -18,12 +18,12 @@ struct Crossing {
 
 /// Which surfaces rays pass as if they were not there. It hangs on materials, which are not known
 /// here, so whoever knows them passes functions in. Both are called from many threads at once.
-struct PassRule {
+struct AnyHitFilter {
     const void* owner = nullptr;  ///< first argument of both functions
     /// Could any ray pass any triangle of that instance? Null: no. The others cost nothing.
     bool (*concerns)(const void* owner, std::uint32_t instance) noexcept = nullptr;
     /// Has to give the same answer each time: how often it is asked is not known.
-    bool (*passes)(const void* owner, const Crossing& crossing) noexcept = nullptr;
+    bool (*passes)(const void* owner, const AnyHit& crossing) noexcept = nullptr;
 };
 
 }  // namespace bdpt

@@ -1,4 +1,4 @@
-#include "stage/stage.h"
+#include "stage/prepared_scene.h"
 
 #include <bdpt/default_lights.h>
 #include <bdpt/error.h>
@@ -46,7 +46,7 @@ LitScene add_environment(SceneDesc desc, const RenderArguments& arguments)
     }
     if (choice == "none") {
         if (!has_light(lit.desc)) {
-            lit.warnings.push_back(fmt::format("{}: no light: the picture will be black", file));
+            lit.warnings.push_back(fmt::format("{}: no light: the image will be black", file));
         }
     } else if (choice == "default") {
         lit.sky = has_light(lit.desc) ? Sky::chosen : Sky::fallback;
@@ -139,8 +139,8 @@ std::optional<CameraDesc> camera_in_file(const std::vector<CameraDesc>& cameras,
 
 }  // namespace
 
-Stage prepare_stage(const RenderArguments& arguments,
-                    const std::function<void(const SceneDesc&)>& look)
+PreparedScene prepare_scene(const RenderArguments& arguments,
+                            const std::function<void(const SceneDesc&)>& look)
 {
     const auto start = std::chrono::steady_clock::now();
     const std::string file = arguments.file.string();

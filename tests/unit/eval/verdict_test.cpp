@@ -1,6 +1,6 @@
 // Verdicts about a renderer that is known: a toy whose paths are points of an interval.
 
-#include "verify/judge.h"
+#include "verify/verdict.h"
 
 #include "catch.hpp"
 #include "toy_light.h"
@@ -139,17 +139,17 @@ TEST_CASE("a strategy with a wrong factor fails")
 
 TEST_CASE("a wrong factor is seen in what others find, if hardly anyone checks the strategy")
 {
-    // Where strategy 3 finds anything, in a hundredth of the picture, its weight is nearly one.
+    // Where strategy 3 finds anything, in a hundredth of the image, its weight is nearly one.
     ToyFault fault;
     fault.factors[3] = 5.0;
     const VerifyReport report = judge_toy(fault);
     CHECK(report.verdict == Verdict::fail);
     CHECK(fails(finding(report, {0, 3}).whole, report));
-    fault.factors[3] = 1.05;  // changes the picture by 0.05 %
+    fault.factors[3] = 1.05;  // changes the image by 0.05 %
     CHECK(judge_toy(fault).verdict == Verdict::pass);
 }
 
-TEST_CASE("a strategy that is wrong in a part of the picture fails there")
+TEST_CASE("a strategy that is wrong in a part of the image fails there")
 {
     ToyFault fault;
     fault.factors[2] = 1.08;
@@ -197,22 +197,22 @@ TEST_CASE("weights that do not sum to one fail")
 
 TEST_CASE("defects and lost light fail")
 {
-    const auto with = [](const PictureCheck& check) {
+    const auto with = [](const ImageCheck& check) {
         ToyLight toy(1, {});
         Evidence evidence(grid, 2);
         for (int i = 0; i < 2; ++i) {
             Batch batch = toy.batch(grid);
-            batch.pictures[3] = i == 1 ? check : PictureCheck{};
+            batch.images[3] = i == 1 ? check : ImageCheck{};
             evidence.add(batch);
         }
         return judge(evidence, toy_options());
     };
     CHECK(with({}).verdict == Verdict::inconclusive);
-    PictureCheck invalid;
+    ImageCheck invalid;
     invalid.defects.invalid = 1;
     invalid.defects.first_invalid = FilmDefects::Place{.x = 3, .y = 1, .sample_index = 7};
     CHECK(with(invalid).verdict == Verdict::fail);
-    CHECK(with(invalid).pictures[3].defects.first_invalid == invalid.defects.first_invalid);
+    CHECK(with(invalid).images[3].defects.first_invalid == invalid.defects.first_invalid);
     CHECK(with({.defects = {.invalid = 0, .saturated = 1, .first_invalid = {}}, .lost = 0.0})
               .verdict == Verdict::fail);
     CHECK(with({.defects = {}, .lost = 0.01}).verdict == Verdict::fail);
@@ -227,7 +227,7 @@ TEST_CASE("light that only one strategy can make is at stake, or unchecked")
         for (int i = 0; i < 4; ++i) {
             const RadianceSums none(grid, 2);
             Batch batch{
-                .bdpt = PathSums(grid, 2), .others = {none, none, none, none}, .pictures = {}};
+                .bdpt = PathSums(grid, 2), .others = {none, none, none, none}, .images = {}};
             std::array<float, 4> shares{};
             shares[static_cast<std::size_t>(s)] = 1.0f;
             batch.bdpt.add({.strategy = {.s = s, .t = 3 - s},
@@ -262,13 +262,13 @@ TEST_CASE("rare samples count as far as they have not been seen")
         for (int i = 0; i < batches; ++i) {
             const RadianceSums none(grid, 2);
             Batch batch{
-                .bdpt = PathSums(grid, 2), .others = {none, none, none, none}, .pictures = {}};
+                .bdpt = PathSums(grid, 2), .others = {none, none, none, none}, .images = {}};
             const auto find = [&](int s, float radiance) {
-                return FoundPath{.strategy = {.s = s, .t = 3 - s},
-                                 .raster = Vec2(0.5f),
-                                 .unweighted = Rgb(radiance)};
+                return PathContribution{.strategy = {.s = s, .t = 3 - s},
+                                        .raster = Vec2(0.5f),
+                                        .unweighted = Rgb(radiance)};
             };
-            FoundPath found = find(1, 1.0f);
+            PathContribution found = find(1, 1.0f);
             found.weight = (1.0f - share) * (1.0f - share) / squares;
             found.shares = shares;
             batch.bdpt.add(found);
@@ -296,7 +296,7 @@ TEST_CASE("what is said to be detectable is detected nine times out of ten")
     for (int s = 0; s < 3; ++s) {
         const StrategyFinding& claimed = finding(sound, {.s = s, .t = 3 - s});
         ToyFault fault;
-        // So that the mean of the picture changes by that.
+        // So that the mean of the image changes by that.
         fault.factors[static_cast<std::size_t>(s)] =
             1.0 + claimed.whole.detectable * sound.radiance / claimed.weighted;
         int found = 0;

@@ -14,7 +14,7 @@
 #include <string_view>
 
 #include "catch.hpp"
-#include "picture_files.h"
+#include "image_files.h"
 #include "scratch_folder.h"
 
 namespace bdpt::io {
@@ -32,9 +32,9 @@ Image ramp(int width, int height)
     return image;
 }
 
-PictureMetadata metadata()
+ImageMetadata metadata()
 {
-    PictureMetadata result;
+    ImageMetadata result;
     result.version = "1.2.3";
     result.scene = "models/caf\xc3\xa9.glb";
     result.settings = R"({"max_depth":8})";
@@ -69,7 +69,7 @@ TEST_CASE("an EXR file of floats holds the pixels to the bit")
     CHECK(folder.names() == std::set<std::string>{"a.exr"});
 }
 
-TEST_CASE("pictures whose pixels do not fit their size are refused")
+TEST_CASE("images whose pixels do not fit their size are refused")
 {
     const ScratchFolder folder;
     const auto [width, height, pixels] = GENERATE(
@@ -136,7 +136,7 @@ TEST_CASE("an EXR file says how it was made")
 TEST_CASE("the matrices in an EXR file put points where the camera sees them")
 {
     // At (1, 2, 3), looking along +x, +y up; enlarged, which a camera ignores.
-    PictureMetadata data = metadata();
+    ImageMetadata data = metadata();
     data.camera.world_from_camera =
         Mat4(Vec4(0.0f, 0.0f, 2.0f, 0.0f), Vec4(0.0f, 2.0f, 0.0f, 0.0f),
              Vec4(-2.0f, 0.0f, 0.0f, 0.0f), Vec4(1.0f, 2.0f, 3.0f, 1.0f));
@@ -153,7 +153,7 @@ TEST_CASE("the matrices in an EXR file put points where the camera sees them")
     CHECK(camera.y == Approx(2.0f));
     CHECK(camera.z == Approx(10.0f));
 
-    // The picture is 20 m wide and 10 m high there.
+    // The image is 20 m wide and 10 m high there.
     Imath::V3f ndc;
     Imf::worldToNDC(header).multVecMatrix(point, ndc);
     CHECK(ndc.x == Approx(0.5f + 4.0f / 20.0f));
@@ -162,14 +162,14 @@ TEST_CASE("the matrices in an EXR file put points where the camera sees them")
 
 TEST_CASE("the matrices of an orthographic camera do not make far things small")
 {
-    PictureMetadata data = metadata();
+    ImageMetadata data = metadata();
     data.camera.world_from_camera = Mat4(1.0f);
     data.camera.projection = Projection::orthographic;
     data.camera.vertical_extent = 8.0f;
     const ScratchFolder folder;
     write_exr(folder / "a.exr", ramp(40, 20), {ExrChannelType::single_float, data});
     const Imf::Header header = test::read_exr(folder / "a.exr").header;
-    // The picture is 16 m wide and 8 m high at all depths.
+    // The image is 16 m wide and 8 m high at all depths.
     for (const float depth : {1.0f, 100.0f}) {
         Imath::V3f ndc;
         Imf::worldToNDC(header).multVecMatrix(Imath::V3f(4.0f, 2.0f, -depth), ndc);
@@ -197,7 +197,7 @@ TEST_CASE("a PNG file holds the pixels and says how it was made")
     CHECK(folder.names() == std::set<std::string>{"a.png"});
 }
 
-TEST_CASE("pictures that cannot be written are output errors and leave nothing")
+TEST_CASE("images that cannot be written are output errors and leave nothing")
 {
     const ScratchFolder folder;
     const Image image = ramp(4, 4);
@@ -249,7 +249,7 @@ TEST_CASE("an output file with a failed write cannot be committed")
     CHECK(folder.names().count("a.exr") == 0);
 }
 
-TEST_CASE("a disk that fills up in the middle leaves no half picture")
+TEST_CASE("a disk that fills up in the middle leaves no half image")
 {
     const ScratchFolder folder;
     // Pixels that do not compress, so that the files reach the limits.

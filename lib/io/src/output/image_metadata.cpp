@@ -1,8 +1,8 @@
-#include <bdpt/io/picture_metadata.h>
+#include <bdpt/io/image_metadata.h>
 
 namespace bdpt::io {
 
-std::vector<std::pair<std::string, std::string>> text_entries(const PictureMetadata& metadata)
+std::vector<std::pair<std::string, std::string>> text_entries(const ImageMetadata& metadata)
 {
     // The seed has 64 bits, more than the integers of the formats hold.
     std::vector<std::pair<std::string, std::string>> entries{
@@ -17,7 +17,7 @@ std::vector<std::pair<std::string, std::string>> text_entries(const PictureMetad
     return entries;
 }
 
-std::string software_name(const PictureMetadata& metadata)
+std::string software_name(const ImageMetadata& metadata)
 {
     return "bdpt " + metadata.version;
 }

@@ -11,8 +11,8 @@
 
 namespace bdpt::io {
 
-/// How a picture came about; written into its file.
-struct PictureMetadata {
+/// How an image came about; written into its file.
+struct ImageMetadata {
     std::string version;     ///< of bdpt, e.g. "0.1.0"
     std::string scene;       ///< the file that was rendered; UTF-8
     std::string settings;    ///< all options as one JSON object
@@ -28,9 +28,9 @@ struct PictureMetadata {
 /// The text entries that all formats share: "bdpt.version", "bdpt.scene", "bdpt.settings",
 /// "bdpt.integrator" and "bdpt.seed"; "bdpt.xmp" if there is any.
 [[nodiscard]] BDPT_EXPORT std::vector<std::pair<std::string, std::string>> text_entries(
-    const PictureMetadata& metadata);
+    const ImageMetadata& metadata);
 
 /// "bdpt VERSION".
-[[nodiscard]] BDPT_EXPORT std::string software_name(const PictureMetadata& metadata);
+[[nodiscard]] BDPT_EXPORT std::string software_name(const ImageMetadata& metadata);
 
 }  // namespace bdpt::io

@@ -14,7 +14,7 @@
 namespace bdpt::app {
 
 /// A scene with light and a camera: ready to render.
-struct Stage {
+struct PreparedScene {
     Scene scene;
     CameraDesc camera;             ///< named by its name or index, or "auto"
     std::string environment_name;  ///< for people: its file, "scene", "default" or "none"
@@ -30,7 +30,7 @@ struct Stage {
 
 /// Loads the file, and fills in what it lacks by the rules that `bdpt render --help` states.
 /// `look` is shown what the scene will be built from. Throws `Error`.
-[[nodiscard]] Stage prepare_stage(const RenderArguments& arguments,
-                                  const std::function<void(const SceneDesc&)>& look = {});
+[[nodiscard]] PreparedScene prepare_scene(const RenderArguments& arguments,
+                                          const std::function<void(const SceneDesc&)>& look = {});
 
 }  // namespace bdpt::app

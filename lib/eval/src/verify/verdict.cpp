@@ -1,4 +1,4 @@
-#include "verify/judge.h"
+#include "verify/verdict.h"
 
 #include "verify/compare_evidence.h"
 #include "verify/sharpness.h"
@@ -57,7 +57,7 @@ IntegratorFinding describe_integrator(const Evidence& evidence, int edges, std::
     return result;
 }
 
-std::vector<MeanComparison*> tests_of_pictures(VerifyReport& report)
+std::vector<MeanComparison*> tests_of_images(VerifyReport& report)
 {
     std::vector<MeanComparison*> tests;
     for (StrategyFinding& finding : report.strategies) {
@@ -105,10 +105,10 @@ bool has_failed(const VerifyReport& report)
         return fail(finding.whole) || std::any_of(finding.tiles.begin(), finding.tiles.end(), fail);
     };
     return report.weights.wrong > 0 ||
-           std::any_of(report.pictures.begin(), report.pictures.end(),
-                       [](const PictureFinding& picture) {
-                           return picture.defects.invalid > 0 || picture.defects.saturated > 0 ||
-                                  loses_light(picture);
+           std::any_of(report.images.begin(), report.images.end(),
+                       [](const ImageFinding& image) {
+                           return image.defects.invalid > 0 || image.defects.saturated > 0 ||
+                                  loses_light(image);
                        }) ||
            std::any_of(report.strategies.begin(), report.strategies.end(), any) ||
            std::any_of(report.integrators.begin(), report.integrators.end(), any);
@@ -123,16 +123,15 @@ VerifyReport judge(const Evidence& evidence, const VerifyOptions& options)
     report.false_alarm = options.false_alarm;
     report.tiles = evidence.grid().tiles();
     report.weights = evidence.weights();
-    for (std::size_t i = 0; i < report.pictures.size(); ++i) {
-        const Moments& picture = evidence.pictures()[i];
-        report.pictures[i] = {
-            .integrator = i == 0 ? IntegratorKind::bdpt : other_integrators[i - 1],
-            .radiance = picture.mean(),
-            .error = picture.standard_error(),
-            .defects = evidence.checks()[i].defects,
-            .lost = evidence.checks()[i].lost};
+    for (std::size_t i = 0; i < report.images.size(); ++i) {
+        const Moments& image = evidence.images()[i];
+        report.images[i] = {.integrator = i == 0 ? IntegratorKind::bdpt : other_integrators[i - 1],
+                            .radiance = image.mean(),
+                            .error = image.standard_error(),
+                            .defects = evidence.checks()[i].defects,
+                            .lost = evidence.checks()[i].lost};
     }
-    report.radiance = report.pictures[0].radiance;
+    report.radiance = report.images[0].radiance;
     double unchecked = 0.0;
     for (int edges = 1; edges <= options.max_depth; ++edges) {
         report.lengths.push_back(describe_length(evidence, edges));
@@ -146,15 +145,15 @@ VerifyReport judge(const Evidence& evidence, const VerifyOptions& options)
             report.integrators.push_back(describe_integrator(evidence, edges, i));
         }
     }
-    const std::vector<MeanComparison*> pictures = tests_of_pictures(report);
-    correct(pictures);
+    const std::vector<MeanComparison*> images = tests_of_images(report);
+    correct(images);
     correct(tests_of_tiles(report));
     if (report.radiance > 0.0) {
         const double samples = evidence.bdpt_samples_in(evidence.whole());
         report.unchecked = unchecked / samples / report.radiance;
         const double worst =
             find_detectable(evidence, report,
-                            detectable_z(critical_z(0.5 * options.false_alarm, pictures.size()),
+                            detectable_z(critical_z(0.5 * options.false_alarm, images.size()),
                                          static_cast<double>(evidence.batches() - 1)));
         if (samples >= trusted_samples) {
             report.detectable = worst;

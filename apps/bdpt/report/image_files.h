@@ -12,19 +12,19 @@
 
 namespace bdpt::app {
 
-struct PictureOptions {
+struct ImageFileOptions {
     io::ExrOptions exr;
-    std::vector<Layer> layers;      ///< of EXR files, beside the picture
+    std::vector<Layer> layers;      ///< of EXR files, beside the image
     std::optional<float> exposure;  ///< [EV] of PNG files; none: automatic
 };
 
-struct PictureReport {
+struct WrittenImages {
     std::size_t clamped_pixels = 0;  ///< in an EXR file of halves
     std::optional<float> exposure;   ///< [EV] of the PNG files, if there were any
 };
 
 /// Writes all `outputs`, each as its extension says. Throws `Error` (output).
-PictureReport write_pictures(std::span<const std::filesystem::path> outputs, const Image& image,
-                             const PictureOptions& options);
+WrittenImages write_image_files(std::span<const std::filesystem::path> outputs, const Image& image,
+                                const ImageFileOptions& options);
 
 }  // namespace bdpt::app

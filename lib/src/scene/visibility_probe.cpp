@@ -1,4 +1,4 @@
-#include "scene/surroundings.h"
+#include "scene/visibility_probe.h"
 
 #include "math/elementary.h"
 #include "scene/world.h"
@@ -29,11 +29,11 @@ bool near_bounds(const Bounds& bounds, Vec3 p)
 
 }  // namespace
 
-Surroundings look_around(const World& world, Vec3 p)
+VisibilityProbe probe_visibility(const World& world, Vec3 p)
 {
     constexpr int directions = 200;
     constexpr float golden_angle = 2.3999632f;
-    Surroundings result{.p = p};
+    VisibilityProbe result{.p = p};
     result.clearance = std::numeric_limits<float>::infinity();
     for (int i = 0; i < directions; ++i) {
         // Directions of a Fibonacci spiral cover the sphere evenly.

@@ -8,10 +8,12 @@
 namespace bdpt::eval {
 
 /// Keeps account of the work on a scene, and tells the caller.
-class Meter {
+class BenchProgressMeter {
 public:
     /// `planned`: all of the work, in CPU time [s].
-    Meter(double planned, const BenchControl& control) : left_(planned), control_(&control) {}
+    BenchProgressMeter(double planned, const BenchControl& control)
+        : left_(planned), control_(&control)
+    {}
 
     /// Now comes work of about `seconds`.
     void begin(const std::string& activity, double seconds)

@@ -22,18 +22,18 @@ std::vector<std::uint32_t> WorldBuilder::body_instances() const
     return instances;
 }
 
-void WorldBuilder::find_bodies()
+void WorldBuilder::find_enclosing_volumes()
 {
     World& w = world_;
-    warn_of_open_bodies();
+    warn_of_open_volumes();
     std::vector<std::uint32_t> instances = body_instances();
-    if (instances.size() > Bodies::most) {
+    if (instances.size() > EnclosingVolumes::most) {
         w.warnings_.push_back(std::to_string(instances.size()) +
                               " bodies that light passes through are too many to find out which of "
                               "them lies in which: all have air around them");
     } else if (!instances.empty()) {
-        w.bodies_ =
-            std::make_unique<const Bodies>(w.placed_, std::move(instances), w.spheres_, *w.embree_);
+        w.bodies_ = std::make_unique<const EnclosingVolumes>(w.placed_, std::move(instances),
+                                                             w.spheres_, *w.embree_);
         give_surroundings(w.bodies_->around_all());
     }
 }
@@ -69,7 +69,7 @@ void WorldBuilder::give_surroundings(const std::vector<std::optional<std::uint32
     }
 }
 
-void WorldBuilder::warn_of_open_bodies()
+void WorldBuilder::warn_of_open_volumes()
 {
     const SceneDesc& desc = world_.desc_;
     std::vector<bool> asked(desc.meshes.size());

@@ -1,6 +1,6 @@
 // Verdicts about a toy renderer whose walks are ended by roulette.
 
-#include "verify/judge.h"
+#include "verify/verdict.h"
 
 #include "catch.hpp"
 #include "toy_light.h"
@@ -31,11 +31,11 @@ Batch batch_with_roulette(test::Random& random, double survival, double factor =
     constexpr std::array<float, edges + 2> shares{0.4f, 0.0f, 0.6f};
     constexpr float squares = 0.4f * 0.4f + 0.6f * 0.6f;
     const RadianceSums none(grid, edges);
-    Batch batch{.bdpt = PathSums(grid, edges), .others = {none, none, none, none}, .pictures = {}};
+    Batch batch{.bdpt = PathSums(grid, edges), .others = {none, none, none, none}, .images = {}};
     const auto found = [](int s, Vec2 raster, double radiance) {
-        return FoundPath{.strategy = {.s = s, .t = edges + 1 - s},
-                         .raster = raster,
-                         .unweighted = Rgb(static_cast<float>(radiance))};
+        return PathContribution{.strategy = {.s = s, .t = edges + 1 - s},
+                                .raster = raster,
+                                .unweighted = Rgb(static_cast<float>(radiance))};
     };
     for (int pixel = 0; pixel < 16; ++pixel) {
         const Vec2 raster(static_cast<float>(pixel % 4) + 0.5f,
@@ -45,7 +45,7 @@ Batch batch_with_roulette(test::Random& random, double survival, double factor =
                 const float share = shares[static_cast<std::size_t>(s)];
                 const double chance = static_cast<double>(share) * (s == 0 ? survival : 1.0);
                 if (static_cast<double>(random.next()) < chance) {
-                    FoundPath path = found(s, raster, (s == 0 ? factor : 1.0) / chance);
+                    PathContribution path = found(s, raster, (s == 0 ? factor : 1.0) / chance);
                     path.weight = share * share / squares;
                     path.shares = shares;
                     batch.bdpt.add(path);

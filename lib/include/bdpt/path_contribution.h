@@ -9,7 +9,7 @@ namespace bdpt {
 
 /// A path that brings light, as one strategy found it. The mean over the samples of a pixel of
 /// `weight * unweighted` is the pixel.
-struct FoundPath {
+struct PathContribution {
     Strategy strategy;
     Vec2 raster{0.0f};     ///< in the pixel that it counts for [pixels, origin at the top left]
     Rgb unweighted{0.0f};  ///< if the strategy were alone, divided by its number of samples [nit]

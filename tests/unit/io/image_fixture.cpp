@@ -1,4 +1,4 @@
-#include "picture_fixture.h"
+#include "image_fixture.h"
 
 #include <array>
 #include <string_view>
@@ -133,7 +133,7 @@ void add_grey_textures(GltfFixture& fixture)
     }
 }
 
-int grey_picture(const LoadedScene& loaded, const std::optional<TextureRef>& ref)
+int grey_image(const LoadedScene& loaded, const std::optional<TextureRef>& ref)
 {
     return ref ? loaded.scene.images.at(static_cast<std::size_t>(ref->image)).bytes.at(0) / 10 : -1;
 }

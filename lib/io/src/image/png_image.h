@@ -10,11 +10,11 @@ namespace bdpt::io {
 
 /// A PNG file in memory whose header has been read. By libpng itself: OpenImageIO 2.4 leaves the
 /// report of errors to libpng, which prints them.
-class PngPicture {
+class PngImage {
 public:
-    /// `bytes` must stay as long as the picture. Throws std::runtime_error when the header is
+    /// `bytes` must stay as long as the image. Throws std::runtime_error when the header is
     /// broken.
-    explicit PngPicture(ByteView bytes);
+    explicit PngImage(ByteView bytes);
 
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }

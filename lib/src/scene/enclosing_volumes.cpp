@@ -1,4 +1,4 @@
-#include "scene/bodies.h"
+#include "scene/enclosing_volumes.h"
 
 #include "geometry/length.h"
 #include "geometry/rounding.h"
@@ -53,7 +53,7 @@ float volume(const Bounds& bounds)
     return size.x * size.y * size.z;
 }
 
-/// Behind a ball in the way.
+/// Behind a sphere in the way.
 Vec3 beyond(const Sphere& sphere, Ray ray)
 {
     constexpr float further = 1.00001f;
@@ -82,18 +82,19 @@ std::optional<Vec3> before(const PlacedMesh& placed, std::uint32_t triangle)
 
 }  // namespace
 
-Bodies::Bodies(std::span<const PlacedMesh> placed, std::vector<std::uint32_t> instances,
-               std::span<const Sphere> spheres, const EmbreeScene& embree)
+EnclosingVolumes::EnclosingVolumes(std::span<const PlacedMesh> placed,
+                                   std::vector<std::uint32_t> instances,
+                                   std::span<const Sphere> spheres, const EmbreeScene& embree)
     : placed_(placed),
       spheres_(spheres),
       embree_(embree),
       instances_(std::move(instances)),
-      body_of_instance_(placed.size()),
+      volume_of_instance_(placed.size()),
       bounds_(instances_.size()),
       depth_(instances_.size(), 0)
 {
     for (std::size_t body = 0; body < instances_.size(); ++body) {
-        body_of_instance_[instances_[body]] = body;
+        volume_of_instance_[instances_[body]] = body;
     }
     tbb::parallel_for(std::size_t{0}, instances_.size(), [&](std::size_t body) {
         bounds_[body] = bounds_of(placed_[instances_[body]]);
@@ -104,7 +105,7 @@ Bodies::Bodies(std::span<const PlacedMesh> placed, std::vector<std::uint32_t> in
 }
 
 /// The bodies that a ray leaves more often than it enters.
-Bodies::Set Bodies::left_by(Vec3 origin, Vec3 direction) const
+EnclosingVolumes::Set EnclosingVolumes::left_by(Vec3 origin, Vec3 direction) const
 {
     std::vector<std::pair<std::size_t, int>> crossings;  // and +1 where the ray leaves the body
     Ray ray{.origin = origin, .direction = direction};
@@ -118,7 +119,7 @@ Bodies::Set Bodies::left_by(Vec3 origin, Vec3 direction) const
             continue;
         }
         const Vec3 normal = hit->at.normal / length_of(hit->at.normal);
-        if (const auto body = body_of_instance_[hit->instance]) {
+        if (const auto body = volume_of_instance_[hit->instance]) {
             crossings.emplace_back(*body, dot(normal, direction) > 0.0f ? 1 : -1);
         }
         ray.origin = offset_origin(hit->at.point.p, hit->at.point.error, normal, direction);
@@ -138,7 +139,7 @@ Bodies::Set Bodies::left_by(Vec3 origin, Vec3 direction) const
     return result;
 }
 
-Bodies::Set Bodies::containing(Vec3 p) const
+EnclosingVolumes::Set EnclosingVolumes::containing(Vec3 p) const
 {
     constexpr std::size_t few = 256;  // enough that asking the bounds of all saves rays
     const auto may_contain = [&](const Bounds& bounds) { return is_within(bounds, p); };
@@ -160,7 +161,7 @@ Bodies::Set Bodies::containing(Vec3 p) const
     return result;
 }
 
-Bodies::Set Bodies::containing(std::uint32_t instance) const
+EnclosingVolumes::Set EnclosingVolumes::containing(std::uint32_t instance) const
 {
     const PlacedMesh& mesh = placed_[instance];
     const std::uint32_t count = mesh.triangle_count();
@@ -188,7 +189,7 @@ Bodies::Set Bodies::containing(std::uint32_t instance) const
 }
 
 /// That which lies in most others; of two the smaller one.
-std::optional<std::uint32_t> Bodies::innermost(const Set& bodies) const
+std::optional<std::uint32_t> EnclosingVolumes::innermost(const Set& bodies) const
 {
     if (bodies.empty()) {
         return std::nullopt;
@@ -200,7 +201,7 @@ std::optional<std::uint32_t> Bodies::innermost(const Set& bodies) const
     return instances_[*std::min_element(bodies.begin(), bodies.end(), deeper)];
 }
 
-std::vector<std::optional<std::uint32_t>> Bodies::around_all() const
+std::vector<std::optional<std::uint32_t>> EnclosingVolumes::around_all() const
 {
     std::vector<std::optional<std::uint32_t>> result(placed_.size());
     tbb::parallel_for(std::size_t{0}, placed_.size(), [&](std::size_t instance) {
@@ -209,7 +210,7 @@ std::vector<std::optional<std::uint32_t>> Bodies::around_all() const
     return result;
 }
 
-std::optional<std::uint32_t> Bodies::at(Vec3 p) const
+std::optional<std::uint32_t> EnclosingVolumes::at(Vec3 p) const
 {
     return innermost(containing(p));
 }

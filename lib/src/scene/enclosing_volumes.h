@@ -17,15 +17,15 @@ namespace bdpt {
 /// The bodies of a scene that light passes through, and what lies within them. Found by rays when
 /// the scene is built: a point is in a body when a ray from it leaves the body once more often than
 /// it enters. Of three rays two decide.
-class Bodies {
+class EnclosingVolumes {
 public:
     /// Of how many bodies it is worth looking for what lies in what: the work may grow with the
     /// square of their number.
     static constexpr std::size_t most = 1024;
 
     /// `instances` are those whose meshes bound bodies, `most` of them. All else must outlive this.
-    Bodies(std::span<const PlacedMesh> placed, std::vector<std::uint32_t> instances,
-           std::span<const Sphere> spheres, const EmbreeScene& embree);
+    EnclosingVolumes(std::span<const PlacedMesh> placed, std::vector<std::uint32_t> instances,
+                     std::span<const Sphere> spheres, const EmbreeScene& embree);
 
     /// For each instance the innermost body that all of it lies within, itself excepted. It is
     /// judged by points on its front all over the mesh.
@@ -46,7 +46,7 @@ private:
     std::span<const Sphere> spheres_;
     const EmbreeScene& embree_;
     std::vector<std::uint32_t> instances_;
-    std::vector<std::optional<std::size_t>> body_of_instance_;
+    std::vector<std::optional<std::size_t>> volume_of_instance_;
     std::vector<Bounds> bounds_;      // by body
     std::vector<std::size_t> depth_;  // by body: in how many others it lies
 };

@@ -1,10 +1,10 @@
-#include <bdpt/eval/bench/contest.h>
+#include <bdpt/eval/bench/equal_time.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <utility>
 
-#include "bench/meter.h"
+#include "bench/progress_meter.h"
 #include "bench/trial.h"
 
 namespace bdpt::eval {
@@ -40,7 +40,7 @@ Reference render_reference(const BenchScene& scene, const RenderOptions& options
                            std::int64_t samples)
 {
     const BenchControl control;
-    const Meter meter(0.0, control);
+    const BenchProgressMeter meter(0.0, control);
     const TrialSetup setup =
         make_setup(scene, options, IntegratorKind::bdpt, reference_seed, control);
     // Nobody stops it.
@@ -53,8 +53,9 @@ Reference render_reference(const BenchScene& scene, const RenderOptions& options
             .origin = "bdpt with " + std::to_string(samples) + " samples"};
 }
 
-std::vector<Score> compete(const BenchScene& scene, const Reference& reference,
-                           std::span<const Variant> variants, const ContestOptions& options)
+std::vector<Score> compare_at_equal_time(const BenchScene& scene, const Reference& reference,
+                                         std::span<const Variant> variants,
+                                         const EqualTimeOptions& options)
 {
     const BenchControl control;
     std::vector<std::int64_t> samples;

@@ -1,4 +1,4 @@
-#include <bdpt/eval/bench/contest.h>
+#include <bdpt/eval/bench/equal_time.h>
 #include <bdpt/eval/metrics/metric.h>
 #include <bdpt/render.h>
 
@@ -53,8 +53,8 @@ TEST_CASE("variants of a contest have the errors of their renders, a seed for ea
 {
     const Fixture contest;
     const Reference reference = contest.reference();
-    const auto scores =
-        compete(contest.subject, reference, contest.variants, {.samples = 4, .rounds = 3});
+    const auto scores = compare_at_equal_time(contest.subject, reference, contest.variants,
+                                              {.samples = 4, .rounds = 3});
     REQUIRE(scores.size() == 3);
     CHECK(scores[0].error.median == scores[2].error.median);
     for (std::size_t v = 0; v < scores.size(); ++v) {
@@ -78,8 +78,8 @@ TEST_CASE("variants of a contest at equal time take the samples that fit into it
 {
     const Fixture contest;
     const auto scores =
-        compete(contest.subject, contest.reference(), std::span(contest.variants).first(1),
-                {.seconds = 0.02, .rounds = 1});
+        compare_at_equal_time(contest.subject, contest.reference(),
+                              std::span(contest.variants).first(1), {.seconds = 0.02, .rounds = 1});
     REQUIRE(scores.size() == 1);
     CHECK(scores[0].samples >= 2);
     CHECK(scores[0].samples % 2 == 0);

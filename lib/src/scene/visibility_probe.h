@@ -6,7 +6,7 @@ namespace bdpt {
 
 /// What rays in all directions find from a point: enough to tell the inside of a room from the
 /// inside or the outside of an object.
-struct Surroundings {
+struct VisibilityProbe {
     Vec3 p{0.0f};
     float front = 0.0f;           ///< share of directions that meet the front of a surface
     float shell = 0.0f;           ///< share that meet a front near the bounds of the scene
@@ -15,7 +15,7 @@ struct Surroundings {
     float clearance = 0.0f;       ///< distance to the nearest surface [m]
 };
 
-[[nodiscard]] Surroundings look_around(const World& world, Vec3 p);
+[[nodiscard]] VisibilityProbe probe_visibility(const World& world, Vec3 p);
 
 /// Mean distance [m] to what a camera of that aspect sees; 0 when something stands in the way right
 /// before the lens. A ray that leaves the scene counts as its size.

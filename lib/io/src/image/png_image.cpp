@@ -1,4 +1,4 @@
-#include "image/png_picture.h"
+#include "image/png_image.h"
 
 #include <png.h>
 
@@ -14,7 +14,7 @@
 namespace bdpt::io {
 
 /// What libpng's callbacks work on. They are called from C, so no exception may leave them.
-struct PngPicture::State {
+struct PngImage::State {
     ByteView rest;  // of the file
     std::array<char, 200> message{};
     png_structp png = nullptr;
@@ -82,13 +82,13 @@ struct PngPicture::State {
     }
 };
 
-void PngPicture::Close::operator()(State* state) const
+void PngImage::Close::operator()(State* state) const
 {
     const std::unique_ptr<State> owned(state);
     png_destroy_read_struct(&owned->png, &owned->info, nullptr);
 }
 
-PngPicture::PngPicture(ByteView bytes) : state_(new State{.rest = bytes})
+PngImage::PngImage(ByteView bytes) : state_(new State{.rest = bytes})
 {
     State& state = *state_;
     state.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &state, &State::fail, &State::ignore);
@@ -106,7 +106,7 @@ PngPicture::PngPicture(ByteView bytes) : state_(new State{.rest = bytes})
     value_bytes_ = png_get_bit_depth(state.png, state.info) == 16 ? 2 : 1;
 }
 
-void PngPicture::read(std::uint8_t* values)
+void PngImage::read(std::uint8_t* values)
 {
     if (!state_->read_rows(values)) {
         state_->raise();

@@ -1,4 +1,4 @@
-#include "geometry/reach.h"
+#include "geometry/coordinate_limit.h"
 
 #include "geometry/motion.h"
 
@@ -22,7 +22,7 @@ double stretch(const glm::dmat3& m)
 
 }  // namespace
 
-float reach_of(std::span<const InstanceDesc> instances, std::size_t mesh_count)
+float coordinate_limit_of(std::span<const InstanceDesc> instances, std::size_t mesh_count)
 {
     // Rays start at up to 8 times the reach, and their directions are up to 16 times as long.
     constexpr double in_object_space = 1e17;
@@ -31,7 +31,7 @@ float reach_of(std::span<const InstanceDesc> instances, std::size_t mesh_count)
         int& count = uses[static_cast<std::size_t>(instance.mesh)];
         count = std::min(count + 1, 2);
     }
-    double reach = static_cast<double>(greatest_reach);
+    double reach = static_cast<double>(greatest_coordinate);
     const auto bring_within = [&reach](double most) {
         reach = most * reach <= in_object_space ? reach : in_object_space / most;
     };

@@ -9,13 +9,14 @@ namespace bdpt {
 
 /// The farthest from the origin that anything may be [m], in each coordinate: products of four such
 /// numbers overflow, but what is computed from two stays finite.
-inline constexpr float greatest_reach = 1e15f;
+inline constexpr float greatest_coordinate = 1e15f;
 
-/// How far from the origin surfaces and lights of a scene may be [m]. At most `greatest_reach`, and
-/// less when a mesh that several instances share, or one that moves, is scaled down very much:
-/// Embree takes rays to the space of such a mesh, and ends the process when a coordinate is
-/// above 1.8e18 there.
-[[nodiscard]] float reach_of(std::span<const InstanceDesc> instances, std::size_t mesh_count);
+/// How far from the origin surfaces and lights of a scene may be [m]. At most
+/// `greatest_coordinate`, and less when a mesh that several instances share, or one that moves, is
+/// scaled down very much: Embree takes rays to the space of such a mesh, and ends the process when
+/// a coordinate is above 1.8e18 there.
+[[nodiscard]] float coordinate_limit_of(std::span<const InstanceDesc> instances,
+                                        std::size_t mesh_count);
 
 /// The greatest coordinate of the corners of a mesh's bounds, in all of its poses.
 [[nodiscard]] Vec3 extent_of(const MeshDesc& mesh);

@@ -21,7 +21,7 @@ struct Variant {
 };
 
 /// How variants are held against each other.
-struct ContestOptions {
+struct EqualTimeOptions {
     double seconds = 2.0;  ///< CPU time of each render [s], if there are no `samples`
     /// Of each render, per pixel, however long that takes.
     std::optional<std::int64_t> samples{};
@@ -45,9 +45,8 @@ struct Score {
 
 /// The scores of all variants, in their order. The variants take turns, A B C A B C ..., so that a
 /// machine that gets slower or busier does so for all. Throws like render().
-[[nodiscard]] BDPT_EXPORT std::vector<Score> compete(const BenchScene& scene,
-                                                     const Reference& reference,
-                                                     std::span<const Variant> variants,
-                                                     const ContestOptions& options);
+[[nodiscard]] BDPT_EXPORT std::vector<Score> compare_at_equal_time(
+    const BenchScene& scene, const Reference& reference, std::span<const Variant> variants,
+    const EqualTimeOptions& options);
 
 }  // namespace bdpt::eval

@@ -1,4 +1,4 @@
-#include "scene/bodies.h"
+#include "scene/enclosing_volumes.h"
 
 #include "catch.hpp"
 #include "scene/world.h"
@@ -57,7 +57,7 @@ SurfacePoint met(const World& world, Vec3 from)
     return *point;
 }
 
-/// Mean over a picture of one ray after another straight down.
+/// Mean over an image of one ray after another straight down.
 Rgb seen_down(SceneDesc desc, Vec3 from)
 {
     const Scene scene(std::move(desc));
@@ -91,7 +91,7 @@ TEST_CASE("points know which body they are in, the innermost one", "[bodies]")
     check_absorption(World(SceneDesc{}).medium_at({}), Rgb(0.0f));
 }
 
-TEST_CASE("balls of light do not hide which body a point is in", "[bodies]")
+TEST_CASE("sphere lights do not hide which body a point is in", "[bodies]")
 {
     SceneBuilder builder = cubes(1.33f, 1.5f);
     // So many around the first point that each ray from there meets one.
@@ -216,11 +216,12 @@ TEST_CASE("of too many bodies it is said that air is around them", "[bodies]")
         builder.cube({}, 1.0f, medium(of_outer, 1.33f));
         builder.desc.instances.resize(bodies, builder.desc.instances.front());
         const World world(std::move(builder.desc));
-        CHECK((world.medium_at({0.1f, 0.2f, 0.3f}) != nullptr) == (bodies <= Bodies::most));
+        CHECK((world.medium_at({0.1f, 0.2f, 0.3f}) != nullptr) ==
+              (bodies <= EnclosingVolumes::most));
         return world.warnings().size();
     };
-    CHECK(count_warnings(Bodies::most) == 0);
-    CHECK(count_warnings(Bodies::most + 1) == 1);
+    CHECK(count_warnings(EnclosingVolumes::most) == 0);
+    CHECK(count_warnings(EnclosingVolumes::most + 1) == 1);
 }
 
 TEST_CASE("bodies with holes are judged by most rays", "[bodies]")

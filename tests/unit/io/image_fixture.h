@@ -12,7 +12,7 @@ namespace bdpt::io {
 /// A PNG chunk with its length and checksum.
 [[nodiscard]] std::string png_chunk(const std::string& type, const std::string& data);
 
-/// A PNG picture [PNG specification, 3rd ed.], not compressed. `color_type` 0: grey, 2: RGB, 3:
+/// A PNG image [PNG specification, 3rd ed.], not compressed. `color_type` 0: grey, 2: RGB, 3:
 /// palette, 4: grey and alpha, 6: RGBA; `rows` are as in the file, without the filter byte; `extra`
 /// are chunks before the pixels.
 [[nodiscard]] std::string png(int width, int height, int depth, int color_type,
@@ -28,9 +28,9 @@ namespace bdpt::io {
 /// 1 x 1 pixel of (200, 100, 50) with an alpha of 128.
 [[nodiscard]] std::string half_webp();
 
-/// Adds six one-pixel pictures, whose grey level tells them apart, and a texture of each.
+/// Adds six one-pixel images, whose grey level tells them apart, and a texture of each.
 void add_grey_textures(GltfFixture& fixture);
-/// Which of these pictures a reference leads to; -1: none.
-[[nodiscard]] int grey_picture(const LoadedScene& loaded, const std::optional<TextureRef>& ref);
+/// Which of these images a reference leads to; -1: none.
+[[nodiscard]] int grey_image(const LoadedScene& loaded, const std::optional<TextureRef>& ref);
 
 }  // namespace bdpt::io

@@ -231,7 +231,7 @@ EmbreeScene::EmbreeScene(std::span<const InstanceDesc> instances, std::span<Plac
             state.positions.push_back(world_positions(placed[i]));
             const PaddedPositions& world = state.positions.back();
             if (!placed[i].moves()) {
-                placed[i].use_world_positions(world.front().data());
+                placed[i].settle(world.front());
             }
             const OwnedGeometry geometry =
                 new_triangles(device, world, desc.triangles, filters[mesh]);
@@ -294,7 +294,7 @@ std::optional<RayHit> EmbreeScene::intersect(const Ray& ray) const noexcept
     const std::uint32_t instance = shared ? hit.instID[0] : hit.geomID;
     if (instance >= state_->placed.size()) {
         RayHit on_sphere;
-        on_sphere.at.normal = {hit.Ng_x, hit.Ng_y, hit.Ng_z};
+        on_sphere.at.ng = {hit.Ng_x, hit.Ng_y, hit.Ng_z};
         on_sphere.sphere = hit.primID;
         return on_sphere;
     }

@@ -20,7 +20,7 @@ namespace bdpt {
 class EmbreeScene {
 public:
     /// `placed[i]` belongs to `instances[i]`; both must outlive this object, and meshes that went
-    /// into the top level are told so (PlacedMesh::use_world_positions). `spheres` must outlive it,
+    /// into the top level are told so (PlacedMesh::settle). `spheres` must outlive it,
     /// too, and so must the owner of `any_hit_filter`. Throws `Error` when Embree fails, or (usage)
     /// when the CPU lacks `isa`.
     EmbreeScene(std::span<const InstanceDesc> instances, std::span<PlacedMesh> placed,

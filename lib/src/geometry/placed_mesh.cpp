@@ -17,56 +17,23 @@ namespace {
 /// How often a coordinate of a point, or of an intersection test, is rounded at most.
 constexpr int rounded_operations = 12;
 
-[[gnu::always_inline]] inline float max_axis(Vec3 v)
+float max_axis(Vec3 v)
 {
     return std::max(v.x, std::max(v.y, v.z));
 }
 
-/// The edges that meet at the first corner.
-struct Edges {
-    explicit Edges(const std::array<Vec3, 3>& corners)
-        : to_b(corners[1] - corners[0]), to_c(corners[2] - corners[0]), normal(cross(to_b, to_c))
-    {}
-
-    Vec3 to_b;
-    Vec3 to_c;
-    Vec3 normal;  ///< its length is twice the area
-};
-
-/// Where the line of the ray crosses the plane of the triangle [Moeller and Trumbore 1997, "Fast,
-/// Minimum Storage Ray/Triangle Intersection"].
-[[gnu::always_inline]] inline Vec2 barycentrics_of(Vec3 corner, const Edges& edges, const Ray& ray)
-{
-    const float determinant = dot(edges.normal, ray.direction);
-    if (determinant == 0.0f) {
-        return Vec2(0.0f);  // seen from the side
-    }
-    const Vec3 moment = cross(ray.origin - corner, ray.direction);
-    const float scale = 1.0f / determinant;
-    return {-dot(moment, edges.to_c) * scale, dot(moment, edges.to_b) * scale};
-}
-
 /// The greatest coordinate of all corners.
-[[gnu::always_inline]] inline Vec3 extent(const std::array<Vec3, 3>& corners)
+Vec3 extent(const std::array<Vec3, 3>& corners)
 {
     return max(abs(corners[0]), max(abs(corners[1]), abs(corners[2])));
-}
-
-[[gnu::always_inline]] inline Vec3 interpolated(const std::array<Vec3, 3>& corners,
-                                                Vec2 barycentrics)
-{
-    return (1.0f - barycentrics.x - barycentrics.y) * corners[0] + barycentrics.x * corners[1] +
-           barycentrics.y * corners[2];
 }
 
 /// Of corners as Embree has them. The intersection test works on the corners relative to the ray's
 /// origin and rounds in all directions, even where a coordinate of all corners is zero. So the
 /// bound takes the greatest coordinate of all, not each axis for itself.
-[[gnu::always_inline]] inline BoundedPoint bounded_point(const std::array<Vec3, 3>& corners,
-                                                         Vec2 barycentrics)
+float still_error(const std::array<Vec3, 3>& corners)
 {
-    return {interpolated(corners, barycentrics),
-            rounding_bound(rounded_operations) * max_axis(extent(corners))};
+    return rounding_bound(rounded_operations) * max_axis(extent(corners));
 }
 
 /// Of a corner that goes `way` in one of `steps` steps and is at most `size` from the origin. Both
@@ -168,64 +135,59 @@ PlacedMesh::Moment PlacedMesh::deforming_moment(const UVec3& vertices, float tim
     return moment;
 }
 
-PlacedMesh::Moment PlacedMesh::moment(std::uint32_t triangle, float time) const
+/// Of a mesh that others share: it is tested in its own space.
+PlacedMesh::Moment PlacedMesh::still_moment(std::uint32_t triangle) const
 {
-    const UVec3& vertices = mesh_->triangles[triangle];
-    return deforms() ? deforming_moment(vertices, time) : rigid_moment(vertices, time);
-}
-
-std::array<Vec3, 3> PlacedMesh::corners(std::uint32_t triangle, float time) const
-{
-    return moves() ? moment(triangle, time).corners : still_corners(triangle);
-}
-
-inline BoundedPoint PlacedMesh::still_point(std::uint32_t triangle, Vec2 barycentrics) const
-{
-    if (world_positions_ != nullptr) {
-        return bounded_point(still_corners(triangle), barycentrics);
-    }
     const UVec3& i = mesh_->triangles[triangle];
+    if (!world_positions_.empty()) {
+        const std::array<Vec3, 3> corners{world_positions_[i.x], world_positions_[i.y],
+                                          world_positions_[i.z]};
+        return {corners, still_error(corners)};
+    }
     const auto& p = mesh_->positions;
     const std::array<Vec3, 3> in_object{p[i.x], p[i.y], p[i.z]};
     const Mat3& linear = first_.linear;
     const Mat3 magnitudes(abs(linear[0]), abs(linear[1]), abs(linear[2]));
     const Vec3 world_size = magnitudes * extent(in_object) + abs(first_.translation);
-    return {world_point(interpolated(in_object, barycentrics)),
+    return {{world_point(in_object[0]), world_point(in_object[1]), world_point(in_object[2])},
             rounding_bound(2 * rounded_operations) * max_axis(world_size)};
 }
 
-BoundedPoint PlacedMesh::point(std::uint32_t triangle, Vec2 barycentrics, float time) const
+PlacedMesh::Moment PlacedMesh::moment(std::uint32_t triangle, float time) const
 {
-    if (moves()) {
-        const Moment at = moment(triangle, time);
-        return {interpolated(at.corners, barycentrics), at.error};
+    if (!moves()) {
+        return still_moment(triangle);
     }
-    return still_point(triangle, barycentrics);
+    const UVec3& vertices = mesh_->triangles[triangle];
+    return deforms() ? deforming_moment(vertices, time) : rigid_moment(vertices, time);
 }
 
-TriangleHit PlacedMesh::moving_hit(std::uint32_t triangle, const Ray& ray) const
+void PlacedMesh::settle(std::span<const Vec3> positions)
 {
-    const Moment at = moment(triangle, ray.segment.time);
-    const Edges edges(at.corners);
-    const Vec2 barycentrics = barycentrics_of(at.corners[0], edges, ray);
-    return {.barycentrics = barycentrics,
-            .normal = front_sign() * edges.normal,
-            .point = {interpolated(at.corners, barycentrics), at.error}};
+    world_positions_ = positions;
+    settled_.reserve(mesh_->triangles.size());
+    for (std::uint32_t triangle = 0; triangle < triangle_count(); ++triangle) {
+        const auto [corners, error] = still_moment(triangle);
+        settled_.emplace_back(corners, front_sign(), error);
+    }
 }
 
-TriangleHit PlacedMesh::hit(std::uint32_t triangle, const Ray& ray) const
+std::array<Vec3, 3> PlacedMesh::corners(std::uint32_t triangle, float time) const
 {
-    if (moves()) [[unlikely]] {
-        return moving_hit(triangle, ray);
-    }
-    const std::array<Vec3, 3> corners = still_corners(triangle);
-    const Edges edges(corners);
-    const Vec2 barycentrics = barycentrics_of(corners[0], edges, ray);
-    const Vec3 normal = front_sign() * edges.normal;
-    if (world_positions_ == nullptr) {
-        return {barycentrics, normal, still_point(triangle, barycentrics)};
-    }
-    return {barycentrics, normal, bounded_point(corners, barycentrics)};
+    return moment(triangle, time).corners;
+}
+
+BoundedPoint PlacedMesh::unsettled_point(std::uint32_t triangle, Vec2 barycentrics,
+                                         float time) const
+{
+    const auto [corners, error] = moment(triangle, time);
+    return StillTriangle(corners, front_sign(), error).point(barycentrics);
+}
+
+TriangleHit PlacedMesh::unsettled_hit(std::uint32_t triangle, const Ray& ray) const
+{
+    const auto [corners, error] = moment(triangle, ray.segment.time);
+    return StillTriangle(corners, front_sign(), error).hit(ray);
 }
 
 Vec3 PlacedMesh::area_normal(std::uint32_t triangle, float time) const

@@ -2,6 +2,7 @@
 
 #include "geometry/motion.h"
 #include "geometry/ray.h"
+#include "geometry/still_triangle.h"
 #include "math/footprint.h"
 
 #include <bdpt/scene_desc.h>
@@ -10,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace bdpt {
 
@@ -78,10 +80,17 @@ public:
     [[nodiscard]] std::array<Vec3, 3> corners(std::uint32_t triangle, float time = 0.0f) const;
     /// Barycentrics are those of the second and third corner.
     [[nodiscard]] BoundedPoint point(std::uint32_t triangle, Vec2 barycentrics,
-                                     float time = 0.0f) const;
+                                     float time = 0.0f) const
+    {
+        return settled_.empty() ? unsettled_point(triangle, barycentrics, time)
+                                : settled_[triangle].point(barycentrics);
+    }
     /// Where the line of the ray crosses the plane of the triangle. Embree knows it too, but from
     /// reciprocals that CPUs of different makers approximate differently; this is the same on all.
-    [[nodiscard]] TriangleHit hit(std::uint32_t triangle, const Ray& ray) const;
+    [[nodiscard]] TriangleHit hit(std::uint32_t triangle, const Ray& ray) const
+    {
+        return settled_.empty() ? unsettled_hit(triangle, ray) : settled_[triangle].hit(ray);
+    }
     /// Front normal from the corners, in the world, unnormalised; its length is twice the area.
     [[nodiscard]] Vec3 area_normal(std::uint32_t triangle, float time = 0.0f) const;
 
@@ -99,9 +108,9 @@ public:
                                float time = 0.0f) const;
     [[nodiscard]] Vec4 color(std::uint32_t triangle, Vec2 barycentrics) const;
 
-    /// From now on corners are read from `positions` (world space, one for each vertex); for what
-    /// stands still.
-    void use_world_positions(const Vec3* positions) { world_positions_ = positions; }
+    /// For a mesh that stands still and is placed once: works out what hits need. Corners are read
+    /// from `positions` from now on (world space, one for each vertex), which must outlive this.
+    void settle(std::span<const Vec3> positions);
 
 private:
     /// A triangle in the world at a time.
@@ -113,10 +122,10 @@ private:
     [[nodiscard]] Moment deforming_moment(const UVec3& vertices, float time) const;
     [[nodiscard]] Moment moment(std::uint32_t triangle, float time) const;
     [[nodiscard]] Placement placement(float time) const;
-    [[nodiscard]] TriangleHit moving_hit(std::uint32_t triangle, const Ray& ray) const;
-    // The same as above, of what stands still.
-    [[nodiscard]] std::array<Vec3, 3> still_corners(std::uint32_t triangle) const;
-    [[nodiscard]] BoundedPoint still_point(std::uint32_t triangle, Vec2 barycentrics) const;
+    [[nodiscard]] Moment still_moment(std::uint32_t triangle) const;
+    [[nodiscard]] BoundedPoint unsettled_point(std::uint32_t triangle, Vec2 barycentrics,
+                                               float time) const;
+    [[nodiscard]] TriangleHit unsettled_hit(std::uint32_t triangle, const Ray& ray) const;
 
     template <typename T>
     [[nodiscard]] T interpolate(const std::vector<T>& values, std::uint32_t triangle,
@@ -142,22 +151,12 @@ private:
     }
 
     const MeshDesc* mesh_;
-    const Vec3* world_positions_ = nullptr;
+    std::span<const Vec3> world_positions_;  // once settled
+    std::vector<StillTriangle> settled_;     // the same
     std::size_t steps_;
     Placement first_;  // when the shutter opens
     Mat4 transform_;   // the same
     std::span<const Mat4> motion_;
 };
-
-// Here because every hit needs it.
-inline std::array<Vec3, 3> PlacedMesh::still_corners(std::uint32_t triangle) const
-{
-    const UVec3& i = mesh_->triangles[triangle];
-    if (world_positions_ != nullptr) {
-        return {world_positions_[i.x], world_positions_[i.y], world_positions_[i.z]};
-    }
-    const auto& p = mesh_->positions;
-    return {world_point(p[i.x]), world_point(p[i.y]), world_point(p[i.z])};
-}
 
 }  // namespace bdpt

@@ -32,7 +32,7 @@ struct BoundedPoint {
 /// Where a line crosses the plane of a triangle.
 struct TriangleHit {
     Vec2 barycentrics{0.0f};  ///< of the second and third corner
-    Vec3 normal{0.0f};        ///< geometric, on the front side, in world space, any length
+    Vec3 ng{0.0f};            ///< unit geometric normal on the front; zero without an area
     BoundedPoint point;
 };
 
@@ -40,7 +40,7 @@ struct TriangleHit {
 struct RayHit {
     std::uint32_t instance = 0;  ///< of triangles
     std::uint32_t triangle = 0;
-    TriangleHit at;  ///< of spheres the normal only, unit
+    TriangleHit at;  ///< of spheres the normal only
     std::uint32_t sphere = no_sphere;
 };
 

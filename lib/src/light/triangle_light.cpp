@@ -16,7 +16,7 @@ namespace bdpt {
 TriangleLight::Facing TriangleLight::facing_of(Vec3 area_normal)
 {
     const float area = 0.5f * length_of(area_normal);
-    return {.area = area, .ng = area_normal / (2.0f * area)};
+    return {.area = area, .inverse_area = 1.0f / area, .ng = area_normal / (2.0f * area)};
 }
 
 TriangleLight::TriangleLight(const PlacedMesh& mesh, const Material& material,
@@ -50,18 +50,27 @@ float TriangleLight::mean_area() const
     return sum / static_cast<float>(last + 1);
 }
 
-TriangleLight::Point TriangleLight::point(Vec2 u, const Facing& facing, float time) const
+inline float TriangleLight::spread(Vec2 barycentrics) const
+{
+    return emission_.spread ? emission_.spread->pdf(triangle_to_square(barycentrics)) : 1.0f;
+}
+
+[[gnu::always_inline]] inline TriangleLight::Point TriangleLight::point(Vec2 u,
+                                                                        const Facing& facing,
+                                                                        float time) const
 {
     const Vec2 barycentrics =
         square_to_triangle(emission_.spread ? emission_.spread->sample(u).point : u);
     const BoundedPoint at = mesh_->point(triangle_, barycentrics, time);
+    const float spread = this->spread(barycentrics);
     const Rgb radiance =
         even_radiance_
             ? *even_radiance_
             : material_->expected_emission(texture_point(*mesh_, triangle_, barycentrics));
     return {.end = {.p = at.p, .error = at.error, .ng = facing.ng, .media = material_->media()},
             .barycentrics = barycentrics,
-            .pdf = pdf_position(barycentrics, facing),
+            .pdf = {spread * facing.inverse_area},
+            .inverse_pdf = emission_.spread ? facing.area / spread : facing.area,
             .radiance = radiance};
 }
 
@@ -88,7 +97,7 @@ std::optional<EmissionSample> TriangleLight::sample_emission(Vec2 u_position, Ve
     return EmissionSample{.end = from.end,
                           .barycentrics = from.barycentrics,
                           .direction = Frame::from_normal(side * from.end.ng).to_world(local),
-                          .weight = from.radiance * (pi * sides / from.pdf.value),
+                          .weight = from.radiance * (pi * sides * from.inverse_pdf),
                           .pdf_position = from.pdf,
                           .pdf_direction = pdf_direction(side * local.z)};
 }
@@ -105,27 +114,27 @@ std::optional<IncidentSample> TriangleLight::sample_incident(Vec3 receiver, Vec2
     const Vec3 to_light = from.end.p - receiver;
     const float distance_squared = dot(to_light, to_light);
     const float distance = std::sqrt(distance_squared);
-    const Vec3 wi = to_light * (1.0f / distance);
+    const float inverse_distance = 1.0f / distance;
+    const Vec3 wi = to_light * inverse_distance;
     const float cosine = dot(from.end.ng, -wi);
     const bool dark_side = cosine < 0.0f && !material_->emits_from_both_sides();
     if (!(distance_squared > 0.0f) || cosine == 0.0f || dark_side) {
         return std::nullopt;
     }
-    const float geometry = std::abs(cosine) * (1.0f / distance_squared);
+    const float area_per_solid_angle = distance_squared / std::abs(cosine);
+    const float geometry = std::abs(cosine) * (inverse_distance * inverse_distance);
     return IncidentSample{.end = from.end,
                           .barycentrics = from.barycentrics,
                           .wi = wi,
                           .distance = distance,
-                          .weight = from.radiance * (geometry / from.pdf.value),
+                          .weight = from.radiance * (geometry * from.inverse_pdf),
                           .pdf = from.pdf,
-                          .pdf_solid_angle = {from.pdf.value / geometry}};
+                          .pdf_solid_angle = {from.pdf.value * area_per_solid_angle}};
 }
 
 AreaPdf TriangleLight::pdf_position(Vec2 barycentrics, const Facing& at) const
 {
-    const float spread =
-        emission_.spread ? emission_.spread->pdf(triangle_to_square(barycentrics)) : 1.0f;
-    return {spread / at.area};
+    return {spread(barycentrics) * at.inverse_area};
 }
 
 AreaPdf TriangleLight::pdf_position(const LightPoint& x0) const

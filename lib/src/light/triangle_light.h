@@ -46,10 +46,12 @@ private:
         SegmentEnd end;
         Vec2 barycentrics;
         AreaPdf pdf;
+        float inverse_pdf;
         Rgb radiance;
     };
     struct Facing {
         float area;
+        float inverse_area;
         Vec3 ng;  ///< unit; not finite without an area
     };
     /// `cosine` is that to the front normal.
@@ -58,6 +60,8 @@ private:
     [[nodiscard]] Facing facing(float time) const;
     [[nodiscard]] float mean_area() const;
     [[nodiscard]] AreaPdf pdf_position(Vec2 barycentrics, const Facing& at) const;
+    /// Over that of the uniform density.
+    [[nodiscard]] float spread(Vec2 barycentrics) const;
     /// `facing` is that at the time, and has an area.
     [[nodiscard]] Point point(Vec2 u, const Facing& facing, float time) const;
 

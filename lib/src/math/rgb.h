@@ -3,7 +3,9 @@
 #include <bdpt/types.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 namespace bdpt {
 
@@ -20,7 +22,10 @@ namespace bdpt {
 
 [[nodiscard]] inline bool is_black(Rgb c)
 {
-    return c.r == 0.0f && c.g == 0.0f && c.b == 0.0f;
+    const std::uint32_t bits = std::bit_cast<std::uint32_t>(c.r) |
+                               std::bit_cast<std::uint32_t>(c.g) |
+                               std::bit_cast<std::uint32_t>(c.b);
+    return bits << 1U == 0;  // all but the signs
 }
 
 [[nodiscard]] inline bool is_finite(Rgb c)

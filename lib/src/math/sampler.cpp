@@ -44,6 +44,19 @@ Sampler::Sampler(SamplerKind kind, std::uint64_t seed, int x, int y, std::int64_
     }
     key_ =
         split_mix(split_mix(split_mix(seed + golden_ratio_64) ^ pixel) + stream * golden_ratio_64);
+    segments_ = key_ + split_mix(reversed_index_);
+}
+
+[[gnu::always_inline]] inline void Sampler::fill_pair(std::size_t first, std::uint64_t point)
+{
+    std::uint64_t pair = bits(next_set_ - 1, first / 2);
+    if (kind_ == SamplerKind::sobol) {
+        // Reversed together the two change places.
+        pair = reverse_bits(std::uint64_t{permute_upwards(low_word(point), low_word(pair))} << 32U |
+                            permute_upwards(high_word(point), high_word(pair)));
+    }
+    set_[first] = to_float(low_word(pair));
+    set_[first + 1] = to_float(high_word(pair));
 }
 
 void Sampler::begin_set()
@@ -61,18 +74,6 @@ void Sampler::fill_second_pair()
 {
     filled_ = set_size;
     fill_pair(2, sobol_table.second_pair(shuffled_index_));
-}
-
-void Sampler::fill_pair(std::size_t first, std::uint64_t point)
-{
-    std::uint64_t pair = bits(next_set_ - 1, first / 2);
-    if (kind_ == SamplerKind::sobol) {
-        // Reversed together the two change places.
-        pair = reverse_bits(std::uint64_t{permute_upwards(low_word(point), low_word(pair))} << 32U |
-                            permute_upwards(high_word(point), high_word(pair)));
-    }
-    set_[first] = to_float(low_word(pair));
-    set_[first + 1] = to_float(high_word(pair));
 }
 
 }  // namespace bdpt

@@ -71,7 +71,7 @@ public:
         const std::uint64_t number = std::uint64_t{1} << 63U |
                                      std::uint64_t{static_cast<std::uint32_t>(s)} << 32U |
                                      static_cast<std::uint32_t>(t);
-        return {key_ + golden_ratio_64 * number + split_mix(reversed_index_)};
+        return {segments_ + golden_ratio_64 * number};
     }
 
 private:
@@ -114,6 +114,7 @@ private:
     void fill_pair(std::size_t first, std::uint64_t point);
 
     std::uint64_t key_;
+    std::uint64_t segments_;      ///< the key of all segments
     std::uint64_t next_set_ = 0;  ///< the set in use is the one before
     std::size_t next_ = set_size;
     std::size_t filled_ = 0;            ///< dimensions of the set in use that have been drawn

@@ -118,7 +118,7 @@ EnclosingVolumes::Set EnclosingVolumes::left_by(Vec3 origin, Vec3 direction) con
             ray.origin = beyond(spheres_[hit->sphere], ray);
             continue;
         }
-        const Vec3 normal = hit->at.normal / length_of(hit->at.normal);
+        const Vec3 normal = hit->at.ng;
         if (const auto body = volume_of_instance_[hit->instance]) {
             crossings.emplace_back(*body, dot(normal, direction) > 0.0f ? 1 : -1);
         }

@@ -1,6 +1,5 @@
 #include "scene/world.h"
 
-#include "geometry/length.h"
 #include "geometry/rounding.h"
 #include "scene/world_builder.h"
 
@@ -97,8 +96,8 @@ SurfacePoint World::sphere_point(const RayHit& hit, Vec3 direction, float time) 
 {
     const LightId id = lights_->of_sphere(hit.sphere);
     const auto& light = std::get<SphereLight>((*lights_)[id].model());
-    const bool outside = dot(hit.at.normal, direction) < 0.0f;
-    return {.end = light.surface(hit.at.normal, time),
+    const bool outside = dot(hit.at.ng, direction) < 0.0f;
+    return {.end = light.surface(hit.at.ng, time),
             .bsdf = Bsdf(),
             .emission = outside ? light.radiance(-direction, time) : Rgb(0.0f),
             .light = id};
@@ -135,8 +134,7 @@ SurfacePoint World::mesh_point(const RayHit& hit, Vec3 direction, SegmentKey seg
     const PlacedMesh& mesh = placed_[hit.instance];
     const Material& material = material_of(hit.instance);
 
-    const float length = length_of(hit.at.normal);
-    const Vec3 ng = length > 0.0f ? hit.at.normal / length : -direction;
+    const Vec3 ng = hit.at.ng != Vec3(0.0f) ? hit.at.ng : -direction;
     Vec3 ns = ng;
     if (!mesh.mesh().normals.empty()) {
         ns = mesh.shading_normal(hit.triangle, hit.at.barycentrics, segment.time);

@@ -132,10 +132,10 @@ void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, Contribution
             break;
         }
         beta *= scattered->weight;
-        ray = {.origin = point.end,
-               .direction = scattered->wi,
-               .pdf = scattered->pdf_fwd,
-               .competes = !scattered->delta && options_.integrator != IntegratorKind::pt};
+        ray.origin = point.end;
+        ray.direction = scattered->wi;
+        ray.pdf = scattered->pdf_fwd;
+        ray.competes = !scattered->delta && options_.integrator != IntegratorKind::pt;
         if (ray.competes && world_.lights().uses_tree(next_event_sampling_.lights)) {
             ray.receiver = {.p = point.end.p, .normal = point.bsdf.opaque_normal()};
         }

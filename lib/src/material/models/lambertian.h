@@ -3,6 +3,7 @@
 #include "material/lobes/diffuse_reflection.h"
 #include "material/models/scattering_model.h"
 #include "math/elementary.h"
+#include "math/warp.h"
 
 namespace bdpt {
 
@@ -16,14 +17,22 @@ public:
     {
         return grazes(wo) || grazes(wi) ? BsdfEval{} : lobe().eval(wo, wi, mode);
     }
-    [[nodiscard]] std::optional<BsdfSample> sample(Vec3 wo, float u_lobe, Vec2 u,
-                                                   TransportMode mode) const noexcept
+    [[nodiscard]] std::optional<BsdfSample> sample(Vec3 wo, float /*u_lobe*/, Vec2 u,
+                                                   TransportMode /*mode*/) const noexcept
     {
         if (grazes(wo)) {
             return std::nullopt;
         }
-        const Vec3 wi = lobe().sample(wo, u_lobe, u, mode)->wi;
-        return grazes(wi) ? std::nullopt : smooth_sample(wi, lobe().eval(wo, wi, mode));
+        Vec3 wi = square_to_cosine_hemisphere(u);
+        if (grazes(wi)) {
+            return std::nullopt;
+        }
+        const SolidAnglePdf pdf = cosine_hemisphere_pdf(wi.z);
+        wi.z = std::copysign(wi.z, wo.z);
+        return BsdfSample{.wi = wi,
+                          .weight = base_color_,
+                          .pdf_fwd = pdf,
+                          .pdf_rev = cosine_hemisphere_pdf(std::abs(wo.z))};
     }
     [[nodiscard]] bool has_smooth_lobe() const noexcept { return true; }
     [[nodiscard]] bool transmits() const noexcept { return false; }

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "geometry/length.h"
+#include "geometry/ray.h"
+
+#include <glm/geometric.hpp>
+
+#include <array>
+
+namespace bdpt {
+
+/// A triangle that stands still, as every ray needs it that hits it: worked out once, in one cache
+/// line.
+struct alignas(64) StillTriangle {
+    Vec3 corner{0.0f};  ///< the first, in the world
+    float error = 0.0f;  ///< as that of `BoundedPoint`, for points given by barycentrics
+    Vec3 to_b{0.0f};     ///< edges from there to the second corner
+    Vec3 to_c{0.0f};     ///< and to the third
+    Vec3 ng{0.0f};       ///< unit, on the front; zero without an area
+    float twice_area = 0.0f;  ///< negative where the front is where corners run clockwise
+
+    /// `front_sign`: as that of `PlacedMesh`.
+    StillTriangle(const std::array<Vec3, 3>& corners, float front_sign, float error_of_points)
+        : corner(corners[0]),
+          error(error_of_points),
+          to_b(corners[1] - corners[0]),
+          to_c(corners[2] - corners[0])
+    {
+        const Vec3 normal = front_sign * cross(to_b, to_c);
+        const float length = length_of(normal);
+        if (length > 0.0f) {
+            ng = normal / length;
+            twice_area = front_sign * length;
+        }
+    }
+
+    [[nodiscard, gnu::always_inline]] inline BoundedPoint point(Vec2 barycentrics) const
+    {
+        return {corner + (barycentrics.x * to_b + barycentrics.y * to_c), error};
+    }
+    /// Where the line of the ray crosses the plane [Moeller and Trumbore 1997, "Fast, Minimum
+    /// Storage Ray/Triangle Intersection"].
+    [[nodiscard, gnu::always_inline]] inline TriangleHit hit(const Ray& ray) const
+    {
+        const float determinant = twice_area * dot(ng, ray.direction);
+        const Vec3 moment = cross(ray.origin - corner, ray.direction);
+        const float scale = determinant == 0.0f ? 0.0f : 1.0f / determinant;  // seen from the side
+        const Vec2 barycentrics{-dot(moment, to_c) * scale, dot(moment, to_b) * scale};
+        return {.barycentrics = barycentrics, .ng = ng, .point = point(barycentrics)};
+    }
+};
+
+static_assert(sizeof(StillTriangle) == 64);
+
+}  // namespace bdpt

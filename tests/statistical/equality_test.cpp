@@ -7,11 +7,13 @@
 #include "scene_builder.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <iostream>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace bdpt::test {
 namespace {
@@ -189,6 +191,51 @@ TEST_CASE("all integrators agree: light profiles", "[equality][profiles]")
 TEST_CASE("all integrators agree: mip-mapped textures", "[equality][textures]")
 {
     check_cases(mip_map_cases(), 440000);
+}
+
+TEST_CASE("bdpt with any numbers of light paths and connections agrees with mis",
+          "[equality][light-paths]")
+{
+    // Every kind of case, each with other numbers.
+    std::vector<EqualityCase> cases = equality_cases();
+    for (const auto& more : {motion_cases(), layer_cases(), many_light_cases()}) {
+        cases.insert(cases.end(), more.begin(), more.end());
+    }
+    const std::array<std::pair<double, double>, 6> numbers{
+        {{0.06, 1.0}, {0.5, 2.5}, {4.0, 0.25}, {0.0, 0.0}, {2.0, 1.0}, {1.0, 4.0}}};
+    const auto share = static_cast<std::size_t>(GENERATE(0, 1, 2));
+    for (std::size_t i = share; i < cases.size(); i += 3) {
+        const EqualityCase& test = cases[i];
+        const auto [light_paths, connections] = numbers[(i + i / 6) % numbers.size()];
+        const Scene scene(test.scene);
+        TileMeans mis(scene, test.camera, options(test, IntegratorKind::mis, 450000 + 10 * i));
+        RenderOptions shared = options(test, IntegratorKind::bdpt, 450001 + 10 * i);
+        shared.bidirectional.light_paths = light_paths;
+        shared.bidirectional.connections = connections;
+        shared.transport.heuristic = i % 2 == 0 ? Heuristic::power : Heuristic::balance;
+        TileMeans bdpt(scene, test.camera, shared);
+        const std::string what = "mis = bdpt with " + std::to_string(light_paths) +
+                                 " light paths and " + std::to_string(connections) + " connections";
+        check_equal(test, what.c_str(), mis, bdpt);
+    }
+}
+
+TEST_CASE("light tracing with a fraction of a light path agrees with mis",
+          "[equality][light-paths]")
+{
+    const auto cases = equality_cases();
+    const EqualityCase& test = cases.front();
+    REQUIRE(test.seen_by_lt);
+    const Scene scene(test.scene);
+    RenderOptions mis_options = options(test, IntegratorKind::mis, 460001);
+    RenderOptions lt_options = options(test, IntegratorKind::lt, 460002);
+    mis_options.transport.min_depth = *test.seen_by_lt;
+    lt_options.transport.min_depth = *test.seen_by_lt;
+    lt_options.bidirectional.light_paths = 0.3;
+    TileMeans mis(scene, test.camera, mis_options);
+    TileMeans lt(scene, test.camera, lt_options);
+    check_equal(test, "mis = lt with 0.3 light paths", mis, lt,
+                test.detectable_bias_of_light_sampling);
 }
 
 TEST_CASE("several light paths have the time of their sample", "[equality][motion]")

@@ -11,7 +11,7 @@
 #include <system_error>
 
 #include "options/arguments.h"
-#include "options/whole_number.h"
+#include "options/number.h"
 
 namespace bdpt::app {
 namespace {

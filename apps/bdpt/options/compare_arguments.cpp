@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "options/arguments.h"
-#include "options/whole_number.h"
+#include "options/number.h"
 
 namespace bdpt::app {
 namespace {

@@ -9,8 +9,8 @@
 #include <limits>
 #include <numbers>
 
+#include "options/number.h"
 #include "options/output_files.h"
-#include "options/whole_number.h"
 
 namespace bdpt::app {
 namespace {

@@ -6,8 +6,8 @@
 #include <CLI/CLI.hpp>
 
 #include "options/arguments.h"
+#include "options/number.h"
 #include "options/output_files.h"
-#include "options/whole_number.h"
 
 namespace bdpt::app {
 namespace {

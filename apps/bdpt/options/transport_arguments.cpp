@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "options/arguments.h"
-#include "options/whole_number.h"
+#include "options/number.h"
 
 namespace bdpt::app {
 namespace {
@@ -104,12 +104,13 @@ void check_bidirectional(const TransportWords& words)
                    fmt::format("--integrator bdpt or lt with it, not {}", words.integrator));
         }
     };
-    const auto text = [](const std::optional<int>& value) {
+    const auto text = [](const auto& value) {
         return value ? std::optional(fmt::format("{}", *value)) : std::nullopt;
     };
     check("--max-camera-depth", text(words.max_camera_depth));
     check("--max-light-depth", text(words.max_light_depth));
     check("--light-paths", text(words.light_paths));
+    check("--connections", text(words.connections));
     check("--disable", words.disabled);
 }
 
@@ -187,7 +188,7 @@ std::optional<std::vector<Strategy>> parse_strategies(std::string_view text)
 void add_transport_options(CLI::App& command, TransportWords& words)
 {
     const auto group = "How to render";
-    constexpr int most_light_paths = 4096;
+    constexpr double most_light_paths = 4096.0;
     const auto add_choice = [&](const char* name, std::string& value,
                                 const std::vector<std::string>& values, const std::string& help) {
         command.add_option(name, value, help)
@@ -208,9 +209,17 @@ void add_transport_options(CLI::App& command, TransportWords& words)
     add_limits(command, words, group);
     command
         .add_option("--light-paths", words.light_paths,
-                    "Light subpaths per camera subpath (bdpt, lt). Default: 1")
-        ->check(whole_number(1, most_light_paths))
+                    "Light subpaths per camera subpath (bdpt, lt); a fraction, like 0.1, shares "
+                    "them among all pixels. Default: 1")
+        ->check(number(0.0, most_light_paths))
         ->type_name("N")
+        ->group(group);
+    command
+        .add_option("--connections", words.connections,
+                    "Light subpaths that each camera subpath is connected to (bdpt). Default: all "
+                    "of its own, or 1 if --light-paths is a fraction")
+        ->check(number(0.0, most_light_paths))
+        ->type_name("C")
         ->group(group);
     command
         .add_option("--disable", words.disabled,
@@ -237,6 +246,9 @@ RenderOptions with_transport(const TransportWords& words, RenderOptions options)
         words.max_light_depth.value_or(options.bidirectional.max_light_depth);
     options.bidirectional.light_paths =
         words.light_paths.value_or(options.bidirectional.light_paths);
+    if (words.connections) {
+        options.bidirectional.connections = words.connections;
+    }
     options.transport.rr_start = words.rr_start.value_or(options.transport.rr_start);
     if (words.disabled) {
         std::optional<std::vector<Strategy>> strategies = parse_strategies(*words.disabled);
@@ -261,6 +273,9 @@ nlohmann::ordered_json transport_json(const RenderOptions& options)
         {"min_depth", options.transport.min_depth},
         {"light_paths", options.bidirectional.light_paths},
         {"rr_start", options.transport.rr_start}};
+    if (options.bidirectional.connections) {
+        result["connections"] = *options.bidirectional.connections;
+    }
     const auto add = [&](const char* name, int limit) {
         if (limit != unlimited) {
             result[name] = limit;

@@ -24,7 +24,8 @@ struct TransportWords {
     std::optional<std::string> only;
     std::optional<int> max_camera_depth;
     std::optional<int> max_light_depth;
-    std::optional<int> light_paths;
+    std::optional<double> light_paths;
+    std::optional<double> connections;
     std::optional<int> rr_start;
     std::optional<std::string> disabled;
 };

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "options/arguments.h"
-#include "options/whole_number.h"
+#include "options/number.h"
 
 namespace bdpt::app {
 namespace {

@@ -103,11 +103,19 @@ struct TransportOptions {
     Heuristic heuristic = Heuristic::power;
 };
 
-/// What only bdpt and lt look at: their subpaths and strategies. Ranges: light_paths [1, 4096],
-/// max_camera_depth and max_light_depth from 0, strategy_depth [0, 4096].
+/// What only bdpt and lt look at: their subpaths and strategies. Ranges: light_paths [0, 4096] (lt:
+/// above 0), connections [0, 4096] (0 without light paths), max_camera_depth and max_light_depth
+/// from 0, strategy_depth [0, 4096].
 struct BidirectionalOptions {
-    /// Light paths that are traced for each camera path, each joined to it.
-    int light_paths = 1;
+    /// Light paths that are traced for each camera path; need not be whole.
+    double light_paths = 1.0;
+    /// Light paths that each camera path is joined to, in the mean. Unset: as many as light_paths
+    /// if that is whole, else one. If the two differ, or are not whole, all pixels of a sample
+    /// index share its light paths, which are kept in memory; else each camera path is joined to
+    /// light paths of its own.
+    std::optional<double> connections{};
+    /// Bytes that shared light paths of one sample index may take at most.
+    std::uint64_t light_path_memory = 4'000'000'000;
     /// Longest subpaths in edges; strategies with longer ones are left out.
     int max_camera_depth = std::numeric_limits<int>::max();
     int max_light_depth = std::numeric_limits<int>::max();

@@ -21,6 +21,8 @@ public:
 
     /// What comes until `end_sample` belongs to this sample of pixel (x, y).
     void begin_sample(int x, int y, std::int64_t index);
+    /// What comes until `end_sample` are splats of a light path that belongs to no pixel.
+    void begin_light_path(std::int64_t index) { begin_sample(-1, -1, index); }
     /// Does the film hold that pixel?
     [[nodiscard]] bool holds_pixel() const { return films_.film.region().contains(x_, y_); }
     /// A contribution to that pixel; the strategy takes `count` samples for each camera path.

@@ -6,7 +6,9 @@
 #include <bdpt/render_stats.h>
 #include <bdpt/strategy_film.h>
 
+#include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 
 namespace bdpt {
@@ -38,10 +40,18 @@ struct Films {
 class Integrator {
 public:
     virtual ~Integrator() = default;
-    /// Called on one thread before any tile of a pass of `samples` is rendered, and after the last:
-    /// an integrator may keep what all tiles of a pass share.
-    virtual void begin_pass(SampleRange /*samples*/) {}
-    virtual void end_pass() {}
+    /// Sample indices that a pass may have at most.
+    [[nodiscard]] virtual std::int64_t most_samples_in_pass() const
+    {
+        return std::numeric_limits<std::int64_t>::max();
+    }
+    /// Called on one thread before any tile of a pass of `samples` is rendered: an integrator may
+    /// keep what all tiles of a pass share, and add to `films` what does not belong to a tile.
+    /// Returns the work that it was.
+    [[nodiscard]] virtual RenderStats begin_pass(SampleRange /*samples*/, const Films& /*films*/)
+    {
+        return {};
+    }
     /// Adds the samples of all pixels of `tile` that are in the film's region to `films`, and what
     /// the light paths of all of its pixels splat anywhere. Tiles of an integrator without splats
     /// lie inside of the region. Returns the work that it was.

@@ -33,6 +33,7 @@ struct PathVertex {
     float area_per_solid_angle = 1.0f;
     std::optional<LightId> light;
     Vec2 barycentrics{0.0f};  ///< of a point on a triangle light
+    double sum = 0.0;         ///< of `WeightSums`
     VertexKind kind = VertexKind::surface;
     bool connectible = true;       ///< has a lobe that is not delta: strategies can join here
     bool scattered_delta = false;  ///< the walk left through a delta lobe
@@ -40,7 +41,7 @@ struct PathVertex {
     const Bsdf* bsdf = nullptr;    ///< of surfaces; lives in the `Subpath`
 };
 
-static_assert(std::is_trivially_copyable_v<PathVertex> && sizeof(PathVertex) <= 112);
+static_assert(std::is_trivially_copyable_v<PathVertex> && sizeof(PathVertex) <= 120);
 
 /// Can a strategy join at this vertex, which lies inside of a subpath?
 [[nodiscard]] inline bool joinable(const PathVertex& vertex)

@@ -21,18 +21,19 @@ PathWeigher::PathWeigher(const World& world, const Camera& camera, const Strateg
     }
 }
 
-void PathWeigher::begin_camera_path(std::span<const PathVertex> path)
+void PathWeigher::begin_camera_path(std::span<PathVertex> path)
 {
     if (sums_) {
-        sums_->begin_camera_path(path);
+        sums_->sum_camera_path(path);
         uses_sums_ = true;
     }
 }
 
-void PathWeigher::begin_light_path(std::span<const PathVertex> path)
+void PathWeigher::begin_light_path(std::span<PathVertex> path)
 {
     if (sums_) {
-        sums_->begin_light_path(path);
+        sums_->sum_light_path(path);
+        uses_sums_ = true;
     }
 }
 

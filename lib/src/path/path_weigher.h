@@ -24,8 +24,8 @@ public:
     /// Sums up once what the weights of all prefixes of a subpath share, where that is possible.
     /// From then on every call of `weight` must be for such prefixes; without, each call gathers
     /// all densities.
-    void begin_camera_path(std::span<const PathVertex> path);
-    void begin_light_path(std::span<const PathVertex> path);
+    void begin_camera_path(std::span<PathVertex> path);
+    void begin_light_path(std::span<PathVertex> path);
 
     /// From now on `shares()` may be called.
     void keep_paths() { keeps_paths_ = true; }

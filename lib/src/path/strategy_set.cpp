@@ -24,7 +24,7 @@ bool is_used(const RenderOptions& options, Strategy strategy)
 
 StrategySet::StrategySet(const RenderOptions& options)
     : stride_(options.transport.max_depth + 2),
-      light_paths_(options.bidirectional.light_paths),
+      light_paths_(options),
       complete_(options.integrator == IntegratorKind::bdpt &&
                 options.bidirectional.disabled.empty() &&
                 options.bidirectional.max_camera_depth >= options.transport.max_depth &&
@@ -42,8 +42,11 @@ StrategySet::StrategySet(const RenderOptions& options)
                 continue;
             }
             // A fresh light point for each camera vertex (s = 1); the rest comes from light paths.
-            counts_[static_cast<std::size_t>(s * stride_ + t)] =
-                s >= 2 ? static_cast<float>(options.bidirectional.light_paths) : 1.0f;
+            const double samples = s <= 1 ? 1.0 : t <= 1 ? light_paths() : connections();
+            if (samples == 0.0) {
+                continue;
+            }
+            counts_[static_cast<std::size_t>(s * stride_ + t)] = static_cast<float>(samples);
             camera_vertices_ = std::max(camera_vertices_, t);
             // A path that hits the lens has it as its last vertex, which is not a vertex of the
             // walk.

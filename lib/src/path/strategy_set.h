@@ -1,6 +1,7 @@
 #pragma once
 
 #include "light/light_samples.h"
+#include "path/light_path_counts.h"
 
 #include <bdpt/render_options.h>
 
@@ -21,10 +22,11 @@ public:
     }
     [[nodiscard]] bool uses(int s, int t) const { return count(s, t) > 0.0f; }
 
-    /// Does every strategy that can make a path take part, those with s >= 2 `light_paths` times
-    /// for each camera path and the others once?
+    /// Does every strategy that can make a path take part? For each camera path those with s <= 1
+    /// take one sample, the others `light_paths` where t <= 1 and `connections` where t >= 2.
     [[nodiscard]] bool is_complete() const { return complete_; }
-    [[nodiscard]] int light_paths() const { return light_paths_; }
+    [[nodiscard]] double light_paths() const { return light_paths_.per_camera_path; }
+    [[nodiscard]] double connections() const { return light_paths_.connections; }
 
     /// How s = 1 samples lights: environments as asked for if s = 0 can make every path that it
     /// can.
@@ -36,7 +38,7 @@ public:
 
 private:
     int stride_;
-    int light_paths_;
+    LightPathCounts light_paths_;
     bool complete_;
     int camera_vertices_ = 1;
     int light_vertices_ = 0;

@@ -55,6 +55,7 @@ public:
     [[nodiscard]] PathVertex& operator[](int i) { return vertices_[static_cast<std::size_t>(i)]; }
     [[nodiscard]] PathVertex& back() { return vertices_[size_ - 1]; }
     [[nodiscard]] std::span<const PathVertex> all() const { return first(size()); }
+    [[nodiscard]] std::span<PathVertex> all() { return std::span(vertices_).first(size_); }
     /// The first `count` vertices.
     [[nodiscard]] std::span<const PathVertex> first(int count) const
     {

@@ -3,8 +3,8 @@
 #include "path/path_vertex.h"
 #include "path/strategy_set.h"
 
+#include <cstddef>
 #include <span>
-#include <vector>
 
 namespace bdpt {
 
@@ -28,13 +28,13 @@ class WeightSums {
 public:
     /// Can it weigh these strategies?
     [[nodiscard]] static bool applies(const StrategySet& strategies, Heuristic heuristic);
-    /// It `applies`. `world` must outlive this object.
+    /// It `applies`. `world` must outlive this object, which nothing changes.
     WeightSums(const World& world, const Camera& camera, const StrategySet& strategies,
                Heuristic heuristic);
 
-    /// Sums over the whole subpaths, whose prefixes are weighed next.
-    void begin_camera_path(std::span<const PathVertex> path);
-    void begin_light_path(std::span<const PathVertex> path);
+    /// Sum over whole subpaths, whose prefixes can then be weighed.
+    void sum_camera_path(std::span<PathVertex> path) const;
+    void sum_light_path(std::span<PathVertex> path) const;
 
     /// As `PathWeigher::weight`, for paths of three vertices and more.
     [[nodiscard]] float weight(std::span<const PathVertex> light,
@@ -42,6 +42,10 @@ public:
 
 private:
     [[nodiscard]] double raise(double ratio) const;
+    /// What the join to the first `t` camera vertices counts for, if it can be made.
+    [[nodiscard]] double camera_term(bool joins, std::size_t t) const;
+    /// The same to the first `s` vertices of the light path that starts at `x0`.
+    [[nodiscard]] double light_term(const PathVertex& x0, bool joins, std::size_t s) const;
     [[nodiscard]] double lens_term(AreaPdf from_light, const PathVertex& lens) const;
     [[nodiscard]] double hit_term(AreaPdf from_camera, const PathVertex& x0) const;
     /// Of the strategies that take more than the end from the camera subpath; `neighbor` is the
@@ -51,15 +55,15 @@ private:
     [[nodiscard]] double light_side(std::span<const PathVertex> light,
                                     const JoinDensities& join) const;
 
+    // The sum of vertex k of a subpath: over all strategies that sample it from the other side, and
+    // any number of vertices before it, what the heuristic makes of count times density, relative
+    // to sampling them from this side.
+
     const World& world_;
     bool squares_;
     bool finite_lens_;
-    double light_paths_;  ///< what counts for each strategy with s >= 2
-    /// For vertex k: the sum over all strategies that sample it from the other side, and any number
-    /// of vertices before it, relative to the strategy that samples them from this side.
-    std::vector<double> camera_sums_;
-    std::vector<double> light_sums_;
-    double next_event_term_ = 0.0;  ///< s = 1 against s = 2, of the light path at hand
+    double splats_;  ///< what the heuristic makes of the number of samples with s >= 2, t <= 1
+    double joins_;   ///< and of those with s >= 2, t >= 2; that of s <= 1 is one
 };
 
 }  // namespace bdpt

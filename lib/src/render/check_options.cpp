@@ -2,6 +2,7 @@
 
 #include "geometry/coordinate_limit.h"
 #include "math/elementary.h"
+#include "render/check_light_paths.h"
 
 #include <bdpt/error.h>
 #include <bdpt/integrators.h>
@@ -23,7 +24,6 @@ namespace {
 constexpr int max_film_side = 1 << 16;
 constexpr int max_threads = 4096;
 constexpr int max_path_edges = 4096;
-constexpr int max_light_paths = 4096;
 
 void check_range(const char* what, std::int64_t value, std::int64_t low, std::int64_t high)
 {
@@ -132,7 +132,6 @@ void check_options(const RenderOptions& options)
                 std::numeric_limits<int>::max());
     check_range("longest light subpath", options.bidirectional.max_light_depth, 0,
                 std::numeric_limits<int>::max());
-    check_range("light paths", options.bidirectional.light_paths, 1, max_light_paths);
     check_range("start of Russian roulette", options.transport.rr_start, 1,
                 std::numeric_limits<int>::max());
     for (const Strategy& strategy : options.bidirectional.disabled) {
@@ -147,6 +146,7 @@ void check_options(const RenderOptions& options)
     }
     check_range("tile size", options.system.tile_size, 1, max_film_side);
     check_range("number of threads", options.system.threads, 0, max_threads);
+    check_light_paths(options);
 }
 
 void check_camera(const CameraDesc& camera)

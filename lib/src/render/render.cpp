@@ -5,10 +5,10 @@
 #include "camera/moving_camera.h"
 #include "film/pixel_filter.h"
 #include "integrator/integrator.h"
+#include "math/flush_denormals.h"
 #include "profile/time_recorder.h"
 #include "render/aov_pass.h"
 #include "render/check_options.h"
-#include "render/flush_denormals.h"
 #include "render/strategy_images.h"
 #include "scene/world.h"
 
@@ -56,7 +56,9 @@ void render_pass(const Work& work, const RenderOptions& options, SampleRange sam
     const int columns = (area.width() + options.system.tile_size - 1) / options.system.tile_size;
     const int rows = (area.height() + options.system.tile_size - 1) / options.system.tile_size;
     tbb::combinable<RenderStats> stats_of_threads;
-    work.integrator.begin_pass(samples);
+    result.stats += work.integrator.begin_pass(
+        samples,
+        {.film = result.film, .strategies = result.strategies, .on_path = work.control.on_path});
     tbb::parallel_for(
         tbb::blocked_range2d<int>(0, rows, 1, 0, columns, 1),
         [&](const tbb::blocked_range2d<int>& range) {
@@ -83,7 +85,6 @@ void render_pass(const Work& work, const RenderOptions& options, SampleRange sam
             }
         },
         tbb::simple_partitioner{});
-    work.integrator.end_pass();
     stats_of_threads.combine_each([&](const RenderStats& stats) { result.stats += stats; });
     result.film.count_samples(samples.begin, samples.end);
     result.strategies.count_samples(samples.end - samples.begin);
@@ -191,7 +192,8 @@ RenderResult render(const Scene& scene, const CameraDesc& camera_desc, const Ren
         const double seconds_a_sample =
             (result.seconds - before) / static_cast<double>(end - begin);
         if (seconds_a_sample * static_cast<double>(2 * pass_size) < pass_seconds) {
-            pass_size = std::min(2 * pass_size, most_samples_in_pass);
+            pass_size =
+                std::min({2 * pass_size, most_samples_in_pass, integrator->most_samples_in_pass()});
         }
         const double next = seconds_a_sample * static_cast<double>(pass_size);
         if (control.stop.stop_requested() || result.seconds + next > control.time_limit) {

@@ -71,7 +71,7 @@ TEST_CASE("rays find the nearest of spheres and instances", "[geometry]")
     };
     REQUIRE(first(9.0f, -1.0f).has_value());
     CHECK(first(9.0f, -1.0f)->sphere == 0);
-    CHECK(first(9.0f, -1.0f)->at.normal.z > 0.9f);
+    CHECK(first(9.0f, -1.0f)->at.ng.z > 0.9f);
     CHECK(first(2.0f, -1.0f)->sphere == 2);
     CHECK(first(-2.0f, -1.0f)->sphere == no_sphere);
     CHECK(first(-2.0f, -1.0f)->instance == 0);
@@ -126,8 +126,8 @@ TEST_CASE("tiny spheres far away keep their outline", "[geometry]")
                 REQUIRE(met == (passes < 1.0));
             }
             if (met) {
-                REQUIRE(dot(hit->at.normal, hit->at.normal) == Approx(1.0f));
-                REQUIRE(dot(hit->at.normal, origin) > -0.01f);
+                REQUIRE(dot(hit->at.ng, hit->at.ng) == Approx(1.0f));
+                REQUIRE(dot(hit->at.ng, origin) > -0.01f);
             }
         }
     }

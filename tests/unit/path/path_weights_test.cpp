@@ -52,6 +52,8 @@ TEST_CASE("weights of all strategies sum to one on traced paths", "[mis]")
     Subpath light_path(max_depth);
     RenderOptions options;
     options.transport.max_depth = max_depth;
+    std::tie(options.bidirectional.light_paths, options.bidirectional.connections) =
+        GENERATE(std::tuple(1.0, 1.0), std::tuple(0.1, 1.0), std::tuple(2.5, 0.4));
     const StrategySet strategies(options);
     Subpath camera_path(max_depth + 1);
     RayCounts rays;

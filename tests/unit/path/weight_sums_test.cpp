@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace bdpt {
@@ -35,7 +36,8 @@ SceneDesc room()
 
 /// The weights of all contributions of one sample, in the order of their strategies.
 std::vector<float> weights_of(SampleContext sample, const Subpath& light_path,
-                              const Subpath& camera_path, PathWeigher& weigher)
+                              const Subpath& camera_path, const StrategySet& strategies,
+                              PathWeigher& weigher)
 {
     std::vector<float> weights;
     const auto add = [&](const std::optional<Contribution>& found) {
@@ -47,6 +49,9 @@ std::vector<float> weights_of(SampleContext sample, const Subpath& light_path,
             add(connect_to_light(sample, camera_path.first(t), weigher));
         }
         for (int s = 2; s <= std::min(light_path.size(), max_depth + 1 - t); ++s) {
+            if (!strategies.uses(s, t)) {
+                continue;
+            }
             add(connect_interior(sample, light_path.first(s), camera_path.first(t), weigher));
         }
     }
@@ -63,15 +68,19 @@ TEST_CASE("sums over subpaths weigh joins as all densities of the path do", "[mi
 {
     const World world(room());
     const auto heuristic = GENERATE(Heuristic::balance, Heuristic::power);
-    const int light_paths = GENERATE(1, 3);
+    // Of light paths and connections for each camera path.
+    const auto [light_paths, connections] =
+        GENERATE(std::pair(1.0, 1.0), std::pair(3.0, 3.0), std::pair(0.25, 1.0),
+                 std::pair(0.5, 2.5), std::pair(4.0, 0.25), std::pair(2.0, 0.0));
     const float lens_radius = GENERATE(0.0f, 0.2f);
-    CAPTURE(static_cast<int>(heuristic), light_paths, lens_radius);
+    CAPTURE(static_cast<int>(heuristic), light_paths, connections, lens_radius);
     CameraDesc desc = test::room_camera();
     desc.lens_radius = lens_radius;
     const Camera camera(desc, size, size);
     RenderOptions options;
     options.transport.max_depth = max_depth;
     options.bidirectional.light_paths = light_paths;
+    options.bidirectional.connections = connections;
     const StrategySet strategies(options);
     REQUIRE(WeightSums::applies(strategies, heuristic));
     Subpath light_path(strategies.light_vertices());
@@ -90,8 +99,8 @@ TEST_CASE("sums over subpaths weigh joins as all densities of the path do", "[mi
                             strategies.next_event_sampling(), light_path);
         sums.begin_camera_path(camera_path.all());
         sums.begin_light_path(light_path.all());
-        const auto by_sums = weights_of(sample, light_path, camera_path, sums);
-        const auto expected = weights_of(sample, light_path, camera_path, gathers);
+        const auto by_sums = weights_of(sample, light_path, camera_path, strategies, sums);
+        const auto expected = weights_of(sample, light_path, camera_path, strategies, gathers);
         REQUIRE(by_sums.size() == expected.size());
         for (std::size_t k = 0; k < expected.size(); ++k) {
             if (std::isfinite(expected[k]) && expected[k] > 1e-30f) {

@@ -61,6 +61,32 @@ TEST_CASE("options out of range are refused by name and value", "[render]")
         CHECK(refusal([&](auto& o) { o.film.clamp = clamp; }).find("clamp is ") == 0);
     }
     CHECK(refusal([](auto& o) { o.film.clamp = 1e-9f; }).empty());
+    CHECK(refusal([](auto& o) { o.bidirectional.light_paths = -0.5; }) ==
+          "number of light paths (light_paths) is -0.5, not in [0, 4096]");
+    CHECK(refusal([](auto& o) {
+              o.bidirectional.light_paths = std::numeric_limits<double>::quiet_NaN();
+          }).find("light paths") != std::string::npos);
+    CHECK(refusal([](auto& o) { o.bidirectional.connections = 4097.0; }) ==
+          "number of connections is 4097, not in [0, 4096]");
+    CHECK(refusal([](auto& o) {
+              o.bidirectional.light_paths = 0.0;
+              o.bidirectional.connections = 1.0;
+          }).find("no light paths (light_paths is 0) to connect to") != std::string::npos);
+    CHECK(refusal([](auto& o) {
+              o.bidirectional.light_paths = 0.0;
+              o.integrator = IntegratorKind::lt;
+          }).find("light_paths) is 0, but lt") != std::string::npos);
+    CHECK(refusal([](auto& o) { o.bidirectional.light_paths = 0.0; }).empty());
+    const std::string too_many = refusal([](auto& o) {
+        o.bidirectional.light_paths = 2.5;
+        o.bidirectional.light_path_memory = 1'000'000;
+    });
+    CHECK(too_many.find("2.5 shared light paths for each camera path (light_paths) may take") == 0);
+    CHECK(too_many.find("(light_path_memory) of 1 MB") != std::string::npos);
+    CHECK(refusal([](auto& o) {
+              o.bidirectional.light_paths = 3.0;  // not shared
+              o.bidirectional.light_path_memory = 1'000'000;
+          }).empty());
     CHECK(refusal([](auto& o) { o.system.tile_size = 0; }).find("tile size is 0") !=
           std::string::npos);
     CHECK(refusal([](auto& o) { o.system.threads = -1; }).find("threads is -1") !=

@@ -106,6 +106,9 @@ ordered_json render_settings(const BenchScene& scene, const RenderOptions& optio
             {"max_camera_depth", options.bidirectional.max_camera_depth},
             {"max_light_depth", options.bidirectional.max_light_depth},
             {"light_paths", options.bidirectional.light_paths},
+            {"connections", options.bidirectional.connections
+                                ? ordered_json(*options.bidirectional.connections)
+                                : ordered_json()},
             {"disabled", strategies_json(options.bidirectional.disabled)},
             {"rr_start", options.transport.rr_start},
             {"heuristic", static_cast<int>(options.transport.heuristic)},

@@ -2,16 +2,22 @@
 
 #include "camera/moving_camera.h"
 #include "integrator/sample_start.h"
+#include "math/flush_denormals.h"
 #include "profile/sample_timer.h"
 
+#include <tbb/combinable.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <memory>
+#include <utility>
 
 namespace bdpt {
 
 struct BidirectionalIntegrator::Scratch {
     Subpath light_path;
     Subpath camera_path;
-    PathWeigher weigher;
+    std::unique_ptr<PathWeigher> weigher;  // the sink knows its address
     ContributionSink sink;
     RenderStats stats{};
 };
@@ -35,25 +41,55 @@ BidirectionalIntegrator::BidirectionalIntegrator(const World& world, const Movin
       camera_(camera),
       options_(options),
       filter_(options.film.filter),
-      strategies_(options)
+      strategies_(options),
+      cache_(LightPathCounts(options), options)
 {}
+
+std::int64_t BidirectionalIntegrator::most_samples_in_pass() const
+{
+    return cache_.counts().shared ? 1 : Integrator::most_samples_in_pass();
+}
+
+BidirectionalIntegrator::Scratch BidirectionalIntegrator::make_scratch(const Films& films) const
+{
+    // One splat for each strategy with t <= 1.
+    const int own_paths = cache_.counts().shared ? 1 : static_cast<int>(strategies_.light_paths());
+    const auto most_splats =
+        static_cast<std::size_t>(2 * strategies_.light_vertices() * own_paths + 2);
+    auto weigher = std::make_unique<PathWeigher>(world_, camera_.first(), strategies_,
+                                                 options_.transport.heuristic,
+                                                 options_.transport.max_depth + 1);
+    if (films.on_path) {
+        weigher->keep_paths();
+    }
+    ContributionSink sink(films, filter_, weigher.get(), most_splats);
+    return Scratch{.light_path = Subpath(strategies_.light_vertices()),
+                   .camera_path = Subpath(strategies_.camera_vertices()),
+                   .weigher = std::move(weigher),
+                   .sink = std::move(sink)};
+}
+
+RenderStats BidirectionalIntegrator::begin_pass(SampleRange samples, const Films& films)
+{
+    if (!cache_.counts().shared) {
+        return {};
+    }
+    tbb::combinable<RenderStats> stats;
+    tbb::parallel_for(std::int64_t{0}, cache_.chunks(), [&](std::int64_t chunk) {
+        const FlushDenormals flush;
+        Scratch scratch = make_scratch(films);
+        share_light_paths(samples.begin, chunk, scratch);
+        stats.local() += scratch.stats;
+    });
+    RenderStats sum;
+    stats.combine_each([&sum](const RenderStats& part) { sum += part; });
+    return sum;
+}
 
 RenderStats BidirectionalIntegrator::render_tile(const Tile& tile, SampleRange samples,
                                                  const Films& films) const
 {
-    // One splat for each strategy with t <= 1.
-    const int most_splats =
-        2 * strategies_.light_vertices() * options_.bidirectional.light_paths + 2;
-    PathWeigher weigher(world_, camera_.first(), strategies_, options_.transport.heuristic,
-                        options_.transport.max_depth + 1);
-    if (films.on_path) {
-        weigher.keep_paths();
-    }
-    Scratch scratch{.light_path = Subpath(strategies_.light_vertices()),
-                    .camera_path = Subpath(strategies_.camera_vertices()),
-                    .weigher = std::move(weigher),
-                    .sink = ContributionSink(films, filter_, &scratch.weigher,
-                                             static_cast<std::size_t>(most_splats))};
+    Scratch scratch = make_scratch(films);
     for (int y = tile.y_begin; y < tile.y_end; ++y) {
         for (int x = tile.x_begin; x < tile.x_end; ++x) {
             for (std::int64_t index = samples.begin; index < samples.end; ++index) {
@@ -68,52 +104,103 @@ RenderStats BidirectionalIntegrator::render_tile(const Tile& tile, SampleRange s
 void BidirectionalIntegrator::add_sample(int x, int y, std::int64_t index, PhaseClock* clock,
                                          Scratch& scratch) const
 {
-    auto& [light_path, camera_path, weigher, sink, stats] = scratch;
-    const SampleStart start(options_, filter_, world_, camera_, x, y, index);
+    ContributionSink& sink = scratch.sink;
+    SampleStart start(options_, filter_, world_, camera_, x, y, index);
+    LightPathCache::Choice shared;
+    if (cache_.counts().shared) {
+        shared = cache_.choose(x, y, index);
+        start.time = cache_.moment(shared.bundle).time;
+        start.wavelength = cache_.moment(shared.bundle).wavelength;
+    }
     const TimedCamera camera(camera_, start.time);
     SampleContext sample{.world = world_,
                          .camera = camera.get(),
                          .sampler = start.sampler,
                          .time = start.time,
                          .wavelength = start.wavelength,
-                         .rays = stats.rays,
+                         .rays = scratch.stats.rays,
                          .clock = clock};
     sink.begin_sample(x, y, index);
 
-    // Light paths outside of a crop can splat into it.
+    // Own light paths of pixels outside of a crop can splat into it.
     const bool wanted = sink.holds_pixel();
     trace_camera_subpath(sample, start.raster,
                          {.max_vertices = wanted ? strategies_.camera_vertices() : 1,
                           .rr_start = options_.transport.rr_start},
-                         camera_path);
+                         scratch.camera_path);
     sample.enter(Phase::weigh);
-    weigher.begin_camera_path(camera_path.all());
+    scratch.weigher->begin_camera_path(scratch.camera_path.all());
     sample.enter(Phase::connect);
     join_camera_path(sample, scratch);
     if (strategies_.uses(1, 1) && sample.camera.is_perspective()) {
-        if (const auto splat = connect_light_to_lens(sample, weigher)) {
+        if (const auto splat = connect_light_to_lens(sample, *scratch.weigher)) {
             sink.splat(sample, {.s = 1, .t = 1}, *splat, strategies_.count(1, 1), 1);
         }
     }
-    for (int i = 0; i < options_.bidirectional.light_paths; ++i) {
+    for (int i = 0; i < shared.count; ++i) {
+        join_paths(sample, cache_.path(shared, i), scratch);
+    }
+    const int own_paths = cache_.counts().shared ? 0 : static_cast<int>(strategies_.light_paths());
+    for (int i = 0; i < own_paths; ++i) {
         if (i > 0) {
             sample.sampler = light_sampler(options_, x, y, index, i);
         }
-        sample.enter(Phase::walk);
-        trace_light_subpath(
-            sample,
-            {.max_vertices = strategies_.light_vertices(), .rr_start = options_.transport.rr_start},
-            strategies_.next_event_sampling(), light_path);
-        ++stats.paths.light;
-        sample.enter(Phase::weigh);
-        weigher.begin_light_path(light_path.all());
-        sample.enter(Phase::connect);
-        join_light_path(sample, scratch);
-        join_paths(sample, scratch);
+        trace_light_path(sample, scratch);
+        join_paths(sample, scratch.light_path.all(), scratch);
     }
     sample.enter(Phase::splat);
-    stats.paths.camera += wanted ? 1U : 0U;
+    scratch.stats.paths.camera += wanted ? 1U : 0U;
     sink.end_sample();
+}
+
+void BidirectionalIntegrator::share_light_paths(std::int64_t index, std::int64_t chunk,
+                                                Scratch& scratch)
+{
+    const LightPathCounts& counts = cache_.counts();
+    const std::int64_t first = chunk * LightPathCache::chunk_bundles;
+    const std::int64_t last = std::min(first + LightPathCache::chunk_bundles, counts.bundles);
+    cache_.begin_chunk(chunk);
+    for (std::int64_t bundle = first; bundle < last; ++bundle) {
+        Sampler sampler = cache_.sampler(index, bundle * counts.bundle);
+        sampler.start(SampleUse::film);
+        LightPathCache::Moment moment;
+        if (world_.disperses()) {
+            moment.wavelength = choose_wavelength(sampler.next_1d());
+        }
+        if (world_.moves() || camera_.moves()) {
+            moment.time = sampler.next_1d();
+        }
+        cache_.add_bundle(chunk, moment);
+        const TimedCamera camera(camera_, moment.time);
+        for (int i = 0; i < counts.bundle; ++i) {
+            SampleContext sample{.world = world_,
+                                 .camera = camera.get(),
+                                 .sampler = cache_.sampler(index, bundle * counts.bundle + i),
+                                 .time = moment.time,
+                                 .wavelength = moment.wavelength,
+                                 .rays = scratch.stats.rays,
+                                 .clock = nullptr};
+            scratch.sink.begin_light_path(index);
+            trace_light_path(sample, scratch);
+            scratch.sink.end_sample();
+            cache_.add_path(chunk, scratch.light_path.all());
+        }
+    }
+    cache_.end_chunk(chunk);
+}
+
+void BidirectionalIntegrator::trace_light_path(SampleContext& sample, Scratch& scratch) const
+{
+    sample.enter(Phase::walk);
+    trace_light_subpath(
+        sample,
+        {.max_vertices = strategies_.light_vertices(), .rr_start = options_.transport.rr_start},
+        strategies_.next_event_sampling(), scratch.light_path);
+    ++scratch.stats.paths.light;
+    sample.enter(Phase::weigh);
+    scratch.weigher->begin_light_path(scratch.light_path.all());
+    sample.enter(Phase::connect);
+    join_light_path(sample, scratch);
 }
 
 void BidirectionalIntegrator::join_camera_path(SampleContext& sample, Scratch& scratch) const
@@ -121,13 +208,13 @@ void BidirectionalIntegrator::join_camera_path(SampleContext& sample, Scratch& s
     for (int t = 2; t <= scratch.camera_path.size(); ++t) {
         const auto camera = scratch.camera_path.first(t);
         if (strategies_.uses(0, t)) {
-            if (const auto found = hit_light(sample, camera, scratch.weigher)) {
+            if (const auto found = hit_light(sample, camera, *scratch.weigher)) {
                 scratch.sink.add(sample, {.s = 0, .t = t}, *found, strategies_.count(0, t));
                 sample.enter(Phase::connect);
             }
         }
         if (t <= options_.transport.max_depth && strategies_.uses(1, t)) {
-            if (const auto found = connect_to_light(sample, camera, scratch.weigher)) {
+            if (const auto found = connect_to_light(sample, camera, *scratch.weigher)) {
                 scratch.sink.add(sample, {.s = 1, .t = t}, *found, strategies_.count(1, t));
                 sample.enter(Phase::connect);
             }
@@ -144,7 +231,7 @@ void BidirectionalIntegrator::join_light_path(SampleContext& sample, Scratch& sc
         if (!strategies_.uses(s, 1)) {
             continue;
         }
-        if (const auto splat = connect_to_lens(sample, path.first(s), scratch.weigher)) {
+        if (const auto splat = connect_to_lens(sample, path.first(s), *scratch.weigher)) {
             scratch.sink.splat(sample, {.s = s, .t = 1}, *splat, strategies_.count(s, 1),
                                static_cast<std::uint32_t>(2 * s));
             sample.enter(Phase::connect);
@@ -155,7 +242,7 @@ void BidirectionalIntegrator::join_light_path(SampleContext& sample, Scratch& sc
         if (s > options_.transport.max_depth + 1 || !strategies_.uses(s, 0)) {
             continue;
         }
-        if (const auto splat = hit_lens(sample, path, crossing, scratch.weigher)) {
+        if (const auto splat = hit_lens(sample, path, crossing, *scratch.weigher)) {
             scratch.sink.splat(sample, {.s = s, .t = 0}, *splat, strategies_.count(s, 0),
                                static_cast<std::uint32_t>(2 * s + 1));
             sample.enter(Phase::connect);
@@ -163,18 +250,19 @@ void BidirectionalIntegrator::join_light_path(SampleContext& sample, Scratch& sc
     }
 }
 
-void BidirectionalIntegrator::join_paths(const SampleContext& sample, Scratch& scratch) const
+void BidirectionalIntegrator::join_paths(const SampleContext& sample,
+                                         std::span<const PathVertex> light, Scratch& scratch) const
 {
-    const Subpath& light = scratch.light_path;
     const Subpath& camera = scratch.camera_path;
     for (int t = 2; t <= camera.size(); ++t) {
-        const int longest_s = std::min(light.size(), options_.transport.max_depth + 1 - t);
+        const int longest_s =
+            std::min(static_cast<int>(light.size()), options_.transport.max_depth + 1 - t);
         for (int s = 2; s <= longest_s; ++s) {
             if (!strategies_.uses(s, t)) {
                 continue;
             }
-            const auto found =
-                connect_interior(sample, light.first(s), camera.first(t), scratch.weigher);
+            const auto found = connect_interior(sample, light.first(static_cast<std::size_t>(s)),
+                                                camera.first(t), *scratch.weigher);
             if (found) {
                 scratch.sink.add(sample, {.s = s, .t = t}, *found, strategies_.count(s, t));
                 sample.enter(Phase::connect);

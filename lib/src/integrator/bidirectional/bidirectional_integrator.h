@@ -1,6 +1,7 @@
 #pragma once
 
 #include "film/pixel_filter.h"
+#include "integrator/bidirectional/light_path_cache.h"
 #include "integrator/contribution_sink.h"
 #include "integrator/integrator.h"
 #include "path/random_walk.h"
@@ -11,11 +12,14 @@ class SampleTimer;
 
 /// Bidirectional path tracing [Veach 1997, ch. 10]: each sample joins every prefix of a camera
 /// subpath to every prefix of one or more light subpaths. Light tracing is the same with the
-/// strategies t <= 1 alone.
+/// strategies t <= 1 alone. Light paths belong to one camera path, or to all of a sample index:
+/// then each camera path is joined to a few of them.
 class BidirectionalIntegrator final : public Integrator {
 public:
     BidirectionalIntegrator(const World& world, const MovingCamera& camera,
                             const RenderOptions& options);
+    [[nodiscard]] std::int64_t most_samples_in_pass() const override;
+    [[nodiscard]] RenderStats begin_pass(SampleRange samples, const Films& films) override;
     [[nodiscard]] RenderStats render_tile(const Tile& tile, SampleRange samples,
                                           const Films& films) const override;
 
@@ -23,19 +27,25 @@ private:
     /// The storage of one thread.
     struct Scratch;
 
+    [[nodiscard]] Scratch make_scratch(const Films& films) const;
+    /// The light paths of some bundles of sample `index`, into the cache and to the film.
+    void share_light_paths(std::int64_t index, std::int64_t chunk, Scratch& scratch);
+    void trace_light_path(SampleContext& sample, Scratch& scratch) const;
     void add_sample(int x, int y, std::int64_t index, PhaseClock* clock, Scratch& scratch) const;
     /// s <= 1: what the camera path brings by itself.
     void join_camera_path(SampleContext& sample, Scratch& scratch) const;
     /// t <= 1: what the light path brings to any pixel.
     void join_light_path(SampleContext& sample, Scratch& scratch) const;
     /// s >= 2, t >= 2
-    void join_paths(const SampleContext& sample, Scratch& scratch) const;
+    void join_paths(const SampleContext& sample, std::span<const PathVertex> light,
+                    Scratch& scratch) const;
 
     const World& world_;
     const MovingCamera& camera_;
     RenderOptions options_;
     PixelFilter filter_;
     StrategySet strategies_;
+    LightPathCache cache_;  ///< empty unless light paths are shared
 };
 
 }  // namespace bdpt

@@ -1,4 +1,4 @@
-#include "options/whole_number.h"
+#include "options/number.h"
 
 #include <fmt/core.h>
 
@@ -17,6 +17,20 @@ CLI::Validator whole_number(std::int64_t least, std::int64_t most)
         return good ? std::string()
                     : fmt::format("expected a whole number from {} to {}, but got \"{}\"", least,
                                   most, word);
+    };
+    return CLI::Validator(check, "");
+}
+
+CLI::Validator number(double least, double most)
+{
+    const auto check = [least, most](const std::string& word) {
+        double value = 0.0;
+        const char* const end = word.data() + word.size();
+        const auto [stop, error] = std::from_chars(word.data(), end, value);
+        const bool good = error == std::errc{} && stop == end && value >= least && value <= most;
+        return good ? std::string()
+                    : fmt::format("expected a number from {} to {}, but got \"{}\"", least, most,
+                                  word);
     };
     return CLI::Validator(check, "");
 }

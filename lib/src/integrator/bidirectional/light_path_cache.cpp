@@ -1,0 +1,120 @@
+#include "integrator/bidirectional/light_path_cache.h"
+
+#include "math/sampler.h"
+#include "math/sobol.h"
+#include "math/split_mix.h"
+
+#include <cmath>
+
+namespace bdpt {
+namespace {
+
+/// Every second bit of the result.
+constexpr std::uint32_t spread_bits(std::uint32_t x)
+{
+    x = (x | x << 8U) & 0x00ff00ffU;
+    x = (x | x << 4U) & 0x0f0f0f0fU;
+    x = (x | x << 2U) & 0x33333333U;
+    return (x | x << 1U) & 0x55555555U;
+}
+
+/// Number of a pixel along the Z curve; films have at most 65536 pixels a side.
+constexpr std::uint32_t morton(int x, int y)
+{
+    return spread_bits(static_cast<std::uint32_t>(x)) | spread_bits(static_cast<std::uint32_t>(y))
+                                                            << 1U;
+}
+
+}  // namespace
+
+LightPathCache::LightPathCache(const LightPathCounts& counts, const RenderOptions& options)
+    : counts_(counts), kind_(options.sampling.sampler), seed_(options.sampling.seed)
+{
+    if (counts.shared) {
+        chunks_.resize(static_cast<std::size_t>(chunks()));
+    }
+}
+
+std::uint64_t LightPathCache::bytes(const LightPathCounts& counts, int max_vertices)
+{
+    const auto vertices = static_cast<std::uint64_t>(counts.bundles * counts.bundle) *
+                          static_cast<std::uint64_t>(max_vertices);
+    return vertices * (sizeof(PathVertex) + sizeof(Bsdf));
+}
+
+Sampler LightPathCache::sampler(std::int64_t index, std::int64_t path) const
+{
+    // As a pixel that no image has: over the indices, the paths with one number are well spread.
+    return {kind_, seed_, -1, static_cast<int>(path), index};
+}
+
+void LightPathCache::begin_chunk(std::int64_t chunk)
+{
+    Chunk& filled = chunks_[static_cast<std::size_t>(chunk)];
+    filled.moments.clear();
+    filled.path_ends.clear();
+    filled.vertices.clear();
+    filled.bsdfs.clear();
+}
+
+void LightPathCache::add_bundle(std::int64_t chunk, const Moment& moment)
+{
+    chunks_[static_cast<std::size_t>(chunk)].moments.push_back(moment);
+}
+
+void LightPathCache::add_path(std::int64_t chunk, std::span<const PathVertex> path)
+{
+    Chunk& filled = chunks_[static_cast<std::size_t>(chunk)];
+    for (const PathVertex& vertex : path) {
+        filled.vertices.push_back(vertex);
+        if (vertex.bsdf != nullptr && vertex.connectible) {
+            filled.bsdfs.push_back(*vertex.bsdf);
+        } else {
+            filled.vertices.back().bsdf = nullptr;
+        }
+    }
+    filled.path_ends.push_back(filled.vertices.size());
+}
+
+void LightPathCache::end_chunk(std::int64_t chunk)
+{
+    Chunk& filled = chunks_[static_cast<std::size_t>(chunk)];
+    const Bsdf* next = filled.bsdfs.data();
+    for (PathVertex& vertex : filled.vertices) {
+        if (vertex.bsdf != nullptr) {
+            vertex.bsdf = next++;
+        }
+    }
+}
+
+LightPathCache::Choice LightPathCache::choose(int x, int y, std::int64_t index) const
+{
+    const std::uint32_t pixel = morton(x, y);
+    const std::uint64_t seed = split_mix(seed_ + golden_ratio_64);
+    // The radical inverse of the pixel's number, with an Owen scramble, in 32 bits.
+    const std::uint32_t u = reverse_bits(permute_upwards(pixel, static_cast<std::uint32_t>(seed)));
+    const std::uint64_t place = std::uint64_t{u} * static_cast<std::uint64_t>(counts_.bundles);
+    Choice choice{.bundle = static_cast<std::int64_t>(place >> 32U)};
+    // What is left of the number is even over the pixels of one bundle; from one index to the next
+    // the sum of all counts grows by `connections`.
+    const double rest = static_cast<double>(static_cast<std::uint32_t>(place)) * 0x1p-32;
+    const double before = counts_.connections * static_cast<double>(index) + rest;
+    choice.count = static_cast<int>(std::floor(before + counts_.connections) - std::floor(before));
+    if (choice.count < counts_.bundle) {
+        choice.first = static_cast<int>(static_cast<std::uint64_t>(index) %
+                                        static_cast<std::uint64_t>(counts_.bundle));
+    }
+    return choice;
+}
+
+std::span<const PathVertex> LightPathCache::path(const Choice& choice, int which) const
+{
+    const Chunk& chunk = chunk_of(choice.bundle);
+    const int in_bundle = (choice.first + which) % counts_.bundle;
+    const std::size_t path = place_of(choice.bundle) * static_cast<std::size_t>(counts_.bundle) +
+                             static_cast<std::size_t>(in_bundle);
+    const std::size_t begin = path == 0 ? 0 : chunk.path_ends[path - 1];
+    return std::span(chunk.vertices).subspan(begin, chunk.path_ends[path] - begin);
+}
+
+}  // namespace bdpt

@@ -1,0 +1,89 @@
+#pragma once
+
+#include "math/wavelength.h"
+#include "path/light_path_counts.h"
+#include "path/subpath.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace bdpt {
+
+class Sampler;
+
+/// The light paths of one sample index, which the camera paths of all pixels share. They are a pure
+/// function of (options, seed, index).
+class LightPathCache {
+public:
+    /// What the light paths of a bundle, and the camera paths that are joined to them, have in
+    /// common.
+    struct Moment {
+        float time = 0.0f;
+        Wavelength wavelength = Wavelength::green;
+    };
+    /// Light paths `first` to `first` + `count` - 1 of a bundle, around its end.
+    struct Choice {
+        std::int64_t bundle = 0;
+        int first = 0;
+        int count = 0;
+    };
+    /// So many bundles are filled together, by one thread.
+    static constexpr std::int64_t chunk_bundles = 64;
+
+    /// `options` have been checked.
+    LightPathCache(const LightPathCounts& counts, const RenderOptions& options);
+
+    /// Most bytes that it takes with light paths of `max_vertices`.
+    [[nodiscard]] static std::uint64_t bytes(const LightPathCounts& counts, int max_vertices);
+
+    [[nodiscard]] const LightPathCounts& counts() const { return counts_; }
+    [[nodiscard]] std::int64_t chunks() const
+    {
+        return (counts_.bundles + chunk_bundles - 1) / chunk_bundles;
+    }
+    /// The random numbers of light path `path` of sample `index`.
+    [[nodiscard]] Sampler sampler(std::int64_t index, std::int64_t path) const;
+
+    // Filling: a chunk is begun, gets its bundles in their order, each with its light paths, and is
+    // ended. Different threads may fill different chunks.
+    void begin_chunk(std::int64_t chunk);
+    void add_bundle(std::int64_t chunk, const Moment& moment);
+    void add_path(std::int64_t chunk, std::span<const PathVertex> path);
+    void end_chunk(std::int64_t chunk);
+
+    /// What the camera path of sample `index` of pixel (x, y) is joined to: evenly spread over the
+    /// image, and far apart for neighbours; light paths of the same bundle for all samples of the
+    /// pixel, which are as well spread over the indices as a pixel's own.
+    [[nodiscard]] Choice choose(int x, int y, std::int64_t index) const;
+    [[nodiscard]] const Moment& moment(std::int64_t bundle) const
+    {
+        return chunk_of(bundle).moments[place_of(bundle)];
+    }
+    /// Number `which` of the choice; empty if no light has power.
+    [[nodiscard]] std::span<const PathVertex> path(const Choice& choice, int which) const;
+
+private:
+    struct Chunk {
+        std::vector<Moment> moments;         // by bundle
+        std::vector<std::size_t> path_ends;  // in `vertices`
+        std::vector<PathVertex> vertices;    // of one path after another
+        std::vector<Bsdf> bsdfs;             // of the vertices that can be joined, in their order
+    };
+    [[nodiscard]] const Chunk& chunk_of(std::int64_t bundle) const
+    {
+        return chunks_[static_cast<std::size_t>(bundle / chunk_bundles)];
+    }
+    [[nodiscard]] static std::size_t place_of(std::int64_t bundle)
+    {
+        return static_cast<std::size_t>(bundle % chunk_bundles);
+    }
+
+    LightPathCounts counts_;
+    SamplerKind kind_;
+    std::uint64_t seed_;
+    std::vector<Chunk> chunks_;
+};
+
+}  // namespace bdpt

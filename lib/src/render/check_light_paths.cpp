@@ -1,0 +1,71 @@
+#include "render/check_light_paths.h"
+
+#include "integrator/bidirectional/light_path_cache.h"
+#include "path/strategy_set.h"
+
+#include <bdpt/error.h>
+#include <bdpt/integrators.h>
+
+#include <cstdint>
+#include <sstream>
+#include <string>
+
+namespace bdpt {
+namespace {
+
+constexpr double most = 4096.0;
+
+std::string text(double number)
+{
+    std::ostringstream stream;
+    stream << number;
+    return stream.str();
+}
+
+void check_number(const char* what, double value)
+{
+    if (!(value >= 0.0 && value <= most)) {
+        throw Error(ErrorCode::usage,
+                    std::string(what) + " is " + text(value) + ", not in [0, " + text(most) + "]");
+    }
+}
+
+std::string megabytes(std::uint64_t bytes)
+{
+    constexpr std::uint64_t megabyte = 1'000'000;
+    return std::to_string((bytes + megabyte - 1) / megabyte) + " MB";
+}
+
+}  // namespace
+
+void check_light_paths(const RenderOptions& options)
+{
+    const double light_paths = options.bidirectional.light_paths;
+    const double connections = options.bidirectional.connections.value_or(0.0);
+    check_number("number of light paths (light_paths)", light_paths);
+    check_number("number of connections", connections);
+    if (light_paths == 0.0 && options.integrator == IntegratorKind::lt) {
+        throw Error(ErrorCode::usage,
+                    "number of light paths (light_paths) is 0, but lt has no others");
+    }
+    if (light_paths == 0.0 && connections > 0.0) {
+        throw Error(ErrorCode::usage,
+                    "number of connections is " + text(connections) +
+                        ", but there are no light paths (light_paths is 0) to connect to");
+    }
+    const LightPathCounts counts(options);
+    if (!info(options.integrator).traces_light_paths || !counts.shared) {
+        return;
+    }
+    const std::uint64_t bytes =
+        LightPathCache::bytes(counts, StrategySet(options).light_vertices());
+    if (bytes > options.bidirectional.light_path_memory) {
+        throw Error(ErrorCode::usage,
+                    text(light_paths) + " shared light paths for each camera path (light_paths) " +
+                        "may take " + megabytes(bytes) +
+                        ", more than the limit (light_path_memory) of " +
+                        megabytes(options.bidirectional.light_path_memory));
+    }
+}
+
+}  // namespace bdpt

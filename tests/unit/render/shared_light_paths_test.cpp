@@ -1,0 +1,196 @@
+// Light paths that all pixels of a sample index share: what is promised of them, but for the means,
+// which are those of all integrators (tests/statistical).
+
+#include "catch.hpp"
+#include "integrator/bidirectional/light_path_cache.h"
+#include "math/sampler.h"
+#include "room.h"
+#include "scene_builder.h"
+
+#include <bdpt/render.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <optional>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace bdpt::test {
+namespace {
+
+constexpr int width = 37;
+constexpr int height = 29;
+
+RenderOptions options(double light_paths, std::optional<double> connections = std::nullopt)
+{
+    RenderOptions result;
+    result.film.width = width;
+    result.film.height = height;
+    result.sampling.samples = {.begin = 0, .end = 6};
+    result.sampling.seed = 5;
+    result.transport.max_depth = 5;
+    result.bidirectional.light_paths = light_paths;
+    result.bidirectional.connections = connections;
+    return result;
+}
+
+RenderResult image_of(const Scene& scene, const RenderOptions& options)
+{
+    return render(scene, room_camera(), options);
+}
+
+}  // namespace
+
+TEST_CASE("numbers of light paths are kept for the whole image", "[light-paths]")
+{
+    const LightPathCounts own(options(2.0));
+    CHECK_FALSE(own.shared);
+    CHECK(own.per_camera_path == 2.0);
+    CHECK(own.connections == 2.0);
+    CHECK_FALSE(LightPathCounts(options(0.0)).shared);
+    CHECK_FALSE(LightPathCounts(options(3.0, 3.0)).shared);
+
+    const LightPathCounts few(options(0.1));
+    CHECK(few.shared);
+    CHECK(few.connections == 1.0);
+    CHECK(few.bundle == 1);
+    CHECK(few.bundles == 107);  // of 1073 pixels
+    CHECK(few.per_camera_path == Approx(107.0 / 1073.0));
+
+    const LightPathCounts bundled(options(2.0, 2.5));
+    CHECK(bundled.shared);
+    CHECK(bundled.bundle == 3);
+    CHECK(bundled.bundles == 715);
+    CHECK(bundled.per_camera_path == Approx(2145.0 / 1073.0));
+
+    CHECK(LightPathCounts(options(1e-9)).bundles == 1);
+}
+
+TEST_CASE("pixels take shared light paths evenly, and neighbours take different ones",
+          "[light-paths]")
+{
+    constexpr int side = 64;
+    const auto [light_paths, connections] =
+        GENERATE(std::tuple(0.25, 1.0), std::tuple(0.25, 0.25), std::tuple(0.5, 2.5),
+                 std::tuple(2.0, 1.0), std::tuple(0.0625, 0.5));
+    CAPTURE(light_paths, connections);
+    RenderOptions o = options(light_paths, connections);
+    o.film.width = side;
+    o.film.height = side;
+    const LightPathCounts counts(o);
+    const LightPathCache cache(counts, o);
+    for (const std::int64_t index : {0, 1, 7}) {
+        std::vector<int> joins(static_cast<std::size_t>(counts.bundles));
+        int total = 0;
+        int near = 0;
+        for (int y = 0; y < side; ++y) {
+            for (int x = 0; x < side; ++x) {
+                const auto choice = cache.choose(x, y, index);
+                REQUIRE(choice.bundle >= 0);
+                REQUIRE(choice.bundle < counts.bundles);
+                REQUIRE(choice.count >= static_cast<int>(connections));
+                REQUIRE(choice.count <= counts.bundle);
+                joins[static_cast<std::size_t>(choice.bundle)] += choice.count;
+                total += choice.count;
+                if (x > 0) {
+                    const std::int64_t way =
+                        std::abs(choice.bundle - cache.choose(x - 1, y, index).bundle);
+                    near += 8 * way < counts.bundles ? 1 : 0;
+                }
+            }
+        }
+        CHECK(total == Approx(connections * side * side).epsilon(0.01));
+        const double each = static_cast<double>(total) / static_cast<double>(counts.bundles);
+        const auto [least, most] = std::minmax_element(joins.begin(), joins.end());
+        CHECK(*least >= std::floor(0.74 * each));
+        CHECK(*most <= std::ceil(1.26 * each));
+        CHECK(near < side * side / 6);  // by chance a quarter would be
+    }
+}
+
+TEST_CASE("the samples of a pixel take their share of connections", "[light-paths]")
+{
+    const double connections = GENERATE(0.25, 0.4, 1.0, 2.5);
+    const RenderOptions o = options(0.25, connections);
+    const LightPathCache cache(LightPathCounts(o), o);
+    for (int x = 0; x < width; ++x) {
+        int total = 0;
+        for (std::int64_t index = 1000; index < 1020; ++index) {
+            total += cache.choose(x, 4, index).count;
+        }
+        CHECK(std::abs(total - 20.0 * connections) < 1.0);
+    }
+}
+
+TEST_CASE("each shared light path has random numbers of its own", "[light-paths]")
+{
+    const RenderOptions o = options(0.25);
+    const LightPathCache cache(LightPathCounts(o), o);
+    CHECK(cache.sampler(0, 5).next_1d() != cache.sampler(1, 5).next_1d());
+    CHECK(cache.sampler(0, 5).next_1d() != cache.sampler(2, 5).next_1d());
+    CHECK(cache.sampler(0, 5).next_1d() != cache.sampler(0, 6).next_1d());
+}
+
+TEST_CASE("images with shared light paths are the same for any threads, tiles, parts and crops",
+          "[light-paths][purity]")
+{
+    const Scene scene = room();
+    const auto [light_paths, connections] =
+        GENERATE(std::tuple(0.25, 1.0), std::tuple(1.0, 2.5), std::tuple(3.0, 0.0));
+    RenderOptions o = options(light_paths, connections);
+    o.film.filter.kind = GENERATE(FilterKind::box, FilterKind::gaussian);
+    o.system.threads = 1;
+    const RenderResult whole = image_of(scene, o);
+    CHECK(whole.film.defects().invalid == 0);
+    CHECK(whole.stats.paths.light ==
+          static_cast<std::uint64_t>(LightPathCounts(o).bundles * LightPathCounts(o).bundle * 6));
+    RenderOptions other = o;
+    other.system.threads = 8;
+    other.system.tile_size = 5;
+    const RenderResult again = image_of(scene, other);
+    CHECK(again.film == whole.film);
+    CHECK(again.stats == whole.stats);
+    other.sampling.seed = 6;
+    CHECK_FALSE(image_of(scene, other).film == whole.film);
+
+    other = o;
+    other.sampling.samples = {.begin = 2, .end = 6};
+    Film parts = image_of(scene, other).film;
+    other.sampling.samples = {.begin = 0, .end = 2};
+    parts.merge(image_of(scene, other).film);
+    CHECK(parts == whole.film);
+
+    other = o;
+    other.film.crop = PixelRect{5, 3, 24, 20};
+    const Image part = image_of(scene, other).film.develop();
+    const Image all = whole.film.develop();
+    int different = 0;
+    for (int y = 3; y < 20; ++y) {
+        for (int x = 5; x < 24; ++x) {
+            different += part.at(x - 5, y - 3) == all.at(x, y) ? 0 : 1;
+        }
+    }
+    CHECK(different == 0);
+}
+
+TEST_CASE("without light paths bdpt is path tracing with next-event estimation", "[light-paths]")
+{
+    const RenderResult result = image_of(room(), options(0.0));
+    CHECK(result.stats.paths.light == 0);
+    CHECK(result.stats.rays.light == 0);
+    CHECK(result.film.develop().at(18, 14).g > 0.0f);
+}
+
+TEST_CASE("scenes without light leave shared light paths empty", "[light-paths]")
+{
+    SceneBuilder builder;
+    builder.walls(lambertian(Rgb(0.7f)), lambertian(Rgb(0.5f)));
+    const RenderResult result = image_of(Scene(std::move(builder.desc)), options(0.5, 1.5));
+    CHECK(result.film.develop().at(18, 14) == Rgb(0.0f));
+    CHECK(result.film.defects().invalid == 0);
+}
+
+}  // namespace bdpt::test

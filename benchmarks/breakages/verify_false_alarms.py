@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Counts how often `bdpt verify` fails a sound renderer: verify_false_alarms.py BDPT [SCENE...]
 
-Each scene is tried as it is and darkened: with all base colours multiplied by a factor, so that roulette ends nearly
-all walks. Every run has a seed of its own, 32 batches, and may be a false alarm with the probability --false-alarm. The
-exit code is 1 if there are more than chance allows."""
+Each scene is tried as it is and darkened: with all base colours multiplied by a factor, so that roulette ends as many
+walks as it may. Every run has a seed of its own, 155 batches (the first look with enough samples to be trusted), and may
+be a false alarm with the probability --false-alarm. The exit code is 1 if there are more than chance allows."""
 
 import argparse
 import json

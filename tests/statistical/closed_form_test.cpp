@@ -6,6 +6,7 @@
 #include "scene_builder.h"
 
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 namespace bdpt::test {
@@ -67,13 +68,15 @@ TEST_CASE("roulette keeps the light of dark surfaces", "[closed-form][roulette]"
     const Rgb dark(0.02f, 0.01f, 0.015f);
     const Scene scene = furnace_sphere(emitted, dark);
     const CameraDesc camera = camera_at({0.1f, 0.0f, 0.3f}, {0.0f, 0.1f, -1.0f}, 0.9f);
-    for (const auto& [kind, edges] :
-         {std::pair(IntegratorKind::pt, 2), std::pair(IntegratorKind::nee, 3),
-          std::pair(IntegratorKind::mis, 3), std::pair(IntegratorKind::bdpt, 3),
-          std::pair(IntegratorKind::lt, 3)}) {
+    for (const auto& [kind, edges, survival] :
+         {std::tuple(IntegratorKind::pt, 2, 0.0f), std::tuple(IntegratorKind::nee, 3, 0.0f),
+          std::tuple(IntegratorKind::mis, 3, 0.0f), std::tuple(IntegratorKind::bdpt, 3, 0.0f),
+          std::tuple(IntegratorKind::lt, 3, 0.0f), std::tuple(IntegratorKind::mis, 3, 0.5f),
+          std::tuple(IntegratorKind::bdpt, 3, 0.5f)}) {
         RenderOptions o = options(kind, edges);
         o.transport.min_depth = edges;
         o.transport.rr_start = 1;
+        o.transport.rr_survival = survival;
         o.sampling.lights = LightSampling::power;  // all triangles are as bright
         Rgb expected = emitted;
         for (int i = 1; i < edges; ++i) {
@@ -82,8 +85,8 @@ TEST_CASE("roulette keeps the light of dark surfaces", "[closed-form][roulette]"
         TileMeans means(scene, camera, o);
         const MeanComparison result =
             compare_means(means, average(expected), {.detectable_bias = 0.25});
-        INFO("integrator " << static_cast<int>(kind) << ", " << edges
-                           << " edges: " << result.text());
+        INFO("integrator " << static_cast<int>(kind) << ", " << edges << " edges, least survival "
+                           << survival << ": " << result.text());
         CHECK(result.sharp_enough);
         CHECK(result.equal);
     }

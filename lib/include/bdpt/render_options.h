@@ -94,12 +94,15 @@ struct SamplingOptions {
 };
 
 /// Which paths are measured, and how strategies share them. Ranges: max_depth [1, 4096], min_depth
-/// [1, max_depth], rr_start from 1.
+/// [1, max_depth], rr_start from 1, rr_survival [0, 1].
 struct TransportOptions {
     int max_depth = 8;  ///< longest path in edges: 1 sees lights only, 2 adds direct light
     int min_depth = 1;  ///< shortest path in edges that is measured
     /// Edges of a subpath after which Russian roulette may end it; `max_depth` or more: never.
     int rr_start = 3;
+    /// Least probability with which roulette lets a walk go on, at each edge. 0: what the
+    /// throughput asks for, however small; 1: no roulette.
+    float rr_survival = 0.0f;
     Heuristic heuristic = Heuristic::power;
 };
 

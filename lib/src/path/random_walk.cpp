@@ -113,11 +113,12 @@ void look_for_lens(const Camera& camera, const Step& step, float free_distance, 
     path.add_crossing(crossing);
 }
 
-/// Ends a walk by chance in proportion to what it has lost since `full`. The survivors are worth
-/// more in return; no density knows of it, so that all strategies are treated alike.
-bool survives(Rgb& beta, Rgb full, Sampler& sampler)
+/// Ends a walk by chance in proportion to what it has lost since `full`, but lets it go on with a
+/// probability of at least `least`. The survivors are worth more in return; no density knows of it,
+/// so that all strategies are treated alike.
+bool survives(Rgb& beta, Rgb full, float least, Sampler& sampler)
 {
-    const float survival = max_component(beta) / max_component(full);
+    const float survival = std::max(max_component(beta) / max_component(full), least);
     if (survival >= 1.0f) {
         return true;
     }
@@ -199,7 +200,8 @@ void walk(SampleContext& sample, const Walk& rules, Step step, Subpath& path)
                 .pdf = scattered->pdf_fwd,
                 .pdf_plane = std::nullopt,
                 .origin = &vertex.end};
-        if (path.size() > rules.limits.rr_start && !survives(step.beta, full, sampler)) {
+        if (path.size() > rules.limits.rr_start &&
+            !survives(step.beta, full, rules.limits.rr_survival, sampler)) {
             return;
         }
     }

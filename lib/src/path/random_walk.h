@@ -11,6 +11,7 @@ namespace bdpt {
 struct WalkLimits {
     int max_vertices = 1;  ///< of the subpath, the lens or the light included
     int rr_start = std::numeric_limits<int>::max();  ///< edges before Russian roulette
+    float rr_survival = 0.0f;                        ///< its least probability of going on
 };
 
 // Walks begin and end in Phase::walk.

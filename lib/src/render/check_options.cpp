@@ -134,6 +134,11 @@ void check_options(const RenderOptions& options)
                 std::numeric_limits<int>::max());
     check_range("start of Russian roulette", options.transport.rr_start, 1,
                 std::numeric_limits<int>::max());
+    if (!(options.transport.rr_survival >= 0.0f && options.transport.rr_survival <= 1.0f)) {
+        throw Error(ErrorCode::usage, "least survival of Russian roulette is " +
+                                          std::to_string(options.transport.rr_survival) +
+                                          ", not in [0, 1]");
+    }
     for (const Strategy& strategy : options.bidirectional.disabled) {
         check_range("disabled strategy's s", strategy.s, 0, max_path_edges + 1);
         check_range("disabled strategy's t", strategy.t, 0, max_path_edges + 1);

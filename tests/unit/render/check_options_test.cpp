@@ -87,6 +87,12 @@ TEST_CASE("options out of range are refused by name and value", "[render]")
               o.bidirectional.light_paths = 3.0;  // not shared
               o.bidirectional.light_path_memory = 1'000'000;
           }).empty());
+    for (const float survival : {-0.1f, 1.1f, std::numeric_limits<float>::quiet_NaN()}) {
+        CHECK(refusal([&](auto& o) {
+                  o.transport.rr_survival = survival;
+              }).find("least survival of Russian roulette is ") == 0);
+    }
+    CHECK(refusal([](auto& o) { o.transport.rr_survival = 1.0f; }).empty());
     CHECK(refusal([](auto& o) { o.system.tile_size = 0; }).find("tile size is 0") !=
           std::string::npos);
     CHECK(refusal([](auto& o) { o.system.threads = -1; }).find("threads is -1") !=

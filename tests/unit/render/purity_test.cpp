@@ -97,6 +97,22 @@ TEST_CASE("the same bits for any threads and tiles", "[purity]")
     }
 }
 
+TEST_CASE("roulette that lets every walk go on changes no bit", "[purity]")
+{
+    const Scene scene = room();
+    for (const auto kind : {IntegratorKind::bdpt, IntegratorKind::mis, IntegratorKind::lt}) {
+        RenderOptions o = options(kind);
+        o.transport.rr_start = o.transport.max_depth;
+        const Film expected = film_of(scene, o);
+        o.transport.rr_start = 1;
+        CHECK_FALSE(film_of(scene, o) == expected);
+        o.transport.rr_survival = 0.7f;
+        CHECK_FALSE(film_of(scene, o) == expected);
+        o.transport.rr_survival = 1.0f;
+        CHECK(film_of(scene, o) == expected);
+    }
+}
+
 TEST_CASE("the same bits for a scene that is built again", "[purity]")
 {
     CHECK(film_of(room(), options(IntegratorKind::bdpt)) ==

@@ -96,29 +96,35 @@ ordered_json render_settings(const BenchScene& scene, const RenderOptions& optio
     // JSON has no infinity.
     const ordered_json clamp =
         std::isfinite(options.film.clamp) ? ordered_json(options.film.clamp) : ordered_json();
-    return {{"version", BDPT_VERSION},
-            {"scene", hex_text(scene.content)},
-            {"camera", hex_text(content_hash(scene.camera))},
-            {"width", scene.width},
-            {"height", scene.height},
-            {"max_depth", options.transport.max_depth},
-            {"min_depth", options.transport.min_depth},
-            {"max_camera_depth", options.bidirectional.max_camera_depth},
-            {"max_light_depth", options.bidirectional.max_light_depth},
-            {"light_paths", options.bidirectional.light_paths},
-            {"connections", options.bidirectional.connections
-                                ? ordered_json(*options.bidirectional.connections)
-                                : ordered_json()},
-            {"disabled", strategies_json(options.bidirectional.disabled)},
-            {"rr_start", options.transport.rr_start},
-            {"heuristic", static_cast<int>(options.transport.heuristic)},
-            {"sampler", options.sampling.sampler == SamplerKind::sobol ? "sobol" : "independent"},
-            {"environment_sampling", static_cast<int>(options.sampling.environment)},
-            {"light_sampling", static_cast<int>(options.sampling.lights)},
-            {"filter", static_cast<int>(options.film.filter.kind)},
-            {"filter_radius",
-             options.film.filter.radius.value_or(default_radius(options.film.filter.kind))},
-            {"clamp", clamp}};
+    ordered_json settings{
+        {"version", BDPT_VERSION},
+        {"scene", hex_text(scene.content)},
+        {"camera", hex_text(content_hash(scene.camera))},
+        {"width", scene.width},
+        {"height", scene.height},
+        {"max_depth", options.transport.max_depth},
+        {"min_depth", options.transport.min_depth},
+        {"max_camera_depth", options.bidirectional.max_camera_depth},
+        {"max_light_depth", options.bidirectional.max_light_depth},
+        {"light_paths", options.bidirectional.light_paths},
+        {"disabled", strategies_json(options.bidirectional.disabled)},
+        {"rr_start", options.transport.rr_start},
+        {"heuristic", static_cast<int>(options.transport.heuristic)},
+        {"sampler", options.sampling.sampler == SamplerKind::sobol ? "sobol" : "independent"},
+        {"environment_sampling", static_cast<int>(options.sampling.environment)},
+        {"light_sampling", static_cast<int>(options.sampling.lights)},
+        {"filter", static_cast<int>(options.film.filter.kind)},
+        {"filter_radius",
+         options.film.filter.radius.value_or(default_radius(options.film.filter.kind))},
+        {"clamp", clamp}};
+    // Without these, references keep their names.
+    if (options.transport.rr_survival > 0.0f) {
+        settings["rr_survival"] = options.transport.rr_survival;
+    }
+    if (options.bidirectional.connections) {
+        settings["connections"] = *options.bidirectional.connections;
+    }
+    return settings;
 }
 
 std::optional<ordered_json> read_json(const fs::path& file)

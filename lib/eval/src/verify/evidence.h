@@ -27,9 +27,6 @@ constexpr std::array<IntegratorKind, 4> other_integrators{IntegratorKind::pt, In
                                                             : other_samples;
 }
 
-/// Edges after which roulette may end a walk, as in any render that does not say otherwise.
-constexpr int roulette_start = 3;
-
 /// What one integrator said about itself in a batch.
 struct ImageCheck {
     FilmDefects defects;

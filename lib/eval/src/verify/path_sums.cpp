@@ -16,21 +16,27 @@ double square(double x)
     return x * x;
 }
 
-/// The samples of two strategies with these shares, weighed by the power heuristic, along a path of
-/// which all strategies together make `all`; none without a share.
-void add_pair(SecondMoment& moment, double weighted, double all, double a, double b)
+/// A strategy that finds a path.
+struct Finder {
+    double share = 0.0;
+    double greatest_weight = 1.0;  // by roulette
+};
+
+/// The samples of two strategies, weighed by the power heuristic, along a path of which all
+/// strategies together make `all`; none without a share.
+void add_pair(SecondMoment& moment, double weighted, double all, Finder a, Finder b)
 {
-    const double greater = std::max(a, b);
+    const double greater = std::max(a.share, b.share);
     if (!(greater > 0.0)) {
         return;
     }
     // Divided by the greater first: squares of small shares would be lost.
-    const double x = a / greater;
-    const double y = b / greater;
+    const double x = a.share / greater;
+    const double y = b.share / greater;
     const double sum = x * x + y * y;
     const double size = all / greater / sum;
-    moment.add(size * x, weighted * size / sum * x * x * x);
-    moment.add(size * y, weighted * size / sum * y * y * y);
+    moment.add(size * x * a.greatest_weight, weighted * size / sum * x * x * x * a.greatest_weight);
+    moment.add(size * y * b.greatest_weight, weighted * size / sum * y * y * y * b.greatest_weight);
 }
 
 double share_of(const PathContribution& path, std::size_t s)
@@ -46,8 +52,6 @@ StrategySums& StrategySums::operator+=(const StrategySums& other)
     expected += other.expected;
     second_moment += other.second_moment;
     seen += other.seen;
-    own += other.own;
-    others += other.others;
     reach += other.reach;
     weighted += other.weighted;
     unweighted += other.unweighted;
@@ -79,6 +83,7 @@ LengthSums& LengthSums::operator+=(const LengthSums& other)
 PathSums::PathSums(const TileGrid& grid, int max_depth)
     : grid_(grid),
       row_(max_depth),
+      roulette_(max_depth),
       strategies_(grid.size() * row_.size()),
       lengths_(grid.size() * static_cast<std::size_t>(max_depth)),
       finders_(row_.pairs())
@@ -119,10 +124,11 @@ void PathSums::add(const PathContribution& path)
                     .squares = squares,
                     .moment = 0.0,
                     .largest = 0.0};
-    for (const float share : path.shares) {
+    for (std::size_t s = 0; s < path.shares.size(); ++s) {
+        const double share = share_of(path, s);
         // w / b with w = b^2 / squares
-        const double sample = static_cast<double>(share) / squares * all;
-        measure.moment += sample * square(static_cast<double>(share)) / squares;
+        const double sample = share / squares * all * greatest_weight(edges, s);
+        measure.moment += sample * square(share) / squares;
         measure.largest = std::max(measure.largest, sample);
     }
     const std::size_t tile = grid_.tile_at(path.raster);
@@ -161,27 +167,31 @@ void PathSums::add_to_strategies(const PathContribution& path, const Measure& me
         // Found by u, the path adds g (1 - w_u) / b_u to the difference; found by v, it takes g w_v
         // / b_v from it.
         const double by_own = (1.0 - weight) * g * all / share;
-        sums.second_moment.add(by_own, weighted * by_own * (1.0 - weight) * g);
-        const double by_others = moment - square(weight) * all / share;
+        const double most = greatest_weight(edges, u);
+        sums.second_moment.add(most * by_own, weighted * most * by_own * (1.0 - weight) * g);
+        const double by_others = moment - square(weight) * most * all / share;
         sums.second_moment.add(g * largest, weighted * square(g) * std::max(by_others, 0.0));
         if (u == own) {
             sums.seen.add(by_own, square(by_own));
-            sums.own.add(by_own);
         } else {
             sums.seen.add(g * largest, square(g * weighted));
-            sums.others.add(g * weighted);
         }
     }
 }
 
-void PathSums::add_to_length(LengthSums& sums, const PathContribution& path, const Measure& measure)
+void PathSums::add_to_length(LengthSums& sums, const PathContribution& path,
+                             const Measure& measure) const
 {
     const std::size_t n = path.shares.size() - 1;  // vertices
-    const double hit = share_of(path, 0);
+    const int edges = path.strategy.s + path.strategy.t - 1;
+    const auto finder = [&](std::size_t s) {
+        return Finder{.share = share_of(path, s), .greatest_weight = greatest_weight(edges, s)};
+    };
+    const Finder hit = finder(0);
     // Of paths of one edge, s = 1 goes through the lens: no path tracer has that.
-    const double next_event = n > 2 ? share_of(path, 1) : 0.0;
-    const double to_lens = share_of(path, n - 1);
-    const double hit_lens = share_of(path, n);
+    const Finder next_event = n > 2 ? finder(1) : Finder{};
+    const Finder to_lens = finder(n - 1);
+    const Finder hit_lens = finder(n);
     const double weighted = measure.weighted;
     const double all = measure.all;
     sums.radiance += weighted;
@@ -190,13 +200,13 @@ void PathSums::add_to_length(LengthSums& sums, const PathContribution& path, con
         reached.second_moment.add(measure.largest, weighted * measure.moment);
         reached.seen.add(measure.largest, square(weighted));
     };
-    if (hit > 0.0 || next_event > 0.0) {
+    if (hit.share > 0.0 || next_event.share > 0.0) {
         reach(sums.from_camera);
-        add_pair(sums.pt, weighted, all, hit > 0.0 ? hit : next_event, 0.0);
-        add_pair(sums.nee, weighted, all, next_event > 0.0 ? next_event : hit, 0.0);
+        add_pair(sums.pt, weighted, all, hit.share > 0.0 ? hit : next_event, {});
+        add_pair(sums.nee, weighted, all, next_event.share > 0.0 ? next_event : hit, {});
         add_pair(sums.mis, weighted, all, hit, next_event);
     }
-    if (to_lens > 0.0 || hit_lens > 0.0) {
+    if (to_lens.share > 0.0 || hit_lens.share > 0.0) {
         reach(sums.from_light);
         add_pair(sums.lt, weighted, all, to_lens, hit_lens);
     }

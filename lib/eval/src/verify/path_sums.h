@@ -1,5 +1,6 @@
 #pragma once
 
+#include "verify/roulette.h"
 #include "verify/second_moment.h"
 #include "verify/tile_grid.h"
 
@@ -28,16 +29,6 @@ public:
         return begin(strategy.s + strategy.t - 1) + static_cast<std::size_t>(strategy.s);
     }
 
-    /// Edges of the paths of the strategy at `index`.
-    [[nodiscard]] int edges(std::size_t index) const
-    {
-        int edges = 1;
-        while (begin(edges + 1) <= index) {
-            ++edges;
-        }
-        return edges;
-    }
-
     /// Pairs of strategies of the same length stand in a row as well.
     [[nodiscard]] std::size_t pairs() const { return pair(max_depth_ + 1, 0, 0); }
     [[nodiscard]] std::size_t pair(int edges, std::size_t u, std::size_t v) const
@@ -60,34 +51,15 @@ private:
 /// would make of the path.
 constexpr double full_share = 1.0 / 16.0;
 
-/// Samples as they were found: how great and how many.
-struct Contributions {
-    double sum = 0.0;
-    double squares = 0.0;
-
-    void add(double sample)
-    {
-        sum += sample;
-        squares += sample * sample;
-    }
-    Contributions& operator+=(const Contributions& other)
-    {
-        sum += other.sum;
-        squares += other.squares;
-        return *this;
-    }
-};
-
 /// What the paths of bdpt say about one strategy u in one tile. All numbers are sums of mean
 /// channels [nit]. Tested are the paths in which u has a share, each multiplied by g = min(1, share
-/// / `full_share`); g is a function of the path, so whoever finds it takes the same.
+/// / `full_share`); g is a function of the path, so whoever finds it takes the same. Expected
+/// second moments hold for the greatest weight that roulette may give.
 struct StrategySums {
     double tested = 0.0;         ///< g times the unweighted paths that u found
     double expected = 0.0;       ///< g times the weighted paths that anyone found
     SecondMoment second_moment;  ///< of a sample's `tested - expected`, estimated from all paths
     SecondMoment seen;           ///< the same of the paths as they were found
-    Contributions own;           ///< what paths that u found add to `tested - expected`
-    Contributions others;        ///< what paths that others found take from it
     double reach = 0.0;          ///< weighted paths that u can make, found by anyone
     double weighted = 0.0;       ///< paths that u found
     double unweighted = 0.0;
@@ -152,15 +124,22 @@ private:
         double weighted;  // as it was found
         double all;       // by the balance heuristic, the same whoever finds it
         double squares;   // sum of squared shares
-        double moment;    // second moment of a sample of bdpt along this path
+        double moment;    // second moment of a sample of bdpt along this path, at most
         double largest;   // greatest such sample
     };
     void add_to_strategies(const PathContribution& path, const Measure& measure, std::size_t first);
-    static void add_to_length(LengthSums& sums, const PathContribution& path,
-                              const Measure& measure);
+    void add_to_length(LengthSums& sums, const PathContribution& path,
+                       const Measure& measure) const;
+    /// By roulette, of a path of so many edges that the strategy with `s` light vertices finds.
+    [[nodiscard]] double greatest_weight(int edges, std::size_t s) const
+    {
+        const auto light = static_cast<int>(s);
+        return roulette_.greatest_weight({.s = light, .t = edges + 1 - light});
+    }
 
     const TileGrid& grid_;
     StrategyRow row_;
+    Roulette roulette_;
     std::vector<StrategySums> strategies_;  // by tile, then by index
     std::vector<LengthSums> lengths_;       // by tile, then by length
     std::vector<double> finders_;           // by length, tested strategy, finder

@@ -1,5 +1,7 @@
 #include "verify/render_batch.h"
 
+#include "verify/roulette.h"
+
 #include <bdpt/render.h>
 
 #include <algorithm>
@@ -27,7 +29,8 @@ RenderOptions render_options(const VerifyOptions& options, IntegratorKind integr
     result.film.height = options.height;
     result.transport.min_depth = shortest;
     result.transport.max_depth = longest;
-    result.transport.rr_start = roulette_start;
+    result.transport.rr_start = Roulette::start;
+    result.transport.rr_survival = Roulette(options.max_depth).least_survival();
     // Sobol points of one sequence depend on each other; those of other seeds do not.
     result.sampling.samples = {.begin = 0, .end = samples_of(integrator, shortest)};
     if (integrator == IntegratorKind::bdpt) {

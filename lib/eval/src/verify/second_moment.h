@@ -25,14 +25,6 @@ public:
         }
         return *this;
     }
-    [[nodiscard]] double of_all() const
-    {
-        double sum = 0.0;
-        for (const double part : sums_) {
-            sum += part;
-        }
-        return sum;
-    }
     /// Of samples of this size and more; of some that are smaller, too, by a factor of 4 at most.
     [[nodiscard]] double above(double size) const
     {

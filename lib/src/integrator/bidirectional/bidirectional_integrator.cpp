@@ -126,7 +126,8 @@ void BidirectionalIntegrator::add_sample(int x, int y, std::int64_t index, Phase
     const bool wanted = sink.holds_pixel();
     trace_camera_subpath(sample, start.raster,
                          {.max_vertices = wanted ? strategies_.camera_vertices() : 1,
-                          .rr_start = options_.transport.rr_start},
+                          .rr_start = options_.transport.rr_start,
+                          .rr_survival = options_.transport.rr_survival},
                          scratch.camera_path);
     sample.enter(Phase::weigh);
     scratch.weigher->begin_camera_path(scratch.camera_path.all());
@@ -192,10 +193,11 @@ void BidirectionalIntegrator::share_light_paths(std::int64_t index, std::int64_t
 void BidirectionalIntegrator::trace_light_path(SampleContext& sample, Scratch& scratch) const
 {
     sample.enter(Phase::walk);
-    trace_light_subpath(
-        sample,
-        {.max_vertices = strategies_.light_vertices(), .rr_start = options_.transport.rr_start},
-        strategies_.next_event_sampling(), scratch.light_path);
+    trace_light_subpath(sample,
+                        {.max_vertices = strategies_.light_vertices(),
+                         .rr_start = options_.transport.rr_start,
+                         .rr_survival = options_.transport.rr_survival},
+                        strategies_.next_event_sampling(), scratch.light_path);
     ++scratch.stats.paths.light;
     sample.enter(Phase::weigh);
     scratch.weigher->begin_light_path(scratch.light_path.all());

@@ -140,7 +140,7 @@ void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, Contribution
             ray.receiver = {.p = point.end.p, .normal = point.bsdf.opaque_normal()};
         }
         if (depth >= options_.transport.rr_start) {
-            const float survival = max_component(beta);
+            const float survival = std::max(max_component(beta), options_.transport.rr_survival);
             if (survival < 1.0f) {
                 if (sampler.next_1d() >= survival) {
                     break;

@@ -26,6 +26,7 @@ target_sources(bdpt_io PRIVATE
   src/ies/ies_numbers.cpp
   src/ies/ies_profile.cpp
   # glTF, each folder including those above it only. What a document must be before any library sees it
+  src/gltf/checks/animations.cpp
   src/gltf/checks/glb.cpp
   src/gltf/checks/layout.cpp
   src/gltf/checks/node_graph.cpp

@@ -170,11 +170,13 @@ TEST_CASE("info --json has data under keys that stay, not sentences")
         write_cube(folder, "cube",
                    {.material = R"({"name": "glow", "emissiveFactor": [1, 0.5, 0]})",
                     .cameras = R"({"name": "lamp", "translation": [1, 2, 3],
-                        "extensions": {"KHR_lights_punctual": {"light": 0}}},)",
+                        "extensions": {"KHR_lights_punctual": {"light": 0}}},
+                        {"extensions": {"KHR_lights_punctual": {"light": 1}}},)",
                     .more = R"("extensionsUsed": ["KHR_lights_punctual"],
                         "extensions": {"KHR_lights_punctual": {"lights": [
-                            {"type": "point", "name": "bulb", "intensity": 5}]}},)",
-                    .camera_nodes = 1})
+                            {"type": "point", "name": "bulb", "intensity": 5},
+                            {"type": "directional", "name": "sun", "intensity": 2}]}},)",
+                    .camera_nodes = 2})
             .string();
     const auto info = nlohmann::json::parse(run({"info", scene, "--json"}).out);
     CAPTURE(info.dump());
@@ -184,10 +186,15 @@ TEST_CASE("info --json has data under keys that stay, not sentences")
           nlohmann::json::parse(R"([{"name": "glow", "emission": [1.0, 0.5, 0.0]}])"));
     CHECK(info["texture_sizes"] == nlohmann::json::array());
     CHECK(info["defaults"] == nlohmann::json::array({"camera"}));
-    REQUIRE(info["lights"].size() == 1);
-    CHECK(info["lights"][0]["kind"] == "point");
-    CHECK(info["lights"][0]["position"] == nlohmann::json::array({1.0, 2.0, 3.0}));
-    CHECK(info["lights"][0]["intensity"] == nlohmann::json::array({5.0, 5.0, 5.0}));
+    CHECK(info["lights"] == nlohmann::json::parse(R"([
+        {"kind": "point", "name": "bulb", "position": [1.0, 2.0, 3.0],
+         "intensity": [5.0, 5.0, 5.0], "radius": 0.0},
+        {"kind": "directional", "name": "sun", "direction": [0.0, 0.0, -1.0],
+         "illuminance": [2.0, 2.0, 2.0]}])"));
+    const std::string text = run({"info", scene}).out;
+    CAPTURE(text);
+    CHECK(text.find("point \"bulb\" at 1,2,3, 5,5,5 cd\n") != std::string::npos);
+    CHECK(text.find("directional \"sun\" towards 0,0,-1, 2,2,2 lx\n") != std::string::npos);
     const std::string dark = write_cube(folder, "dark", {}).string();
     CHECK(nlohmann::json::parse(run({"info", dark, "--json"}).out)["defaults"] ==
           nlohmann::json::array({"camera", "sky"}));

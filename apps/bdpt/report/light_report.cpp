@@ -2,8 +2,12 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <type_traits>
 #include <variant>
 
 #include "report/values.h"
@@ -13,27 +17,62 @@ namespace {
 
 using nlohmann::ordered_json;
 
-struct LightText {
-    static std::string radius(float metres)
-    {
-        return metres > 0.0f ? fmt::format(", radius {:.4g} m", metres) : "";
+/// A kind by its name alone: "point" of "point light".
+template <typename Light>
+constexpr std::string_view short_kind = Light::kind.substr(0, Light::kind.rfind(" light"));
+
+/// What stands around the value of a field in a line.
+struct Phrase {
+    std::string before;
+    std::string_view after;
+};
+
+Phrase phrase_of(std::string_view field)
+{
+    if (field == "position") {
+        return {" at ", ""};
     }
-    std::string operator()(const PointLightDesc& light) const
+    if (field == "direction") {
+        return {" towards ", ""};
+    }
+    if (field == "intensity") {
+        return {", ", " cd"};
+    }
+    if (field == "illuminance") {
+        return {", ", " lx"};
+    }
+    return {fmt::format(", {} ", field), ""};
+}
+
+std::string radius_text(float metres)
+{
+    return metres > 0.0f ? fmt::format(", radius {:.4g} m", metres) : "";
+}
+
+// A kind without words of its own is told by its fields: all numbers and vectors, but no motion.
+
+struct LightText {
+    template <typename Light>
+    std::string operator()(const Light& light) const
     {
-        return fmt::format("point \"{}\" at {}, {} cd{}", light.name, to_text(light.position),
-                           to_text(light.intensity), radius(light.radius));
+        std::string text = fmt::format("{} \"{}\"", short_kind<Light>, light.name);
+        for_each_field(light, [&text]<typename T>(const auto& field, const T& value) {
+            if constexpr (std::is_same_v<T, Vec3>) {
+                const auto [before, after] = phrase_of(field.name);
+                text += fmt::format("{}{}{}", before, to_text(value), after);
+            } else if constexpr (std::is_arithmetic_v<T>) {
+                text += field.name == "radius" ? radius_text(value)
+                                               : fmt::format(", {} {:.4g}", field.name, value);
+            }
+        });
+        return text;
     }
     std::string operator()(const SpotLightDesc& light) const
     {
         return fmt::format("spot \"{}\" at {}, {} cd, cone {:.3g} to {:.3g} degrees{}", light.name,
                            to_text(light.position), to_text(light.intensity),
                            degrees(light.inner_cone_angle), degrees(light.outer_cone_angle),
-                           radius(light.radius));
-    }
-    std::string operator()(const DirectionalLightDesc& light) const
-    {
-        return fmt::format("directional \"{}\" towards {}, {} lx", light.name,
-                           to_text(light.direction), to_text(light.illuminance));
+                           radius_text(light.radius));
     }
     std::string operator()(const ProfileLightDesc& light) const
     {
@@ -48,13 +87,20 @@ struct LightText {
 };
 
 struct LightJson {
-    ordered_json operator()(const PointLightDesc& light) const
+    template <typename Light>
+    ordered_json operator()(const Light& light) const
     {
-        return {{"kind", "point"},
-                {"name", light.name},
-                {"position", to_json(light.position)},
-                {"intensity", to_json(light.intensity)},
-                {"radius", light.radius}};
+        ordered_json result{{"kind", short_kind<Light>}, {"name", light.name}};
+        for_each_field(light, [&result]<typename T>(const auto& field, const T& value) {
+            std::string name(field.name);
+            std::replace(name.begin(), name.end(), ' ', '_');
+            if constexpr (std::is_same_v<T, Vec3>) {
+                result[name] = to_json(value);
+            } else if constexpr (std::is_arithmetic_v<T>) {
+                result[name] = value;
+            }
+        });
+        return result;
     }
     ordered_json operator()(const SpotLightDesc& light) const
     {
@@ -66,13 +112,6 @@ struct LightJson {
                 {"inner_cone_degrees", degrees(light.inner_cone_angle)},
                 {"outer_cone_degrees", degrees(light.outer_cone_angle)},
                 {"radius", light.radius}};
-    }
-    ordered_json operator()(const DirectionalLightDesc& light) const
-    {
-        return {{"kind", "directional"},
-                {"name", light.name},
-                {"direction", to_json(light.direction)},
-                {"illuminance", to_json(light.illuminance)}};
     }
     ordered_json operator()(const ProfileLightDesc& light) const
     {

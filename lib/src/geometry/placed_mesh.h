@@ -77,10 +77,9 @@ public:
     }
 
     /// Corners in the world.
-    [[nodiscard]] std::array<Vec3, 3> corners(std::uint32_t triangle, float time = 0.0f) const;
+    [[nodiscard]] std::array<Vec3, 3> corners(std::uint32_t triangle, float time) const;
     /// Barycentrics are those of the second and third corner.
-    [[nodiscard]] BoundedPoint point(std::uint32_t triangle, Vec2 barycentrics,
-                                     float time = 0.0f) const
+    [[nodiscard]] BoundedPoint point(std::uint32_t triangle, Vec2 barycentrics, float time) const
     {
         return settled_.empty() ? unsettled_point(triangle, barycentrics, time)
                                 : settled_[triangle].point(barycentrics);
@@ -92,20 +91,18 @@ public:
         return settled_.empty() ? unsettled_hit(triangle, ray) : settled_[triangle].hit(ray);
     }
     /// Front normal from the corners, in the world, unnormalised; its length is twice the area.
-    [[nodiscard]] Vec3 area_normal(std::uint32_t triangle, float time = 0.0f) const;
+    [[nodiscard]] Vec3 area_normal(std::uint32_t triangle, float time) const;
 
     [[nodiscard]] std::array<Vec2, 2> uv(std::uint32_t triangle, Vec2 barycentrics) const;
     /// What a pixel that is `width` wide [m] on the triangle covers of its texture coordinates;
     /// zero where the triangle has no area.
-    [[nodiscard]] UvFootprint uv_footprint(std::uint32_t triangle, float width,
-                                           float time = 0.0f) const;
+    [[nodiscard]] UvFootprint uv_footprint(std::uint32_t triangle, float width, float time) const;
     /// Interpolated and unit; zero when the mesh has no normals.
-    [[nodiscard]] Vec3 shading_normal(std::uint32_t triangle, Vec2 barycentrics,
-                                      float time = 0.0f) const;
+    [[nodiscard]] Vec3 shading_normal(std::uint32_t triangle, Vec2 barycentrics, float time) const;
     /// Tangent and handedness for normal maps: the mesh's own, else along texture coordinate u of
     /// set `uv_set`; zero when neither exists.
     [[nodiscard]] Vec4 tangent(std::uint32_t triangle, Vec2 barycentrics, int uv_set,
-                               float time = 0.0f) const;
+                               float time) const;
     [[nodiscard]] Vec4 color(std::uint32_t triangle, Vec2 barycentrics) const;
 
     /// For a mesh that stands still and is placed once: works out what hits need. Corners are read

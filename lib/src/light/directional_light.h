@@ -17,10 +17,9 @@ public:
     DirectionalLight(const DirectionalLightDesc& desc, const BoundingSphere& bounds);
 
     [[nodiscard]] EmissionSample sample_emission(Vec2 u_position, Vec2 u_direction,
-                                                 float time = 0.0f) const;
+                                                 float time) const;
     [[nodiscard]] IncidentSample sample_incident(Vec3 receiver, Vec2 u,
-                                                 EnvironmentSampling sampling,
-                                                 float time = 0.0f) const;
+                                                 EnvironmentSampling sampling, float time) const;
     /// Luminous flux through the scene's disk [lm].
     [[nodiscard]] Rgb power() const;
 

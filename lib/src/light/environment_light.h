@@ -33,10 +33,10 @@ public:
                                        EnvironmentSampling sampling) const;
 
     [[nodiscard]] std::optional<EmissionSample> sample_emission(Vec2 u_position, Vec2 u_direction,
-                                                                float time = 0.0f) const;
+                                                                float time) const;
     [[nodiscard]] std::optional<IncidentSample> sample_incident(Vec3 receiver, Vec2 u,
                                                                 EnvironmentSampling sampling,
-                                                                float time = 0.0f) const;
+                                                                float time) const;
     /// Luminous flux into the scene's bounding sphere [lm].
     [[nodiscard]] Rgb power() const;
 

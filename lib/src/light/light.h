@@ -18,11 +18,11 @@ public:
     Light(const LightDesc& desc, const LightContext& context);
 
     [[nodiscard]] std::optional<EmissionSample> sample_emission(Vec2 u_position, Vec2 u_direction,
-                                                                float time = 0.0f) const;
+                                                                float time) const;
     /// `sampling` counts for environments.
-    [[nodiscard]] std::optional<IncidentSample> sample_incident(
-        Vec3 receiver, Vec2 u, EnvironmentSampling sampling = EnvironmentSampling::plain,
-        float time = 0.0f) const;
+    [[nodiscard]] std::optional<IncidentSample> sample_incident(Vec3 receiver, Vec2 u,
+                                                                EnvironmentSampling sampling,
+                                                                float time) const;
 
     /// Of x_0 as the start of a light path: on the surface, or for an infinite light of the
     /// direction; 1 for a delta light.
@@ -33,7 +33,7 @@ public:
         EnvironmentSampling sampling = EnvironmentSampling::plain) const;
     /// Of the direction of a light path that leaves a finite light at a point with the normal `ng`,
     /// zero if none. `SphereLight` says which factor of the joint density this is.
-    [[nodiscard]] SolidAnglePdf pdf_direction(Vec3 ng, Vec3 direction, float time = 0.0f) const;
+    [[nodiscard]] SolidAnglePdf pdf_direction(Vec3 ng, Vec3 direction, float time) const;
 
     /// No ray hits it by chance: s = 0 is impossible.
     [[nodiscard]] bool is_delta() const { return is_delta_; }

@@ -47,7 +47,7 @@ struct InfiniteLight {
     static constexpr bool is_infinite = true;
 
     [[nodiscard]] static SolidAnglePdf pdf_direction(Vec3 /*ng*/, Vec3 /*direction*/,
-                                                     float /*time*/ = 0.0f)
+                                                     float /*time*/)
     {
         return {};
     }

@@ -23,11 +23,11 @@ public:
 
     /// Directions are drawn by their intensity; none from a profile that is black.
     [[nodiscard]] std::optional<EmissionSample> sample_emission(Vec2 u_position, Vec2 u_direction,
-                                                                float time = 0.0f) const;
-    [[nodiscard]] std::optional<IncidentSample> sample_incident(
-        Vec3 receiver, Vec2 u = {}, EnvironmentSampling sampling = EnvironmentSampling::plain,
-        float time = 0.0f) const;
-    [[nodiscard]] SolidAnglePdf pdf_direction(Vec3 ng, Vec3 direction, float time = 0.0f) const;
+                                                                float time) const;
+    [[nodiscard]] std::optional<IncidentSample> sample_incident(Vec3 receiver, Vec2 u,
+                                                                EnvironmentSampling sampling,
+                                                                float time) const;
+    [[nodiscard]] SolidAnglePdf pdf_direction(Vec3 ng, Vec3 direction, float time) const;
     /// Luminous flux [lm].
     [[nodiscard]] Rgb power() const { return scale_ * profile_->flux(); }
     /// Of a light that may shine everywhere.

@@ -24,11 +24,11 @@ public:
 
     /// Directions are uniform in the cone.
     [[nodiscard]] EmissionSample sample_emission(Vec2 u_position, Vec2 u_direction,
-                                                 float time = 0.0f) const;
-    [[nodiscard]] std::optional<IncidentSample> sample_incident(
-        Vec3 receiver, Vec2 u = {}, EnvironmentSampling sampling = EnvironmentSampling::plain,
-        float time = 0.0f) const;
-    [[nodiscard]] SolidAnglePdf pdf_direction(Vec3 /*ng*/, Vec3 direction, float time = 0.0f) const
+                                                 float time) const;
+    [[nodiscard]] std::optional<IncidentSample> sample_incident(Vec3 receiver, Vec2 u,
+                                                                EnvironmentSampling sampling,
+                                                                float time) const;
+    [[nodiscard]] SolidAnglePdf pdf_direction(Vec3 /*ng*/, Vec3 direction, float time) const
     {
         return cone(time).pdf(direction);
     }

@@ -26,18 +26,18 @@ public:
     SphereLight(const SpotLightDesc& desc, std::uint32_t number);
 
     /// The point with the unit normal `ng`.
-    [[nodiscard]] SegmentEnd surface(Vec3 ng, float time = 0.0f) const;
+    [[nodiscard]] SegmentEnd surface(Vec3 ng, float time) const;
     /// In a unit direction away from the sphere [nit].
-    [[nodiscard]] Rgb radiance(Vec3 direction, float time = 0.0f) const;
+    [[nodiscard]] Rgb radiance(Vec3 direction, float time) const;
 
     /// Directions are uniform in the spot's cone, and points uniform on the disk that the sphere is
     /// as seen from there: for a point light that is area times cosine.
     [[nodiscard]] std::optional<EmissionSample> sample_emission(Vec2 u_position, Vec2 u_direction,
-                                                                float time = 0.0f) const;
+                                                                float time) const;
     /// Directions are uniform in the cone that the sphere fills; none from inside of it.
-    [[nodiscard]] std::optional<IncidentSample> sample_incident(
-        Vec3 receiver, Vec2 u, EnvironmentSampling sampling = EnvironmentSampling::plain,
-        float time = 0.0f) const;
+    [[nodiscard]] std::optional<IncidentSample> sample_incident(Vec3 receiver, Vec2 u,
+                                                                EnvironmentSampling sampling,
+                                                                float time) const;
 
     /// Uniform over the area. For a spot that is not the density of the position alone; but its
     /// product with `pdf_direction` is that of both, and nothing else is ever used.
@@ -45,7 +45,7 @@ public:
     [[nodiscard]] AreaPdf pdf_incident(
         Vec3 receiver, const LightPoint& x0,
         EnvironmentSampling sampling = EnvironmentSampling::plain) const;
-    [[nodiscard]] SolidAnglePdf pdf_direction(Vec3 ng, Vec3 direction, float time = 0.0f) const;
+    [[nodiscard]] SolidAnglePdf pdf_direction(Vec3 ng, Vec3 direction, float time) const;
     /// Luminous flux [lm].
     [[nodiscard]] Rgb power() const { return intensity_ * cone_.integral(); }
     [[nodiscard]] LightBounds bounds() const;

@@ -24,7 +24,7 @@ TriangleLight::TriangleLight(const PlacedMesh& mesh, const Material& material,
     : mesh_(&mesh),
       material_(&material),
       triangle_(triangle),
-      first_(facing_of(mesh.area_normal(triangle))),
+      first_(facing_of(mesh.area_normal(triangle, 0.0f))),
       mean_area_(mean_area()),
       emission_(measure_emission(mesh, material, triangle, most_samples))
 {
@@ -163,7 +163,7 @@ Rgb TriangleLight::power() const
 
 LightBounds TriangleLight::bounds() const
 {
-    auto corners = mesh_->corners(triangle_);
+    auto corners = mesh_->corners(triangle_, 0.0f);
     const bool two_sided = material_->emits_from_both_sides();
     LightBounds result{.min = min(min(corners[0], corners[1]), corners[2]),
                        .max = max(max(corners[0], corners[1]), corners[2]),

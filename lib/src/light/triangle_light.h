@@ -23,10 +23,10 @@ public:
                   int most_samples);
 
     [[nodiscard]] std::optional<EmissionSample> sample_emission(Vec2 u_position, Vec2 u_direction,
-                                                                float time = 0.0f) const;
-    [[nodiscard]] std::optional<IncidentSample> sample_incident(
-        Vec3 receiver, Vec2 u, EnvironmentSampling sampling = EnvironmentSampling::plain,
-        float time = 0.0f) const;
+                                                                float time) const;
+    [[nodiscard]] std::optional<IncidentSample> sample_incident(Vec3 receiver, Vec2 u,
+                                                                EnvironmentSampling sampling,
+                                                                float time) const;
 
     [[nodiscard]] AreaPdf pdf_position(const LightPoint& x0) const;
     /// The same points are sampled for every receiver.
@@ -36,7 +36,7 @@ public:
     {
         return pdf_position(x0);
     }
-    [[nodiscard]] SolidAnglePdf pdf_direction(Vec3 ng, Vec3 direction, float time = 0.0f) const;
+    [[nodiscard]] SolidAnglePdf pdf_direction(Vec3 ng, Vec3 direction, float time) const;
     /// Emitted luminous flux [lm]; the mean at and between the steps of a motion.
     [[nodiscard]] Rgb power() const;
     [[nodiscard]] LightBounds bounds() const;

@@ -33,7 +33,7 @@ Bounds bounds_of(const PlacedMesh& placed)
     Bounds bounds{.min = Vec3(std::numeric_limits<float>::infinity()),
                   .max = Vec3(-std::numeric_limits<float>::infinity())};
     for (std::uint32_t triangle = 0; triangle < placed.triangle_count(); ++triangle) {
-        for (const Vec3& p : placed.corners(triangle)) {
+        for (const Vec3& p : placed.corners(triangle, 0.0f)) {
             bounds.min = min(bounds.min, p);
             bounds.max = max(bounds.max, p);
         }
@@ -71,12 +71,12 @@ Vec3 beyond(const Sphere& sphere, Ray ray)
 /// A point just before the middle of a triangle; none where it has no area.
 std::optional<Vec3> before(const PlacedMesh& placed, std::uint32_t triangle)
 {
-    const Vec3 normal = placed.area_normal(triangle);
+    const Vec3 normal = placed.area_normal(triangle, 0.0f);
     const float length = length_of(normal);
     if (!(length > 0.0f)) {
         return std::nullopt;
     }
-    const BoundedPoint middle = placed.point(triangle, Vec2(1.0f / 3.0f));
+    const BoundedPoint middle = placed.point(triangle, Vec2(1.0f / 3.0f), 0.0f);
     return offset_origin(middle.p, middle.error, normal / length, normal);
 }
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
+#include <cstdint>
 
 namespace bdpt {
 namespace {
@@ -15,8 +17,8 @@ constexpr std::size_t many_lights = 4;
 std::optional<Sphere> sphere_of(const LightDesc& desc)
 {
     return std::visit(
-        [](const auto& d) -> std::optional<Sphere> {
-            if constexpr (requires { d.radius; }) {
+        []<typename Kind>(const Kind& d) -> std::optional<Sphere> {
+            if constexpr (std::constructible_from<SphereLight, const Kind&, std::uint32_t>) {
                 if (d.radius > 0.0f) {
                     return Sphere{.center = d.position, .radius = d.radius, .motion = d.motion};
                 }

@@ -64,7 +64,7 @@ TEST_CASE("a hit names instance, triangle and barycentrics, also for shared mesh
         CHECK(hit->at.barycentrics.x == Approx(0.25f));
         CHECK(hit->at.barycentrics.y == Approx(0.5f));
         CHECK(hit->at.ng.z == Approx(1.0f));
-        const Vec3 p = scene.placed[1].point(0, hit->at.barycentrics).p;
+        const Vec3 p = scene.placed[1].point(0, hit->at.barycentrics, 0.0f).p;
         CHECK(p.x == Approx(5.25f));
         CHECK(p.y == Approx(0.5f));
         CHECK_FALSE(scene.embree->intersect(
@@ -114,7 +114,7 @@ TEST_CASE("where a triangle is hit does not depend on the instruction set", "[ge
                 } else {
                     other_place +=
                         a->at.barycentrics == b->at.barycentrics && a->at.ng == b->at.ng ? 0 : 1;
-                    const Vec3 p = base.placed[0].point(a->triangle, a->at.barycentrics).p;
+                    const Vec3 p = base.placed[0].point(a->triangle, a->at.barycentrics, 0.0f).p;
                     REQUIRE(glm::length(cross(p - origin, ray.direction)) < 1e-5f);
                 }
             }
@@ -145,7 +145,7 @@ TEST_CASE("a mirrored instance keeps its front", "[geometry]")
             REQUIRE(hit.has_value());
             const float front = scale.z > 0.0f ? 1.0f : -1.0f;
             CHECK(hit->at.ng.z == Approx(front));
-            CHECK(normalize(scene.placed[0].area_normal(0)).z == Approx(front));
+            CHECK(normalize(scene.placed[0].area_normal(0, 0.0f)).z == Approx(front));
         }
     }
 }
@@ -165,8 +165,8 @@ TEST_CASE("rays that leave a large, almost level triangle do not meet it again",
             const std::uint32_t t = i % 2U;
             const Vec2 u = random.next_2d();
             const Vec2 b = u.x + u.y < 1.0f ? u : 1.0f - u;
-            const BoundedPoint point = scene.placed[0].point(t, b);
-            const Vec3 ng = normalize(scene.placed[0].area_normal(t));
+            const BoundedPoint point = scene.placed[0].point(t, b, 0.0f);
+            const Vec3 ng = normalize(scene.placed[0].area_normal(t, 0.0f));
             const Vec3 w = random.direction();
             REQUIRE_FALSE(scene.embree->intersect(
                 {.origin = offset_origin(point.p, point.error, ng, w), .direction = w}));
@@ -200,8 +200,8 @@ TEST_CASE("rays that leave a surface neither meet it again nor skip what is near
                         random.next() * static_cast<float>(scene.placed[0].triangle_count()));
                     const Vec2 u = random.next_2d();
                     const Vec2 b = u.x + u.y < 1.0f ? u : 1.0f - u;
-                    const BoundedPoint point = scene.placed[0].point(t, b);
-                    const Vec3 ng = normalize(scene.placed[0].area_normal(t));
+                    const BoundedPoint point = scene.placed[0].point(t, b, 0.0f);
+                    const Vec3 ng = normalize(scene.placed[0].area_normal(t, 0.0f));
                     const Vec3 w = random.direction();
                     const Vec3 origin = offset_origin(point.p, point.error, ng, w);
                     const bool outwards = dot(w, ng) > 0.0f;

@@ -201,6 +201,25 @@ TEST_CASE("key frames that make no sense are refused by name")
                    "/type: must be VEC4"));
 }
 
+TEST_CASE("parts of an animation that move nothing may lack something")
+{
+    Animated animated = moving("LINEAR");
+    nlohmann::json& animation = animated.fixture.json["animations"][0];
+    animation["samplers"].push_back({{"interpolation", 3}});
+    const nlohmann::json target{{"path", "translation"}};
+    const nlohmann::json moved = animation["channels"][0];
+    animation["channels"] = nlohmann::json::array(
+        {nlohmann::json{{"target", {{"node", 0}, {"path", 3}}}}, nlohmann::json{{"target", target}},
+         nlohmann::json{{"target", target}, {"sampler", 1ULL << 40U}},
+         nlohmann::json{{"target", target}, {"sampler", 1}}, moved});
+    CHECK(animated.matrix(2.0)[3] == Vec4(2, 4, -1, 1));
+    CHECK(warns(animated.fixture.load({.time = 2.0}).warnings,
+                {"/animations/0/channels/0/target/path: 3"}));
+    animation["channels"][4]["sampler"] = 1;
+    CHECK(contains(animated.fixture.error({.time = 2.0}).what(),
+                   "/animations/0/samplers/1/interpolation: 3 is no interpolation"));
+}
+
 TEST_CASE("what cannot be animated rests, with a warning")
 {
     Animated odd = moving("LINEAR");

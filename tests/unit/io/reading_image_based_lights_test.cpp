@@ -308,6 +308,8 @@ TEST_CASE("environments that are wrong are refused")
     CHECK(contains(light({{"specularImages", {{0, 1, 2, 3, 4}}}}),
                    "lights/0/specularImages: a cube of 5 sides"));
     CHECK(contains(light({{"specularImages", nlohmann::json::array()}}), "a cube of 0 sides"));
+    CHECK(contains(light({{"specularImages", {nlohmann::json::array(), {0, 1, 2, 3, 4, 5}}}}),
+                   "a cube of 0 sides"));
     CHECK(contains(light({{"specularImages", {{0, 1, 2, 3, 4, 6}}}}),
                    "specularImages/0/5: index 6, but there are 6 images"));
     CHECK(contains(light({{"rotation", {0, 0, 1}}}), "rotation: must be 4 numbers"));

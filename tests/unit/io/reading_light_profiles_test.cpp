@@ -367,14 +367,14 @@ TEST_CASE("light profiles are files, data or views, each read once and only if i
     CHECK(loaded.scene.profiles.size() == 1);
     CHECK(loaded.scene.profiles[0].intensities[0] == 100.0f);
 
-    GltfFixture view = with_profiles(nlohmann::json::array());
+    GltfFixture view = with_profiles(nlohmann::json::array({nlohmann::json::object()}));
+    node_light(view)["light"] = 1;
     view.json["extensions"]["EXT_lights_ies"]["lights"].push_back(
         {{"bufferView", view.add_view(text)}, {"mimeType", "application/x-ies-lm-63"}});
     CHECK(view.load().scene.profiles.at(0).intensities[0] == 100.0f);
     GltfOptions little;
     little.limits.mesh_bytes = 90;
     CHECK(contains(view.error(little).what(), "light profiles and instances need 96 B"));
-
     // What is missing, or not where it may be.
     fixture.json["nodes"][0]["extensions"]["EXT_lights_ies"]["light"] = 1;
     const Error missing = load_error(folder.write("missing.gltf", fixture.text()));

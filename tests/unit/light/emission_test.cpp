@@ -65,7 +65,7 @@ TEST_CASE("point and spot: light leaves evenly in the cone", "[light]")
         test::Random random(31);
         std::vector<double> counts(steps * steps);
         for (int i = 0; i < samples; ++i) {
-            const auto emitted = light.sample_emission(random.next_2d(), random.next_2d());
+            const auto emitted = light.sample_emission(random.next_2d(), random.next_2d(), 0.0f);
             REQUIRE(emitted.has_value());
             REQUIRE(static_cast<double>(emitted->pdf_direction.value) ==
                     Approx(1.0 / (6.283185307179586 * height)).epsilon(1e-4));
@@ -91,7 +91,7 @@ TEST_CASE("triangle: light leaves with the cosine, on the sides that emit", "[li
         test::Random random(32);
         std::vector<double> counts((both_sides ? 2 : 1) * steps * steps);
         for (int i = 0; i < samples; ++i) {
-            const auto emitted = light.sample_emission(random.next_2d(), random.next_2d());
+            const auto emitted = light.sample_emission(random.next_2d(), random.next_2d(), 0.0f);
             REQUIRE(emitted.has_value());
             const Vec3 local = Frame::from_normal(emitted->end.ng).to_local(emitted->direction);
             REQUIRE((both_sides || local.z > 0.0f));
@@ -118,7 +118,8 @@ TEST_CASE("directional: rays enter evenly on the disk in front of the scene", "[
     test::Random random(33);
     std::vector<double> counts(steps * steps);
     for (int i = 0; i < samples; ++i) {
-        const auto emitted = only_light(world).sample_emission(random.next_2d(), random.next_2d());
+        const auto emitted =
+            only_light(world).sample_emission(random.next_2d(), random.next_2d(), 0.0f);
         REQUIRE(emitted.has_value());
         REQUIRE(glm::distance(emitted->direction, direction) < 1e-6f);
         counts[bin_of(place_on_disk(world.bounding_sphere(), *emitted), steps)] += 1.0;
@@ -168,7 +169,7 @@ TEST_CASE("environment: light comes by luminance, and enters evenly on the disk"
     std::vector<double> directions(expected.size());
     std::vector<double> places(steps * steps);
     for (int i = 0; i < samples; ++i) {
-        const auto emitted = light.sample_emission(random.next_2d(), random.next_2d());
+        const auto emitted = light.sample_emission(random.next_2d(), random.next_2d(), 0.0f);
         REQUIRE(emitted.has_value());
         REQUIRE(emitted->pdf_position.value ==
                 Approx(light.pdf_incident(-emitted->direction, EnvironmentSampling::plain).value)

@@ -112,7 +112,7 @@ TEST_CASE("environment: the density integrates to one and is that of the samples
 
     test::Moments sampled;
     for (int i = 0; i < 20000; ++i) {
-        const auto incident = light.sample_incident({}, random.next_2d(), sampling);
+        const auto incident = light.sample_incident({}, random.next_2d(), sampling, 0.0f);
         REQUIRE(incident.has_value());
         REQUIRE(light.pdf_incident(incident->wi, sampling).value ==
                 Approx(incident->pdf_solid_angle.value).epsilon(2e-3));
@@ -219,10 +219,10 @@ TEST_CASE("emission weights integrate to the power, for every kind of light", "[
         const Light& light = world.lights()[LightId{id}];
         test::Moments flux;
         for (int i = 0; i < 100000; ++i) {
-            const auto emitted = light.sample_emission(random.next_2d(), random.next_2d());
+            const auto emitted = light.sample_emission(random.next_2d(), random.next_2d(), 0.0f);
             flux.add(emitted ? static_cast<double>(luminance(emitted->weight)) : 0.0);
             if (emitted && !light.is_infinite()) {
-                REQUIRE(light.pdf_direction(emitted->end.ng, emitted->direction).value ==
+                REQUIRE(light.pdf_direction(emitted->end.ng, emitted->direction, 0.0f).value ==
                         Approx(emitted->pdf_direction.value).epsilon(1e-3));
             }
         }
@@ -277,7 +277,7 @@ TEST_CASE("light paths bring to a surface what next-event estimation finds there
         test::Moments by_light_paths;
         test::Moments by_light_samples;
         for (int i = 0; i < 400000; ++i) {
-            const auto emitted = light.sample_emission(random.next_2d(), random.next_2d());
+            const auto emitted = light.sample_emission(random.next_2d(), random.next_2d(), 0.0f);
             double flux = 0.0;
             if (emitted && emitted->direction.y < 0.0f) {
                 const float t = -emitted->end.p.y / emitted->direction.y;
@@ -289,7 +289,8 @@ TEST_CASE("light paths bring to a surface what next-event estimation finds there
             const float r = radius * std::sqrt(random.next());
             const SinCos phi = sin_cos(2.0f * pi * random.next());
             const auto incident =
-                light.sample_incident({r * phi.cos, 0.0f, r * phi.sin}, random.next_2d());
+                light.sample_incident({r * phi.cos, 0.0f, r * phi.sin}, random.next_2d(),
+                                      EnvironmentSampling::plain, 0.0f);
             const bool above = incident && incident->wi.y > 0.0f;
             by_light_samples.add(
                 above ? static_cast<double>(luminance(incident->weight) * dot(incident->wi, normal))
@@ -311,7 +312,8 @@ TEST_CASE("a spot is dark outside of its cone and full inside of the inner one",
                                            .outer_cone_angle = 0.6f});
     const auto intensity = [&](float angle) {
         const auto incident =
-            spot.sample_incident({2.0f * std::sin(angle), -2.0f * std::cos(angle), 0.0f});
+            spot.sample_incident({2.0f * std::sin(angle), -2.0f * std::cos(angle), 0.0f}, {},
+                                 EnvironmentSampling::plain, 0.0f);
         return incident ? 4.0f * incident->weight.r : 0.0f;
     };
     CHECK(intensity(0.0f) == Approx(8.0f));

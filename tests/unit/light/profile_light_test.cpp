@@ -96,19 +96,19 @@ TEST_CASE("profile light: the same in all directions it is a point light", "[lig
     test::Random random(51);
     for (int i = 0; i < 2000; ++i) {
         const Vec3 receiver = position + random.direction() * (0.1f + 5.0f * random.next());
-        const auto incident = light.sample_incident(receiver);
-        const auto expected = point.sample_incident(receiver);
+        const auto incident = light.sample_incident(receiver, {}, EnvironmentSampling::plain, 0.0f);
+        const auto expected = point.sample_incident(receiver, {}, EnvironmentSampling::plain, 0.0f);
         REQUIRE(incident.has_value());
         REQUIRE(same(incident->weight, expected->weight));
         REQUIRE(incident->wi == expected->wi);
-        const auto emitted = light.sample_emission({}, random.next_2d());
+        const auto emitted = light.sample_emission({}, random.next_2d(), 0.0f);
         REQUIRE(emitted.has_value());
         REQUIRE(emitted->end.p == position);
         REQUIRE(glm::length(emitted->direction) == Approx(1.0f).epsilon(1e-6));
         // Rows of cells near the axis have few digits in their solid angle.
         REQUIRE(emitted->pdf_direction.value == Approx(0.25f * inv_pi).epsilon(1e-3));
         REQUIRE(same(emitted->weight * emitted->pdf_direction.value, intensity));
-        REQUIRE(light.pdf_direction({}, emitted->direction).value ==
+        REQUIRE(light.pdf_direction({}, emitted->direction, 0.0f).value ==
                 Approx(0.25f * inv_pi).epsilon(1e-3));
     }
 }
@@ -207,7 +207,7 @@ TEST_CASE("profile light: light leaves by its densities, which follow the intens
                 const double phi = 6.283185307179586 * (j + 0.5) / fine;
                 const double r = std::sqrt(1.0 - z * z);
                 const Vec3 w(r * std::cos(phi), r * std::sin(phi), z);
-                const double part = static_cast<double>(light.pdf_direction({}, w).value) *
+                const double part = static_cast<double>(light.pdf_direction({}, w, 0.0f).value) *
                                     (full_sphere / (fine * fine));
                 expected[bin_of_direction(w)] += part;
                 sum += part;
@@ -222,9 +222,9 @@ TEST_CASE("profile light: light leaves by its densities, which follow the intens
         double heaviest = 0.0;
         int mismatches = 0;
         for (int i = 0; i < samples; ++i) {
-            const auto emitted = light.sample_emission({}, random.next_2d());
+            const auto emitted = light.sample_emission({}, random.next_2d(), 0.0f);
             REQUIRE(emitted.has_value());
-            const float pdf = light.pdf_direction({}, emitted->direction).value;
+            const float pdf = light.pdf_direction({}, emitted->direction, 0.0f).value;
             // Rounding takes a few directions over the edge of their cell.
             mismatches += std::abs(pdf / emitted->pdf_direction.value - 1.0f) < 1e-2f ? 0 : 1;
             counts[bin_of_direction(emitted->direction)] += 1.0;
@@ -267,14 +267,18 @@ TEST_CASE("profile light: the node turns it, and mirrors it", "[light]")
         Mat3 turned = some_rotation();
         turned[1] *= mirror;
         const ProfileLight light({.position = Vec3(1.0f), .world_from_light = turned}, profile);
-        const auto lit = light.sample_incident(Vec3(1.0f) + 2.0f * (turned * bright));
+        const auto lit = light.sample_incident(Vec3(1.0f) + 2.0f * (turned * bright), {},
+                                               EnvironmentSampling::plain, 0.0f);
         REQUIRE(lit.has_value());
         CHECK(lit->weight.r == Approx(2.0f).epsilon(2e-3));
-        CHECK_FALSE(light.sample_incident(Vec3(1.0f) - 2.0f * (turned * bright)).has_value());
-        CHECK(light.pdf_direction({}, turned * bright).value > 0.0f);
+        CHECK_FALSE(light
+                        .sample_incident(Vec3(1.0f) - 2.0f * (turned * bright), {},
+                                         EnvironmentSampling::plain, 0.0f)
+                        .has_value());
+        CHECK(light.pdf_direction({}, turned * bright, 0.0f).value > 0.0f);
         test::Random random(54);
         for (int i = 0; i < 1000; ++i) {
-            const auto emitted = light.sample_emission({}, random.next_2d());
+            const auto emitted = light.sample_emission({}, random.next_2d(), 0.0f);
             REQUIRE(emitted.has_value());
             const float local = profile.intensity(transpose(turned) * emitted->direction);
             REQUIRE(emitted->weight.r * emitted->pdf_direction.value ==

@@ -56,7 +56,8 @@ TEST_CASE("sphere: next-event directions are uniform in the cone that the sphere
         const double height = sine_squared / (1.0 + std::sqrt(1.0 - sine_squared));
         std::vector<double> counts(64);
         for (int i = 0; i < 200000; ++i) {
-            const auto incident = light.sample_incident(receiver, random.next_2d());
+            const auto incident =
+                light.sample_incident(receiver, random.next_2d(), EnvironmentSampling::plain, 0.0f);
             REQUIRE(incident.has_value());
             const glm::dvec3 w = normalize(glm::dvec3(incident->end.p) - glm::dvec3(receiver));
             const glm::dvec3 across = w - dot(w, towards) * towards;
@@ -84,7 +85,7 @@ TEST_CASE("sphere: the density of next-event points integrates to one", "[light]
         test::Random random(12);
         test::Moments integral;
         for (int i = 0; i < 2000000; ++i) {
-            const SegmentEnd at = light.surface(random.direction());
+            const SegmentEnd at = light.surface(random.direction(), 0.0f);
             integral.add(
                 static_cast<double>(light.pdf_incident(receiver, {.p = at.p, .ng = at.ng}).value /
                                     light.pdf_position().value));
@@ -98,10 +99,11 @@ TEST_CASE("sphere: the density of next-event points integrates to one", "[light]
 TEST_CASE("sphere: there is no light inside of the sphere", "[light]")
 {
     const SphereLight light(bulb(0.25f), 0);
-    const SegmentEnd top = light.surface({0.0f, 1.0f, 0.0f});
+    const SegmentEnd top = light.surface({0.0f, 1.0f, 0.0f}, 0.0f);
     const Vec3 center = bulb(0.0f).position;
     for (const Vec3 receiver : {center, center + Vec3(0.2f, 0.0f, 0.0f)}) {
-        CHECK_FALSE(light.sample_incident(receiver, {0.3f, 0.6f}).has_value());
+        CHECK_FALSE(light.sample_incident(receiver, {0.3f, 0.6f}, EnvironmentSampling::plain, 0.0f)
+                        .has_value());
         CHECK(light.pdf_incident(receiver, {.p = top.p, .ng = top.ng}).value == 0.0f);
     }
     // Nor on the far side.
@@ -120,7 +122,7 @@ TEST_CASE("sphere: light that leaves has the density that is claimed", "[light]"
         test::Random random(13);
         std::vector<double> counts(256);
         for (int i = 0; i < 400000; ++i) {
-            const auto emitted = light.sample_emission(random.next_2d(), random.next_2d());
+            const auto emitted = light.sample_emission(random.next_2d(), random.next_2d(), 0.0f);
             if (!emitted) {
                 continue;  // right at the disk's edge
             }
@@ -156,7 +158,7 @@ TEST_CASE("sphere: the joint density of light paths integrates to one", "[light]
             const Vec3 w = random.direction();
             const float area = 4.0f * pi * 0.0625f;
             integral.add(static_cast<double>(light.pdf_position().value * area *
-                                             light.pdf_direction(ng, w).value * 4.0f * pi));
+                                             light.pdf_direction(ng, w, 0.0f).value * 4.0f * pi));
         }
         CHECK(std::abs(integral.mean() - 1.0) < 4.0 * integral.standard_error());
         CHECK(integral.standard_error() < 0.01);
@@ -171,8 +173,9 @@ TEST_CASE("sphere: from afar it is the point or spot light", "[light]")
     int lit = 0;
     for (int i = 0; i < 1000; ++i) {
         const Vec3 receiver = lamp(0.0f).position + 3.0f * random.direction();
-        const auto expected = point.sample_incident(receiver);
-        const auto found = ball.sample_incident(receiver, random.next_2d());
+        const auto expected = point.sample_incident(receiver, {}, EnvironmentSampling::plain, 0.0f);
+        const auto found =
+            ball.sample_incident(receiver, random.next_2d(), EnvironmentSampling::plain, 0.0f);
         if (expected && expected->weight.r > 1e-3f) {
             ++lit;
             REQUIRE(found.has_value());
@@ -237,11 +240,13 @@ TEST_CASE("a sphere never hides its own sampled points, from wherever it is lit"
             for (int i = 0; i < 3000; ++i) {
                 const float distance = radius * (1.001f + 1000.0f * random.next());
                 const Vec3 receiver = desc.position + distance * random.direction();
-                const auto incident = light.sample_incident(receiver, random.next_2d());
+                const auto incident = light.sample_incident(receiver, random.next_2d(),
+                                                            EnvironmentSampling::plain, 0.0f);
                 if (incident) {
                     REQUIRE(world.transmittance({.p = receiver}, incident->end, {}) == Rgb(1.0f));
                 }
-                const auto emitted = light.sample_emission(random.next_2d(), random.next_2d());
+                const auto emitted =
+                    light.sample_emission(random.next_2d(), random.next_2d(), 0.0f);
                 if (emitted) {
                     REQUIRE_FALSE(
                         world.intersect(emitted->end, emitted->direction, {}).has_value());
@@ -263,7 +268,8 @@ TEST_CASE("a sphere never hides its own outline from far away", "[world]")
         const Vec3 receiver = (10.0f + 1000.0f * random.next()) * random.direction();
         // The square's border is that of the cone.
         const float near_border = 1.0f - 1e-4f * random.next();
-        const auto incident = light.sample_incident(receiver, {near_border, random.next()});
+        const auto incident = light.sample_incident(receiver, {near_border, random.next()},
+                                                    EnvironmentSampling::plain, 0.0f);
         if (incident) {
             ++seen;
             REQUIRE(world.transmittance({.p = receiver}, incident->end, {}) == Rgb(1.0f));

@@ -93,8 +93,9 @@ TEST_CASE("textured emitter: points have the density that is claimed", "[light]"
             counts[static_cast<std::size_t>(y * steps + x)] += 1.0;
         };
         for (int i = 0; i < 200000; ++i) {
-            const auto emitted = light.sample_emission(random.next_2d(), random.next_2d());
-            const auto incident = light.sample_incident({0.1f, 3.0f, 0.2f}, random.next_2d());
+            const auto emitted = light.sample_emission(random.next_2d(), random.next_2d(), 0.0f);
+            const auto incident = light.sample_incident({0.1f, 3.0f, 0.2f}, random.next_2d(),
+                                                        EnvironmentSampling::plain, 0.0f);
             REQUIRE(emitted.has_value());
             REQUIRE(incident.has_value());
             REQUIRE(light.pdf_position({.barycentrics = emitted->barycentrics}).value ==
@@ -121,7 +122,7 @@ TEST_CASE("textured emitter: the flux of light paths is the power, with little v
     for (const std::uint32_t id : {0U, 1U}) {
         for (int i = 0; i < 100000; ++i) {
             const auto emitted =
-                triangle(world, id).sample_emission(random.next_2d(), random.next_2d());
+                triangle(world, id).sample_emission(random.next_2d(), random.next_2d(), 0.0f);
             flux[id].add(emitted ? static_cast<double>(luminance(emitted->weight)) : 0.0);
         }
     }

@@ -180,7 +180,8 @@ TEST_CASE("next-event estimation has the density that others are weighed against
                 continue;
             }
             const Light& light = world.lights()[choice->id];
-            const auto incident = light.sample_incident(x1.end.p, sampler.next_2d());
+            const auto incident = light.sample_incident(x1.end.p, sampler.next_2d(),
+                                                        EnvironmentSampling::plain, 0.0f);
             if (!incident || x1.bsdf->eval(incident->wi, TransportMode::radiance).f_cos.g <= 0.0f) {
                 continue;
             }

@@ -77,8 +77,8 @@ TEST_CASE("no light is lost that can shine at a point", "[light][tree]")
             for (std::uint32_t id = 0; id < lights.size(); ++id) {
                 const float chosen = lights.context_probability(LightId{id}, receiver, by_tree);
                 for (int k = 0; k < 8; ++k) {
-                    const auto incident =
-                        lights[LightId{id}].sample_incident(receiver.p, random.next_2d());
+                    const auto incident = lights[LightId{id}].sample_incident(
+                        receiver.p, random.next_2d(), EnvironmentSampling::plain, 0.0f);
                     const bool brings =
                         incident && !is_black(incident->weight) &&
                         (!receiver.normal || dot(*receiver.normal, incident->wi) > 0.0f);

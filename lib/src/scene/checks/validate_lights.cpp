@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <sstream>
+#include <tuple>
 #include <variant>
 #include <vector>
 
@@ -95,25 +96,40 @@ void check_rotation(const std::string& item, const Mat3& m)
     }
 }
 
-struct LightCheck {
-    std::size_t index;
-    float reach;
+/// Is a field checked whatever light it belongs to: here, by its limits, or by `check_motion`?
+template <typename Field>
+constexpr bool is_always_checked(const Field& field)
+{
+    if constexpr (requires { field.limits; }) {
+        return true;
+    } else {
+        return field.name == "name" || field.name == "position" || field.name == "direction" ||
+               field.name == "axes" || field.name == "motion" || field.name == "turn";
+    }
+}
+
+/// What a light's own kind needs beside the checks of all lights; a kind that needs nothing has no
+/// function here.
+struct OwnCheck {
+    const std::string& item;
     const std::vector<float>& profile_peaks;  // [cd]
+
+    template <typename Light>
+    void operator()(const Light& /*light*/) const
+    {
+        static_assert(
+            std::apply([](const auto&... field) { return (is_always_checked(field) && ...); },
+                       fields<Light>),
+            "give a number limits in its list of fields, or check here what is unusual");
+    }
 
     void operator()(const PointLightDesc& light) const
     {
-        const std::string item = light_label(light, index);
-        check_position(item, light.position, reach);
-        check_own_limits(item, light);
         check_radius(item, light.radius, light.intensity);
     }
 
     void operator()(const SpotLightDesc& light) const
     {
-        const std::string item = light_label(light, index);
-        check_position(item, light.position, reach);
-        check_direction(item, light.direction);
-        check_own_limits(item, light);
         check_radius(item, light.radius, light.intensity);
         check_range(item, "inner cone angle", light.inner_cone_angle, 0.0f, 0.5f * pi);
         check_range(item, "outer cone angle", light.outer_cone_angle, 1e-4f, 0.5f * pi + 1e-6f);
@@ -123,19 +139,8 @@ struct LightCheck {
         }
     }
 
-    void operator()(const DirectionalLightDesc& light) const
-    {
-        const std::string item = light_label(light, index);
-        check_direction(item, light.direction);
-        check_own_limits(item, light);
-    }
-
     void operator()(const ProfileLightDesc& light) const
     {
-        const std::string item = light_label(light, index);
-        check_position(item, light.position, reach);
-        check_rotation(item, light.world_from_light);
-        check_own_limits(item, light);
         const auto profile = static_cast<std::size_t>(light.profile);
         if (profile >= profile_peaks.size()) {
             fail(item, ": profile ", profile, ", but there are ", profile_peaks.size(),
@@ -146,7 +151,6 @@ struct LightCheck {
 
     void operator()(const EnvironmentLightDesc& light) const
     {
-        const std::string item = light_label(light, index);
         const Image& image = light.radiance;
         if (image.width < 1 || image.height < 1 ||
             image.pixels.size() != area(image.width, image.height)) {
@@ -166,6 +170,25 @@ struct LightCheck {
     }
 };
 
+/// What lights have in common is checked by the names of their members.
+template <typename Light>
+void check(const Light& light, std::size_t index, float reach,
+           const std::vector<float>& profile_peaks)
+{
+    const std::string item = light_label(light, index);
+    if constexpr (requires { light.position; }) {
+        check_position(item, light.position, reach);
+    }
+    if constexpr (requires { light.direction; }) {
+        check_direction(item, light.direction);
+    }
+    if constexpr (requires { light.world_from_light; }) {
+        check_rotation(item, light.world_from_light);
+    }
+    check_own_limits(item, light);
+    OwnCheck{item, profile_peaks}(light);
+}
+
 }  // namespace
 
 void validate_lights(const SceneDesc& desc, float reach)
@@ -178,7 +201,7 @@ void validate_lights(const SceneDesc& desc, float reach)
     }
     std::size_t environments = 0;
     for (std::size_t i = 0; i < desc.lights.size(); ++i) {
-        std::visit(LightCheck{i, reach, peaks}, desc.lights[i]);
+        std::visit([&](const auto& light) { check(light, i, reach, peaks); }, desc.lights[i]);
         environments += std::holds_alternative<EnvironmentLightDesc>(desc.lights[i]) ? 1U : 0U;
     }
     if (environments > 1) {

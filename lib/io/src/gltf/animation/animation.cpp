@@ -1,6 +1,5 @@
 #include "gltf/animation/animation.h"
 
-#include "file/uri.h"
 #include "gltf/animation/keyframes.h"
 #include "gltf/document/accessor.h"
 #include "gltf/document/selection.h"
@@ -36,30 +35,18 @@ constexpr Path paths[] = {
     {"weights", &tinygltf::Node::weights, TINYGLTF_TYPE_SCALAR, 0, Quantity::numbers},
 };
 
-JsonPlace require(const JsonPlace& place, std::string_view key)
+[[noreturn]] void fail(const std::string& place, const std::string& what)
 {
-    if (!place.has(key)) {
-        place.fail(fmt::format("\"{}\" is missing", key));
-    }
-    return place.member(key);
+    throw Error(ErrorCode::invalid_input, place + ": " + what);
 }
 
-Interpolation read_interpolation(const JsonPlace& sampler)
+Interpolation interpolation_of(const tinygltf::AnimationSampler& sampler)
 {
-    if (!sampler.has("interpolation")) {
-        return Interpolation::linear;
-    }
-    const JsonPlace place = sampler.member("interpolation");
-    if (place.value() == "LINEAR") {
-        return Interpolation::linear;
-    }
-    if (place.value() == "STEP") {
+    if (sampler.interpolation == "STEP") {
         return Interpolation::step;
     }
-    if (place.value() == "CUBICSPLINE") {
-        return Interpolation::cubic_spline;
-    }
-    place.fail(brief(place.value()) + " is no interpolation");
+    return sampler.interpolation == "CUBICSPLINE" ? Interpolation::cubic_spline
+                                                  : Interpolation::linear;
 }
 
 /// Morph targets of the node's mesh: the most that one of its primitives has.
@@ -74,93 +61,89 @@ std::size_t count_targets(const tinygltf::Model& model, const tinygltf::Node& no
     return count;
 }
 
-std::vector<float> read_column(const tinygltf::Model& model, const JsonPlace& place, int type,
-                               Integers integers, LoadContext& context)
+std::vector<float> read_column(const tinygltf::Model& model, const std::string& place, int accessor,
+                               int type, Integers integers, LoadContext& context)
 {
-    const auto accessor = static_cast<int>(place.as_unsigned());
     const auto& described = model.accessors[static_cast<std::size_t>(accessor)];
     const int components =
         tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(described.type));
-    context.budget.spend(place.pointer(), described.count,
+    context.budget.spend(place, described.count,
                          static_cast<std::uint64_t>(components) * sizeof(float));
     std::vector<float> values = read_numbers(model, accessor, type, integers);
     for (std::size_t i = 0; i < values.size(); ++i) {
         if (!std::isfinite(values[i])) {
-            place.fail(fmt::format("accessor {}: number {} is {}", accessor, i, values[i]));
+            fail(place, fmt::format("accessor {}: number {} is {}", accessor, i, values[i]));
         }
     }
     return values;
 }
 
-KeyFrames read_key_frames(const tinygltf::Model& model, const JsonPlace& sampler, const Path& path,
-                          std::size_t width, LoadContext& context)
+/// `place`: of the sampler.
+KeyFrames read_key_frames(const tinygltf::Model& model, const tinygltf::AnimationSampler& sampler,
+                          const std::string& place, const Path& path, std::size_t width,
+                          LoadContext& context)
 {
     KeyFrames frames;
-    frames.interpolation = read_interpolation(sampler);
+    frames.interpolation = interpolation_of(sampler);
     frames.width = width;
-    const JsonPlace input = require(sampler, "input");
-    frames.times = read_column(model, input, TINYGLTF_TYPE_SCALAR, Integers::as_declared, context);
+    const std::string input = place + "/input";
+    frames.times = read_column(model, input, sampler.input, TINYGLTF_TYPE_SCALAR,
+                               Integers::as_declared, context);
     const auto stop = std::adjacent_find(frames.times.begin(), frames.times.end(),
                                          [](float a, float b) { return !(a < b); });
     if (stop != frames.times.end()) {
-        input.fail(fmt::format("key frame {} is at {} s, but must be after {} s",
-                               stop - frames.times.begin() + 1, *(stop + 1), *stop));
+        fail(input, fmt::format("key frame {} is at {} s, but must be after {} s",
+                                stop - frames.times.begin() + 1, *(stop + 1), *stop));
     }
-    const JsonPlace output = require(sampler, "output");
+    const std::string output = place + "/output";
     // Integers are fractions, whether they say so or not [glTF 2.0, sec. 3.11].
-    frames.values = read_column(model, output, path.type, Integers::normalized, context);
+    frames.values =
+        read_column(model, output, sampler.output, path.type, Integers::normalized, context);
     const std::size_t rows = frames.interpolation == Interpolation::cubic_spline ? 3 : 1;
     const std::size_t needed = frames.times.size() * rows * width;
     if (frames.values.size() < needed) {
-        output.fail(fmt::format("{} numbers, but {} key frames need {}", frames.values.size(),
-                                frames.times.size(), needed));
+        fail(output, fmt::format("{} numbers, but {} key frames need {}", frames.values.size(),
+                                 frames.times.size(), needed));
     }
     return frames;
 }
 
-/// None where nothing is to be moved.
-std::optional<AnimatedProperty> read_channel(const GltfModel& model, const JsonPlace& animation,
-                                             const JsonPlace& channel, LoadContext& context)
+/// None where nothing is to be moved. `place`: of the animation.
+std::optional<AnimatedProperty> read_channel(const tinygltf::Model& model,
+                                             const tinygltf::Animation& animation,
+                                             std::size_t index, const std::string& place,
+                                             LoadContext& context)
 {
-    const JsonPlace target = require(channel, "target");
-    const JsonPlace path_place = require(target, "path");
+    const tinygltf::AnimationChannel& channel = animation.channels[index];
     const auto* path = std::find_if(std::begin(paths), std::end(paths), [&](const Path& known) {
-        return path_place.value() == known.name;
+        return channel.target_path == known.name;
     });
-    if (path == std::end(paths)) {
-        context.warn("only translation, rotation, scale and weights of nodes are animated",
-                     fmt::format("{}: {}", path_place.pointer(), brief(path_place.value())));
-        return std::nullopt;
+    if (path == std::end(paths) || channel.target_node < 0) {
+        return std::nullopt;  // check_animations has warned of it, if it is worth that.
     }
-    if (!target.has("node")) {
-        return std::nullopt;  // Some extension's business [glTF 2.0, sec. 5.6.1].
-    }
-    const auto number = static_cast<std::size_t>(target.member("node").as_unsigned());
-    const tinygltf::Node& node = model.structs.nodes[number];
+    const std::string target = fmt::format("{}/channels/{}/target", place, index);
+    const auto number = static_cast<std::size_t>(channel.target_node);
+    const tinygltf::Node& node = model.nodes[number];
     const bool weights = path->name == "weights";
     if (weights && node.mesh >= 0) {
         // Each channel looks at all of them.
-        const auto& mesh = model.structs.meshes[static_cast<std::size_t>(node.mesh)];
-        context.budget.spend(target.pointer(), mesh.primitives.size(), sizeof(double));
+        const auto& mesh = model.meshes[static_cast<std::size_t>(node.mesh)];
+        context.budget.spend(target, mesh.primitives.size(), sizeof(double));
     }
-    const std::size_t width = weights ? count_targets(model.structs, node) : path->width;
+    const std::size_t width = weights ? count_targets(model, node) : path->width;
     if (weights && width == 0) {
-        context.warn("weights of a node without morph targets are not animated", target.pointer());
+        context.warn("weights of a node without morph targets are not animated", target);
         return std::nullopt;
     }
     if (!weights && !node.matrix.empty()) {
-        context.warn("a node that has a matrix is not animated", target.pointer());
+        context.warn("a node that has a matrix is not animated", target);
         return std::nullopt;
     }
-    const JsonPlace samplers = require(animation, "samplers");
-    const JsonPlace index = require(channel, "sampler");
-    if (index.as_unsigned() >= samplers.size()) {
-        index.fail(fmt::format("index {}, but there are {} samplers", index.as_unsigned(),
-                               samplers.size()));
-    }
-    const JsonPlace sampler = samplers.element(static_cast<std::size_t>(index.as_unsigned()));
-    return AnimatedProperty{number, path->member, path->quantity,
-                            read_key_frames(model.structs, sampler, *path, width, context)};
+    const auto sampler = static_cast<std::size_t>(channel.sampler);
+    return AnimatedProperty{
+        number, path->member, path->quantity,
+        read_key_frames(model, animation.samplers.at(sampler),
+                        fmt::format("{}/samplers/{}", place, sampler), *path, width, context)};
 }
 
 void check_shutter(const Shutter& shutter)
@@ -206,16 +189,14 @@ std::vector<std::size_t> select_animations(const std::vector<std::string>& names
     return {0};
 }
 
-std::vector<AnimatedProperty> read_animation(const GltfModel& model, std::size_t animation,
+std::vector<AnimatedProperty> read_animation(const tinygltf::Model& model, std::size_t index,
                                              LoadContext& context)
 {
-    const JsonPlace root(model.motion);
-    const JsonPlace animations = root.member("animations");
-    const JsonPlace place = animations.element(animation);
-    const JsonPlace channels = require(place, "channels");
+    const tinygltf::Animation& animation = model.animations[index];
+    const std::string place = fmt::format("/animations/{}", index);
     std::vector<AnimatedProperty> properties;
-    for (std::size_t i = 0; i < channels.size(); ++i) {
-        if (auto property = read_channel(model, place, channels.element(i), context)) {
+    for (std::size_t i = 0; i < animation.channels.size(); ++i) {
+        if (auto property = read_channel(model, animation, i, place, context)) {
             properties.push_back(std::move(*property));
         }
     }

@@ -28,10 +28,10 @@ struct AnimatedProperty {
     KeyFrames frames{};
 };
 
-/// All that an animation moves. Throws `Error` (invalid_input) for key frames that make no sense.
-[[nodiscard]] std::vector<AnimatedProperty> read_animation(const GltfModel& model,
-                                                           std::size_t animation,
-                                                           LoadContext& context);
+/// All that an animation moves, which must be one that plays (build_model). Throws `Error`
+/// (invalid_input) for key frames that make no sense.
+[[nodiscard]] std::vector<AnimatedProperty> read_animation(const tinygltf::Model& model,
+                                                           std::size_t index, LoadContext& context);
 
 /// Puts the nodes where they are at a time [s]; where two properties are the same the last decides.
 void pose(tinygltf::Model& model, std::span<const AnimatedProperty> properties, double time);

@@ -11,7 +11,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace bdpt::io {
 
@@ -62,39 +64,87 @@ std::vector<tinygltf::Image> take_images(Json& document)
     return images;
 }
 
-/// The array "lights" of an extension of the document, which is taken away.
-Json take_lights(Json& document, const char* extension)
+/// Calls `visit` with each light of an extension of the document.
+template <typename Visit>
+void for_each_light(Json& document, const char* extension, const Visit& visit)
 {
     const auto extensions = document.find("extensions");
-    if (extensions == document.end() || !extensions->contains(extension)) {
-        return Json::array();
+    if (extensions != document.end() && extensions->contains(extension)) {
+        for_each((*extensions)[extension], "lights", visit);
     }
-    Json taken = std::move((*extensions)[extension]);
-    extensions->erase(extension);
-    return taken.contains("lights") ? std::move(taken["lights"]) : Json::array();
 }
 
-std::vector<ProfileSource> take_profiles(Json& document)
+// tinygltf leaves out what is empty within extensions, and the elements of an array after it move.
+// So each light has something, and of what is not read nothing.
+
+Json reduced_profile(Json& light)
 {
-    std::vector<ProfileSource> profiles;
-    for (Json& profile : take_lights(document, "EXT_lights_ies")) {
-        ProfileSource& taken = profiles.emplace_back();
-        if (profile.contains("uri")) {
-            taken.uri = std::move(profile["uri"].get_ref<std::string&>());
-        } else if (profile.contains("bufferView")) {
-            taken.buffer_view = profile["bufferView"].get<int>();
-        }
+    if (light.contains("bufferView") && !light.contains("uri")) {
+        return {{"bufferView", light["bufferView"]}};
     }
-    return profiles;
+    return {{"uri", light.contains("uri") ? std::move(light["uri"]) : Json("")}};
 }
 
-Json take_motion(Json& document)
+/// Of an environment only the first level of its cube, if that has any side.
+Json reduced_environment(Json& light)
 {
-    const auto found = document.find("animations");
-    Json motion = Json::object();
-    motion["animations"] = found != document.end() ? std::move(*found) : Json::array();
-    document.erase("animations");
-    return motion;
+    Json reduced{{"intensity", light.value("intensity", 1.0)}};
+    Json& levels = light["specularImages"];
+    if (!levels.empty() && !levels[0].empty()) {
+        reduced["specularImages"] = Json::array({std::move(levels[0])});
+    }
+    if (light.contains("rotation")) {
+        reduced["rotation"] = std::move(light["rotation"]);
+        widen_integers(reduced["rotation"]);
+    }
+    return reduced;
+}
+
+// tinygltf drops channels that lack something, and refuses the document for samplers that do. The
+// loader reads neither, so -1 stands in for what is missing.
+
+Json reduced_channel(const Json& channel)
+{
+    Json reduced{{"sampler", -1}, {"target", {{"node", -1}, {"path", ""}}}};
+    const Json& target = channel["target"];
+    if (target.contains("node") && target["path"].is_string()) {
+        reduced["target"] = {{"node", target["node"]}, {"path", target["path"]}};
+    }
+    const auto sampler = channel.find("sampler");
+    if (sampler != channel.end() &&
+        sampler->get<std::uint64_t>() <= std::numeric_limits<int>::max()) {
+        reduced["sampler"] = *sampler;
+    }
+    return reduced;
+}
+
+Json reduced_sampler(const Json& sampler)
+{
+    Json reduced{{"input", sampler.value("input", -1)}, {"output", sampler.value("output", -1)}};
+    if (sampler.contains("interpolation") && sampler["interpolation"].is_string()) {
+        reduced["interpolation"] = sampler["interpolation"];
+    }
+    return reduced;
+}
+
+/// Without extensions, which tinygltf would copy into each sampler.
+Json reduced_animation(Json& animation)
+{
+    Json reduced = Json::object();
+    for_each(animation, "channels",
+             [&](const Json& channel) { reduced["channels"].push_back(reduced_channel(channel)); });
+    for_each(animation, "samplers",
+             [&](const Json& sampler) { reduced["samplers"].push_back(reduced_sampler(sampler)); });
+    return reduced;
+}
+
+void simplify_animations(Json& document, std::span<const std::size_t> played)
+{
+    std::size_t index = 0;
+    for_each(document, "animations", [&](Json& animation) {
+        const bool plays = std::find(played.begin(), played.end(), index++) != played.end();
+        animation = plays ? reduced_animation(animation) : Json::object();
+    });
 }
 
 /// What tinygltf sees: buffers are named by their index and come from memory; what the loader does
@@ -134,6 +184,9 @@ void simplify(Json& document)
             widen_integers(material["extensions"]);
         }
     });
+    for_each_light(document, "EXT_lights_ies", [](Json& light) { light = reduced_profile(light); });
+    for_each_light(document, "EXT_lights_image_based",
+                   [](Json& light) { light = reduced_environment(light); });
 }
 
 /// Gives tinygltf the buffers that have been read. Each is taken once.
@@ -206,18 +259,22 @@ Bytes read_source(const tinygltf::Model& model, const std::string& uri, int buff
     }
 }
 
-GltfModel build_model(CheckedGltf checked)
+const tinygltf::Value& light_of(const tinygltf::Model& model, const char* extension,
+                                std::size_t index)
 {
-    GltfModel model;
+    return model.extensions.at(extension).Get("lights").Get(static_cast<int>(index));
+}
+
+tinygltf::Model build_model(CheckedGltf checked, std::span<const std::size_t> played)
+{
+    tinygltf::Model model;
     std::vector<tinygltf::Image> images = take_images(checked.document);
-    model.light_profiles = take_profiles(checked.document);
-    model.environments = take_lights(checked.document, "EXT_lights_image_based");
-    model.motion = take_motion(checked.document);
     std::size_t index = 0;
     for_each(checked.document, "buffers", [&](const Json& buffer) {
         checked.buffers[index++].resize(buffer["byteLength"].get<std::size_t>());
     });
     simplify(checked.document);
+    simplify_animations(checked.document, played);
     const std::string text = checked.document.dump(-1, ' ', false, Json::error_handler_t::replace);
     checked.document = nullptr;
     if (text.size() > std::numeric_limits<unsigned>::max()) {
@@ -228,12 +285,12 @@ GltfModel build_model(CheckedGltf checked)
     parser.SetFsCallbacks(memory_files(checked.buffers));
     std::string error;
     std::string warning;
-    if (!parser.LoadASCIIFromString(&model.structs, &error, &warning, text.data(),
+    if (!parser.LoadASCIIFromString(&model, &error, &warning, text.data(),
                                     static_cast<unsigned>(text.size()), "",
                                     tinygltf::REQUIRE_VERSION)) {
         throw Error(ErrorCode::invalid_input, "glTF: " + one_line(error));
     }
-    model.structs.images = std::move(images);
+    model.images = std::move(images);
     return model;
 }
 

@@ -52,7 +52,7 @@ const MeshTable::Joints& MeshTable::joints(int skin)
 {
     const auto [found, is_new] = joints_.try_emplace(skin);
     if (is_new) {
-        const tinygltf::Skin& source = model_.structs.skins[static_cast<std::size_t>(skin)];
+        const tinygltf::Skin& source = model_.skins[static_cast<std::size_t>(skin)];
         if (source.joints.empty()) {
             throw Error(ErrorCode::invalid_input,
                         fmt::format("/skins/{}/joints: a skin needs at least one", skin));
@@ -60,7 +60,7 @@ const MeshTable::Joints& MeshTable::joints(int skin)
         const std::size_t steps = moves(source, motion_) ? motion_.steps() : 0;
         for (std::size_t step = 0; step <= steps; ++step) {
             found->second.push_back(
-                joint_matrices(model_.structs, skin, transforms_, motion_, step, context_));
+                joint_matrices(model_, skin, transforms_, motion_, step, context_));
         }
     }
     return found->second;
@@ -92,12 +92,11 @@ std::optional<MeshDesc> MeshTable::read(PrimitiveId id, const std::vector<Weight
             joints.empty() ? std::span<const glm::dmat4>() : joints[joints.size() > 1 ? step : 0];
         return Deformation{weights[weights.size() > 1 ? step : 0], joints_then};
     };
-    std::optional<MeshDesc> mesh = read_primitive(model_.structs, id, deformation(0), context_);
+    std::optional<MeshDesc> mesh = read_primitive(model_, id, deformation(0), context_);
     const bool deforms = weights.size() > 1 || joints.size() > 1;
     for (std::size_t step = 1; mesh && deforms && step <= motion_.steps(); ++step) {
         const Silence silence(context_.warnings);  // The first pose has said it all.
-        std::optional<MeshDesc> later =
-            read_primitive(model_.structs, id, deformation(step), context_);
+        std::optional<MeshDesc> later = read_primitive(model_, id, deformation(step), context_);
         mesh->motion.push_back(
             {std::move(later->positions), std::move(later->normals), std::move(later->tangents)});
     }
@@ -109,11 +108,11 @@ std::optional<MeshDesc> MeshTable::read(PrimitiveId id, const std::vector<Weight
 
 std::optional<ShownMesh> MeshTable::get(std::size_t node, std::size_t primitive)
 {
-    const tinygltf::Node& source = model_.structs.nodes[node];
+    const tinygltf::Node& source = model_.nodes[node];
     const PrimitiveId id{static_cast<std::size_t>(source.mesh), primitive};
-    const tinygltf::Mesh& mesh = model_.structs.meshes[id.mesh];
+    const tinygltf::Mesh& mesh = model_.meshes[id.mesh];
     int skin = source.skin;
-    if (skin >= 0 && !has_joints(PrimitiveReader(model_.structs, id))) {
+    if (skin >= 0 && !has_joints(PrimitiveReader(model_, id))) {
         context_.warn("a mesh without JOINTS_0 and WEIGHTS_0 does not follow its skin",
                       id.pointer());
         skin = -1;

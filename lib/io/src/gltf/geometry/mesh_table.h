@@ -30,7 +30,7 @@ struct ShownMesh {
 class MeshTable {
 public:
     /// The arguments must outlive the table. Meshes are added to `meshes`.
-    MeshTable(const GltfModel& model, NodeTransforms& transforms, const NodeMotion& motion,
+    MeshTable(const tinygltf::Model& model, NodeTransforms& transforms, const NodeMotion& motion,
               std::vector<MeshDesc>& meshes, LoadContext& context)
         : model_(model),
           transforms_(transforms),
@@ -62,7 +62,7 @@ private:
     [[nodiscard]] std::optional<MeshDesc> read(PrimitiveId id, const std::vector<Weights>& weights,
                                                const Joints& joints);
 
-    const GltfModel& model_;
+    const tinygltf::Model& model_;
     NodeTransforms& transforms_;
     const NodeMotion& motion_;
     std::vector<MeshDesc>& meshes_;

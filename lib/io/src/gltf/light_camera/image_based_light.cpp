@@ -19,6 +19,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace bdpt::io {
 
@@ -90,13 +91,13 @@ Image decode_rgbd(const TexelImage& texels, const std::string& place, LoadContex
     return image;
 }
 
-TexelImage read_face(const GltfModel& model, std::size_t image, const LoadContext& context)
+TexelImage read_face(const tinygltf::Model& model, std::size_t image, const LoadContext& context)
 {
-    const tinygltf::Image& source = model.structs.images[image];
+    const tinygltf::Image& source = model.images[image];
     try {
-        return decode_texels(read_source(model.structs, source.uri, source.bufferView,
-                                         context.limits.file_bytes, context),
-                             context.limits);
+        return decode_texels(
+            read_source(model, source.uri, source.bufferView, context.limits.file_bytes, context),
+            context.limits);
     } catch (const Error& error) {
         if (error.code() == ErrorCode::not_found) {
             throw UnreadableCube(error.what());
@@ -105,8 +106,22 @@ TexelImage read_face(const GltfModel& model, std::size_t image, const LoadContex
     }
 }
 
-CubeMap read_cube(const GltfModel& model, const Json& images, const std::string& place,
-                  LoadContext& context)
+/// The images of the sides of the largest cube; none if there is no cube.
+std::vector<std::size_t> first_level(const tinygltf::Value& light)
+{
+    std::vector<std::size_t> images;
+    const tinygltf::Value& levels = light.Get("specularImages");
+    if (levels.ArrayLen() > 0) {
+        for (const tinygltf::Value& image : levels.Get(0).Get<tinygltf::Value::Array>()) {
+            images.push_back(static_cast<std::size_t>(image.GetNumberAsInt()));
+        }
+    }
+    return images;
+}
+
+/// `images`: indices of the six sides.
+CubeMap read_cube(const tinygltf::Model& model, const std::vector<std::size_t>& images,
+                  const std::string& place, LoadContext& context)
 {
     CubeMap cube;
     std::uint64_t bytes = 0;
@@ -119,7 +134,7 @@ CubeMap read_cube(const GltfModel& model, const Json& images, const std::string&
             continue;
         }
         try {
-            const TexelImage texels = read_face(model, images[side].get<std::size_t>(), context);
+            const TexelImage texels = read_face(model, images[side], context);
             Image& face = cube.faces[side];
             bytes += texel_count(texels) * sizeof(Rgb);
             if (bytes > context.limits.texture_bytes) {
@@ -174,11 +189,11 @@ Image flatten(CubeMap cube, const std::string& place, LoadContext& context)
     return to_equirectangular(cube, std::min(std::max(2 * longest_side(cube), least), highest));
 }
 
-float read_intensity(const Json& light, const std::string& place, LoadContext& context)
+float read_intensity(const tinygltf::Value& light, const std::string& place, LoadContext& context)
 {
     // What alpha divides is 255 at most.
     constexpr double most = std::numeric_limits<float>::max() / 256.0;
-    const double intensity = light.value("intensity", 1.0);
+    const double intensity = light.Get("intensity").GetNumberAsDouble();
     if (!(intensity >= 0.0 && intensity <= most)) {
         context.warn("the intensity of an environment is brought into its range",
                      fmt::format("{}/intensity: {}", place, intensity));
@@ -188,26 +203,26 @@ float read_intensity(const Json& light, const std::string& place, LoadContext& c
 
 }  // namespace
 
-std::optional<EnvironmentLightDesc> read_image_based_light(const GltfModel& model,
+std::optional<EnvironmentLightDesc> read_image_based_light(const tinygltf::Model& model,
                                                            std::size_t scene, LoadContext& context)
 {
-    const auto& extensions = model.structs.scenes[scene].extensions;
+    const auto& extensions = model.scenes[scene].extensions;
     const auto found = extensions.find("EXT_lights_image_based");
     if (found == extensions.end()) {
         return std::nullopt;
     }
     const auto index = static_cast<std::size_t>(found->second.Get("light").GetNumberAsInt());
-    const Json& light = model.environments[index];
+    const tinygltf::Value& light = light_of(model, "EXT_lights_image_based", index);
     const std::string place = fmt::format("/extensions/EXT_lights_image_based/lights/{}", index);
-    const Json& levels = light["specularImages"];
-    if (levels.empty() || levels[0].size() != 6) {
+    const std::vector<std::size_t> sides = first_level(light);
+    if (sides.size() != 6) {
         throw Error(ErrorCode::invalid_input,
                     fmt::format("{}/specularImages: a cube of {} sides, but it must have 6", place,
-                                levels.empty() ? 0 : levels[0].size()));
+                                sides.size()));
     }
     EnvironmentLightDesc desc;
     try {
-        CubeMap cube = read_cube(model, levels[0], place + "/specularImages/0", context);
+        CubeMap cube = read_cube(model, sides, place + "/specularImages/0", context);
         desc.radiance = flatten(std::move(cube), place, context);
     } catch (const UnreadableCube& error) {
         context.warn("an image of the environment cannot be read; the scene does without it",
@@ -218,8 +233,11 @@ std::optional<EnvironmentLightDesc> read_image_based_light(const GltfModel& mode
     for (Rgb& pixel : desc.radiance.pixels) {
         pixel *= intensity;
     }
-    if (light.contains("rotation")) {
-        const auto xyzw = light["rotation"].get<std::vector<double>>();
+    if (light.Has("rotation")) {
+        std::vector<double> xyzw;
+        for (const tinygltf::Value& number : light.Get("rotation").Get<tinygltf::Value::Array>()) {
+            xyzw.push_back(number.GetNumberAsDouble());
+        }
         desc.world_from_environment = Mat3(glm::dmat3(rotation(xyzw, place, context)));
     }
     return desc;

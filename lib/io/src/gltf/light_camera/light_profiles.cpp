@@ -53,11 +53,12 @@ const LightProfiles::Known& LightProfiles::get(std::size_t index)
         return found->second;
     }
     const std::string place = fmt::format("/extensions/EXT_lights_ies/lights/{}", index);
-    const ProfileSource& source = model_.light_profiles[index];
+    const tinygltf::Value& source = light_of(model_, "EXT_lights_ies", index);
+    const std::string uri = source.Has("uri") ? source.Get("uri").Get<std::string>() : "";
+    const int view = source.Has("bufferView") ? source.Get("bufferView").GetNumberAsInt() : -1;
     try {
-        const Bytes bytes =
-            read_source(model_.structs, source.uri, source.buffer_view,
-                        std::min(context_.limits.file_bytes, most_ies_bytes), context_);
+        const Bytes bytes = read_source(
+            model_, uri, view, std::min(context_.limits.file_bytes, most_ies_bytes), context_);
         IesProfile read =
             make_profile(read_ies(bytes, place, context_.warnings), place, context_.warnings);
         // An intensity is there several times: in the scene, to look it up and to sample it.
@@ -73,7 +74,7 @@ const LightProfiles::Known& LightProfiles::get(std::size_t index)
 
 std::optional<LightDesc> LightProfiles::read(std::size_t node, const glm::dmat4& world_from_node)
 {
-    const tinygltf::Node& holder = model_.structs.nodes[node];
+    const tinygltf::Node& holder = model_.nodes[node];
     const auto extension = holder.extensions.find("EXT_lights_ies");
     if (extension == holder.extensions.end()) {
         return std::nullopt;

@@ -18,7 +18,8 @@ namespace bdpt::io {
 class LightProfiles {
 public:
     /// The arguments must outlive this. Profiles are added to `profiles`.
-    LightProfiles(const GltfModel& model, std::vector<LightProfile>& profiles, LoadContext& context)
+    LightProfiles(const tinygltf::Model& model, std::vector<LightProfile>& profiles,
+                  LoadContext& context)
         : model_(model), profiles_(profiles), context_(context)
     {}
 
@@ -35,7 +36,7 @@ private:
     };
     [[nodiscard]] const Known& get(std::size_t index);
 
-    const GltfModel& model_;
+    const tinygltf::Model& model_;
     std::vector<LightProfile>& profiles_;
     LoadContext& context_;
     std::map<std::size_t, Known> known_;

@@ -76,11 +76,11 @@ struct ImageTable::Job {
 /// broken, so that the verdict does not depend on the order in which images are decoded.
 void ImageTable::open(const OiioLibrary& library, Job& job)
 {
-    const tinygltf::Image& source = model_.structs.images[job.index];
+    const tinygltf::Image& source = model_.images[job.index];
     if (source.bufferView >= 0) {
         const tinygltf::BufferView& view =
-            model_.structs.bufferViews[static_cast<std::size_t>(source.bufferView)];
-        const auto& data = model_.structs.buffers[static_cast<std::size_t>(view.buffer)].data;
+            model_.bufferViews[static_cast<std::size_t>(source.bufferView)];
+        const auto& data = model_.buffers[static_cast<std::size_t>(view.buffer)].data;
         job.bytes = ByteView(data).subspan(view.byteOffset, view.byteLength);
     } else if (source.uri.empty()) {
         throw UnreadableImage("neither \"uri\" nor \"bufferView\"");

@@ -22,7 +22,7 @@ namespace bdpt::io {
 class ImageTable {
 public:
     /// The arguments must outlive the table. Images are added to `images`.
-    ImageTable(const GltfModel& model, std::vector<TexelImage>& images, LoadContext& context)
+    ImageTable(const tinygltf::Model& model, std::vector<TexelImage>& images, LoadContext& context)
         : model_(model), images_(images), context_(context)
     {}
 
@@ -42,7 +42,7 @@ private:
     void finish(std::deque<Job>& batch, const std::function<void()>& tell);
     void add(Job& job);
 
-    const GltfModel& model_;
+    const tinygltf::Model& model_;
     std::vector<TexelImage>& images_;
     LoadContext& context_;
     std::map<std::size_t, std::optional<ImageId>> known_;

@@ -6,6 +6,7 @@
 #include "gltf/animation/node_transforms.h"
 #include "gltf/animation/steps.h"
 #include "gltf/animation/transform.h"
+#include "gltf/checks/animations.h"
 #include "gltf/document/model.h"
 #include "gltf/geometry/mesh_table.h"
 #include "gltf/light_camera/camera.h"
@@ -48,17 +49,17 @@ bool is_visible(const tinygltf::Node& node)
 /// Flattens the node hierarchy of one scene.
 class SceneBuilder {
 public:
-    SceneBuilder(const GltfModel& model, const NodeMotion& motion,
+    SceneBuilder(const tinygltf::Model& model, const NodeMotion& motion,
                  std::optional<std::size_t> variant, LoadContext& context)
-        : model_(model.structs),
+        : model_(model),
           motion_(motion),
           variant_(variant),
           context_(context),
           images_(model, result_.scene.images, context),
           profiles_(model, result_.scene.profiles, context),
-          transforms_(model.structs, context),
+          transforms_(model, context),
           meshes_(model, transforms_, motion, result_.scene.meshes, context),
-          visited_(model.structs.nodes.size(), false)
+          visited_(model.nodes.size(), false)
     {}
 
     [[nodiscard]] LoadedScene build(const std::vector<std::size_t>& roots,
@@ -258,7 +259,8 @@ LoadedScene build_scene(CheckedGltf checked, const SceneChoice& choice,
     for (const Bytes& buffer : checked.buffers) {
         context.budget.hold(buffer.size());
     }
-    GltfModel model = build_model(std::move(checked));
+    check_animations(JsonPlace(checked.document), choice.animations, context);
+    tinygltf::Model model = build_model(std::move(checked), choice.animations);
     std::vector<AnimatedProperty> properties;
     for (const std::size_t animation : choice.animations) {
         std::vector<AnimatedProperty> more = read_animation(model, animation, context);
@@ -266,13 +268,13 @@ LoadedScene build_scene(CheckedGltf checked, const SceneChoice& choice,
     }
     const double open = choice.time + choice.shutter.open;
     const double close = choice.time + choice.shutter.close;
-    const NodeMotion motion(model.structs, properties, open, close, context);
+    const NodeMotion motion(model, properties, open, close, context);
     if (open < close && motion.steps() == 0 && !choice.animations.empty()) {
         context.warn("nothing moves while the shutter is open",
                      fmt::format("/animations: from {} s to {} s", open, close));
     }
     LoadedScene loaded = SceneBuilder(model, motion, choice.variant, context)
-                             .build(find_roots(model.structs, choice.scene), on_progress);
+                             .build(find_roots(model, choice.scene), on_progress);
     if (choice.scene) {
         if (std::optional<EnvironmentLightDesc> environment =
                 read_image_based_light(model, *choice.scene, context)) {

@@ -55,6 +55,24 @@ TEST_CASE("words about transport become options")
         "max_camera_depth": 3, "max_light_depth": 0, "disabled": ["s3t0"]})"));
 }
 
+TEST_CASE("numbers of light paths and connections need not be whole")
+{
+    TransportWords words;
+    words.light_paths = 0.0625;
+    words.connections = 2.0;
+    const RenderOptions options = with_transport(words, {});
+    CHECK(options.bidirectional.light_paths == 0.0625);
+    CHECK(options.bidirectional.connections == 2.0);
+    const auto json = transport_json(options);
+    CHECK(json["light_paths"] == 0.0625);
+    CHECK(json["light_paths"].dump() == "0.0625");
+    CHECK(json["connections"].dump() == "2");
+    CHECK_FALSE(transport_json(with_transport({}, {})).contains("connections"));
+    words.integrator = "mis";
+    words.light_paths.reset();
+    CHECK_THROWS_AS(with_transport(words, {}), Error);
+}
+
 TEST_CASE("direct and indirect light share the lengths of paths")
 {
     TransportWords words;

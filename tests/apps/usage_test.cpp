@@ -142,7 +142,13 @@ TEST_CASE("help and version are commands, too")
 TEST_CASE("with --json, --quiet leaves the result and nothing else")
 {
     const ScratchFolder folder;
-    const std::string scene = write_cube(folder, "cube", {}).string();
+    // A file that warns.
+    const std::string scene =
+        write_cube(folder, "cube", {.more = R"("extensionsUsed": ["EXT_not_known"],)"}).string();
+    CHECK(contains(run({"render", scene, "-o", (folder / "a.exr").string(), "--spp", "1", "--size",
+                        "8x4", "--json"})
+                       .out,
+                   "EXT_not_known"));
     const Outcome outcome = run({"render", scene, "-o", (folder / "a.exr").string(), "--time", "1s",
                                  "--size", "8x4", "--profile", "--json", "--quiet"});
     CAPTURE(outcome.out, outcome.err);

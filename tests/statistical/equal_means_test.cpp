@@ -5,6 +5,7 @@
 #include "catch.hpp"
 #include "scene_builder.h"
 
+#include <cmath>
 #include <utility>
 
 namespace bdpt::test {
@@ -61,6 +62,23 @@ TEST_CASE("each tile counts, not only that with the greatest z", "[statistics]")
     TileMeans near = means_of(little);
     const MeanComparison close = compare_means(near, 1.0, quick);
     CHECK(close.found_bias == Approx(1e-4).epsilon(0.02));
+
+    // The left half is off by little and has no noise; the right one is off by half, with noise, so
+    // that its z is less.
+    SceneBuilder builder;
+    MaterialDesc unlit = lambertian(Rgb(0.99f));
+    unlit.unlit = true;
+    builder.quad({-9, -9, 0}, {0, -9, 0}, {0, 9, 0}, {-9, 9, 0}, unlit);
+    unlit = lambertian(Rgb(1.0f));
+    unlit.unlit = true;
+    unlit.alpha_mode = AlphaMode::blend;
+    unlit.base_color.w = 0.5f;
+    builder.quad({0, -9, 0}, {9, -9, 0}, {9, 9, 0}, {0, 9, 0}, unlit);
+    const Scene unequal(std::move(builder.desc));
+    TileMeans noisy = means_of(unequal);
+    const MeanComparison both = compare_means(noisy, 1.0, quick);
+    CHECK(std::abs(both.worst_bias) == Approx(0.01).epsilon(0.02));
+    CHECK(both.found_bias == Approx(0.5).epsilon(0.1));
 }
 
 }  // namespace bdpt::test

@@ -8,6 +8,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -166,6 +168,15 @@ void add_limits(CLI::App& command, TransportWords& words, const char* group)
         ->group(group);
 }
 
+/// Whole numbers without a fraction.
+nlohmann::ordered_json number_json(double number)
+{
+    if (number == std::floor(number)) {
+        return static_cast<std::int64_t>(number);
+    }
+    return number;
+}
+
 }  // namespace
 
 std::optional<std::vector<Strategy>> parse_strategies(std::string_view text)
@@ -271,10 +282,10 @@ nlohmann::ordered_json transport_json(const RenderOptions& options)
         {"light_sampling", name_of(light_samplings, options.sampling.lights)},
         {"max_depth", options.transport.max_depth},
         {"min_depth", options.transport.min_depth},
-        {"light_paths", options.bidirectional.light_paths},
+        {"light_paths", number_json(options.bidirectional.light_paths)},
         {"rr_start", options.transport.rr_start}};
     if (options.bidirectional.connections) {
-        result["connections"] = *options.bidirectional.connections;
+        result["connections"] = number_json(*options.bidirectional.connections);
     }
     const auto add = [&](const char* name, int limit) {
         if (limit != unlimited) {

@@ -45,10 +45,13 @@ public:
     {
         return std::numeric_limits<std::int64_t>::max();
     }
-    /// Called on one thread before any tile of a pass of `samples` is rendered: an integrator may
-    /// keep what all tiles of a pass share, and add to `films` what does not belong to a tile.
-    /// Returns the work that it was.
-    [[nodiscard]] virtual RenderStats begin_pass(SampleRange /*samples*/, const Films& /*films*/)
+    /// Called on one thread before anything else of a pass of `samples`. Returns in how many parts
+    /// the integrator does what all tiles of the pass share.
+    [[nodiscard]] virtual std::int64_t begin_pass(SampleRange /*samples*/) { return 0; }
+    /// One of these parts; all are done before any tile, by any threads. It may keep what tiles
+    /// need, and add to `films` what belongs to none of them. Returns the work that it was.
+    [[nodiscard]] virtual RenderStats do_part(std::int64_t /*part*/, SampleRange /*samples*/,
+                                              const Films& /*films*/)
     {
         return {};
     }

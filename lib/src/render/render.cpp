@@ -5,10 +5,10 @@
 #include "camera/moving_camera.h"
 #include "film/pixel_filter.h"
 #include "integrator/integrator.h"
-#include "math/flush_denormals.h"
 #include "profile/time_recorder.h"
 #include "render/aov_pass.h"
 #include "render/check_options.h"
+#include "render/flush_denormals.h"
 #include "render/strategy_images.h"
 #include "scene/world.h"
 
@@ -56,9 +56,13 @@ void render_pass(const Work& work, const RenderOptions& options, SampleRange sam
     const int columns = (area.width() + options.system.tile_size - 1) / options.system.tile_size;
     const int rows = (area.height() + options.system.tile_size - 1) / options.system.tile_size;
     tbb::combinable<RenderStats> stats_of_threads;
-    result.stats += work.integrator.begin_pass(
-        samples,
-        {.film = result.film, .strategies = result.strategies, .on_path = work.control.on_path});
+    tbb::parallel_for(std::int64_t{0}, work.integrator.begin_pass(samples), [&](std::int64_t part) {
+        const FlushDenormals flush;
+        stats_of_threads.local() += work.integrator.do_part(part, samples,
+                                                            {.film = result.film,
+                                                             .strategies = result.strategies,
+                                                             .on_path = work.control.on_path});
+    });
     tbb::parallel_for(
         tbb::blocked_range2d<int>(0, rows, 1, 0, columns, 1),
         [&](const tbb::blocked_range2d<int>& range) {

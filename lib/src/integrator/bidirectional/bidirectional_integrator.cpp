@@ -2,11 +2,7 @@
 
 #include "camera/moving_camera.h"
 #include "integrator/sample_start.h"
-#include "math/flush_denormals.h"
 #include "profile/sample_timer.h"
-
-#include <tbb/combinable.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <memory>
@@ -69,21 +65,9 @@ BidirectionalIntegrator::Scratch BidirectionalIntegrator::make_scratch(const Fil
                    .sink = std::move(sink)};
 }
 
-RenderStats BidirectionalIntegrator::begin_pass(SampleRange samples, const Films& films)
+std::int64_t BidirectionalIntegrator::begin_pass(SampleRange /*samples*/)
 {
-    if (!cache_.counts().shared) {
-        return {};
-    }
-    tbb::combinable<RenderStats> stats;
-    tbb::parallel_for(std::int64_t{0}, cache_.chunks(), [&](std::int64_t chunk) {
-        const FlushDenormals flush;
-        Scratch scratch = make_scratch(films);
-        share_light_paths(samples.begin, chunk, scratch);
-        stats.local() += scratch.stats;
-    });
-    RenderStats sum;
-    stats.combine_each([&sum](const RenderStats& part) { sum += part; });
-    return sum;
+    return cache_.counts().shared ? cache_.chunks() : 0;
 }
 
 RenderStats BidirectionalIntegrator::render_tile(const Tile& tile, SampleRange samples,
@@ -154,9 +138,11 @@ void BidirectionalIntegrator::add_sample(int x, int y, std::int64_t index, Phase
     sink.end_sample();
 }
 
-void BidirectionalIntegrator::share_light_paths(std::int64_t index, std::int64_t chunk,
-                                                Scratch& scratch)
+RenderStats BidirectionalIntegrator::do_part(std::int64_t chunk, SampleRange samples,
+                                             const Films& films)
 {
+    Scratch scratch = make_scratch(films);
+    const std::int64_t index = samples.begin;
     const LightPathCounts& counts = cache_.counts();
     const std::int64_t first = chunk * LightPathCache::chunk_bundles;
     const std::int64_t last = std::min(first + LightPathCache::chunk_bundles, counts.bundles);
@@ -188,6 +174,7 @@ void BidirectionalIntegrator::share_light_paths(std::int64_t index, std::int64_t
         }
     }
     cache_.end_chunk(chunk);
+    return scratch.stats;
 }
 
 void BidirectionalIntegrator::trace_light_path(SampleContext& sample, Scratch& scratch) const

@@ -19,7 +19,9 @@ public:
     BidirectionalIntegrator(const World& world, const MovingCamera& camera,
                             const RenderOptions& options);
     [[nodiscard]] std::int64_t most_samples_in_pass() const override;
-    [[nodiscard]] RenderStats begin_pass(SampleRange samples, const Films& films) override;
+    [[nodiscard]] std::int64_t begin_pass(SampleRange samples) override;
+    [[nodiscard]] RenderStats do_part(std::int64_t part, SampleRange samples,
+                                      const Films& films) override;
     [[nodiscard]] RenderStats render_tile(const Tile& tile, SampleRange samples,
                                           const Films& films) const override;
 
@@ -28,8 +30,6 @@ private:
     struct Scratch;
 
     [[nodiscard]] Scratch make_scratch(const Films& films) const;
-    /// The light paths of some bundles of sample `index`, into the cache and to the film.
-    void share_light_paths(std::int64_t index, std::int64_t chunk, Scratch& scratch);
     void trace_light_path(SampleContext& sample, Scratch& scratch) const;
     void add_sample(int x, int y, std::int64_t index, PhaseClock* clock, Scratch& scratch) const;
     /// s <= 1: what the camera path brings by itself.

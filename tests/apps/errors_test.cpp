@@ -65,7 +65,11 @@ TEST_CASE("wrong usage gives exit code 2 and names the option")
     rejects({"--only", "indirect", "--max-depth", "2"}, "--only \"indirect\"");
     rejects({"--max-camera-depth", "-1"}, "--max-camera-depth");
     rejects({"--max-light-depth", "long"}, "--max-light-depth");
-    rejects({"--light-paths", "0"}, "--light-paths");
+    rejects({"--light-paths", "-0.5"}, "--light-paths");
+    rejects({"--light-paths", "few"}, "--light-paths");
+    rejects({"--light-paths", "0", "--integrator", "lt"}, "light paths");
+    rejects({"--light-paths", "0", "--connections", "1"}, "connections");
+    rejects({"--connections", "4097"}, "--connections");
     rejects({"--light-paths", "4097"}, "--light-paths");
     rejects({"--rr-start", "0"}, "--rr-start");
     rejects({"--env-sampling", "even"}, "--env-sampling");
@@ -75,6 +79,7 @@ TEST_CASE("wrong usage gives exit code 2 and names the option")
     for (const char* integrator : {"pt", "mis", "nee"}) {
         rejects({"--disable", "s2t1", "--integrator", integrator}, "--disable \"s2t1\"");
         rejects({"--light-paths", "2", "--integrator", integrator}, "--light-paths \"2\"");
+        rejects({"--connections", "0.5", "--integrator", integrator}, "--connections \"0.5\"");
     }
     rejects({"--lens-radius", "-1"}, "--lens-radius \"-1\"");
     rejects({"--lens-radius", "inf"}, "--lens-radius");

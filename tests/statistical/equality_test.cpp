@@ -247,6 +247,11 @@ TEST_CASE("several light paths have the time of their sample", "[equality][motio
     three_light_paths.bidirectional.light_paths = 3;
     TileMeans bdpt(scene, test.camera, three_light_paths);
     check_equal(test, "mis = bdpt, three light paths", mis, bdpt);
+    RenderOptions shared = options(test, IntegratorKind::bdpt, 410003);
+    shared.bidirectional.light_paths = 0.5;
+    shared.bidirectional.connections = 2.5;
+    TileMeans sharing(scene, test.camera, shared);
+    check_equal(test, "mis = bdpt, shared light paths", mis, sharing);
 }
 
 /// A room with a rough sphere of glass, under a lamp of one colour.
@@ -314,8 +319,13 @@ TEST_CASE("each channel refracts as if there were no other", "[equality][layers]
     RenderOptions two_light_paths = options(test, IntegratorKind::bdpt, 8003);
     two_light_paths.bidirectional.light_paths = 2;  // both of the colour of their sample
     TileMeans bdpt(dispersing, test.camera, two_light_paths);
+    RenderOptions shared = options(test, IntegratorKind::bdpt, 8004);
+    shared.bidirectional.light_paths = 0.5;
+    shared.bidirectional.connections = 1.5;
+    TileMeans sharing(dispersing, test.camera, shared);
     check_equal(test, "no dispersion = mis", expected, mis);
     check_equal(test, "no dispersion = bdpt", expected, bdpt);
+    check_equal(test, "no dispersion = bdpt with shared light paths", expected, sharing);
 }
 
 /// Camera paths and splats see pixels through the same filter, at the border of the image too: a

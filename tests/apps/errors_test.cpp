@@ -67,8 +67,8 @@ TEST_CASE("wrong usage gives exit code 2 and names the option")
     rejects({"--max-light-depth", "long"}, "--max-light-depth");
     rejects({"--light-paths", "-0.5"}, "--light-paths");
     rejects({"--light-paths", "few"}, "--light-paths");
-    rejects({"--light-paths", "0", "--integrator", "lt"}, "light paths");
-    rejects({"--light-paths", "0", "--connections", "1"}, "connections");
+    rejects({"--light-paths", "0", "--integrator", "lt"}, "--light-paths");
+    rejects({"--light-paths", "0", "--connections", "1"}, "--connections");
     rejects({"--connections", "4097"}, "--connections");
     rejects({"--light-paths", "4097"}, "--light-paths");
     rejects({"--rr-start", "0"}, "--rr-start");

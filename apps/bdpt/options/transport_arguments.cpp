@@ -97,6 +97,14 @@ std::optional<Strategy> parse_strategy(std::string_view text)
 /// Options that only subpaths from both sides can heed.
 void check_bidirectional(const TransportWords& words)
 {
+    const bool without_light_paths = words.light_paths == 0.0;
+    if (words.integrator == "lt" && without_light_paths) {
+        reject("--light-paths", "0", "more than 0 light paths with --integrator lt");
+    }
+    if (without_light_paths && words.connections.value_or(0.0) > 0.0) {
+        reject("--connections", fmt::format("{}", *words.connections),
+               "light paths to connect to, but --light-paths is 0");
+    }
     if (words.integrator == "bdpt" || words.integrator == "lt") {
         return;
     }

@@ -25,8 +25,9 @@ The first image is compared with the second, the reference: relative errors divi
 first is a folder, each .exr and .hdr file in it is a render of the same scene with another seed,
 and the tiles are tested for bias.
 
-Metrics: relmse, mse, rmse, mape, smape, psnr, flip (of high dynamic range), flip_ldr (of the images
-as .png files show them). docs/compare.md has their formulas.
+Metrics: relmse, relmse_scales (also of averages over squares of pixels, where blotches show), mse,
+rmse, mape, smape, psnr, flip (of high dynamic range), flip_ldr (of the images as .png files show
+them). docs/compare.md has their formulas.
 
 Exit codes: 0 done, 10 a threshold was exceeded (all output has been written), 2 wrong usage, 3 input
 not found, 4 invalid input (also: sizes that differ, NaN, infinity), 5 unsupported file, 6 output
@@ -45,7 +46,8 @@ std::vector<Metric> to_metrics(const std::optional<std::string>& words)
             eval::parse_metric(std::string_view(*words).substr(begin, end - begin));
         if (!metric) {
             reject("--metrics", *words,
-                   "relmse, mse, rmse, mape, smape, psnr, flip or flip_ldr, with commas between");
+                   "relmse, relmse_scales, mse, rmse, mape, smape, psnr, flip or flip_ldr, with "
+                   "commas between");
         }
         if (std::find(result.begin(), result.end(), *metric) == result.end()) {
             result.push_back(*metric);
@@ -111,7 +113,8 @@ Metric to_map_metric(const std::string& word)
 {
     const std::optional<Metric> metric = eval::parse_metric(word);
     if (!metric || *metric == Metric::psnr) {
-        reject("--error-metric", word, "relmse, mse, rmse, mape, smape, flip or flip_ldr");
+        reject("--error-metric", word,
+               "relmse, relmse_scales, mse, rmse, mape, smape, flip or flip_ldr");
     }
     return *metric;
 }

@@ -29,7 +29,6 @@ void ContributionSink::begin_sample(int x, int y, std::int64_t index)
     index_ = index;
     center_ = Vec2(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
     radiance_ = Rgb(0.0f);
-    part_ = Rgb(0.0f);
 }
 
 void ContributionSink::add(const SampleContext& sample, Strategy strategy,
@@ -37,7 +36,7 @@ void ContributionSink::add(const SampleContext& sample, Strategy strategy,
 {
     const Rgb unweighted = unweighted_of(sample, found);
     const Rgb weighted = found.weight / count * unweighted;
-    part_ += weighted;
+    radiance_ += weighted;
     if (!films_.strategies.empty() || films_.on_path) [[unlikely]] {
         sample.enter(Phase::splat);
         report(strategy, center_, weighted, unweighted / count, found.weight);
@@ -81,15 +80,8 @@ void ContributionSink::report(Strategy strategy, Vec2 raster, Rgb weighted, Rgb 
     }
 }
 
-void ContributionSink::end_part()
-{
-    radiance_ += part_;
-    part_ = Rgb(0.0f);
-}
-
 void ContributionSink::end_sample()
 {
-    end_part();
     if (holds_pixel()) {
         films_.film.add_sample(x_, y_, index_, radiance_);
     }

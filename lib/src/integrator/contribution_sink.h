@@ -32,8 +32,6 @@ public:
     /// `dimension` tells the splats of one light path apart.
     void splat(SampleContext& sample, Strategy strategy, const Splat& splat, float count,
                std::uint32_t dimension);
-    /// Sums up what was added since the last call by itself.
-    void end_part();
     /// Adds the sample to the film.
     void end_sample();
 
@@ -54,7 +52,6 @@ private:
     std::int64_t index_ = 0;
     Vec2 center_{0.0f};  ///< of the pixel
     Rgb radiance_{0.0f};
-    Rgb part_{0.0f};
 };
 
 }  // namespace bdpt

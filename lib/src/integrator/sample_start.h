@@ -9,26 +9,39 @@
 
 namespace bdpt {
 
+/// What the two ends of a path must have in common.
+struct SampleMoment {
+    float time = 0.0f;
+    Wavelength wavelength = Wavelength::green;
+};
+
+/// Draws both where they matter.
+[[nodiscard]] inline SampleMoment draw_moment(Sampler& sampler, const World& world,
+                                              const MovingCamera& camera)
+{
+    SampleMoment moment;
+    if (world.disperses()) {
+        moment.wavelength = choose_wavelength(sampler.next_1d());
+    }
+    if (world.moves() || camera.moves()) {
+        moment.time = sampler.next_1d();
+    }
+    return moment;
+}
+
 /// What a sample of a pixel is before any of its paths, the same for all integrators.
 struct SampleStart {
     Sampler sampler;
     Vec2 raster;  ///< where its camera path goes through the film [pixels]
-    float time = 0.0f;
-    Wavelength wavelength = Wavelength::green;
+    SampleMoment moment;
 
-    /// Draws wavelength and time where these matter.
     SampleStart(const RenderOptions& options, const PixelFilter& filter, const World& world,
                 const MovingCamera& camera, int x, int y, std::int64_t index)
         : sampler(options.sampling.sampler, options.sampling.seed, x, y, index)
     {
         sampler.start(SampleUse::film);
         raster = filter.sample_raster(x, y, sampler.next_2d());
-        if (world.disperses()) {
-            wavelength = choose_wavelength(sampler.next_1d());
-        }
-        if (world.moves() || camera.moves()) {
-            time = sampler.next_1d();
-        }
+        moment = draw_moment(sampler, world, camera);
     }
 };
 

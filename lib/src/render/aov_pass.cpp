@@ -36,14 +36,14 @@ std::optional<PrimaryHit> AovPass::first_hit(int x, int y, std::int64_t sample_i
 {
     // The random numbers of the integrators' camera rays.
     SampleStart start(options_, filter_, world_, camera_, x, y, sample_index);
-    const TimedCamera timed(camera_, start.time);
+    const TimedCamera timed(camera_, start.moment.time);
     const Camera& camera = timed.get();
     start.sampler.start(SampleUse::lens);
     const Vec2 u_lens = camera.has_finite_lens() ? start.sampler.next_2d() : Vec2(0.0f);
     const CameraRay ray = camera.generate_ray(start.raster, u_lens);
     SegmentKey segment = start.sampler.segment_key(0, 1);
-    segment.wavelength = start.wavelength;
-    segment.time = start.time;
+    segment.wavelength = start.moment.wavelength;
+    segment.time = start.moment.time;
     const auto hit = world_.first_hit(ray.lens, ray.direction, segment);
     if (!hit) {
         return std::nullopt;

@@ -39,6 +39,36 @@ TEST_CASE("metrics of two pixels have the values worked out by hand")
           Approx(0.5799195).epsilon(1e-6));
 }
 
+TEST_CASE("errors that neighbours share count at all scales, others at the finest alone")
+{
+    constexpr int side = 32;
+    const Image truth{side, side, std::vector<Rgb>(side * side, Rgb(1.0f))};
+    // Off by 0.5 in squares of `size` pixels a side, up and down in turn.
+    const auto checkered = [&](int size) {
+        Image image = truth;
+        for (int i = 0; i < side * side; ++i) {
+            const bool up = (i % side / size + i / side / size) % 2 == 0;
+            image.pixels[static_cast<std::size_t>(i)] = Rgb(up ? 1.5f : 0.5f);
+        }
+        return image;
+    };
+    const double error = 0.25 / 1.01;
+    CHECK(evaluate(Metric::relmse, checkered(1), truth) == Approx(error));
+    CHECK(evaluate(Metric::relmse_scales, checkered(1), truth) == Approx(error / 5));
+    CHECK(evaluate(Metric::relmse_scales, checkered(2), truth) == Approx(2 * error / 5));
+    CHECK(evaluate(Metric::relmse_scales, checkered(8), truth) == Approx(4 * error / 5));
+    CHECK(evaluate(Metric::relmse_scales, checkered(16), truth) == Approx(error));
+
+    // Squares at the border are smaller: an image of one pixel is all of them.
+    CHECK(evaluate(Metric::relmse_scales, row_of({Rgb(1.5f)}), row_of({Rgb(1.0f)})) ==
+          Approx(error));
+    // (1.5, 1.5, 0.5) has 1.5 and 0.5 at scale 2, and 3.5 / 3 from scale 4 on.
+    const double coarse = 1.0 / 36 / 1.01;
+    CHECK(evaluate(Metric::relmse_scales, row_of({Rgb(1.5f), Rgb(1.5f), Rgb(0.5f)}),
+                   row_of({Rgb(1.0f), Rgb(1.0f), Rgb(1.0f)})) ==
+          Approx((2 * error + 3 * coarse) / 5));
+}
+
 TEST_CASE("epsilon is absolute or relative to the mean of the reference")
 {
     // The mean of 0.5, 1, 2, 0, 2, 4 is 9.5 / 6; for relmse it counts squared.
@@ -82,8 +112,8 @@ TEST_CASE("what is relative does not depend on the unit of light")
     const Image image = random_image(16, 16, 1);
     const Image truth = random_image(16, 16, 2);
     const MetricOptions options{.epsilon_unit = EpsilonUnit::reference_mean};
-    for (const Metric metric : {Metric::relmse, Metric::mape, Metric::smape, Metric::psnr,
-                                Metric::flip, Metric::flip_ldr}) {
+    for (const Metric metric : {Metric::relmse, Metric::relmse_scales, Metric::mape, Metric::smape,
+                                Metric::psnr, Metric::flip, Metric::flip_ldr}) {
         CAPTURE(to_string(metric));
         CHECK(evaluate(metric, scaled(image, 4096.0f), scaled(truth, 4096.0f), options) ==
               Approx(evaluate(metric, image, truth, options)).epsilon(1e-5));

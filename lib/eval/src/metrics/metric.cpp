@@ -1,7 +1,9 @@
+#include <bdpt/eval/image/shrunk.h>
 #include <bdpt/eval/metrics/metric.h>
 #include <bdpt/io/tone_map.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -27,6 +29,36 @@ ErrorMap channel_means(const Image& image, const Image& reference, Term term)
     return map;
 }
 
+ErrorMap relative_squares(const Image& image, const Image& reference, const MetricScale& scale)
+{
+    return channel_means(image, reference, [&scale](double x, double r) {
+        return (x - r) * (x - r) / (r * r + scale.squared_epsilon);
+    });
+}
+
+/// For each pixel the mean over all scales of the square that it lies in.
+ErrorMap relative_squares_at_scales(const Image& image, const Image& reference,
+                                    const MetricScale& scale)
+{
+    constexpr std::array sides{2, 4, 8, 16};
+    constexpr double scales = 1.0 + sides.size();
+    ErrorMap map = relative_squares(image, reference, scale);
+    for (const int side : sides) {
+        const ErrorMap coarse =
+            relative_squares(shrunk(image, side), shrunk(reference, side), scale);
+        for (int y = 0; y < map.height; ++y) {
+            for (int x = 0; x < map.width; ++x) {
+                const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width);
+                map.values[row + static_cast<std::size_t>(x)] += coarse.at(x / side, y / side);
+            }
+        }
+    }
+    for (double& value : map.values) {
+        value /= scales;
+    }
+    return map;
+}
+
 /// As `bdpt render` shows it in a PNG file, in linear light.
 Image on_screen(const Image& image, float exposure)
 {
@@ -45,6 +77,8 @@ std::string_view to_string(Metric metric)
     switch (metric) {
         case Metric::relmse:
             return "relmse";
+        case Metric::relmse_scales:
+            return "relmse_scales";
         case Metric::mse:
             return "mse";
         case Metric::rmse:
@@ -80,9 +114,9 @@ ErrorMap error_terms(Metric metric, const Image& image, const Image& reference,
 {
     switch (metric) {
         case Metric::relmse:
-            return channel_means(image, reference, [&scale](double x, double r) {
-                return (x - r) * (x - r) / (r * r + scale.squared_epsilon);
-            });
+            return relative_squares(image, reference, scale);
+        case Metric::relmse_scales:
+            return relative_squares_at_scales(image, reference, scale);
         case Metric::mse:
         case Metric::rmse:
         case Metric::psnr:

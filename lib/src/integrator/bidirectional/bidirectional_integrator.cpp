@@ -93,15 +93,14 @@ void BidirectionalIntegrator::add_sample(int x, int y, std::int64_t index, Phase
     LightPathCache::Choice shared;
     if (cache_.counts().shared) {
         shared = cache_.choose(x, y, index);
-        start.time = cache_.moment(shared.bundle).time;
-        start.wavelength = cache_.moment(shared.bundle).wavelength;
+        start.moment = cache_.moment(shared.bundle);
     }
-    const TimedCamera camera(camera_, start.time);
+    const TimedCamera camera(camera_, start.moment.time);
     SampleContext sample{.world = world_,
                          .camera = camera.get(),
                          .sampler = start.sampler,
-                         .time = start.time,
-                         .wavelength = start.wavelength,
+                         .time = start.moment.time,
+                         .wavelength = start.moment.wavelength,
                          .rays = scratch.stats.rays,
                          .clock = clock};
     sink.begin_sample(x, y, index);
@@ -150,13 +149,7 @@ RenderStats BidirectionalIntegrator::do_part(std::int64_t chunk, SampleRange sam
     for (std::int64_t bundle = first; bundle < last; ++bundle) {
         Sampler sampler = cache_.sampler(index, bundle * counts.bundle);
         sampler.start(SampleUse::film);
-        LightPathCache::Moment moment;
-        if (world_.disperses()) {
-            moment.wavelength = choose_wavelength(sampler.next_1d());
-        }
-        if (world_.moves() || camera_.moves()) {
-            moment.time = sampler.next_1d();
-        }
+        const SampleMoment moment = draw_moment(sampler, world_, camera_);
         cache_.add_bundle(chunk, moment);
         const TimedCamera camera(camera_, moment.time);
         for (int i = 0; i < counts.bundle; ++i) {
@@ -209,7 +202,6 @@ void BidirectionalIntegrator::join_camera_path(SampleContext& sample, Scratch& s
             }
         }
     }
-    scratch.sink.end_part();
 }
 
 void BidirectionalIntegrator::join_light_path(SampleContext& sample, Scratch& scratch) const
@@ -258,7 +250,6 @@ void BidirectionalIntegrator::join_paths(const SampleContext& sample,
             }
         }
     }
-    scratch.sink.end_part();
 }
 
 }  // namespace bdpt

@@ -57,7 +57,7 @@ void LightPathCache::begin_chunk(std::int64_t chunk)
     filled.bsdfs.clear();
 }
 
-void LightPathCache::add_bundle(std::int64_t chunk, const Moment& moment)
+void LightPathCache::add_bundle(std::int64_t chunk, const SampleMoment& moment)
 {
     chunks_[static_cast<std::size_t>(chunk)].moments.push_back(moment);
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "math/wavelength.h"
+#include "integrator/sample_start.h"
 #include "path/light_path_counts.h"
 #include "path/subpath.h"
 
@@ -17,12 +17,6 @@ class Sampler;
 /// function of (options, seed, index).
 class LightPathCache {
 public:
-    /// What the light paths of a bundle, and the camera paths that are joined to them, have in
-    /// common.
-    struct Moment {
-        float time = 0.0f;
-        Wavelength wavelength = Wavelength::green;
-    };
     /// Light paths `first` to `first` + `count` - 1 of a bundle, around its end.
     struct Choice {
         std::int64_t bundle = 0;
@@ -49,7 +43,7 @@ public:
     // Filling: a chunk is begun, gets its bundles in their order, each with its light paths, and is
     // ended. Different threads may fill different chunks.
     void begin_chunk(std::int64_t chunk);
-    void add_bundle(std::int64_t chunk, const Moment& moment);
+    void add_bundle(std::int64_t chunk, const SampleMoment& moment);
     void add_path(std::int64_t chunk, std::span<const PathVertex> path);
     void end_chunk(std::int64_t chunk);
 
@@ -57,7 +51,8 @@ public:
     /// image, and far apart for neighbours; light paths of the same bundle for all samples of the
     /// pixel, which are as well spread over the indices as a pixel's own.
     [[nodiscard]] Choice choose(int x, int y, std::int64_t index) const;
-    [[nodiscard]] const Moment& moment(std::int64_t bundle) const
+    /// That of its light paths, and of the camera paths that are joined to them.
+    [[nodiscard]] const SampleMoment& moment(std::int64_t bundle) const
     {
         return chunk_of(bundle).moments[place_of(bundle)];
     }
@@ -66,7 +61,7 @@ public:
 
 private:
     struct Chunk {
-        std::vector<Moment> moments;         // by bundle
+        std::vector<SampleMoment> moments;   // by bundle
         std::vector<std::size_t> path_ends;  // in `vertices`
         std::vector<PathVertex> vertices;    // of one path after another
         std::vector<Bsdf> bsdfs;             // of the vertices that can be joined, in their order

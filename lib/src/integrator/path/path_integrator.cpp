@@ -45,12 +45,12 @@ RenderStats PathIntegrator::render_tile(const Tile& tile, SampleRange samples,
             for (std::int64_t index = samples.begin; index < samples.end; ++index) {
                 SampleTimer timer(films.times, x, y, index);
                 const SampleStart start(options_, filter_, world_, camera_, x, y, index);
-                const TimedCamera camera(camera_, start.time);
+                const TimedCamera camera(camera_, start.moment.time);
                 SampleContext sample{.world = world_,
                                      .camera = camera.get(),
                                      .sampler = start.sampler,
-                                     .time = start.time,
-                                     .wavelength = start.wavelength,
+                                     .time = start.moment.time,
+                                     .wavelength = start.moment.wavelength,
                                      .rays = stats.rays,
                                      .clock = timer.clock()};
                 sink.begin_sample(x, y, index);

@@ -14,7 +14,10 @@ namespace bdpt::eval {
 
 /// A measure of how far an image x is from its reference r. Means are over pixels and channels.
 enum class Metric : std::uint8_t {
-    relmse,    ///< mean of (x - r)^2 / (r^2 + squared_epsilon)
+    relmse,  ///< mean of (x - r)^2 / (r^2 + squared_epsilon)
+    /// Mean of relmse and of those of the averages over squares of 2, 4, 8 and 16 pixels a side:
+    /// errors that neighbours share count more than those that average out.
+    relmse_scales,
     mse,       ///< mean of (x - r)^2
     rmse,      ///< root of that
     mape,      ///< mean of |x - r| / (|r| + epsilon)
@@ -25,9 +28,9 @@ enum class Metric : std::uint8_t {
 };
 
 /// In the order of the enumerators.
-inline constexpr std::array all_metrics{Metric::relmse, Metric::mse,     Metric::rmse,
-                                        Metric::mape,   Metric::smape,   Metric::psnr,
-                                        Metric::flip,   Metric::flip_ldr};
+inline constexpr std::array all_metrics{Metric::relmse, Metric::relmse_scales, Metric::mse,
+                                        Metric::rmse,   Metric::mape,          Metric::smape,
+                                        Metric::psnr,   Metric::flip,          Metric::flip_ldr};
 
 /// The enumerator's own name.
 [[nodiscard]] BDPT_EXPORT std::string_view to_string(Metric metric);

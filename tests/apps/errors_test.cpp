@@ -76,6 +76,7 @@ TEST_CASE("wrong usage gives exit code 2 and names the option")
     rejects({"--light-sampling", "bvh"}, "--light-sampling");
     rejects({"--disable", "s2"}, "--disable \"s2\"");
     rejects({"--disable", "s2t1,"}, "--disable \"s2t1,\"");
+    rejects({"--connections", "2", "--integrator", "lt"}, "--connections \"2\"");
     for (const char* integrator : {"pt", "mis", "nee"}) {
         rejects({"--disable", "s2t1", "--integrator", integrator}, "--disable \"s2t1\"");
         rejects({"--light-paths", "2", "--integrator", integrator}, "--light-paths \"2\"");

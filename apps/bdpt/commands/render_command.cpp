@@ -125,6 +125,9 @@ RenderOptions options_for(const RenderArguments& arguments, const PreparedScene&
         options.bidirectional.strategy_memory =
             std::min(options.bidirectional.strategy_memory,
                      *arguments.max_memory - reserved_bytes(arguments));
+        options.bidirectional.light_path_memory =
+            std::min(options.bidirectional.light_path_memory,
+                     *arguments.max_memory - reserved_bytes(arguments));
     }
     if (arguments.strategies) {
         const StrategyDepth depth = strategy_depth(*arguments.strategies, options, stage.camera);

@@ -105,6 +105,10 @@ void check_bidirectional(const TransportWords& words)
         reject("--connections", fmt::format("{}", *words.connections),
                "light paths to connect to, but --light-paths is 0");
     }
+    if (words.connections && words.integrator != "bdpt") {
+        reject("--connections", fmt::format("{}", *words.connections),
+               fmt::format("--integrator bdpt with it, not {}", words.integrator));
+    }
     if (words.integrator == "bdpt" || words.integrator == "lt") {
         return;
     }
@@ -120,7 +124,6 @@ void check_bidirectional(const TransportWords& words)
     check("--max-camera-depth", text(words.max_camera_depth));
     check("--max-light-depth", text(words.max_light_depth));
     check("--light-paths", text(words.light_paths));
-    check("--connections", text(words.connections));
     check("--disable", words.disabled);
 }
 

@@ -12,11 +12,11 @@ namespace bdpt {
 /// A triangle that stands still, as every ray needs it that hits it: worked out once, in one cache
 /// line.
 struct alignas(64) StillTriangle {
-    Vec3 corner{0.0f};  ///< the first, in the world
-    float error = 0.0f;  ///< as that of `BoundedPoint`, for points given by barycentrics
-    Vec3 to_b{0.0f};     ///< edges from there to the second corner
-    Vec3 to_c{0.0f};     ///< and to the third
-    Vec3 ng{0.0f};       ///< unit, on the front; zero without an area
+    Vec3 corner{0.0f};        ///< the first, in the world
+    float error = 0.0f;       ///< as that of `BoundedPoint`, for points given by barycentrics
+    Vec3 to_b{0.0f};          ///< edges from there to the second corner
+    Vec3 to_c{0.0f};          ///< and to the third
+    Vec3 ng{0.0f};            ///< unit, on the front; zero without an area
     float twice_area = 0.0f;  ///< negative where the front is where corners run clockwise
 
     /// `front_sign`: as that of `PlacedMesh`.

@@ -2,6 +2,7 @@
 
 #include "integrator/bidirectional/light_path_cache.h"
 #include "path/strategy_set.h"
+#include "render/megabytes.h"
 
 #include <bdpt/error.h>
 #include <bdpt/integrators.h>
@@ -28,12 +29,6 @@ void check_number(const char* what, double value)
         throw Error(ErrorCode::usage,
                     std::string(what) + " is " + text(value) + ", not in [0, " + text(most) + "]");
     }
-}
-
-std::string megabytes(std::uint64_t bytes)
-{
-    constexpr std::uint64_t megabyte = 1'000'000;
-    return std::to_string((bytes + megabyte - 1) / megabyte) + " MB";
 }
 
 }  // namespace
@@ -64,7 +59,8 @@ void check_light_paths(const RenderOptions& options)
                     text(light_paths) + " shared light paths for each camera path (light_paths) " +
                         "may take " + megabytes(bytes) +
                         ", more than the limit (light_path_memory) of " +
-                        megabytes(options.bidirectional.light_path_memory));
+                        megabytes(options.bidirectional.light_path_memory) +
+                        ": fewer of them, or a smaller image, take less");
     }
 }
 

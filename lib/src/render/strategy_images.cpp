@@ -2,6 +2,7 @@
 
 #include "path/strategy_set.h"
 #include "render/check_options.h"
+#include "render/megabytes.h"
 
 #include <bdpt/error.h>
 #include <bdpt/render.h>
@@ -21,12 +22,6 @@ bool camera_allows(const CameraDesc& camera, Strategy strategy)
         return perspective && camera.lens_radius > 0.0f;
     }
     return perspective || strategy != Strategy{.s = 1, .t = 1};
-}
-
-std::string megabytes(std::uint64_t bytes)
-{
-    constexpr std::uint64_t megabyte = 1'000'000;
-    return std::to_string((bytes + megabyte - 1) / megabyte) + " MB";
 }
 
 }  // namespace

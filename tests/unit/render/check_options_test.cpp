@@ -84,6 +84,13 @@ TEST_CASE("options out of range are refused by name and value", "[render]")
     CHECK(too_many.find("2.5 shared light paths for each camera path (light_paths) may take") == 0);
     CHECK(too_many.find("(light_path_memory) of 1 MB") != std::string::npos);
     CHECK(refusal([](auto& o) {
+              // So many that their bytes do not fit into 64 bits.
+              o.film.width = 65536;
+              o.film.height = 65536;
+              o.transport.max_depth = 4096;
+              o.bidirectional.light_paths = 4095.5;
+          }).find("more than the limit (light_path_memory)") != std::string::npos);
+    CHECK(refusal([](auto& o) {
               o.bidirectional.light_paths = 3.0;  // not shared
               o.bidirectional.light_path_memory = 1'000'000;
           }).empty());

@@ -5,6 +5,7 @@
 #include "math/split_mix.h"
 
 #include <cmath>
+#include <limits>
 
 namespace bdpt {
 namespace {
@@ -37,9 +38,11 @@ LightPathCache::LightPathCache(const LightPathCounts& counts, const RenderOption
 
 std::uint64_t LightPathCache::bytes(const LightPathCounts& counts, int max_vertices)
 {
-    const auto vertices = static_cast<std::uint64_t>(counts.bundles * counts.bundle) *
-                          static_cast<std::uint64_t>(max_vertices);
-    return vertices * (sizeof(PathVertex) + sizeof(Bsdf));
+    // In floating point, where the greatest numbers that options can have do not overflow.
+    const double bytes = static_cast<double>(counts.bundles) * counts.bundle * max_vertices *
+                         static_cast<double>(sizeof(PathVertex) + sizeof(Bsdf));
+    constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
+    return bytes < 0x1p63 ? static_cast<std::uint64_t>(bytes) : most;
 }
 
 Sampler LightPathCache::sampler(std::int64_t index, std::int64_t path) const

@@ -117,7 +117,7 @@ TEST_CASE("option --strategies writes layers that add up to the image, and a she
 TEST_CASE("the image is the same with and without images of strategies")
 {
     const Room room;
-    const Words words{"--max-depth", "6"};
+    const Words words{"--max-depth", "6", "--integrator", "bdpt"};
     REQUIRE(room.render(words).exit_code == 0);
     const Image without = read_exr(room.path("out.exr")).image;
     CHECK(room.folder().names() == std::set<std::string>{"out.exr", "room.bin", "room.gltf"});
@@ -217,6 +217,7 @@ namespace {
 TEST_CASE("images of strategies are made of as long paths as memory is allowed for")
 {
     RenderOptions options;
+    options.integrator = IntegratorKind::bdpt;
     options.film.width = 100;
     options.film.height = 10;
     const CameraDesc camera;

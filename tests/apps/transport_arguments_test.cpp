@@ -25,7 +25,7 @@ TEST_CASE("strategies are two numbers of vertices")
 TEST_CASE("words about transport become options")
 {
     TransportWords words;
-    CHECK(with_transport(words, {}).integrator == IntegratorKind::bdpt);
+    CHECK(with_transport(words, {}).integrator == IntegratorKind::automatic);
     words.integrator = "lt";
     words.heuristic = "cutoff";
     words.max_depth = 5;
@@ -68,24 +68,46 @@ TEST_CASE("numbers of light paths and connections need not be whole")
     CHECK(json["light_paths"].dump() == "0.0625");
     CHECK(json["connections"].dump() == "2");
     CHECK_FALSE(transport_json(with_transport({}, {})).contains("connections"));
-    words.integrator = "mis";
-    words.light_paths.reset();
-    CHECK_THROWS_AS(with_transport(words, {}), Error);
+    TransportWords path_tracing;
+    path_tracing.integrator = "mis";
+    path_tracing.connections = 2.0;
+    CHECK_THROWS_AS(with_transport(path_tracing, {}), Error);
+}
+
+TEST_CASE("what is said of subpaths is said to bdpt unless another integrator is named")
+{
+    const auto chosen = [](auto say) {
+        TransportWords words;
+        say(words);
+        return with_transport(words, {}).integrator;
+    };
+    CHECK(chosen([](TransportWords&) {}) == IntegratorKind::automatic);
+    CHECK(chosen([](TransportWords& w) { w.light_paths = 2.0; }) == IntegratorKind::bdpt);
+    CHECK(chosen([](TransportWords& w) { w.connections = 1.0; }) == IntegratorKind::bdpt);
+    CHECK(chosen([](TransportWords& w) { w.disabled = "s0t2"; }) == IntegratorKind::bdpt);
+    CHECK(chosen([](TransportWords& w) { w.max_camera_depth = 2; }) == IntegratorKind::bdpt);
+    CHECK(chosen([](TransportWords& w) { w.max_light_depth = 2; }) == IntegratorKind::bdpt);
+    CHECK(chosen([](TransportWords& w) {
+              w.integrator = "lt";
+              w.light_paths = 2.0;
+          }) == IntegratorKind::lt);
+    CHECK_THROWS_AS(chosen([](TransportWords& w) {
+                        w.integrator = "auto";
+                        w.light_paths = 2.0;
+                    }),
+                    Error);
 }
 
 TEST_CASE("direct and indirect light share the lengths of paths")
 {
-    TransportWords words;
-    words.only = "direct";
-    CHECK(with_transport(words, {}).transport.max_depth == 2);
-    CHECK(with_transport(words, {}).transport.min_depth == 1);
-    words.max_depth = 1;
-    CHECK(with_transport(words, {}).transport.max_depth == 1);
-    words.only = "indirect";
-    CHECK_THROWS_AS(with_transport(words, {}), Error);
-    words.max_depth = 3;
-    CHECK(with_transport(words, {}).transport.max_depth == 3);
-    CHECK(with_transport(words, {}).transport.min_depth == 3);
+    const TransportWords direct{.only = "direct"};
+    CHECK(with_transport(direct, {}).transport.max_depth == 2);
+    CHECK(with_transport(direct, {}).transport.min_depth == 1);
+    CHECK(with_transport({.max_depth = 1, .only = "direct"}, {}).transport.max_depth == 1);
+    CHECK_THROWS_AS(with_transport({.max_depth = 1, .only = "indirect"}, {}), Error);
+    const TransportWords indirect{.max_depth = 3, .only = "indirect"};
+    CHECK(with_transport(indirect, {}).transport.max_depth == 3);
+    CHECK(with_transport(indirect, {}).transport.min_depth == 3);
 }
 
 }  // namespace

@@ -35,6 +35,7 @@ void render_four(io::LoadedScene loaded)
     const CameraDesc camera =
         loaded.cameras.empty() ? frame_scene(scene, 1.0f).camera : loaded.cameras.front();
     RenderOptions options;
+    options.integrator = IntegratorKind::bdpt;
     options.film.width = 2;
     options.film.height = 2;
     options.sampling.samples = {0, 1};

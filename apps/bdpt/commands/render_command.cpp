@@ -109,7 +109,8 @@ void announce(Console& console, const RenderArguments& arguments, const Prepared
     console.note(fmt::format("{}: {}, {}; {}x{}, {}, camera {}", arguments.file.string(),
                              counted(counts.instanced_triangles, "triangle"),
                              counted(stage.lights, "light"), stage.size.width, stage.size.height,
-                             eval::to_string(arguments.options.integrator), stage.camera.name));
+                             integrator_text(arguments.options, settings.contains("chosen_by")),
+                             stage.camera.name));
 }
 
 RenderOptions options_for(const RenderArguments& arguments, const PreparedScene& stage,
@@ -139,11 +140,17 @@ RenderOptions options_for(const RenderArguments& arguments, const PreparedScene&
     return options;
 }
 
+/// What is left open in the options is chosen; the rest stays.
+RenderArguments with_choice(RenderArguments arguments, const PreparedScene& stage, Console& console)
+{
+    arguments.options =
+        chosen_options(stage.scene, stage.camera, options_for(arguments, stage, console));
+    return arguments;
+}
+
 RenderResult render_stage(const RenderArguments& arguments, const PreparedScene& stage,
                           Console& console, const std::stop_token& stop)
 {
-    const RenderOptions options = options_for(arguments, stage, console);
-
     RenderControl control;
     control.stop = stop;
     control.time_limit = arguments.goal.seconds;
@@ -151,7 +158,7 @@ RenderResult render_stage(const RenderArguments& arguments, const PreparedScene&
     control.on_progress = [&](const Progress& progress) {
         console.progress(progress, arguments.goal);
     };
-    RenderResult result = render(stage.scene, stage.camera, options, control);
+    RenderResult result = render(stage.scene, stage.camera, arguments.options, control);
     console.end_progress();
     return result;
 }
@@ -312,17 +319,24 @@ void report_done(Console& console, const RenderArguments& arguments, const Rende
 
 }  // namespace
 
-int run_render(const RenderArguments& arguments)
+int run_render(const RenderArguments& asked)
 {
-    const std::vector<std::filesystem::path> written = check_files(arguments);
-    Console console(arguments.format, arguments.verbosity);
+    const std::vector<std::filesystem::path> written = check_files(asked);
+    Console console(asked.format, asked.verbosity);
     Interrupt interrupt(temporary_paths(written), [&console] {
         console.note("stopping after the pass in flight; interrupt again to end at once");
     });
 
-    const PreparedScene stage = prepare_within_memory(with_progress(arguments, console));
+    const PreparedScene stage = prepare_within_memory(with_progress(asked, console));
     console.end_progress();
-    const ordered_json settings = settings_of(arguments, stage);
+    const auto choosing_start = std::chrono::steady_clock::now();
+    const RenderArguments arguments = with_choice(asked, stage, console);
+    const std::chrono::duration<double> choosing =
+        std::chrono::steady_clock::now() - choosing_start;
+    ordered_json settings = settings_of(arguments, stage);
+    if (asked.options.integrator == IntegratorKind::automatic) {
+        settings["chosen_by"] = "auto";
+    }
     interrupt.allow_stop();
     announce(console, arguments, stage, settings);
     for (const std::string& warning : stage.warnings) {
@@ -359,6 +373,7 @@ int run_render(const RenderArguments& arguments)
         ordered_json stats = head_of_stats(arguments, settings, signal);
         stats.update(stats_json(result, {.load = stage.load_seconds,
                                          .build = stage.build_seconds,
+                                         .choose = choosing.count(),
                                          .render = result.seconds,
                                          .write = writing.count()}));
         write_stats_file(*arguments.stats, stats);

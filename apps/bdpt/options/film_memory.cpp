@@ -1,6 +1,7 @@
 #include "options/film_memory.h"
 
 #include <bdpt/exact_sum.h>
+#include <bdpt/integrators.h>
 
 #include <array>
 #include <utility>
@@ -29,8 +30,7 @@ constexpr std::array<AovCost, 7> aov_costs{{{Aov::albedo, color_sum, 3},
 
 std::uint64_t film_bytes(const RenderOptions& options, const Size& size)
 {
-    const bool splats =
-        options.integrator == IntegratorKind::bdpt || options.integrator == IntegratorKind::lt;
+    const bool splats = info(options.integrator).traces_light_paths;
     constexpr std::uint64_t halves = 2;
     std::uint64_t pixel = halves * (splats ? 2 : 1) * color_sum + sizeof(Rgb);
     for (const AovCost& cost : aov_costs) {

@@ -1,6 +1,7 @@
 #include "options/strategy_arguments.h"
 
 #include <bdpt/eval/bench/option_names.h>
+#include <bdpt/integrators.h>
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
@@ -52,7 +53,7 @@ std::optional<StrategyFiles> strategy_files(const StrategyWords& words,
     if (!has_extension(file, ".exr")) {
         reject("--strategies", *words.file, "a file that is named .exr");
     }
-    if (options.integrator != IntegratorKind::bdpt && options.integrator != IntegratorKind::lt) {
+    if (!info(options.integrator).has_strategies) {
         reject("--strategies", *words.file,
                fmt::format("--integrator bdpt or lt with it, not {}",
                            eval::to_string(options.integrator)));

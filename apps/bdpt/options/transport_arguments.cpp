@@ -94,28 +94,36 @@ std::optional<Strategy> parse_strategy(std::string_view text)
     return Strategy{static_cast<int>(*s), static_cast<int>(*t)};
 }
 
+/// What is said of subpaths and strategies is said to bdpt, unless another integrator is named.
+std::string integrator_of(const TransportWords& words)
+{
+    const bool for_bdpt = words.light_paths || words.connections || words.disabled ||
+                          words.max_camera_depth || words.max_light_depth;
+    return !words.integrator.empty() ? words.integrator : for_bdpt ? "bdpt" : "auto";
+}
+
 /// Options that only subpaths from both sides can heed.
-void check_bidirectional(const TransportWords& words)
+void check_bidirectional(const TransportWords& words, const std::string& integrator)
 {
     const bool without_light_paths = words.light_paths == 0.0;
-    if (words.integrator == "lt" && without_light_paths) {
+    if (integrator == "lt" && without_light_paths) {
         reject("--light-paths", "0", "more than 0 light paths with --integrator lt");
     }
     if (without_light_paths && words.connections.value_or(0.0) > 0.0) {
         reject("--connections", fmt::format("{}", *words.connections),
                "light paths to connect to, but --light-paths is 0");
     }
-    if (words.connections && words.integrator != "bdpt") {
+    if (words.connections && integrator != "bdpt") {
         reject("--connections", fmt::format("{}", *words.connections),
-               fmt::format("--integrator bdpt with it, not {}", words.integrator));
+               fmt::format("--integrator bdpt with it, not {}", integrator));
     }
-    if (words.integrator == "bdpt" || words.integrator == "lt") {
+    if (integrator == "bdpt" || integrator == "lt") {
         return;
     }
     const auto check = [&](const char* option, const std::optional<std::string>& value) {
         if (value) {
             reject(option, *value,
-                   fmt::format("--integrator bdpt or lt with it, not {}", words.integrator));
+                   fmt::format("--integrator bdpt or lt with it, not {}", integrator));
         }
     };
     const auto text = [](const auto& value) {
@@ -232,14 +240,14 @@ void add_transport_options(CLI::App& command, TransportWords& words)
     command
         .add_option("--light-paths", words.light_paths,
                     "Light subpaths per camera subpath (bdpt, lt); a fraction, like 0.1, shares "
-                    "them among all pixels. Default: 1")
+                    "them among all pixels. Default: 1; auto chooses it")
         ->check(number(0.0, most_light_paths))
         ->type_name("N")
         ->group(group);
     command
         .add_option("--connections", words.connections,
                     "Light subpaths that each camera subpath is connected to (bdpt). Default: all "
-                    "of its own, or 1 if --light-paths is a fraction")
+                    "of its own, or 1 if --light-paths is a fraction; auto chooses it")
         ->check(number(0.0, most_light_paths))
         ->type_name("C")
         ->group(group);
@@ -253,8 +261,9 @@ void add_transport_options(CLI::App& command, TransportWords& words)
 
 RenderOptions with_transport(const TransportWords& words, RenderOptions options)
 {
-    check_bidirectional(words);
-    options.integrator = eval::parse_integrator(words.integrator).value();
+    const std::string integrator = integrator_of(words);
+    check_bidirectional(words, integrator);
+    options.integrator = eval::parse_integrator(integrator).value();
     options.transport.heuristic = eval::parse_heuristic(words.heuristic).value();
     options.sampling.environment = value_of(environment_samplings, words.environment_sampling);
     options.sampling.lights = value_of(light_samplings, words.light_sampling);
@@ -309,6 +318,20 @@ nlohmann::ordered_json transport_json(const RenderOptions& options)
         result["disabled"].push_back(fmt::format("s{}t{}", strategy.s, strategy.t));
     }
     return result;
+}
+
+std::string integrator_text(const RenderOptions& options, bool chosen)
+{
+    const std::string name(eval::to_string(options.integrator));
+    if (!chosen) {
+        return name;
+    }
+    if (!info(options.integrator).traces_light_paths) {
+        return "auto: " + name;
+    }
+    const double light_paths = options.bidirectional.light_paths;
+    return fmt::format("auto: {} --light-paths {:g} --connections {:g}", name, light_paths,
+                       options.bidirectional.connections.value_or(light_paths));
 }
 
 }  // namespace bdpt::app

@@ -16,18 +16,18 @@ namespace bdpt::app {
 
 /// What the words after `bdpt render` say about the transport of light, as they were given.
 struct TransportWords {
-    std::string integrator = "bdpt";
+    std::string integrator{};  ///< empty: not named
     std::string heuristic = "power";
     std::string environment_sampling = "compensated";
     std::string light_sampling = "auto";
     int max_depth = RenderOptions{}.transport.max_depth;
-    std::optional<std::string> only;
-    std::optional<int> max_camera_depth;
-    std::optional<int> max_light_depth;
-    std::optional<double> light_paths;
-    std::optional<double> connections;
-    std::optional<int> rr_start;
-    std::optional<std::string> disabled;
+    std::optional<std::string> only{};
+    std::optional<int> max_camera_depth{};
+    std::optional<int> max_light_depth{};
+    std::optional<double> light_paths{};
+    std::optional<double> connections{};
+    std::optional<int> rr_start{};
+    std::optional<std::string> disabled{};
 };
 
 /// "s2t1,s0t3": strategies that make a path, with at most 1001 vertices on either side.
@@ -38,7 +38,10 @@ void add_transport_options(CLI::App& command, TransportWords& words);
 /// `options` with what `words` say. Throws `Error` (usage) that names the option and the value.
 [[nodiscard]] RenderOptions with_transport(const TransportWords& words, RenderOptions options);
 
-/// The same as members of the settings that are written into images.
+/// The integrator's name; or, if it was chosen by auto, the words that choose the same by hand.
+[[nodiscard]] std::string integrator_text(const RenderOptions& options, bool chosen);
+
+/// The options as members of the settings that are written into images.
 [[nodiscard]] nlohmann::ordered_json transport_json(const RenderOptions& options);
 
 }  // namespace bdpt::app

@@ -102,6 +102,7 @@ ordered_json stats_json(const RenderResult& result, const TimeSplit& time)
                       {"seconds",
                        {{"load", time.load},
                         {"build", time.build},
+                        {"choose", time.choose},
                         {"render", time.render},
                         {"write", time.write}}},
                       {"paths", {{"camera", stats.paths.camera}, {"light", stats.paths.light}}},

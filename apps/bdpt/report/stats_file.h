@@ -11,8 +11,9 @@ namespace bdpt::app {
 
 /// Where the time of a run went [s].
 struct TimeSplit {
-    double load = 0.0;   ///< reading files
-    double build = 0.0;  ///< the scene ready for rays
+    double load = 0.0;    ///< reading files
+    double build = 0.0;   ///< the scene ready for rays
+    double choose = 0.0;  ///< the pilot of --integrator auto
     double render = 0.0;
     double write = 0.0;  ///< images
 };

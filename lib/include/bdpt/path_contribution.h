@@ -11,6 +11,7 @@ namespace bdpt {
 /// `weight * unweighted` is the pixel.
 struct PathContribution {
     Strategy strategy;
+    int light_path = 0;    ///< of the sample's light paths, which one it is about; 0 for s <= 1
     Vec2 raster{0.0f};     ///< in the pixel that it counts for [pixels, origin at the top left]
     Rgb unweighted{0.0f};  ///< if the strategy were alone, divided by its number of samples [nit]
     float weight = 1.0f;   ///< by MIS

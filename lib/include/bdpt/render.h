@@ -54,10 +54,20 @@ struct RenderResult {
     AovFilm aovs;             ///< of the same samples; empty if none were asked for
     StrategyFilm strategies;  ///< of the same samples; empty if none were asked for
     RenderStats stats;
+    /// What was rendered: those that were asked for, with what IntegratorKind::automatic chose.
+    RenderOptions options;
     SampleRange samples;  ///< those that are in `film`; fewer than asked for after a stop
     double seconds = 0.0;
     std::optional<TimeProfile> profile{};  ///< of the same samples; with Profiling::on
 };
+
+/// `options` with another integrator in the place of IntegratorKind::automatic: mis, or bdpt with
+/// `light_paths` and `connections`. It is chosen by a pilot, a short render of its own, and depends
+/// on the scene, the camera and the options, but not on seed, samples, crop or threads. bdpt with
+/// one light path if the options limit or show strategies, or ask for another heuristic than
+/// balance and power. Other integrators stay as they are. Throws `Error` as render() does.
+[[nodiscard]] BDPT_EXPORT RenderOptions chosen_options(const Scene& scene, const CameraDesc& camera,
+                                                       const RenderOptions& options);
 
 /// Blocks until all samples are done, `control.stop` is requested or the time is up; at least one
 /// pass is always done. The result depends on scene, camera and options only, to the bit: not on

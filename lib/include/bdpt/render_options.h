@@ -13,11 +13,12 @@ namespace bdpt {
 
 /// Which light transport algorithm renders.
 enum class IntegratorKind : std::uint8_t {
-    bdpt,  ///< bidirectional path tracing, all strategies weighted [Veach 1997, ch. 10]
-    pt,    ///< BSDF sampling only; delta lights, which no BSDF sample can hit, by light sampling
-    mis,   ///< light and BSDF sampling, weighted [Veach 1997, ch. 9]
-    nee,   ///< light sampling; BSDF hits count only where no light sample can reach
-    lt,    ///< light tracing: light paths seen through the lens (t <= 1)
+    automatic,  ///< mis, or bdpt with numbers of light paths and connections that suit the image
+    bdpt,       ///< bidirectional path tracing, all strategies weighted [Veach 1997, ch. 10]
+    pt,   ///< BSDF sampling only; delta lights, which no BSDF sample can hit, by light sampling
+    mis,  ///< light and BSDF sampling, weighted [Veach 1997, ch. 9]
+    nee,  ///< light sampling; BSDF hits count only where no light sample can reach
+    lt,   ///< light tracing: light paths seen through the lens (t <= 1)
 };
 
 /// How the strategies that can make the same path share it [Veach 1997, sec. 9.2].
@@ -106,9 +107,9 @@ struct TransportOptions {
     Heuristic heuristic = Heuristic::power;
 };
 
-/// What only bdpt and lt look at: their subpaths and strategies. Ranges: light_paths [0, 4096] (lt:
-/// above 0), connections [0, 4096] (0 without light paths), max_camera_depth and max_light_depth
-/// from 0, strategy_depth [0, 4096].
+/// What only bdpt and lt look at: their subpaths and strategies; `automatic` chooses light_paths
+/// and connections itself. Ranges: light_paths [0, 4096] (lt: above 0), connections [0, 4096] (0
+/// without light paths), max_camera_depth and max_light_depth from 0, strategy_depth [0, 4096].
 struct BidirectionalOptions {
     /// Light paths that are traced for each camera path; need not be whole.
     double light_paths = 1.0;
@@ -142,7 +143,7 @@ struct SystemOptions {
 
 /// What to render but for scene and camera. The groups say their ranges.
 struct RenderOptions {
-    IntegratorKind integrator = IntegratorKind::bdpt;
+    IntegratorKind integrator = IntegratorKind::automatic;
     FilmOptions film{};
     SamplingOptions sampling{};
     TransportOptions transport{};

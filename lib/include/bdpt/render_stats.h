@@ -6,10 +6,12 @@ namespace bdpt {
 
 /// Rays that were followed through the scene, by what for.
 struct RayCounts {
-    std::uint64_t camera = 0;  ///< of camera subpaths
-    std::uint64_t light = 0;   ///< of light subpaths
-    std::uint64_t shadow = 0;  ///< between two points, or to a light at infinity
-    std::uint64_t aov = 0;     ///< for AOVs
+    std::uint64_t camera = 0;           ///< of camera subpaths
+    std::uint64_t light = 0;            ///< of light subpaths
+    std::uint64_t shadow = 0;           ///< between two points, or to a light at infinity
+    std::uint64_t aov = 0;              ///< for AOVs
+    std::uint64_t shadow_to_lens = 0;   ///< of `shadow`, from light subpaths to the lens (t = 1)
+    std::uint64_t shadow_interior = 0;  ///< of `shadow`, between both subpaths (s, t >= 2)
 
     [[nodiscard]] std::uint64_t total() const { return camera + light + shadow + aov; }
     [[nodiscard]] bool operator==(const RayCounts&) const = default;
@@ -33,6 +35,8 @@ struct RenderStats {
         rays.light += other.rays.light;
         rays.shadow += other.rays.shadow;
         rays.aov += other.rays.aov;
+        rays.shadow_to_lens += other.rays.shadow_to_lens;
+        rays.shadow_interior += other.rays.shadow_interior;
         paths.camera += other.paths.camera;
         paths.light += other.paths.light;
         return *this;

@@ -27,6 +27,7 @@ void ContributionSink::begin_sample(int x, int y, std::int64_t index)
     x_ = x;
     y_ = y;
     index_ = index;
+    light_path_ = 0;
     center_ = Vec2(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
     radiance_ = Rgb(0.0f);
 }
@@ -54,7 +55,9 @@ void ContributionSink::splat(SampleContext& sample, Strategy strategy, const Spl
     }
     const Rgb unweighted = unweighted_of(sample, splat.contribution);
     const Rgb weighted = target.weight * splat.contribution.weight / count * unweighted;
-    films_.film.prefetch_splat(target.raster, index_);
+    if (films_.film != nullptr) {
+        films_.film->prefetch_splat(target.raster, index_);
+    }
     splats_.push_back({.raster = target.raster, .radiance = weighted});
     if (!films_.strategies.empty() || films_.on_path) [[unlikely]] {
         report(strategy, target.raster, weighted, target.weight / count * unweighted,
@@ -70,9 +73,10 @@ void ContributionSink::report(Strategy strategy, Vec2 raster, Rgb weighted, Rgb 
     }
     const auto x = static_cast<int>(std::floor(raster.x));
     const auto y = static_cast<int>(std::floor(raster.y));
-    if (films_.on_path && films_.film.region().contains(x, y)) {
+    if (films_.on_path && holds(x, y)) {
         films_.on_path(
             {.strategy = strategy,
+             .light_path = light_path_,
              .raster = raster,
              .unweighted = unweighted,
              .weight = weight,
@@ -82,11 +86,13 @@ void ContributionSink::report(Strategy strategy, Vec2 raster, Rgb weighted, Rgb 
 
 void ContributionSink::end_sample()
 {
-    if (holds_pixel()) {
-        films_.film.add_sample(x_, y_, index_, radiance_);
-    }
-    for (const PendingSplat& splat : splats_) {
-        films_.film.add_splat(splat.raster, index_, splat.radiance);
+    if (films_.film != nullptr) {
+        if (holds_pixel()) {
+            films_.film->add_sample(x_, y_, index_, radiance_);
+        }
+        for (const PendingSplat& splat : splats_) {
+            films_.film->add_splat(splat.raster, index_, splat.radiance);
+        }
     }
     splats_.clear();
 }

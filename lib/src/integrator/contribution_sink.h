@@ -23,8 +23,10 @@ public:
     void begin_sample(int x, int y, std::int64_t index);
     /// What comes until `end_sample` are splats of a light path that belongs to no pixel.
     void begin_light_path(std::int64_t index) { begin_sample(-1, -1, index); }
-    /// Does the film hold that pixel?
-    [[nodiscard]] bool holds_pixel() const { return films_.film.region().contains(x_, y_); }
+    /// Splats and contributions that come from here on belong to that light path of the sample.
+    void begin_joins(int light_path) { light_path_ = light_path; }
+    /// Does anyone want that pixel?
+    [[nodiscard]] bool holds_pixel() const { return holds(x_, y_); }
     /// A contribution to that pixel; the strategy takes `count` samples for each camera path.
     void add(const SampleContext& sample, Strategy strategy, const Contribution& found,
              float count);
@@ -40,6 +42,10 @@ private:
         Vec2 raster;
         Rgb radiance;
     };
+    [[nodiscard]] bool holds(int x, int y) const
+    {
+        return films_.film == nullptr || films_.film->region().contains(x, y);
+    }
     /// To images of strategies and to observers.
     void report(Strategy strategy, Vec2 raster, Rgb weighted, Rgb unweighted, float weight);
 
@@ -50,6 +56,7 @@ private:
     int x_ = 0;
     int y_ = 0;
     std::int64_t index_ = 0;
+    int light_path_ = 0;
     Vec2 center_{0.0f};  ///< of the pixel
     Rgb radiance_{0.0f};
 };

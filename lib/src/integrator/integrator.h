@@ -27,7 +27,7 @@ struct Tile {
 
 /// Where an integrator adds what it finds.
 struct Films {
-    Film& film;
+    Film* film;  ///< null: nothing is kept, and observers are told of the paths of all pixels
     StrategyFilm& strategies;  ///< empty unless images of strategies are asked for
     /// Told of each path that brings light, if there is one.
     const std::function<void(const PathContribution&)>& on_path;

@@ -26,7 +26,7 @@ struct Row {
     Factory make;
 };
 
-/// From the simplest to the one that has all strategies.
+/// From the simplest to the one that has all strategies, and the one that chooses.
 constexpr std::array table{
     Row{{.kind = IntegratorKind::pt,
          .name = "pt",
@@ -58,6 +58,13 @@ constexpr std::array table{
          .traces_light_paths = true,
          .has_strategies = true},
         &make<BidirectionalIntegrator>},
+    Row{{.kind = IntegratorKind::automatic,
+         .name = "auto",
+         .summary = "mis, or bdpt with numbers of light paths and connections that suit the image, "
+                    "by a short test render",
+         .traces_light_paths = true,
+         .has_strategies = true},
+        nullptr},  // `chosen_options` puts another in its place
 };
 
 const Row& row_of(IntegratorKind kind)

@@ -199,6 +199,7 @@ std::optional<Splat> connect_to_lens(SampleContext& sample, std::span<const Path
         return std::nullopt;
     }
     ++sample.rays.shadow;
+    ++sample.rays.shadow_to_lens;
     value *= sample.world.transmittance(y.end, to_lens->lens,
                                         sample.segment(static_cast<int>(light.size()), 1));
     if (is_black(value)) {
@@ -276,6 +277,7 @@ std::optional<Contribution> connect_interior(const SampleContext& sample,
         return std::nullopt;
     }
     ++sample.rays.shadow;
+    ++sample.rays.shadow_interior;
     value *= sample.world.transmittance(
         z.end, y.end,
         sample.segment(static_cast<int>(light.size()), static_cast<int>(camera.size())));

@@ -9,14 +9,14 @@
 #include "render/aov_pass.h"
 #include "render/check_options.h"
 #include "render/flush_denormals.h"
+#include "render/open_camera.h"
 #include "render/strategy_images.h"
+#include "render/threads.h"
 #include "scene/world.h"
 
 #include <tbb/blocked_range2d.h>
 #include <tbb/combinable.h>
-#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <chrono>
@@ -32,11 +32,6 @@ constexpr std::int64_t most_samples_in_pass = 64;
 double seconds_since(std::chrono::steady_clock::time_point start)
 {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-PixelRect whole_image(const RenderOptions& options)
-{
-    return {.x0 = 0, .y0 = 0, .x1 = options.film.width, .y1 = options.film.height};
 }
 
 /// All that works on a tile.
@@ -59,7 +54,7 @@ void render_pass(const Work& work, const RenderOptions& options, SampleRange sam
     tbb::parallel_for(std::int64_t{0}, work.integrator.begin_pass(samples), [&](std::int64_t part) {
         const FlushDenormals flush;
         stats_of_threads.local() += work.integrator.do_part(part, samples,
-                                                            {.film = result.film,
+                                                            {.film = &result.film,
                                                              .strategies = result.strategies,
                                                              .on_path = work.control.on_path});
     });
@@ -68,7 +63,7 @@ void render_pass(const Work& work, const RenderOptions& options, SampleRange sam
         [&](const tbb::blocked_range2d<int>& range) {
             const FlushDenormals flush;
             auto times = work.times != nullptr ? std::optional(work.times->sheet()) : std::nullopt;
-            const Films films{.film = result.film,
+            const Films films{.film = &result.film,
                               .strategies = result.strategies,
                               .on_path = work.control.on_path,
                               .times = times ? &*times : nullptr};
@@ -94,65 +89,16 @@ void render_pass(const Work& work, const RenderOptions& options, SampleRange sam
     result.strategies.count_samples(samples.end - samples.begin);
 }
 
-/// The threads of one render.
-class Threads {
-public:
-    /// `wanted` 0: those that the caller's thread would use for any work with oneTBB. That makes no
-    /// arena, and before version 2021.9 oneTBB frees arenas late when they come in quick
-    /// succession.
-    explicit Threads(int wanted)
-    {
-        if (wanted == 0) {
-            return;
-        }
-        // More than there are processors must be allowed. The least of all allowances counts in a
-        // process, so nobody takes one that is not needed.
-        if (wanted > allowed()) {
-            allowance_.emplace(parallelism, static_cast<std::size_t>(wanted));
-        }
-        arena_.emplace(std::min(wanted, allowed()));
-    }
-
-    /// Does `work`, and nothing else that the calling thread may have to do.
-    template <typename Work>
-    void execute(const Work& work)
-    {
-        if (arena_) {
-            arena_->execute(work);
-        } else {
-            tbb::this_task_arena::isolate(work);
-        }
-    }
-
-private:
-    static constexpr auto parallelism = tbb::global_control::max_allowed_parallelism;
-    static int allowed()
-    {
-        return static_cast<int>(tbb::global_control::active_value(parallelism));
-    }
-
-    std::optional<tbb::global_control> allowance_;
-    std::optional<tbb::task_arena> arena_;
-};
-
 }  // namespace
 
-RenderResult render(const Scene& scene, const CameraDesc& camera_desc, const RenderOptions& options,
+RenderResult render(const Scene& scene, const CameraDesc& camera_desc, const RenderOptions& asked,
                     const RenderControl& control)
 {
-    check_options(options);
-    check_camera(camera_desc);
-    check_camera_distance(camera_desc, scene.world().farthest_origin());
-    check_strategy_memory(options, camera_desc);
     const auto start = std::chrono::steady_clock::now();
+    const RenderOptions options = chosen_options(scene, camera_desc, asked);
+    check_strategy_memory(options, camera_desc);
     const PixelRect region = options.film.crop.value_or(whole_image(options));
-    // What counts for a pixel of the region can lie beside it, even beside the image.
-    const float margin = PixelFilter(options.film.filter).radius() - 0.5f;
-    const Camera opened(
-        camera_desc, options.film.width, options.film.height,
-        {.min = Vec2(region.x0, region.y0) - margin, .max = Vec2(region.x1, region.y1) + margin},
-        scene.world().medium_at(Vec3(camera_desc.world_from_camera[3])));
-    const MovingCamera camera(camera_desc, opened);
+    const MovingCamera camera = open_camera(scene.world(), camera_desc, options);
     const auto integrator = make_integrator(scene.world(), camera, options);
     const AovPass aov_pass(scene.world(), camera, options);
 
@@ -170,6 +116,7 @@ RenderResult render(const Scene& scene, const CameraDesc& camera_desc, const Ren
         .aovs = AovFilm(region, options.film.aovs),
         .strategies = StrategyFilm(region, strategies_with_images(options, camera_desc)),
         .stats = {},
+        .options = options,
         .samples = {.begin = options.sampling.samples.begin, .end = options.sampling.samples.begin},
         .seconds = 0.0};
     std::optional<TimeRecorder> times;

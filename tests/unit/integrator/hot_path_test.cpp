@@ -136,6 +136,7 @@ std::array<CameraDesc, 3> cameras()
 RenderOptions options_of(IntegratorKind integrator)
 {
     RenderOptions options;
+    options.integrator = IntegratorKind::bdpt;
     options.integrator = integrator;
     options.film.width = size;
     options.film.height = size;
@@ -177,7 +178,7 @@ void check(const World& world, const CameraDesc& desc, const RenderOptions& opti
                          .clamp = options.film.clamp});
     StrategyFilm strategies;
     const std::function<void(const PathContribution&)> nobody;
-    const Films films{.film = film, .strategies = strategies, .on_path = nobody};
+    const Films films{.film = &film, .strategies = strategies, .on_path = nobody};
     std::uint64_t rays = 0;
     check_costs_nothing_a_sample([&](std::int64_t samples) {
         rays = integrator->render_tile(whole, {.begin = 0, .end = samples}, films).rays.total();
@@ -275,7 +276,7 @@ TEST_CASE("hot path: nor does a profile", "[hot_path]")
         TimeSheet sheet{
             .pixels = pixels, .samples = ticks, .clock_ticks = 0.0, .suspicious_ticks = 0.0};
         const Films films{
-            .film = film, .strategies = strategies, .on_path = nobody, .times = &sheet};
+            .film = &film, .strategies = strategies, .on_path = nobody, .times = &sheet};
         check_costs_nothing_a_sample([&](std::int64_t samples) {
             static_cast<void>(integrator->render_tile(whole, {.begin = 0, .end = samples}, films));
         });

@@ -51,6 +51,7 @@ TEST_CASE("weights of all strategies sum to one on traced paths", "[mis]")
     const Camera camera(test::room_camera(), size, size);
     Subpath light_path(max_depth);
     RenderOptions options;
+    options.integrator = IntegratorKind::bdpt;
     options.transport.max_depth = max_depth;
     std::tie(options.bidirectional.light_paths, options.bidirectional.connections) =
         GENERATE(std::tuple(1.0, 1.0), std::tuple(0.1, 1.0), std::tuple(2.5, 0.4));
@@ -101,6 +102,7 @@ TEST_CASE("joining and hitting agree about the densities of the same path", "[mi
     constexpr int max_depth = 5;
     const Camera camera(test::room_camera(), 16, 16);
     RenderOptions options;
+    options.integrator = IntegratorKind::bdpt;
     options.transport.max_depth = max_depth;
     const StrategySet strategies(options);
     Subpath camera_path(max_depth + 1);

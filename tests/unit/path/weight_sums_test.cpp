@@ -78,6 +78,7 @@ TEST_CASE("sums over subpaths weigh joins as all densities of the path do", "[mi
     desc.lens_radius = lens_radius;
     const Camera camera(desc, size, size);
     RenderOptions options;
+    options.integrator = IntegratorKind::bdpt;
     options.transport.max_depth = max_depth;
     options.bidirectional.light_paths = light_paths;
     options.bidirectional.connections = connections;
@@ -118,6 +119,7 @@ TEST_CASE("sets of strategies with gaps are not weighed by sums", "[mis]")
         return WeightSums::applies(StrategySet(options), heuristic);
     };
     RenderOptions options;
+    options.integrator = IntegratorKind::bdpt;
     CHECK(applies(options));
     CHECK_FALSE(applies(options, Heuristic::maximum));
     CHECK_FALSE(applies(options, Heuristic::cutoff));

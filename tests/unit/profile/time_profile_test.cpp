@@ -39,6 +39,7 @@ SceneDesc closed_room()
 RenderOptions options_for(IntegratorKind kind)
 {
     RenderOptions options;
+    options.integrator = IntegratorKind::bdpt;
     options.integrator = kind;
     options.film.width = columns;
     options.film.height = rows;
@@ -79,7 +80,7 @@ int for_clocked_samples(const RenderOptions& options,
                 .pixels = pixels, .samples = ticks, .clock_ticks = 0.0, .suspicious_ticks = 1e30};
             const RenderStats stats = integrator->render_tile(
                 {x, x + 1, y, y + 1}, {.begin = 0, .end = 1},
-                {.film = film, .strategies = strategies, .on_path = nobody, .times = &sheet});
+                {.film = &film, .strategies = strategies, .on_path = nobody, .times = &sheet});
             REQUIRE(ticks.clocked.pieces + ticks.others.pieces == 1);
             if (ticks.clocked.pieces == 1) {
                 ++clocked;

@@ -26,6 +26,7 @@ std::string message_of(const std::function<void()>& action, ErrorCode expected)
 std::string refusal(const std::function<void(RenderOptions&)>& change)
 {
     RenderOptions options;
+    options.integrator = IntegratorKind::bdpt;
     change(options);
     return message_of([&] { check_options(options); }, ErrorCode::usage);
 }

@@ -21,6 +21,7 @@ using test::SceneBuilder;
 RenderOptions options(IntegratorKind integrator)
 {
     RenderOptions result;
+    result.integrator = IntegratorKind::bdpt;
     result.integrator = integrator;
     result.film.width = 37;
     result.film.height = 29;

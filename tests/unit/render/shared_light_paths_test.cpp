@@ -27,6 +27,7 @@ constexpr int height = 29;
 RenderOptions options(double light_paths, std::optional<double> connections = std::nullopt)
 {
     RenderOptions result;
+    result.integrator = IntegratorKind::bdpt;
     result.film.width = width;
     result.film.height = height;
     result.sampling.samples = {.begin = 0, .end = 6};

@@ -32,6 +32,7 @@ Rgb center_pixel(SceneDesc desc, IntegratorKind integrator)
 {
     const Scene scene(std::move(desc));
     RenderOptions options;
+    options.integrator = IntegratorKind::bdpt;
     options.film.width = 1;
     options.film.height = 1;
     options.sampling.samples = {0, 16};
@@ -76,6 +77,7 @@ TEST_CASE("a camera beyond the reach of rays is refused, where it would see noth
         camera.motion = {camera.world_from_camera};
         camera.motion[0][3].z = z;
         RenderOptions options;
+        options.integrator = IntegratorKind::bdpt;
         options.film.width = 1;
         options.film.height = 1;
         options.sampling.samples = {0, 1};

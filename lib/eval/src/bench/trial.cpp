@@ -41,6 +41,18 @@ std::optional<TimedRender> render_range(const TrialSetup& setup, SampleRange sam
         .result = std::move(result), .cpu_seconds = used, .wall_seconds = passed.count()};
 }
 
+/// What an integrator that chooses has chosen, which takes its time once.
+TrialSetup with_choice(TrialSetup setup, Checkpoint& point)
+{
+    const auto wall = std::chrono::steady_clock::now();
+    const double cpu = cpu_seconds();
+    setup.options = chosen_options(setup.scene.scene, setup.scene.camera, setup.options);
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - wall;
+    point.cpu_seconds += cpu_seconds() - cpu;
+    point.wall_seconds += passed.count();
+    return setup;
+}
+
 /// Notes the errors of `image`.
 void judge(const Image& image, const Reference& reference, const MetricScale& scale,
            Checkpoint& point)
@@ -128,11 +140,12 @@ std::optional<Trial> make_trial(const TrialSetup& setup, const BenchGoals& goals
     trial.run.integrator = setup.options.integrator;
     trial.run.seed = setup.options.sampling.seed;
     std::optional<Film> film;
-    Checkpoint point;
     reset_peak_memory();
+    Checkpoint point;
+    const TrialSetup chosen = with_choice(setup, point);
     for (const std::int64_t end : ends) {
         auto timed =
-            render_range(setup, {.begin = point.samples, .end = end}, [&](const Progress& part) {
+            render_range(chosen, {.begin = point.samples, .end = end}, [&](const Progress& part) {
                 meter.tell(static_cast<double>(point.samples + part.samples_done) / last);
             });
         if (!timed) {

@@ -122,6 +122,7 @@ void BidirectionalIntegrator::add_sample(int x, int y, std::int64_t index, Phase
         }
     }
     for (int i = 0; i < shared.count; ++i) {
+        sink.begin_joins(i);
         join_paths(sample, cache_.path(shared, i), scratch);
     }
     const int own_paths = cache_.counts().shared ? 0 : static_cast<int>(strategies_.light_paths());
@@ -129,6 +130,7 @@ void BidirectionalIntegrator::add_sample(int x, int y, std::int64_t index, Phase
         if (i > 0) {
             sample.sampler = light_sampler(options_, x, y, index, i);
         }
+        sink.begin_joins(i);
         trace_light_path(sample, scratch);
         join_paths(sample, scratch.light_path.all(), scratch);
     }
@@ -163,7 +165,9 @@ RenderStats BidirectionalIntegrator::do_part(std::int64_t chunk, SampleRange sam
             scratch.sink.begin_light_path(index);
             trace_light_path(sample, scratch);
             scratch.sink.end_sample();
-            cache_.add_path(chunk, scratch.light_path.all());
+            if (counts.kept()) {
+                cache_.add_path(chunk, scratch.light_path.all());
+            }
         }
     }
     cache_.end_chunk(chunk);

@@ -38,6 +38,9 @@ LightPathCache::LightPathCache(const LightPathCounts& counts, const RenderOption
 
 std::uint64_t LightPathCache::bytes(const LightPathCounts& counts, int max_vertices)
 {
+    if (!counts.kept()) {
+        return 0;
+    }
     // In floating point, where the greatest numbers that options can have do not overflow.
     const double bytes = static_cast<double>(counts.bundles) * counts.bundle * max_vertices *
                          static_cast<double>(sizeof(PathVertex) + sizeof(Bsdf));

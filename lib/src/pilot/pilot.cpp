@@ -1,0 +1,127 @@
+#include "pilot/pilot.h"
+
+#include "integrator/bidirectional/bidirectional_integrator.h"
+#include "path/strategy_set.h"
+#include "pilot/pilot_brightness.h"
+#include "pilot/prices.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+namespace bdpt {
+namespace {
+
+RenderOptions pilot_options(RenderOptions options)
+{
+    constexpr std::uint64_t seed = 0x70696c6f74;  // one that nobody will choose
+    options.integrator = IntegratorKind::bdpt;
+    options.film.crop.reset();
+    options.sampling.sampler = SamplerKind::independent;
+    options.sampling.seed = seed;
+    options.bidirectional = {};
+    options.bidirectional.light_paths = PathShares::pilot_light_paths;
+    options.bidirectional.connections = PathShares::pilot_light_paths;
+    return options;
+}
+
+/// Always in the same order, so that sums have the same bits.
+PerCandidate<double> errors_of(const PilotGrid& grid, std::span<const PilotRow> rows)
+{
+    const PilotBrightness brightness(grid, rows);
+    PerCandidate<double> errors{};
+    const auto cells = static_cast<double>(grid.cells());
+    std::size_t index = 0;
+    for (const PilotRow& row : rows) {
+        for (const PilotCell& cell : row.cells()) {
+            const double scale = brightness.scale(index++) / cells;
+            for (std::size_t k = 0; k < candidates.size(); ++k) {
+                errors[k] += scale * cell.variances[k];
+            }
+        }
+        for (const PilotSplat& splat : row.splats()) {
+            const double scale = brightness.scale(splat) / (cells * PilotRow::samples_of_cell);
+            for (std::size_t k = 0; k < candidates.size(); ++k) {
+                errors[k] += scale * remaining_variance(splat.shares, candidates[k]);
+            }
+        }
+    }
+    return errors;
+}
+
+/// Adds what rare paths that no pilot finds may bring to any candidate, so that a small gain does
+/// not pay for a much dearer one.
+PerCandidate<double> with_unseen(PerCandidate<double> errors)
+{
+    constexpr double share = 0.1;  // of the error of one light path of its own for each camera path
+    const auto one = std::find_if(candidates.begin(), candidates.end(), [](const Candidate& c) {
+        return c.light_paths == 1.0 && c.connections == 1.0;
+    });
+    const double unseen = share * errors[static_cast<std::size_t>(one - candidates.begin())];
+    for (double& error : errors) {
+        error += unseen;
+    }
+    return errors;
+}
+
+RenderOptions with_candidate(RenderOptions options, const Candidate& candidate)
+{
+    if (candidate.light_paths == 0.0) {
+        options.integrator = IntegratorKind::mis;
+        return options;
+    }
+    options.integrator = IntegratorKind::bdpt;
+    options.bidirectional.light_paths = candidate.light_paths;
+    options.bidirectional.connections = candidate.connections;
+    return options;
+}
+
+bool fits(const RenderOptions& options)
+{
+    return options.integrator == IntegratorKind::mis ||
+           LightPathCache::bytes(LightPathCounts(options), StrategySet(options).light_vertices()) <=
+               options.bidirectional.light_path_memory;
+}
+
+}  // namespace
+
+PilotResult run_pilot(const World& world, const MovingCamera& camera, const RenderOptions& asked)
+{
+    const RenderOptions options = pilot_options(asked);
+    const BidirectionalIntegrator integrator(world, camera, options);
+    const PilotGrid grid(options.film.width, options.film.height);
+    std::vector<PilotRow> rows(static_cast<std::size_t>(grid.rows()));
+    tbb::parallel_for(0, grid.rows(), [&](int row) {
+        rows[static_cast<std::size_t>(row)].render(integrator, grid, options.transport.heuristic,
+                                                   row);
+    });
+    PilotResult result{.errors = with_unseen(errors_of(grid, rows)), .costs = {}, .stats = {}};
+    for (const PilotRow& row : rows) {
+        result.stats += row.stats();
+    }
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        result.costs[k] = sample_cost(candidates[k], result.stats);
+    }
+    return result;
+}
+
+RenderOptions with_best(const PilotResult& pilot, const RenderOptions& asked)
+{
+    // Less is noise of the pilot, and images without any are best where they cost least.
+    constexpr double least_error = 1e-4;
+    std::optional<RenderOptions> best;
+    double least = 0.0;
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        const double product = std::max(pilot.errors[k], least_error) * pilot.costs[k];
+        RenderOptions options = with_candidate(asked, candidates[k]);
+        if ((!best || product < least) && fits(options)) {
+            best = std::move(options);
+            least = product;
+        }
+    }
+    return *best;
+}
+
+}  // namespace bdpt

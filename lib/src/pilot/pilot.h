@@ -1,0 +1,31 @@
+#pragma once
+
+#include "pilot/candidates.h"
+
+#include <bdpt/render_options.h>
+#include <bdpt/render_stats.h>
+
+namespace bdpt {
+
+class MovingCamera;
+class World;
+
+/// What a pilot predicts.
+struct PilotResult {
+    PerCandidate<double> errors{};  ///< relMSE of one sample per pixel
+    PerCandidate<double> costs{};   ///< of a sample [ns on the machine that has the prices]
+    RenderStats stats;              ///< of the pilot itself
+};
+
+/// Renders a few samples all over the whole image with light paths of their own, and predicts from
+/// them error and cost of every candidate. Its random numbers are its own. What it returns depends
+/// on scene, camera, size of the film and options of transport, but not on seed, samples, crop or
+/// threads. `camera` is that of the whole image.
+[[nodiscard]] PilotResult run_pilot(const World& world, const MovingCamera& camera,
+                                    const RenderOptions& options);
+
+/// `options` with the integrator and the numbers that have the least error at equal cost in
+/// `pilot`, of those that fit into `light_path_memory`.
+[[nodiscard]] RenderOptions with_best(const PilotResult& pilot, const RenderOptions& options);
+
+}  // namespace bdpt

@@ -1,0 +1,60 @@
+#include "pilot/pilot_brightness.h"
+
+#include <algorithm>
+
+namespace bdpt {
+namespace {
+
+constexpr int reach = 1;  // [cells] on every side
+constexpr int around = (2 * reach + 1) * (2 * reach + 1);
+
+/// Means over the cells around each; beyond the edge of the image the last row or column counts.
+std::vector<double> averaged(const PilotGrid& grid, const std::vector<double>& values)
+{
+    std::vector<double> result;
+    result.reserve(values.size());
+    for (int row = 0; row < grid.rows(); ++row) {
+        for (int column = 0; column < grid.columns(); ++column) {
+            double sum = 0.0;
+            for (int i = 0; i < around; ++i) {
+                const int x =
+                    std::clamp(column + i % (2 * reach + 1) - reach, 0, grid.columns() - 1);
+                const int y = std::clamp(row + i / (2 * reach + 1) - reach, 0, grid.rows() - 1);
+                sum += values[grid.index(x, y)];
+            }
+            result.push_back(sum / around);
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+PilotBrightness::PilotBrightness(const PilotGrid& grid, std::span<const PilotRow> rows)
+    : share_of_splat_(1.0 / (PilotRow::samples_of_cell * around))
+{
+    camera_.reserve(grid.cells());
+    std::vector<double> splats(grid.cells());
+    for (const PilotRow& row : rows) {
+        for (const PilotCell& cell : row.cells()) {
+            camera_.push_back(cell.mean);
+        }
+        for (const PilotSplat& splat : row.splats()) {
+            splats[splat.cell] += splat.shares.splat_mean() / PilotRow::samples_of_cell;
+        }
+    }
+    for (std::size_t i = 0; i < grid.cells(); ++i) {
+        average_ += (camera_[i] + splats[i]) / static_cast<double>(grid.cells());
+    }
+    splats_ = averaged(grid, splats);
+}
+
+double PilotBrightness::scale_of(std::size_t cell, double less) const
+{
+    constexpr double epsilon = 0.01;  // relative to the mean's square, as the harness has it
+    const double mean = camera_[cell] + std::max(0.0, splats_[cell] - less);
+    const double square = mean * mean + epsilon * average_ * average_;
+    return square > 0.0 ? 1.0 / square : 0.0;
+}
+
+}  // namespace bdpt

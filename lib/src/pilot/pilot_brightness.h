@@ -1,0 +1,33 @@
+#pragma once
+
+#include "pilot/pilot_row.h"
+
+#include <span>
+#include <vector>
+
+namespace bdpt {
+
+/// How bright the image is in each cell, by what a pilot found: errors are relative to it.
+class PilotBrightness {
+public:
+    PilotBrightness(const PilotGrid& grid, std::span<const PilotRow> rows);
+
+    /// What relMSE multiplies a square of an error by [1/nit^2]; 0 in black images.
+    [[nodiscard]] double scale(std::size_t cell) const { return scale_of(cell, 0.0); }
+    /// The same for an error that comes from that splat. What it brings itself does not count:
+    /// rare splats would hide their own error.
+    [[nodiscard]] double scale(const PilotSplat& splat) const
+    {
+        return scale_of(splat.cell, splat.shares.splat_mean() * share_of_splat_);
+    }
+
+private:
+    [[nodiscard]] double scale_of(std::size_t cell, double less) const;
+
+    std::vector<double> camera_;  ///< by camera paths, of the pixel of the cell [nit]
+    std::vector<double> splats_;  ///< by splats, of the cell and those around it [nit]
+    double share_of_splat_;       ///< of one splat in these
+    double average_ = 0.0;        ///< of the image [nit]
+};
+
+}  // namespace bdpt

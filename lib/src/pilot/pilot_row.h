@@ -1,0 +1,49 @@
+#pragma once
+
+#include "integrator/integrator.h"
+#include "pilot/path_shares.h"
+#include "pilot/pilot_grid.h"
+
+#include <vector>
+
+namespace bdpt {
+
+/// What a pilot found in the pixel of a cell.
+struct PilotCell {
+    double mean = 0.0;  ///< of what camera paths find well [nit]
+    /// Of what a sample's camera path brings, and of the splats that could have been there instead
+    /// [nit^2].
+    PerCandidate<double> variances{};
+};
+
+/// A path that a splat found, for any pixel.
+struct PilotSplat {
+    std::size_t cell;
+    PathShares shares;
+};
+
+/// The cells of one row of a pilot's grid.
+class PilotRow {
+public:
+    static constexpr int samples_of_cell = 4;
+
+    /// `integrator` has `PathShares::pilot_light_paths` of its own for each camera path.
+    void render(const Integrator& integrator, const PilotGrid& grid, Heuristic heuristic, int row);
+
+    [[nodiscard]] const std::vector<PilotCell>& cells() const { return cells_; }
+    [[nodiscard]] const std::vector<PilotSplat>& splats() const { return splats_; }
+    [[nodiscard]] const RenderStats& stats() const { return stats_; }
+
+private:
+    [[nodiscard]] PilotCell render_cell(const Integrator& integrator, const PilotGrid& grid,
+                                        Heuristic heuristic, const Tile& pixel);
+
+    std::vector<PilotCell> cells_;
+    std::vector<PilotSplat> splats_;
+    RenderStats stats_;
+};
+
+/// What a path adds to the variance that is left when random numbers are well spread.
+[[nodiscard]] double remaining_variance(const PathShares& shares, const Candidate& candidate);
+
+}  // namespace bdpt

@@ -1,0 +1,46 @@
+#include "pilot/sample_moments.h"
+
+#include "math/rgb.h"
+
+#include <algorithm>
+
+namespace bdpt {
+
+void SampleMoments::add(const PathContribution& path, const PathShares& shares)
+{
+    constexpr int light_paths = PathShares::pilot_light_paths;
+    const auto unweighted = static_cast<double>(luminance(path.unweighted));
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        const double weighted = shares.weight(candidates[k]) * unweighted;
+        if (path.strategy.s <= 1) {
+            own_[k].add(weighted);
+        } else {
+            connected_[static_cast<std::size_t>(path.light_path)][k].add(weighted * light_paths);
+        }
+    }
+}
+
+double SampleMoments::value(std::size_t k) const
+{
+    const bool connects = candidates[k].connections > 0.0;
+    const double both = connected_[0][k].total + connected_[1][k].total;
+    return own_[k].total + (connects ? 0.5 * both : 0.0);
+}
+
+double SampleMoments::cross_terms(std::size_t k) const
+{
+    // E[(A + (B_1 + ... + B_c) / c)^2] without squares of single paths. Below one connection, all
+    // but the part c of the camera paths have none.
+    const double c = candidates[k].connections;
+    const Sum& own = own_[k];
+    if (c == 0.0) {
+        return own.products();
+    }
+    const Sum& first = connected_[0][k];
+    const Sum& second = connected_[1][k];
+    return own.products() + own.total * (first.total + second.total) +
+           0.5 * (first.products() + second.products()) / c +
+           std::max(0.0, 1.0 - 1.0 / c) * first.total * second.total;
+}
+
+}  // namespace bdpt

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "pilot/path_shares.h"
+
+#include <array>
+#include <cstddef>
+
+namespace bdpt {
+
+/// What one camera path of a pilot brings to its own pixel, for all candidates at once.
+class SampleMoments {
+public:
+    /// `path` was found by a strategy with t >= 2; `shares` are its shares.
+    void add(const PathContribution& path, const PathShares& shares);
+
+    /// What the candidate's sample brings.
+    [[nodiscard]] double value(std::size_t candidate) const;
+    /// The second moment of that, without the squares of single paths.
+    [[nodiscard]] double cross_terms(std::size_t candidate) const;
+
+private:
+    struct Sum {
+        double total = 0.0;
+        double squares = 0.0;
+        void add(double value)
+        {
+            total += value;
+            squares += value * value;
+        }
+        /// Sum of all products of two different values.
+        [[nodiscard]] double products() const { return total * total - squares; }
+    };
+
+    PerCandidate<Sum> own_{};  ///< of the camera path alone (s <= 1)
+    /// Of the connections to each light path, as if it were the only one.
+    std::array<PerCandidate<Sum>, PathShares::pilot_light_paths> connected_{};
+};
+
+}  // namespace bdpt

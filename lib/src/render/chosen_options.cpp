@@ -1,0 +1,52 @@
+#include <bdpt/render.h>
+
+#include "pilot/pilot.h"
+#include "render/check_options.h"
+#include "render/open_camera.h"
+#include "render/threads.h"
+
+#include <limits>
+
+namespace bdpt {
+namespace {
+
+/// Only bdpt itself knows what to do with strategies that are left out or looked at, and pilots
+/// predict the balance and the power heuristic alone.
+bool asks_for_bdpt(const RenderOptions& options)
+{
+    constexpr int unlimited = std::numeric_limits<int>::max();
+    const BidirectionalOptions& asked = options.bidirectional;
+    const Heuristic heuristic = options.transport.heuristic;
+    return !asked.disabled.empty() || asked.strategy_depth > 0 ||
+           asked.max_camera_depth != unlimited || asked.max_light_depth != unlimited ||
+           (heuristic != Heuristic::balance && heuristic != Heuristic::power);
+}
+
+}  // namespace
+
+RenderOptions chosen_options(const Scene& scene, const CameraDesc& camera,
+                             const RenderOptions& asked)
+{
+    check_options(asked);
+    check_camera(camera);
+    check_camera_distance(camera, scene.world().farthest_origin());
+    if (asked.integrator != IntegratorKind::automatic) {
+        return asked;
+    }
+    RenderOptions options = asked;
+    options.integrator = IntegratorKind::bdpt;
+    options.bidirectional.light_paths = 1.0;
+    options.bidirectional.connections.reset();
+    if (asks_for_bdpt(options)) {
+        return options;
+    }
+    RenderOptions whole = options;
+    whole.film.crop.reset();
+    const MovingCamera opened = open_camera(scene.world(), camera, whole);
+    Threads threads(options.system.threads);
+    threads.execute(
+        [&] { options = with_best(run_pilot(scene.world(), opened, options), options); });
+    return options;
+}
+
+}  // namespace bdpt

@@ -1,0 +1,152 @@
+#include "pilot/path_shares.h"
+
+#include "catch.hpp"
+#include "pilot/sample_moments.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace bdpt::test {
+namespace {
+
+/// Of a path of four vertices, by the number of those from the light. Those with s <= 1 have one
+/// sample, the others two.
+constexpr std::array shares{0.1f, 0.2f, 0.3f, 0.25f, 0.15f};
+constexpr int vertices = 4;
+
+PathContribution path_of(int s)
+{
+    return {.strategy = {.s = s, .t = vertices - s},
+            .light_path = 0,
+            .raster = Vec2(0.5f),
+            .unweighted = Rgb(3.0f),
+            .weight = 1.0f,
+            .shares = shares};
+}
+
+/// How many times as many samples as a pilot the candidate takes of strategy s.
+double ratio(const Candidate& candidate, int s)
+{
+    return s <= 1              ? 1.0
+           : vertices - s <= 1 ? candidate.light_paths / 2.0
+                               : candidate.connections / 2.0;
+}
+
+double power(double share, Heuristic heuristic)
+{
+    return heuristic == Heuristic::power ? share * share : share;
+}
+
+double weight_of(const Candidate& candidate, int s, Heuristic heuristic)
+{
+    double sum = 0.0;
+    for (int i = 0; i <= vertices; ++i) {
+        sum += power(ratio(candidate, i) * shares[static_cast<std::size_t>(i)], heuristic);
+    }
+    return power(ratio(candidate, s) * shares[static_cast<std::size_t>(s)], heuristic) / sum;
+}
+
+}  // namespace
+
+TEST_CASE("a path that a pilot found has the weights of every candidate", "[pilot]")
+{
+    for (const Heuristic heuristic : {Heuristic::balance, Heuristic::power}) {
+        for (const Candidate& candidate : candidates) {
+            double sum = 0.0;
+            for (int s = 0; s <= vertices; ++s) {
+                CAPTURE(candidate.light_paths, candidate.connections, s);
+                const double weight = PathShares(path_of(s), heuristic).weight(candidate);
+                CHECK(weight == Approx(weight_of(candidate, s, heuristic)).epsilon(1e-5));
+                sum += weight;
+            }
+            CHECK(sum == Approx(1.0).epsilon(1e-5));
+        }
+    }
+}
+
+TEST_CASE("second moments of a path are those of all strategies, whichever found it", "[pilot]")
+{
+    for (const Heuristic heuristic : {Heuristic::balance, Heuristic::power}) {
+        for (const Candidate& candidate : candidates) {
+            for (int found = 0; found <= vertices; ++found) {
+                CAPTURE(candidate.light_paths, candidate.connections, found);
+                // f over the density of all strategies of the pilot together.
+                const double mean =
+                    3.0 * static_cast<double>(shares[static_cast<std::size_t>(found)]);
+                double camera = 0.0;
+                double splats = 0.0;
+                for (int s = 0; s <= vertices; ++s) {
+                    const double taken = ratio(candidate, s) *
+                                         static_cast<double>(shares[static_cast<std::size_t>(s)]);
+                    if (taken == 0.0) {
+                        continue;
+                    }
+                    const double weight = weight_of(candidate, s, heuristic);
+                    (vertices - s <= 1 ? splats : camera) += mean * mean * weight * weight / taken;
+                }
+                const auto moments =
+                    PathShares(path_of(found), heuristic).second_moments(candidate);
+                CHECK(moments.camera == Approx(camera).epsilon(1e-5));
+                CHECK(moments.splats == Approx(splats).epsilon(1e-5));
+            }
+        }
+    }
+}
+
+TEST_CASE("a path that only light paths make counts against having none", "[pilot]")
+{
+    constexpr std::array only_splats{0.0f, 0.0f, 0.0f, 1.0f};
+    const PathContribution path{.strategy = {.s = 3, .t = 0},
+                                .light_path = 0,
+                                .raster = Vec2(0.5f),
+                                .unweighted = Rgb(1.0f),
+                                .weight = 1.0f,
+                                .shares = only_splats};
+    const PathShares found(path, Heuristic::power);
+    CHECK(std::isinf(found.second_moments({.light_paths = 0.0, .connections = 0.0}).camera));
+    const auto few = found.second_moments({.light_paths = 0.5, .connections = 0.25});
+    CHECK(few.camera == 0.0);
+    // A quarter of the pilot's light paths: four times the second moment.
+    CHECK(few.splats == Approx(4.0));
+    CHECK(found.camera_mean() == 0.0);
+    CHECK(found.splat_mean() == Approx(1.0));
+}
+
+TEST_CASE("cross terms of a sample are those of its definition", "[pilot]")
+{
+    SampleMoments sample;
+    const auto add = [&](int s, int light_path, float value) {
+        PathContribution path = path_of(s);
+        path.light_path = light_path;
+        path.unweighted = Rgb(value);
+        sample.add(path, PathShares(path, Heuristic::power));
+    };
+    add(0, 0, 2.0f);
+    add(1, 0, 3.0f);
+    add(2, 0, 5.0f);
+    add(2, 0, 7.0f);
+    add(2, 1, 11.0f);
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        const double c = candidates[k].connections;
+        CAPTURE(candidates[k].light_paths, c);
+        const auto weight = [&](int s) { return weight_of(candidates[k], s, Heuristic::power); };
+        // Unweighted contributions are divided by the pilot's two light paths.
+        const double a0 = 2.0 * weight(0);
+        const double a1 = 3.0 * weight(1);
+        const double b0 = 10.0 * weight(2);
+        const double b1 = 14.0 * weight(2);
+        const double d = 22.0 * weight(2);
+        double cross = 2.0 * a0 * a1;
+        double value = a0 + a1;
+        if (c > 0.0) {
+            cross += 2.0 * (a0 + a1) * (b0 + b1 + d) / 2.0 + (2.0 * b0 * b1 + 0.0) / 2.0 / c +
+                     (c > 1.0 ? (1.0 - 1.0 / c) * (b0 + b1) * d : 0.0);
+            value += (b0 + b1 + d) / 2.0;
+        }
+        CHECK(sample.cross_terms(k) == Approx(cross).epsilon(1e-4));
+        CHECK(sample.value(k) == Approx(value).epsilon(1e-5));
+    }
+}
+
+}  // namespace bdpt::test

@@ -1,0 +1,179 @@
+// What a pilot predicts, against renders.
+
+#include "pilot/pilot.h"
+
+#include "catch.hpp"
+#include "pilot/prices.h"
+#include "render/open_camera.h"
+#include "scene/world.h"
+#include "scene_builder.h"
+
+#include <bdpt/render.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace bdpt::test {
+namespace {
+
+constexpr int side = 24;
+
+/// A room that is lit by a lamp which shines at its ceiling, seen by diffuse walls.
+Scene indirect_room()
+{
+    SceneBuilder builder;
+    builder.walls(lambertian(Rgb(0.6f)), lambertian(Rgb(0.6f)));
+    builder.ceiling(lambertian(Rgb(0.8f)));
+    builder.front(lambertian(Rgb(0.6f)));
+    constexpr float h = 0.3f;
+    constexpr float y = 0.4f;
+    builder.quad({-h, y, h}, {h, y, h}, {h, y, -h}, {-h, y, -h}, emitter(Rgb(8.0f)));
+    return Scene(std::move(builder.desc));
+}
+
+CameraDesc inside()
+{
+    return camera_at({0.0f, -0.2f, 0.9f}, {0.0f, -0.2f, -1.0f}, 1.2f);
+}
+
+RenderOptions small()
+{
+    RenderOptions options;
+    options.film.width = side;
+    options.film.height = side;
+    options.transport.max_depth = 6;
+    return options;
+}
+
+PilotResult pilot_of(const Scene& scene, const CameraDesc& camera, const RenderOptions& options)
+{
+    return run_pilot(scene.world(), open_camera(scene.world(), camera, options), options);
+}
+
+std::size_t index_of(double light_paths, double connections)
+{
+    const auto found = std::find_if(candidates.begin(), candidates.end(), [&](const Candidate& c) {
+        return c.light_paths == light_paths && c.connections == connections;
+    });
+    REQUIRE(found != candidates.end());
+    return static_cast<std::size_t>(found - candidates.begin());
+}
+
+/// Mean over the pixels of variance over squared mean, times the number of samples.
+double measured_error(const Scene& scene, const Candidate& candidate)
+{
+    constexpr int renders = 12;
+    constexpr int samples = 16;
+    RenderOptions options = small();
+    options.integrator = candidate.light_paths > 0.0 ? IntegratorKind::bdpt : IntegratorKind::mis;
+    options.bidirectional.light_paths = candidate.light_paths;
+    options.bidirectional.connections = candidate.connections;
+    options.sampling.samples = {.begin = 0, .end = samples};
+    std::vector<double> sums(side * side);
+    std::vector<double> squares(side * side);
+    for (int i = 0; i < renders; ++i) {
+        options.sampling.seed = static_cast<std::uint64_t>(i) + 1;
+        const Image image = render(scene, inside(), options).film.develop();
+        for (std::size_t p = 0; p < sums.size(); ++p) {
+            const auto value = static_cast<double>(image.pixels[p].g);
+            sums[p] += value;
+            squares[p] += value * value;
+        }
+    }
+    double error = 0.0;
+    for (std::size_t p = 0; p < sums.size(); ++p) {
+        const double mean = sums[p] / renders;
+        error += (squares[p] / renders - mean * mean) * renders / (renders - 1) / (mean * mean);
+    }
+    return error / (side * side) * samples;
+}
+
+}  // namespace
+
+TEST_CASE("a pilot predicts errors of renders with other numbers of light paths", "[pilot]")
+{
+    const Scene scene = indirect_room();
+    const PilotResult pilot = pilot_of(scene, inside(), small());
+    const std::size_t one = index_of(1.0, 1.0);
+    const double measured_one = measured_error(scene, candidates[one]);
+    // Noise of the pilot, and what Sobol points leave is not the same in every scene.
+    constexpr double tolerance = 1.5;
+    for (const std::size_t k :
+         {index_of(0.0625, 1.0), index_of(0.0625, 3.0), index_of(0.25, 0.25), index_of(4.0, 1.0)}) {
+        CAPTURE(candidates[k].light_paths, candidates[k].connections);
+        const double predicted = pilot.errors[k] / pilot.errors[one];
+        const double measured = measured_error(scene, candidates[k]) / measured_one;
+        CAPTURE(predicted, measured);
+        CHECK(predicted < tolerance * measured);
+        CHECK(predicted > measured / tolerance);
+    }
+    // Rare hits of the lamp make that uncertain.
+    CHECK(pilot.errors[index_of(0.0, 0.0)] > 5.0 * pilot.errors[one]);
+    CHECK(measured_error(scene, candidates[index_of(0.0, 0.0)]) > 5.0 * measured_one);
+}
+
+TEST_CASE("a pilot depends on the scene, not on which samples are wanted", "[pilot]")
+{
+    const Scene scene = indirect_room();
+    const PilotResult pilot = pilot_of(scene, inside(), small());
+    RenderOptions other = small();
+    other.sampling.seed = 77;
+    other.sampling.samples = {.begin = 5, .end = 9};
+    other.sampling.sampler = SamplerKind::independent;
+    other.bidirectional.light_paths = 3.0;
+    const PilotResult again = pilot_of(scene, inside(), other);
+    CHECK(again.errors == pilot.errors);
+    CHECK(again.costs == pilot.costs);
+    CHECK(again.stats == pilot.stats);
+    other.transport.max_depth = 2;
+    CHECK_FALSE(pilot_of(scene, inside(), other).errors == pilot.errors);
+}
+
+TEST_CASE("what costs more rays has a higher price", "[pilot]")
+{
+    RenderStats stats;
+    stats.paths = {.camera = 10, .light = 20};
+    stats.rays = {.camera = 30,
+                  .light = 60,
+                  .shadow = 100,
+                  .aov = 0,
+                  .shadow_to_lens = 20,
+                  .shadow_interior = 60};
+    const auto cost = [&](double n, double c) {
+        return sample_cost({.light_paths = n, .connections = c}, stats);
+    };
+    CHECK(cost(0.0, 0.0) < cost(0.0625, 0.25));
+    CHECK(cost(0.0625, 0.25) < cost(0.0625, 1.0));
+    CHECK(cost(0.0625, 1.0) < cost(0.25, 1.0));
+    CHECK(cost(0.25, 1.0) < cost(1.0, 1.0));
+    // Light paths of one's own need not be kept.
+    CHECK(cost(1.0, 1.0) - cost(1.0, 0.25) < cost(0.5, 1.0) - cost(0.5, 0.25));
+    CHECK(sample_cost({.light_paths = 0.0, .connections = 0.0}, RenderStats{}) > 0.0);
+}
+
+TEST_CASE("of the best at equal cost, the one that fits into memory is taken", "[pilot]")
+{
+    PilotResult pilot;
+    pilot.errors.fill(1.0);
+    pilot.costs.fill(10.0);
+    const std::size_t few = index_of(0.0625, 1.0);
+    const std::size_t own = index_of(1.0, 1.0);
+    pilot.errors[few] = 0.1;
+    pilot.errors[own] = 0.5;
+    RenderOptions options = small();
+    const RenderOptions best = with_best(pilot, options);
+    CHECK(best.integrator == IntegratorKind::bdpt);
+    CHECK(best.bidirectional.light_paths == 0.0625);
+    CHECK(best.bidirectional.connections == 1.0);
+    options.bidirectional.light_path_memory = 1;
+    const RenderOptions fitting = with_best(pilot, options);
+    CHECK(fitting.bidirectional.light_paths == 1.0);
+    CHECK(fitting.bidirectional.connections == 1.0);
+    pilot.costs[0] = 0.5;
+    CHECK(with_best(pilot, options).integrator == IntegratorKind::mis);
+}
+
+}  // namespace bdpt::test

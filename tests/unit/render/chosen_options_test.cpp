@@ -1,0 +1,151 @@
+// The integrator that chooses.
+
+#include "catch.hpp"
+#include "room.h"
+#include "scene_builder.h"
+
+#include <bdpt/render.h>
+
+#include <utility>
+
+namespace bdpt::test {
+namespace {
+
+RenderOptions small()
+{
+    RenderOptions options;
+    options.film.width = 31;
+    options.film.height = 23;
+    options.sampling.samples = {.begin = 0, .end = 3};
+    options.transport.max_depth = 5;
+    return options;
+}
+
+bool same_choice(const RenderOptions& a, const RenderOptions& b)
+{
+    return a.integrator == b.integrator &&
+           a.bidirectional.light_paths == b.bidirectional.light_paths &&
+           a.bidirectional.connections == b.bidirectional.connections;
+}
+
+RenderOptions choice(const Scene& scene, const RenderOptions& options)
+{
+    return chosen_options(scene, room_camera(), options);
+}
+
+/// Diffuse walls, and a lamp that shines at the ceiling.
+Scene hidden_lamp()
+{
+    SceneBuilder builder;
+    builder.walls(lambertian(Rgb(0.6f)), lambertian(Rgb(0.6f)));
+    builder.ceiling(lambertian(Rgb(0.8f)));
+    builder.quad({-0.3f, 0.4f, 0.3f}, {0.3f, 0.4f, 0.3f}, {0.3f, 0.4f, -0.3f}, {-0.3f, 0.4f, -0.3f},
+                 emitter(Rgb(8.0f)));
+    return Scene(std::move(builder.desc));
+}
+
+}  // namespace
+
+TEST_CASE("auto is the default and gives the bits of what it chose", "[auto]")
+{
+    const Scene scene = room();
+    REQUIRE(small().integrator == IntegratorKind::automatic);
+    const RenderResult result = render(scene, room_camera(), small());
+    const RenderOptions chosen = choice(scene, small());
+    CHECK((chosen.integrator == IntegratorKind::mis || chosen.integrator == IntegratorKind::bdpt));
+    CHECK(same_choice(result.options, chosen));
+    RenderOptions by_hand = small();
+    by_hand.integrator = chosen.integrator;
+    by_hand.bidirectional.light_paths = chosen.bidirectional.light_paths;
+    by_hand.bidirectional.connections = chosen.bidirectional.connections;
+    const RenderResult same = render(scene, room_camera(), by_hand);
+    CHECK(same.film == result.film);
+    CHECK(same.stats == result.stats);
+}
+
+TEST_CASE("auto chooses the same for every part of an image", "[auto]")
+{
+    const Scene scene = hidden_lamp();
+    const RenderOptions whole = choice(scene, small());
+    RenderOptions part = small();
+    part.film.crop = PixelRect{.x0 = 3, .y0 = 4, .x1 = 9, .y1 = 8};
+    part.sampling.samples = {.begin = 100, .end = 164};
+    part.sampling.seed = 9;
+    part.system.threads = 3;
+    part.system.tile_size = 5;
+    part.bidirectional.light_paths = 3.0;
+    part.film.aovs = AovSet{Aov::depth};
+    CHECK(same_choice(choice(scene, part), whole));
+    CHECK(choice(scene, part).film.crop == part.film.crop);
+    CHECK(choice(scene, part).sampling.seed == 9);
+}
+
+TEST_CASE("auto traces light paths where they pay", "[auto]")
+{
+    const RenderOptions hidden = choice(hidden_lamp(), small());
+    CHECK(hidden.integrator == IntegratorKind::bdpt);
+    CHECK(hidden.bidirectional.connections.value_or(0.0) >= 1.0);
+
+    SceneBuilder open;
+    open.quad({-9, -1, 9}, {9, -1, 9}, {9, -1, -9}, {-9, -1, -9}, lambertian(Rgb(0.5f)));
+    open.light(DirectionalLightDesc{.direction = {0.3f, -1.0f, 0.2f}, .illuminance = Rgb(3.0f)});
+    CHECK(choice(Scene(std::move(open.desc)), small()).integrator == IntegratorKind::mis);
+}
+
+TEST_CASE("auto renders scenes without light or surfaces by path tracing", "[auto]")
+{
+    CHECK(choice(Scene(SceneDesc{}), small()).integrator == IntegratorKind::mis);
+    SceneBuilder dark;
+    dark.walls(lambertian(Rgb(0.5f)), lambertian(Rgb(0.5f)));
+    CHECK(choice(Scene(std::move(dark.desc)), small()).integrator == IntegratorKind::mis);
+    SceneBuilder black;
+    black.walls(lambertian(Rgb(0.0f)), lambertian(Rgb(0.0f)));
+    black.lamp(0.9f, 0.3f, Rgb(1.0f));
+    CHECK(choice(Scene(std::move(black.desc)), small()).integrator == IntegratorKind::mis);
+}
+
+TEST_CASE("what only bdpt knows is rendered by bdpt", "[auto]")
+{
+    const Scene scene = room();
+    const auto is_bdpt = [&](auto change) {
+        RenderOptions options = small();
+        change(options);
+        const RenderOptions chosen = choice(scene, options);
+        return chosen.integrator == IntegratorKind::bdpt &&
+               chosen.bidirectional.light_paths == 1.0 &&
+               !chosen.bidirectional.connections.has_value();
+    };
+    CHECK(is_bdpt([](RenderOptions& o) { o.bidirectional.disabled = {{.s = 0, .t = 3}}; }));
+    CHECK(is_bdpt([](RenderOptions& o) { o.bidirectional.strategy_depth = 3; }));
+    CHECK(is_bdpt([](RenderOptions& o) { o.bidirectional.max_camera_depth = 2; }));
+    CHECK(is_bdpt([](RenderOptions& o) { o.bidirectional.max_light_depth = 2; }));
+    CHECK(is_bdpt([](RenderOptions& o) { o.transport.heuristic = Heuristic::cutoff; }));
+}
+
+TEST_CASE("an integrator that is named stays", "[auto]")
+{
+    const Scene scene = room();
+    for (const IntegratorKind kind : {IntegratorKind::pt, IntegratorKind::nee, IntegratorKind::mis,
+                                      IntegratorKind::lt, IntegratorKind::bdpt}) {
+        RenderOptions options = small();
+        options.integrator = kind;
+        options.bidirectional.light_paths = 2.0;
+        CHECK(same_choice(choice(scene, options), options));
+    }
+}
+
+TEST_CASE("light paths that nobody connects to are not kept in memory", "[light-paths]")
+{
+    const Scene scene = room();
+    RenderOptions options = small();
+    options.integrator = IntegratorKind::bdpt;
+    options.bidirectional.light_paths = 2.0;
+    options.bidirectional.connections = 0.0;
+    options.bidirectional.light_path_memory = 0;
+    const RenderResult result = render(scene, room_camera(), options);
+    CHECK(result.stats.paths.light == 2 * result.stats.paths.camera);
+    CHECK(result.stats.rays.shadow_interior == 0);
+    CHECK(result.stats.rays.shadow_to_lens > 0);
+}
+
+}  // namespace bdpt::test

@@ -82,7 +82,7 @@ def main():
         for others in (("mis", "lt", "bdpt"), ("bdpt",)):
             row += [products["auto"][i] / min(products[name][i] for name in others) for i in range(len(METRICS))]
         ratios.append(row)
-        times = told["times"]
+        times = told["seconds"]
         share = times["choose"] / (times["choose"] + times["render"])
         print(f"{scene.stem:26} {words(told['settings']):14} {100 * share:5.1f}% {row[0]:17.2f} {row[1]:7.2f} {row[2]:10.2f} "
               f"{row[3]:7.2f}", flush=True)

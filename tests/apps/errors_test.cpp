@@ -82,6 +82,17 @@ TEST_CASE("wrong usage gives exit code 2 and names the option")
         rejects({"--light-paths", "2", "--integrator", integrator}, "--light-paths \"2\"");
         rejects({"--connections", "0.5", "--integrator", integrator}, "--connections \"0.5\"");
     }
+    for (const char* integrator : {"pt", "lt", "bdpt"}) {
+        rejects({"--merge-radius", "0.01", "--integrator", integrator}, "--merge-radius \"0.01\"");
+        rejects({"--merge-alpha", "0.5", "--integrator", integrator}, "--merge-alpha \"0.5\"");
+    }
+    rejects({"--integrator", "vcm", "--merge-radius", "-0.1"}, "--merge-radius");
+    rejects({"--integrator", "vcm", "--merge-radius", "nan"}, "--merge-radius");
+    rejects({"--integrator", "vcm", "--merge-alpha", "0"}, "--merge-alpha \"0\"");
+    rejects({"--integrator", "vcm", "--merge-alpha", "1.5"}, "--merge-alpha");
+    rejects({"--integrator", "vcm", "--light-paths", "0"}, "--light-paths \"0\"");
+    rejects({"--integrator", "vcm", "--heuristic", "maximum"}, "--heuristic \"maximum\"");
+    rejects({"--integrator", "vcm", "--strategies", "s.exr"}, "--strategies \"s.exr\"");
     rejects({"--lens-radius", "-1"}, "--lens-radius \"-1\"");
     rejects({"--lens-radius", "inf"}, "--lens-radius");
     rejects({"--f-stop", "0"}, "--f-stop \"0\"");

@@ -98,6 +98,27 @@ TEST_CASE("what is said of subpaths is said to bdpt unless another integrator is
                     Error);
 }
 
+TEST_CASE("how vcm merges is kept with the image")
+{
+    TransportWords words;
+    CHECK_FALSE(transport_json(with_transport(words, {})).contains("merge_radius"));
+    words.integrator = "vcm";
+    CHECK(transport_json(with_transport(words, {}))["merge_radius"] == 0.003);
+    words.merge_radius = 0.01;
+    words.merge_alpha = 0.5;
+    words.connections = 2.0;
+    const RenderOptions options = with_transport(words, {});
+    CHECK(options.bidirectional.merge_radius == 0.01);
+    CHECK(options.bidirectional.merge_alpha == 0.5);
+    CHECK(options.bidirectional.connections == 2.0);
+    const auto json = transport_json(options);
+    CHECK(json["integrator"] == "vcm");
+    CHECK(json["merge_radius"] == 0.01);
+    CHECK(json["merge_alpha"] == 0.5);
+    words.integrator = "bdpt";
+    CHECK_THROWS_AS(with_transport(words, {}), Error);
+}
+
 TEST_CASE("direct and indirect light share the lengths of paths")
 {
     const TransportWords direct{.only = "direct"};

@@ -64,7 +64,8 @@ std::vector<IntegratorKind> to_integrators(const std::string& words)
         const auto kind =
             eval::parse_integrator(std::string_view(words).substr(begin, end - begin));
         if (!kind) {
-            reject("--integrators", words, "pt, nee, mis, lt, bdpt or auto, with commas between");
+            reject("--integrators", words,
+                   "pt, nee, mis, lt, bdpt, vcm or auto, with commas between");
         }
         if (std::find(result.begin(), result.end(), *kind) == result.end()) {
             result.push_back(*kind);

@@ -102,28 +102,51 @@ std::string integrator_of(const TransportWords& words)
     return !words.integrator.empty() ? words.integrator : for_bdpt ? "bdpt" : "auto";
 }
 
+/// Options of merging, and what cannot go with it.
+void check_merging(const TransportWords& words, const std::string& integrator)
+{
+    if (integrator == "vcm") {
+        if (words.heuristic != "power" && words.heuristic != "balance") {
+            reject("--heuristic", words.heuristic, "power or balance with --integrator vcm");
+        }
+        if (words.merge_alpha == 0.0) {
+            reject("--merge-alpha", "0", "a number above 0 and up to 1");
+        }
+        return;
+    }
+    const auto check = [&](const char* option, const std::optional<double>& value) {
+        if (value) {
+            reject(option, fmt::format("{}", *value),
+                   fmt::format("--integrator vcm with it, not {}", integrator));
+        }
+    };
+    check("--merge-radius", words.merge_radius);
+    check("--merge-alpha", words.merge_alpha);
+}
+
 /// Options that only subpaths from both sides can heed.
 void check_bidirectional(const TransportWords& words, const std::string& integrator)
 {
     const bool without_light_paths = words.light_paths == 0.0;
-    if (integrator == "lt" && without_light_paths) {
-        reject("--light-paths", "0", "more than 0 light paths with --integrator lt");
+    if ((integrator == "lt" || integrator == "vcm") && without_light_paths) {
+        reject("--light-paths", "0",
+               fmt::format("more than 0 light paths with --integrator {}", integrator));
     }
     if (without_light_paths && words.connections.value_or(0.0) > 0.0) {
         reject("--connections", fmt::format("{}", *words.connections),
                "light paths to connect to, but --light-paths is 0");
     }
-    if (words.connections && integrator != "bdpt") {
+    if (words.connections && integrator != "bdpt" && integrator != "vcm") {
         reject("--connections", fmt::format("{}", *words.connections),
-               fmt::format("--integrator bdpt with it, not {}", integrator));
+               fmt::format("--integrator bdpt or vcm with it, not {}", integrator));
     }
-    if (integrator == "bdpt" || integrator == "lt") {
+    if (integrator == "bdpt" || integrator == "lt" || integrator == "vcm") {
         return;
     }
     const auto check = [&](const char* option, const std::optional<std::string>& value) {
         if (value) {
             reject(option, *value,
-                   fmt::format("--integrator bdpt or lt with it, not {}", integrator));
+                   fmt::format("--integrator bdpt, lt or vcm with it, not {}", integrator));
         }
     };
     const auto text = [](const auto& value) {
@@ -169,13 +192,13 @@ void add_limits(CLI::App& command, TransportWords& words, const char* group)
         ->group(group);
     command
         .add_option("--max-camera-depth", words.max_camera_depth,
-                    "Longest camera subpath, in edges (bdpt, lt)")
+                    "Longest camera subpath, in edges (bdpt, lt, vcm)")
         ->check(whole_number(0, longest_path))
         ->type_name("N")
         ->group(group);
     command
         .add_option("--max-light-depth", words.max_light_depth,
-                    "Longest light subpath, in edges (bdpt, lt)")
+                    "Longest light subpath, in edges (bdpt, lt, vcm)")
         ->check(whole_number(0, longest_path))
         ->type_name("N")
         ->group(group);
@@ -238,22 +261,41 @@ void add_transport_options(CLI::App& command, TransportWords& words)
                "contribution to the point), auto (default: tree if there are many lights)");
     add_limits(command, words, group);
     command
-        .add_option("--light-paths", words.light_paths,
-                    "Light subpaths per camera subpath (bdpt, lt); a fraction, like 0.1, shares "
-                    "them among all pixels. Default: 1; auto chooses it")
+        .add_option(
+            "--light-paths", words.light_paths,
+            "Light subpaths per camera subpath (bdpt, lt, vcm); a fraction, like 0.1, shares "
+            "them among all pixels. Default: 1; auto chooses it")
         ->check(number(0.0, most_light_paths))
         ->type_name("N")
         ->group(group);
     command
         .add_option("--connections", words.connections,
-                    "Light subpaths that each camera subpath is connected to (bdpt). Default: all "
-                    "of its own, or 1 if --light-paths is a fraction; auto chooses it")
+                    "Light subpaths that each camera subpath is connected to (bdpt, vcm). Default: "
+                    "all of its own, or 1 if --light-paths is a fraction; auto chooses it")
         ->check(number(0.0, most_light_paths))
         ->type_name("C")
         ->group(group);
+    const BidirectionalOptions standard;
+    command
+        .add_option("--merge-radius", words.merge_radius,
+                    fmt::format("How close to a camera vertex light vertices are merged with it "
+                                "(vcm), as a fraction of the radius of the scene's bounding "
+                                "sphere; 0: not at all. Blurs light by so much. Default: {}",
+                                standard.merge_radius))
+        ->check(number(0.0, 1.0))
+        ->type_name("F")
+        ->group(group);
+    command
+        .add_option("--merge-alpha", words.merge_alpha,
+                    fmt::format("How slowly that radius shrinks (vcm), above 0 and up to 1: sample "
+                                "i has the first radius times i^((A - 1) / 2). Default: {}",
+                                standard.merge_alpha))
+        ->check(number(0.0, 1.0))
+        ->type_name("A")
+        ->group(group);
     command
         .add_option("--disable", words.disabled,
-                    "Disable strategies (bdpt, lt): s vertices from the light and t from the "
+                    "Disable strategies (bdpt, lt, vcm): s vertices from the light and t from the "
                     "camera, like s2t1,s0t3. Light that only these find is missing")
         ->type_name("LIST")
         ->group(group);
@@ -263,6 +305,7 @@ RenderOptions with_transport(const TransportWords& words, RenderOptions options)
 {
     const std::string integrator = integrator_of(words);
     check_bidirectional(words, integrator);
+    check_merging(words, integrator);
     options.integrator = eval::parse_integrator(integrator).value();
     options.transport.heuristic = eval::parse_heuristic(words.heuristic).value();
     options.sampling.environment = value_of(environment_samplings, words.environment_sampling);
@@ -280,6 +323,10 @@ RenderOptions with_transport(const TransportWords& words, RenderOptions options)
     if (words.connections) {
         options.bidirectional.connections = words.connections;
     }
+    options.bidirectional.merge_radius =
+        words.merge_radius.value_or(options.bidirectional.merge_radius);
+    options.bidirectional.merge_alpha =
+        words.merge_alpha.value_or(options.bidirectional.merge_alpha);
     options.transport.rr_start = words.rr_start.value_or(options.transport.rr_start);
     if (words.disabled) {
         std::optional<std::vector<Strategy>> strategies = parse_strategies(*words.disabled);
@@ -306,6 +353,10 @@ nlohmann::ordered_json transport_json(const RenderOptions& options)
         {"rr_start", options.transport.rr_start}};
     if (options.bidirectional.connections) {
         result["connections"] = number_json(*options.bidirectional.connections);
+    }
+    if (options.integrator == IntegratorKind::vcm) {
+        result["merge_radius"] = number_json(options.bidirectional.merge_radius);
+        result["merge_alpha"] = number_json(options.bidirectional.merge_alpha);
     }
     const auto add = [&](const char* name, int limit) {
         if (limit != unlimited) {

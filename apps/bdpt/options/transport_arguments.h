@@ -26,6 +26,8 @@ struct TransportWords {
     std::optional<int> max_light_depth{};
     std::optional<double> light_paths{};
     std::optional<double> connections{};
+    std::optional<double> merge_radius{};
+    std::optional<double> merge_alpha{};
     std::optional<int> rr_start{};
     std::optional<std::string> disabled{};
 };

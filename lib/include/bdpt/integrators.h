@@ -15,8 +15,10 @@ struct IntegratorInfo {
     std::string_view summary;  ///< a phrase for help texts
     /// Traces light paths, which can reach the lens from anywhere and splat on any pixel.
     bool traces_light_paths;
-    /// Its strategies (s, t) can be switched off and can have images of their own.
+    /// Its strategies (s, t) can have images of their own.
     bool has_strategies;
+    /// Its mean at any number of samples is not the limit.
+    bool biased = false;
 };
 
 /// All there are. To add one: a folder in lib/src/integrator, an enumerator of `IntegratorKind` and

@@ -19,6 +19,8 @@ enum class IntegratorKind : std::uint8_t {
     mis,  ///< light and BSDF sampling, weighted [Veach 1997, ch. 9]
     nee,  ///< light sampling; BSDF hits count only where no light sample can reach
     lt,   ///< light tracing: light paths seen through the lens (t <= 1)
+    vcm,  ///< bdpt whose light and camera vertices also merge where they are close: biased, but
+          ///< less so with each sample [Georgiev et al. 2012]
 };
 
 /// How the strategies that can make the same path share it [Veach 1997, sec. 9.2].
@@ -107,9 +109,10 @@ struct TransportOptions {
     Heuristic heuristic = Heuristic::power;
 };
 
-/// What only bdpt and lt look at: their subpaths and strategies; `automatic` chooses light_paths
-/// and connections itself. Ranges: light_paths [0, 4096] (lt: above 0), connections [0, 4096] (0
-/// without light paths), max_camera_depth and max_light_depth from 0, strategy_depth [0, 4096].
+/// What only bdpt, lt and vcm look at: their subpaths and strategies; `automatic` chooses
+/// light_paths and connections itself. Ranges: light_paths [0, 4096] (lt, vcm: above 0),
+/// connections [0, 4096] (0 without light paths), max_camera_depth and max_light_depth from 0,
+/// strategy_depth [0, 4096], merge_radius [0, 1], merge_alpha (0, 1].
 struct BidirectionalOptions {
     /// Light paths that are traced for each camera path; need not be whole.
     double light_paths = 1.0;
@@ -118,6 +121,14 @@ struct BidirectionalOptions {
     /// index share its light paths, which are kept in memory; else each camera path is joined to
     /// light paths of its own.
     std::optional<double> connections{};
+    /// vcm: how far apart a camera vertex and a light vertex may be to merge in the first sample,
+    /// as a fraction of the radius of the scene's bounding sphere. 0: nothing merges, and vcm is
+    /// bdpt. Else all pixels of a sample index share its light paths, and have one time and
+    /// wavelength.
+    double merge_radius = 0.003;
+    /// vcm: sample index i merges within merge_radius * (i + 1)^((merge_alpha - 1) / 2). Below 1
+    /// the bias vanishes in the limit, the sooner the smaller it is, and noise the later.
+    double merge_alpha = 0.75;
     /// Bytes that shared light paths of one sample index may take at most.
     std::uint64_t light_path_memory = 4'000'000'000;
     /// Longest subpaths in edges; strategies with longer ones are left out.

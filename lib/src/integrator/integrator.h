@@ -55,6 +55,8 @@ public:
     {
         return {};
     }
+    /// Called on one thread between the last part of a pass and its tiles.
+    virtual void end_parts() {}
     /// Adds the samples of all pixels of `tile` that are in the film's region to `films`, and what
     /// the light paths of all of its pixels splat anywhere. Tiles of an integrator without splats
     /// lie inside of the region. Returns the work that it was.

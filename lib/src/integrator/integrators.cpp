@@ -58,6 +58,13 @@ constexpr std::array table{
          .traces_light_paths = true,
          .has_strategies = true},
         &make<BidirectionalIntegrator>},
+    Row{{.kind = IntegratorKind::vcm,
+         .name = "vcm",
+         .summary = "vertex connection and merging (biased, but consistent)",
+         .traces_light_paths = true,
+         .has_strategies = false,
+         .biased = true},
+        &make<BidirectionalIntegrator>},
     Row{{.kind = IntegratorKind::automatic,
          .name = "auto",
          .summary = "mis, or bdpt with numbers of light paths and connections that suit the image, "

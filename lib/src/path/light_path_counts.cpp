@@ -10,7 +10,9 @@ LightPathCounts::LightPathCounts(const RenderOptions& options)
 {
     const bool whole = per_camera_path == std::floor(per_camera_path);
     connections = options.bidirectional.connections.value_or(whole ? per_camera_path : 1.0);
-    shared = per_camera_path > 0.0 && (!whole || connections != per_camera_path);
+    merged = options.integrator == IntegratorKind::vcm && per_camera_path > 0.0 &&
+             options.bidirectional.merge_radius > 0.0;
+    shared = merged || (per_camera_path > 0.0 && (!whole || connections != per_camera_path));
     if (shared) {
         const double pixels =
             static_cast<double>(options.film.width) * static_cast<double>(options.film.height);

@@ -13,6 +13,7 @@ struct LightPathCounts {
 
     double per_camera_path;  ///< light paths; a whole number of them for the whole image
     double connections;      ///< mean number of light paths that a camera path is joined to
+    bool merged;             ///< each camera path merges with all of the set (vcm)
     /// All camera paths of a sample index take their light paths from one set; else each has its
     /// own, which are as many as `connections`.
     bool shared;

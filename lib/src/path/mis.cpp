@@ -37,6 +37,77 @@ float compared_weight(const PathDensities& path, std::size_t used, Heuristic heu
     return sum > 0.0L ? static_cast<float>(share(density(used)) / sum) : 0.0f;
 }
 
+/// The sum over strategies in the balance and power heuristics, relative to the one in use. Every
+/// divisor is a density that it really sampled, so it is never zero.
+class RelativeSum {
+public:
+    /// `own`: the number of samples of the strategy in use, if it is not in the ratios.
+    RelativeSum(const PathDensities& path, Heuristic heuristic, float own)
+        : path_(path), squares_(heuristic == Heuristic::power), own_(own)
+    {}
+
+    /// Hands vertices from, from + 1, ... over to the light, one at a time; `ratio` is what was
+    /// done before.
+    void hand_to_light(std::size_t from, double ratio)
+    {
+        const auto& light = path_.from_light;
+        const auto& camera = path_.from_camera;
+        for (std::size_t i = from; i < light.size(); ++i) {
+            if (i == 0 && path_.sample_counts[1] > 0.0f) {
+                add(path_.sample_counts[1], quotient(path_.next_event, camera[0]));
+            }
+            add_merge(i, ratio, light[i]);
+            ratio *= quotient(light[i], camera[i]);
+            if (i > 0 && path_.sample_counts[i + 1] > 0.0f) {
+                add(path_.sample_counts[i + 1], ratio);
+            }
+        }
+    }
+    /// Hands vertices from - 1, from - 2, ... over to the camera; x_0 is sampled with density
+    /// `start`.
+    void hand_to_camera(std::size_t from, double ratio, AreaPdf start)
+    {
+        const auto& light = path_.from_light;
+        const auto& camera = path_.from_camera;
+        for (std::size_t i = from; i-- > 1;) {
+            add_merge(i, ratio, camera[i]);
+            ratio *= quotient(camera[i], light[i]);
+            if (path_.sample_counts[i] > 0.0f) {
+                add(path_.sample_counts[i],
+                    i == 1 ? ratio * quotient(path_.next_event, light[0]) : ratio);
+            }
+        }
+        if (from > 0 && path_.sample_counts[0] > 0.0f) {
+            add(path_.sample_counts[0], ratio * quotient(camera[0], start));
+        }
+    }
+    void add(float count, double density_ratio)
+    {
+        const double ratio = density_ratio * static_cast<double>(count / own_);
+        sum_ += squares_ ? ratio * ratio : ratio;
+    }
+    [[nodiscard]] float weight() const { return static_cast<float>(1.0 / sum_); }
+
+    static double quotient(AreaPdf a, AreaPdf b)
+    {
+        return static_cast<double>(a.value) / static_cast<double>(b.value);
+    }
+
+private:
+    /// Of sampling x_i from both sides: `other` is the density from the side that has not.
+    void add_merge(std::size_t i, double ratio, AreaPdf other)
+    {
+        if (!path_.merge_weights.empty() && path_.merge_weights[i] > 0.0f) {
+            add(path_.merge_weights[i], ratio * static_cast<double>(other.value));
+        }
+    }
+
+    const PathDensities& path_;
+    bool squares_;
+    float own_;
+    double sum_ = 1.0;  // in double, for the products over a long path leave the range of float
+};
+
 }  // namespace
 
 long double strategy_density(const PathDensities& path, std::size_t s)
@@ -56,48 +127,34 @@ float mis_weight(const PathDensities& path, int s, Heuristic heuristic)
     if (heuristic != Heuristic::balance && heuristic != Heuristic::power) {
         return compared_weight(path, static_cast<std::size_t>(s), heuristic);
     }
-    const auto& light = path.from_light;
-    const auto& camera = path.from_camera;
-    const auto& counts = path.sample_counts;
     const auto used = static_cast<std::size_t>(s);
-    assert(camera.size() == light.size() && counts.size() == light.size() + 1);
-    assert(counts[used] > 0.0f);
+    assert(path.from_camera.size() == path.from_light.size() &&
+           path.sample_counts.size() == path.from_light.size() + 1);
+    assert(path.sample_counts[used] > 0.0f);
+    const AreaPdf start = used == 1 ? path.next_event : path.from_light[0];
+    RelativeSum sum(path, heuristic, path.sample_counts[used]);
+    sum.hand_to_light(used, used == 1 ? RelativeSum::quotient(path.from_light[0], start) : 1.0);
+    sum.hand_to_camera(used, 1.0, start);
+    return sum.weight();
+}
 
-    // In double, for the products over a long path leave the range of float.
-    double sum = 1.0;
-    const auto add = [&](std::size_t other, double density_ratio) {
-        const double ratio = density_ratio * static_cast<double>(counts[other] / counts[used]);
-        sum += heuristic == Heuristic::power ? ratio * ratio : ratio;
-    };
-    const auto quotient = [](AreaPdf a, AreaPdf b) {
-        return static_cast<double>(a.value) / static_cast<double>(b.value);
-    };
-    // Every divisor below is a density that strategy s really sampled, so it is never zero.
-
-    // Hand vertices s, s+1, ... over to the light, one at a time.
-    double ratio = used == 1 ? quotient(light[0], path.next_event) : 1.0;
-    for (std::size_t i = used; i < light.size(); ++i) {
-        if (i == 0 && counts[1] > 0.0f) {
-            add(1, quotient(path.next_event, camera[0]));
-        }
-        ratio *= quotient(light[i], camera[i]);
-        if (i > 0 && counts[i + 1] > 0.0f) {
-            add(i + 1, ratio);
-        }
-    }
-
-    // Hand vertices s-1, s-2, ... over to the camera.
-    ratio = 1.0;
-    for (std::size_t i = used; i-- > 1;) {
-        ratio *= quotient(camera[i], light[i]);
-        if (counts[i] > 0.0f) {
-            add(i, i == 1 ? ratio * quotient(path.next_event, light[0]) : ratio);
-        }
-    }
-    if (used > 0 && counts[0] > 0.0f) {
-        add(0, ratio * quotient(camera[0], used == 1 ? path.next_event : light[0]));
-    }
-    return static_cast<float>(1.0 / sum);
+float merge_weight(const PathDensities& path, int i, Heuristic heuristic)
+{
+    const auto merged = static_cast<std::size_t>(i);
+    const auto& counts = path.sample_counts;
+    const double count = static_cast<double>(path.merge_weights[merged]);
+    assert(count > 0.0 && merged > 0 && merged + 1 < path.from_light.size());
+    RelativeSum sum(path, heuristic, 1.0f);
+    // Without x_i from the camera, or without it from the light.
+    const double by_light = 1.0 / (count * static_cast<double>(path.from_camera[merged].value));
+    const double by_camera = 1.0 / (count * static_cast<double>(path.from_light[merged].value));
+    sum.add(counts[merged + 1], by_light);
+    sum.hand_to_light(merged + 1, by_light);
+    sum.add(counts[merged],
+            merged == 1 ? by_camera * RelativeSum::quotient(path.next_event, path.from_light[0])
+                        : by_camera);
+    sum.hand_to_camera(merged, by_camera, path.from_light[0]);
+    return sum.weight();
 }
 
 }  // namespace bdpt

@@ -19,6 +19,9 @@ struct PathDensities {
     /// n + 1: how many samples the strategy with s light vertices takes for each camera path; 0
     /// when it cannot make this path.
     std::span<const float> sample_counts;
+    /// n, or none if nothing merges: `Merging::weight` where both walks may sample x_i and merge
+    /// there, times its opacity [m^2]; 0 where they do not.
+    std::span<const float> merge_weights{};
 };
 
 /// N_s p_s of the strategy with `s` light vertices: the product of all densities, in long double
@@ -29,5 +32,10 @@ struct PathDensities {
 /// sec. 10.2]. A pure function of the path: the weights of all possible strategies of a path add up
 /// to one. `sample_counts[s]` is not 0.
 [[nodiscard]] float mis_weight(const PathDensities& path, int s, Heuristic heuristic);
+
+/// The same of having merged at x_i, which counts with a density of `merge_weights[i]` times that
+/// of both walks having sampled x_i [Georgiev et al. 2012, eq. 6]. `heuristic` is balance or power;
+/// `merge_weights[i]` is not 0.
+[[nodiscard]] float merge_weight(const PathDensities& path, int i, Heuristic heuristic);
 
 }  // namespace bdpt

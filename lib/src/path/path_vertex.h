@@ -38,6 +38,7 @@ struct PathVertex {
     bool connectible = true;       ///< has a lobe that is not delta: strategies can join here
     bool scattered_delta = false;  ///< the walk left through a delta lobe
     bool dispersed = false;        ///< this vertex disperses, or one before it in the subpath
+    float opacity = 1.0f;          ///< the share of rays that meet the surface
     const Bsdf* bsdf = nullptr;    ///< of surfaces; lives in the `Subpath`
 };
 

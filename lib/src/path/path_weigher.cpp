@@ -6,7 +6,7 @@
 namespace bdpt {
 
 PathWeigher::PathWeigher(const World& world, const Camera& camera, const StrategySet& strategies,
-                         Heuristic heuristic, int max_vertices)
+                         Heuristic heuristic, int max_vertices, double merge_weight)
     : world_(world),
       camera_(camera),
       strategies_(strategies),
@@ -14,10 +14,12 @@ PathWeigher::PathWeigher(const World& world, const Camera& camera, const Strateg
       from_light_(static_cast<std::size_t>(max_vertices)),
       from_camera_(static_cast<std::size_t>(max_vertices)),
       sample_counts_(static_cast<std::size_t>(max_vertices) + 1),
+      merge_weights_(static_cast<std::size_t>(max_vertices)),
+      merge_weight_(merge_weight),
       shares_(static_cast<std::size_t>(max_vertices) + 1)
 {
     if (WeightSums::applies(strategies, heuristic)) {
-        sums_.emplace(world, camera, strategies, heuristic);
+        sums_.emplace(world, camera, strategies, heuristic, merge_weight);
     }
 }
 
@@ -44,7 +46,7 @@ float PathWeigher::weight(std::span<const PathVertex> light, std::span<const Pat
     const bool summed = uses_sums_ && size_ > 2;
     if (!summed || keeps_paths_) {
         gather_densities(light, camera, join);
-        gather_sample_counts(light, camera, light.empty() ? Joined::no : Joined::yes);
+        gather_sample_counts(light, camera, light.empty() ? Made::by_hit : Made::by_join);
         next_event_ = join.next_event;
     }
     if (summed) {
@@ -58,9 +60,25 @@ float PathWeigher::weight_of_hit(std::span<const PathVertex> light, const PathVe
 {
     size_ = light.size() + 1;
     gather_densities(light, std::span(&lens, 1), join);
-    gather_sample_counts(light, std::span(&lens, 1), Joined::no);
+    gather_sample_counts(light, std::span(&lens, 1), Made::by_hit);
     next_event_ = join.next_event;
     return mis_weight(last_path(), static_cast<int>(size_), heuristic_);
+}
+
+float PathWeigher::weight_of_merge(std::span<const PathVertex> light,
+                                   std::span<const PathVertex> camera, const JoinDensities& join)
+{
+    size_ = light.size() + camera.size() - 1;
+    if (!uses_sums_ || keeps_paths_) {
+        const auto before = light.first(light.size() - 1);
+        gather_densities(before, camera, join);
+        gather_sample_counts(before, camera, Made::by_merge);
+        next_event_ = join.next_event;
+    }
+    if (uses_sums_) {
+        return sums_->weight_of_merge(light, camera, join);
+    }
+    return merge_weight(last_path(), static_cast<int>(light.size()) - 1, heuristic_);
 }
 
 PathDensities PathWeigher::last_path() const
@@ -68,7 +86,8 @@ PathDensities PathWeigher::last_path() const
     return {.from_light = std::span(from_light_).first(size_),
             .from_camera = std::span(from_camera_).first(size_),
             .next_event = next_event_,
-            .sample_counts = std::span(sample_counts_).first(size_ + 1)};
+            .sample_counts = std::span(sample_counts_).first(size_ + 1),
+            .merge_weights = std::span(merge_weights_).first(merge_weight_ > 0.0 ? size_ : 0)};
 }
 
 std::span<const float> PathWeigher::shares()
@@ -110,15 +129,20 @@ void PathWeigher::gather_densities(std::span<const PathVertex> light,
 }
 
 void PathWeigher::gather_sample_counts(std::span<const PathVertex> light,
-                                       std::span<const PathVertex> camera, Joined joined)
+                                       std::span<const PathVertex> camera, Made made)
 {
     const std::size_t s = light.size();
     const int n = static_cast<int>(size_);
+    const auto vertex = [&](std::size_t i) -> const PathVertex& {
+        return i < s ? light[i] : camera[size_ - 1 - i];
+    };
     // Is vertex i an end that a strategy can join? The two ends of a join are known to be, and so
-    // is the light that a path has hit.
+    // are the light that a path has hit and the vertex that merged.
     const auto is_joinable = [&](std::size_t i) {
-        const bool end = joined == Joined::yes ? i == s || i + 1 == s : i == 0;
-        return end || joinable(i < s ? light[i] : camera[size_ - 1 - i]);
+        const bool end = made == Made::by_hit    ? i == 0
+                         : made == Made::by_join ? i == s || i + 1 == s
+                                                 : i == s;
+        return end || joinable(vertex(i));
     };
     const PathVertex& x0 = s > 0 ? light[0] : camera[size_ - 1];
     const Light& source = world_.lights()[*x0.light];
@@ -128,6 +152,9 @@ void PathWeigher::gather_sample_counts(std::span<const PathVertex> light,
         const bool right = is_joinable(i);
         const int from_light = static_cast<int>(i);
         sample_counts_[i] = left && right ? strategies_.count(from_light, n - from_light) : 0.0f;
+        const bool merges =
+            right && i + 1 < size_ && strategies_.merges(from_light + 1, n - from_light);
+        merge_weights_[i] = merges ? static_cast<float>(merge_weight_) * vertex(i).opacity : 0.0f;
         left = right;
     }
     sample_counts_[size_] = camera_.has_finite_lens() ? strategies_.count(n, 0) : 0.0f;

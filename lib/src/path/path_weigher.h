@@ -17,9 +17,9 @@ class Camera;
 /// thread allocates them once.
 class PathWeigher {
 public:
-    /// `strategies` and `camera` must outlive this object.
+    /// `strategies` and `camera` must outlive this object; `merge_weight` is `Merging::weight`.
     PathWeigher(const World& world, const Camera& camera, const StrategySet& strategies,
-                Heuristic heuristic, int max_vertices);
+                Heuristic heuristic, int max_vertices, double merge_weight = 0.0);
 
     /// Sums up once what the weights of all prefixes of a subpath share, where that is possible.
     /// From then on every call of `weight` must be for such prefixes; without, each call gathers
@@ -38,6 +38,13 @@ public:
     [[nodiscard]] float weight_of_hit(std::span<const PathVertex> light, const PathVertex& lens,
                                       const JoinDensities& join);
 
+    /// Weight of having merged the last of the first s light vertices with the last of the first t
+    /// camera vertices, of which the path keeps the latter; `join` is that of the light vertices
+    /// before it and the camera vertices.
+    [[nodiscard]] float weight_of_merge(std::span<const PathVertex> light,
+                                        std::span<const PathVertex> camera,
+                                        const JoinDensities& join);
+
     /// The densities behind the last weight(), if no subpath was begun or paths are kept.
     [[nodiscard]] PathDensities last_path() const;
     /// Balance heuristic of all strategies of the last path, by their number of light vertices,
@@ -50,13 +57,12 @@ public:
     }
 
 private:
-    enum class Joined { yes, no };
+    enum class Made { by_join, by_hit, by_merge };
 
     void gather_densities(std::span<const PathVertex> light, std::span<const PathVertex> camera,
                           const JoinDensities& join);
-    /// `joined`: the path was made by a join between the two subpaths.
     void gather_sample_counts(std::span<const PathVertex> light, std::span<const PathVertex> camera,
-                              Joined joined);
+                              Made made);
 
     const World& world_;
     const Camera& camera_;
@@ -65,6 +71,8 @@ private:
     std::vector<AreaPdf> from_light_;
     std::vector<AreaPdf> from_camera_;
     std::vector<float> sample_counts_;
+    std::vector<float> merge_weights_;
+    double merge_weight_;
     AreaPdf next_event_;
     std::size_t size_ = 0;
     std::optional<WeightSums> sums_;

@@ -63,6 +63,7 @@ void append_surface(const SurfacePoint& point, float distance_squared, const Ste
     vertex.bsdf = &point.bsdf;
     vertex.connectible = point.bsdf.connectible();
     vertex.dispersed = previous.dispersed || point.disperses;
+    vertex.opacity = point.opacity;
     const float cosine = std::abs(dot(point.end.ng, step.direction));
     vertex.pdf_fwd = step.pdf_plane ? to_area(*step.pdf_plane, cosine)
                                     : to_area(step.pdf, cosine, distance_squared);

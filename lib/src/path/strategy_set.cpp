@@ -6,29 +6,26 @@
 namespace bdpt {
 namespace {
 
-bool is_used(const RenderOptions& options, Strategy strategy)
+bool is_switched_on(const RenderOptions& options, Strategy strategy)
 {
-    const auto [s, t] = strategy;
-    const int edges = s + t - 1;
-    const bool by_length = edges >= options.transport.min_depth &&
-                           edges <= options.transport.max_depth &&
-                           t - 1 <= options.bidirectional.max_camera_depth &&
-                           s - 1 <= options.bidirectional.max_light_depth;
-    const bool by_integrator = options.integrator != IntegratorKind::lt || t <= 1;
+    const bool by_integrator = options.integrator != IntegratorKind::lt || strategy.t <= 1;
     const auto& disabled = options.bidirectional.disabled;
-    return by_length && by_integrator &&
-           std::find(disabled.begin(), disabled.end(), strategy) == disabled.end();
+    return by_integrator && std::find(disabled.begin(), disabled.end(), strategy) == disabled.end();
 }
 
 }  // namespace
 
 StrategySet::StrategySet(const RenderOptions& options)
-    : stride_(options.transport.max_depth + 2),
+    : min_depth_(options.transport.min_depth),
+      max_depth_(options.transport.max_depth),
+      max_camera_depth_(options.bidirectional.max_camera_depth),
+      max_light_depth_(options.bidirectional.max_light_depth),
+      stride_(options.transport.max_depth + 2),
       light_paths_(options),
-      complete_(options.integrator == IntegratorKind::bdpt &&
-                options.bidirectional.disabled.empty() &&
-                options.bidirectional.max_camera_depth >= options.transport.max_depth &&
-                options.bidirectional.max_light_depth >= options.transport.max_depth),
+      complete_(options.integrator != IntegratorKind::lt &&
+                options.bidirectional.disabled.empty() && max_camera_depth_ >= max_depth_ &&
+                max_light_depth_ >= max_depth_),
+      merges_(light_paths_.merged),
       // Images of single strategies show what each finds by itself.
       next_event_sampling_{.environments = options.bidirectional.strategy_depth > 0
                                                ? EnvironmentSampling::plain
@@ -38,7 +35,7 @@ StrategySet::StrategySet(const RenderOptions& options)
     counts_.assign(static_cast<std::size_t>(stride_ * stride_), 0.0f);
     for (int s = 0; s < stride_; ++s) {
         for (int t = 0; s + t < stride_; ++t) {
-            if (s + t < 2 || !is_used(options, {s, t})) {
+            if (s + t < 2 || !allows(s + t - 1, s, t) || !is_switched_on(options, {s, t})) {
                 continue;
             }
             // A fresh light point for each camera vertex (s = 1); the rest comes from light paths.
@@ -52,6 +49,12 @@ StrategySet::StrategySet(const RenderOptions& options)
             // walk.
             light_vertices_ = std::max(light_vertices_, s < 2 ? 0 : t == 0 ? s - 1 : s);
         }
+    }
+    if (merges_) {
+        // Of a path of max_depth edges, whose two ends do not merge.
+        camera_vertices_ =
+            std::max(camera_vertices_, std::min(max_depth_ - 1, max_camera_depth_) + 1);
+        light_vertices_ = std::max(light_vertices_, std::min(max_depth_ - 1, max_light_depth_) + 1);
     }
     for (int t = 2; t + 1 < stride_; ++t) {
         if (uses(1, t) && !uses(0, t + 1)) {

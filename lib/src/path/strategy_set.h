@@ -12,7 +12,7 @@ namespace bdpt {
 /// Which strategies (s, t) a render uses, and how many samples each takes for one camera path.
 class StrategySet {
 public:
-    /// `options` have been checked. The integrator is bdpt or lt.
+    /// `options` have been checked. The integrator is bdpt, lt or vcm.
     explicit StrategySet(const RenderOptions& options);
 
     /// N_s of the strategy; 0 when it is not used.
@@ -21,6 +21,11 @@ public:
         return counts_[static_cast<std::size_t>(s * stride_ + t)];
     }
     [[nodiscard]] bool uses(int s, int t) const { return count(s, t) > 0.0f; }
+    /// Is the last of s light vertices merged with the last of t camera vertices?
+    [[nodiscard]] bool merges(int s, int t) const
+    {
+        return merges_ && s >= 2 && t >= 2 && allows(s + t - 2, s, t);
+    }
 
     /// Does every strategy that can make a path take part? For each camera path those with s <= 1
     /// take one sample, the others `light_paths` where t <= 1 and `connections` where t >= 2.
@@ -37,9 +42,21 @@ public:
     [[nodiscard]] int light_vertices() const { return light_vertices_; }
 
 private:
+    /// By the lengths of the path and of its two parts.
+    [[nodiscard]] bool allows(int edges, int s, int t) const
+    {
+        return edges >= min_depth_ && edges <= max_depth_ && t - 1 <= max_camera_depth_ &&
+               s - 1 <= max_light_depth_;
+    }
+
+    int min_depth_;
+    int max_depth_;
+    int max_camera_depth_;
+    int max_light_depth_;
     int stride_;
     LightPathCounts light_paths_;
     bool complete_;
+    bool merges_;
     int camera_vertices_ = 1;
     int light_vertices_ = 0;
     NextEventSampling next_event_sampling_;

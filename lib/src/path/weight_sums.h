@@ -28,9 +28,10 @@ class WeightSums {
 public:
     /// Can it weigh these strategies?
     [[nodiscard]] static bool applies(const StrategySet& strategies, Heuristic heuristic);
-    /// It `applies`. `world` must outlive this object, which nothing changes.
+    /// It `applies`. `merge_weight` is `Merging::weight`. `world` must outlive this object, which
+    /// nothing changes.
     WeightSums(const World& world, const Camera& camera, const StrategySet& strategies,
-               Heuristic heuristic);
+               Heuristic heuristic, double merge_weight);
 
     /// Sum over whole subpaths, whose prefixes can then be weighed.
     void sum_camera_path(std::span<PathVertex> path) const;
@@ -39,6 +40,10 @@ public:
     /// As `PathWeigher::weight`, for paths of three vertices and more.
     [[nodiscard]] float weight(std::span<const PathVertex> light,
                                std::span<const PathVertex> camera, const JoinDensities& join) const;
+    /// As `PathWeigher::weight_of_merge`.
+    [[nodiscard]] float weight_of_merge(std::span<const PathVertex> light,
+                                        std::span<const PathVertex> camera,
+                                        const JoinDensities& join) const;
 
 private:
     [[nodiscard]] double raise(double ratio) const;
@@ -46,22 +51,28 @@ private:
     [[nodiscard]] double camera_term(bool joins, std::size_t t) const;
     /// The same to the first `s` vertices of the light path that starts at `x0`.
     [[nodiscard]] double light_term(const PathVertex& x0, bool joins, std::size_t s) const;
+    /// What merging at `vertex` counts for, if it can merge, relative to sampling it once, with the
+    /// density `pdf`.
+    [[nodiscard]] double merge_term(const PathVertex& vertex, AreaPdf pdf, bool joins) const;
     [[nodiscard]] double lens_term(AreaPdf from_light, const PathVertex& lens) const;
     [[nodiscard]] double hit_term(AreaPdf from_camera, const PathVertex& x0) const;
     /// Of the strategies that take more than the end from the camera subpath; `neighbor` is the
     /// density of z_{t-2} as sampled from there.
     [[nodiscard]] double beyond_camera_end(std::span<const PathVertex> camera,
                                            AreaPdf neighbor) const;
-    [[nodiscard]] double light_side(std::span<const PathVertex> light,
-                                    const JoinDensities& join) const;
+    /// The same from the light subpath of at least two vertices; `neighbor` is that of y_{s-2}.
+    [[nodiscard]] double beyond_light_end(std::span<const PathVertex> light,
+                                          AreaPdf neighbor) const;
 
     // The sum of vertex k of a subpath: over all strategies that sample it from the other side, and
     // any number of vertices before it, what the heuristic makes of count times density, relative
-    // to sampling them from this side.
+    // to sampling them from this side. Strategies that merge at one of these vertices sample it
+    // from both sides.
 
     const World& world_;
     bool squares_;
     bool finite_lens_;
+    double merge_weight_;
     double splats_;  ///< what the heuristic makes of the number of samples with s >= 2, t <= 1
     double joins_;   ///< and of those with s >= 2, t >= 2; that of s <= 1 is one
 };

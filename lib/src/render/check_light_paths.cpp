@@ -31,6 +31,28 @@ void check_number(const char* what, double value)
     }
 }
 
+void check_merging(const RenderOptions& options)
+{
+    const double radius = options.bidirectional.merge_radius;
+    const double alpha = options.bidirectional.merge_alpha;
+    const Heuristic heuristic = options.transport.heuristic;
+    if (!(radius >= 0.0 && radius <= 1.0)) {
+        throw Error(ErrorCode::usage,
+                    "merge radius (merge_radius) is " + text(radius) + ", not in [0, 1]");
+    }
+    if (!(alpha > 0.0 && alpha <= 1.0)) {
+        throw Error(ErrorCode::usage, "rate at which the merge radius shrinks (merge_alpha) is " +
+                                          text(alpha) + ", not in (0, 1]");
+    }
+    if (options.bidirectional.light_paths == 0.0) {
+        throw Error(ErrorCode::usage,
+                    "number of light paths (light_paths) is 0, but vcm merges with them");
+    }
+    if (heuristic != Heuristic::power && heuristic != Heuristic::balance) {
+        throw Error(ErrorCode::usage, "vcm weighs by the heuristic power or balance, not others");
+    }
+}
+
 }  // namespace
 
 void check_light_paths(const RenderOptions& options)
@@ -42,6 +64,9 @@ void check_light_paths(const RenderOptions& options)
     if (light_paths == 0.0 && options.integrator == IntegratorKind::lt) {
         throw Error(ErrorCode::usage,
                     "number of light paths (light_paths) is 0, but lt has no others");
+    }
+    if (options.integrator == IntegratorKind::vcm) {
+        check_merging(options);
     }
     if (light_paths == 0.0 && connections > 0.0) {
         throw Error(ErrorCode::usage,

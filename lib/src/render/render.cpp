@@ -58,6 +58,7 @@ void render_pass(const Work& work, const RenderOptions& options, SampleRange sam
                                                              .strategies = result.strategies,
                                                              .on_path = work.control.on_path});
     });
+    work.integrator.end_parts();
     tbb::parallel_for(
         tbb::blocked_range2d<int>(0, rows, 1, 0, columns, 1),
         [&](const tbb::blocked_range2d<int>& range) {
@@ -97,6 +98,11 @@ RenderResult render(const Scene& scene, const CameraDesc& camera_desc, const Ren
     const auto start = std::chrono::steady_clock::now();
     const RenderOptions options = chosen_options(scene, camera_desc, asked);
     check_strategy_memory(options, camera_desc);
+    if (control.on_path && options.integrator == IntegratorKind::vcm) {
+        throw Error(ErrorCode::usage,
+                    "vcm cannot tell of single paths (on_path): a path that it "
+                    "merges is not that of a strategy (s, t)");
+    }
     const PixelRect region = options.film.crop.value_or(whole_image(options));
     const MovingCamera camera = open_camera(scene.world(), camera_desc, options);
     const auto integrator = make_integrator(scene.world(), camera, options);

@@ -156,6 +156,9 @@ SurfacePoint World::mesh_point(const RayHit& hit, Vec3 direction, SegmentKey seg
     if (result.light && (dot(ng, direction) < 0.0f || material.emits_from_both_sides())) {
         result.emission = material.emission(texture_point(mesh, hit.triangle, hit.at.barycentrics));
     }
+    if (material.alpha_mode() == AlphaMode::blend) [[unlikely]] {
+        result.opacity = material.opacity(texture_point(mesh, hit.triangle, hit.at.barycentrics));
+    }
     return result;
 }
 

@@ -30,6 +30,7 @@ struct SurfacePoint {
     Rgb emission{0.0f};            ///< radiance towards where the ray came from [nit]
     std::optional<LightId> light;  ///< set when the surface emits, from whichever side
     Vec2 barycentrics{0.0f};       ///< of triangles
+    float opacity = 1.0f;          ///< the share of rays that meet it
     bool disperses = false;        ///< scatters light of different colours differently
 };
 

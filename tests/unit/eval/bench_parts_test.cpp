@@ -1,9 +1,11 @@
+#include <bdpt/eval/bench/bench_options.h>
 #include <bdpt/eval/bench/bench_scene.h>
 #include <bdpt/eval/bench/error_floor.h>
 #include <bdpt/eval/bench/option_names.h>
 #include <bdpt/eval/bench/reference.h>
 #include <bdpt/eval/image/shrunk.h>
 #include <bdpt/eval/report/packed_image.h>
+#include <bdpt/integrators.h>
 
 #include "bench/trial.h"
 
@@ -27,6 +29,10 @@ TEST_CASE("integrators have names, and names integrators")
     for (const IntegratorKind kind : all_integrators()) {
         CHECK(parse_integrator(to_string(kind)) == kind);
     }
+    // Benchmarks leave biased ones out unless they are asked for.
+    CHECK(unbiased_integrators().size() == all_integrators().size() - 1);
+    CHECK(BenchOptions{}.integrators == unbiased_integrators());
+    CHECK(info(*parse_integrator("vcm")).biased);
     CHECK_FALSE(parse_integrator("BDPT"));
     CHECK_FALSE(parse_integrator(""));
 }

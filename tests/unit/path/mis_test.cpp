@@ -15,6 +15,7 @@ struct RandomPath {
     std::vector<AreaPdf> from_camera;
     AreaPdf next_event;
     std::vector<float> sample_counts;
+    std::vector<float> merge_weights;  ///< of some paths
 
     explicit RandomPath(std::mt19937& engine)
     {
@@ -30,11 +31,18 @@ struct RandomPath {
             sample_counts.push_back(counts[engine() % 4U]);
         }
         sample_counts[engine() % sample_counts.size()] = 1.0f;
+        if (engine() % 2U == 0) {
+            return;
+        }
+        merge_weights.assign(vertices, 0.0f);
+        for (std::size_t i = 1; i + 1 < vertices; ++i) {
+            merge_weights[i] = engine() % 3U == 0 ? 0.0f : density(engine);
+        }
     }
 
     [[nodiscard]] PathDensities densities() const
     {
-        return {from_light, from_camera, next_event, sample_counts};
+        return {from_light, from_camera, next_event, sample_counts, merge_weights};
     }
 
     /// N_s p_s from the definition.
@@ -46,6 +54,17 @@ struct RandomPath {
                                 : i == 0 && s == 1 ? next_event
                                                    : from_light[i];
             product *= static_cast<double>(pdf.value);
+        }
+        return product;
+    }
+
+    /// That of merging at x_i, which both walks sample.
+    [[nodiscard]] double merge_density(std::size_t i) const
+    {
+        auto product = static_cast<double>(merge_weights[i]);
+        for (std::size_t j = 0; j < from_light.size(); ++j) {
+            product *= j <= i ? static_cast<double>(from_light[j].value) : 1.0;
+            product *= j >= i ? static_cast<double>(from_camera[j].value) : 1.0;
         }
         return product;
     }
@@ -64,7 +83,19 @@ TEST_CASE("MIS weights equal brute force and sum to one", "[mis]")
             for (std::size_t s = 0; s < path.sample_counts.size(); ++s) {
                 total += share(path.density(s));
             }
+            for (std::size_t i = 0; i < path.merge_weights.size(); ++i) {
+                total += share(path.merge_density(i));
+            }
             double sum = 0.0;
+            for (std::size_t i = 0; i < path.merge_weights.size(); ++i) {
+                if (path.merge_weights[i] == 0.0f) {
+                    continue;
+                }
+                const float weight = merge_weight(path.densities(), static_cast<int>(i), heuristic);
+                sum += static_cast<double>(weight);
+                REQUIRE(std::abs(static_cast<double>(weight) -
+                                 share(path.merge_density(i)) / total) < 1e-6);
+            }
             for (std::size_t s = 0; s < path.sample_counts.size(); ++s) {
                 if (path.sample_counts[s] == 0.0f) {
                     continue;

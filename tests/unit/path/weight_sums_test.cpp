@@ -3,6 +3,7 @@
 #include "camera/camera.h"
 #include "catch.hpp"
 #include "path/connect.h"
+#include "path/merge.h"
 #include "path/random_walk.h"
 #include "sample_of.h"
 #include "scene_builder.h"
@@ -21,7 +22,8 @@ using test::SceneBuilder;
 constexpr int max_depth = 6;
 constexpr int size = 16;
 
-/// Glass, a mirror, gloss, delta lights, a lamp and the sky: all that makes a weight special.
+/// Glass, a mirror, gloss, alpha, delta lights, a lamp and the sky: all that makes a weight
+/// special.
 SceneDesc room()
 {
     SceneBuilder builder;
@@ -29,6 +31,10 @@ SceneDesc room()
     builder.lamp(0.9f, 0.5f, Rgb(5.0f));
     builder.sphere({-0.4f, -0.6f, 0.0f}, 0.4f, test::glass(0.0f));
     builder.sphere({0.5f, -0.6f, 0.2f}, 0.4f, test::plastic(Rgb(0.5f), 0.0f));
+    MaterialDesc pane = test::plastic({0.2f, 0.7f, 0.3f}, 0.4f);
+    pane.base_color.w = 0.4f;
+    pane.alpha_mode = AlphaMode::blend;
+    builder.sphere({0.0f, 0.3f, 0.2f}, 0.3f, pane, 12);
     builder.light(EnvironmentLightDesc{.radiance = {.width = 1, .height = 1, .pixels = {Rgb(1)}}});
     builder.light(PointLightDesc{.position = {0.0f, 0.3f, 0.2f}, .intensity = Rgb(1.0f)});
     return std::move(builder.desc);
@@ -37,7 +43,7 @@ SceneDesc room()
 /// The weights of all contributions of one sample, in the order of their strategies.
 std::vector<float> weights_of(SampleContext sample, const Subpath& light_path,
                               const Subpath& camera_path, const StrategySet& strategies,
-                              PathWeigher& weigher)
+                              const Merging& merging, PathWeigher& weigher)
 {
     std::vector<float> weights;
     const auto add = [&](const std::optional<Contribution>& found) {
@@ -53,6 +59,12 @@ std::vector<float> weights_of(SampleContext sample, const Subpath& light_path,
                 continue;
             }
             add(connect_interior(sample, light_path.first(s), camera_path.first(t), weigher));
+        }
+        // However far apart: the weight does not depend on it.
+        for (int s = 2; s <= light_path.size() && can_merge(camera_path.first(t).back()); ++s) {
+            if (strategies.merges(s, t) && light_path.first(s).back().connectible) {
+                add(merge(sample, light_path.first(s), camera_path.first(t), merging, weigher));
+            }
         }
     }
     for (int s = 2; s <= std::min(light_path.size(), max_depth); ++s) {
@@ -73,12 +85,13 @@ TEST_CASE("sums over subpaths weigh joins as all densities of the path do", "[mi
         GENERATE(std::pair(1.0, 1.0), std::pair(3.0, 3.0), std::pair(0.25, 1.0),
                  std::pair(0.5, 2.5), std::pair(4.0, 0.25), std::pair(2.0, 0.0));
     const float lens_radius = GENERATE(0.0f, 0.2f);
-    CAPTURE(static_cast<int>(heuristic), light_paths, connections, lens_radius);
+    const bool merges = GENERATE(false, true);
+    CAPTURE(static_cast<int>(heuristic), light_paths, connections, lens_radius, merges);
     CameraDesc desc = test::room_camera();
     desc.lens_radius = lens_radius;
     const Camera camera(desc, size, size);
     RenderOptions options;
-    options.integrator = IntegratorKind::bdpt;
+    options.integrator = merges ? IntegratorKind::vcm : IntegratorKind::bdpt;
     options.transport.max_depth = max_depth;
     options.bidirectional.light_paths = light_paths;
     options.bidirectional.connections = connections;
@@ -86,8 +99,13 @@ TEST_CASE("sums over subpaths weigh joins as all densities of the path do", "[mi
     REQUIRE(WeightSums::applies(strategies, heuristic));
     Subpath light_path(strategies.light_vertices());
     Subpath camera_path(strategies.camera_vertices());
-    PathWeigher gathers(world, camera, strategies, heuristic, max_depth + 1);
-    PathWeigher sums(world, camera, strategies, heuristic, max_depth + 1);
+    Merging merging;
+    if (merges) {
+        merging.radius = 0.5f;
+        merging.light_paths = 10.0f;
+    }
+    PathWeigher gathers(world, camera, strategies, heuristic, max_depth + 1, merging.weight());
+    PathWeigher sums(world, camera, strategies, heuristic, max_depth + 1, merging.weight());
     int compared = 0;
     RayCounts rays;
     for (int i = 0; i < 2000; ++i) {
@@ -100,8 +118,9 @@ TEST_CASE("sums over subpaths weigh joins as all densities of the path do", "[mi
                             strategies.next_event_sampling(), light_path);
         sums.begin_camera_path(camera_path.all());
         sums.begin_light_path(light_path.all());
-        const auto by_sums = weights_of(sample, light_path, camera_path, strategies, sums);
-        const auto expected = weights_of(sample, light_path, camera_path, strategies, gathers);
+        const auto by_sums = weights_of(sample, light_path, camera_path, strategies, merging, sums);
+        const auto expected =
+            weights_of(sample, light_path, camera_path, strategies, merging, gathers);
         REQUIRE(by_sums.size() == expected.size());
         for (std::size_t k = 0; k < expected.size(); ++k) {
             if (std::isfinite(expected[k]) && expected[k] > 1e-30f) {

@@ -95,6 +95,35 @@ TEST_CASE("options out of range are refused by name and value", "[render]")
               o.bidirectional.light_paths = 3.0;  // not shared
               o.bidirectional.light_path_memory = 1'000'000;
           }).empty());
+    const auto vcm_refusal = [](const auto& change) {
+        return refusal([&](auto& o) {
+            o.integrator = IntegratorKind::vcm;
+            o.film.width = 64;
+            o.film.height = 64;
+            change(o);
+        });
+    };
+    CHECK(vcm_refusal([](auto&) {}).empty());
+    CHECK(vcm_refusal([](auto& o) { o.bidirectional.merge_radius = -0.5; }) ==
+          "merge radius (merge_radius) is -0.5, not in [0, 1]");
+    CHECK(vcm_refusal([](auto& o) {
+              o.bidirectional.merge_radius = std::numeric_limits<double>::quiet_NaN();
+          }).find("merge radius (merge_radius) is ") == 0);
+    for (const double alpha : {0.0, 1.1, std::numeric_limits<double>::quiet_NaN()}) {
+        CHECK(vcm_refusal([&](auto& o) {
+                  o.bidirectional.merge_alpha = alpha;
+              }).find("rate at which the merge radius shrinks (merge_alpha) is ") == 0);
+    }
+    CHECK(vcm_refusal([](auto& o) { o.bidirectional.light_paths = 0.0; }) ==
+          "number of light paths (light_paths) is 0, but vcm merges with them");
+    for (const Heuristic heuristic : {Heuristic::cutoff, Heuristic::maximum, Heuristic::uniform}) {
+        CHECK(vcm_refusal([&](auto& o) { o.transport.heuristic = heuristic; }) ==
+              "vcm weighs by the heuristic power or balance, not others");
+    }
+    CHECK(vcm_refusal([](auto& o) {
+              o.bidirectional.light_path_memory = 1'000'000;
+          }).find("1 shared light paths for each camera path") == 0);
+    CHECK(refusal([](auto& o) { o.bidirectional.merge_radius = 7.0; }).empty());  // bdpt
     for (const float survival : {-0.1f, 1.1f, std::numeric_limits<float>::quiet_NaN()}) {
         CHECK(refusal([&](auto& o) {
                   o.transport.rr_survival = survival;

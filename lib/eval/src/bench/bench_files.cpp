@@ -124,6 +124,12 @@ ordered_json render_settings(const BenchScene& scene, const RenderOptions& optio
     if (options.bidirectional.connections) {
         settings["connections"] = *options.bidirectional.connections;
     }
+    const BidirectionalOptions standard;
+    if (options.bidirectional.merge_radius != standard.merge_radius ||
+        options.bidirectional.merge_alpha != standard.merge_alpha) {
+        settings["merge_radius"] = options.bidirectional.merge_radius;
+        settings["merge_alpha"] = options.bidirectional.merge_alpha;
+    }
     return settings;
 }
 

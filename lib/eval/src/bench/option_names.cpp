@@ -26,6 +26,13 @@ std::vector<IntegratorKind> all_integrators()
     return kinds;
 }
 
+std::vector<IntegratorKind> unbiased_integrators()
+{
+    std::vector<IntegratorKind> kinds = all_integrators();
+    std::erase_if(kinds, [](IntegratorKind kind) { return info(kind).biased; });
+    return kinds;
+}
+
 std::string_view to_string(IntegratorKind kind)
 {
     return info(kind).name;

@@ -2,6 +2,7 @@
 
 #include "camera/moving_camera.h"
 #include "integrator/sample_start.h"
+#include "path/merge.h"
 #include "profile/sample_timer.h"
 
 #include <algorithm>
@@ -52,9 +53,9 @@ BidirectionalIntegrator::Scratch BidirectionalIntegrator::make_scratch(const Fil
     const int own_paths = cache_.counts().shared ? 1 : static_cast<int>(strategies_.light_paths());
     const auto most_splats =
         static_cast<std::size_t>(2 * strategies_.light_vertices() * own_paths + 2);
-    auto weigher = std::make_unique<PathWeigher>(world_, camera_.first(), strategies_,
-                                                 options_.transport.heuristic,
-                                                 options_.transport.max_depth + 1);
+    auto weigher = std::make_unique<PathWeigher>(
+        world_, camera_.first(), strategies_, options_.transport.heuristic,
+        options_.transport.max_depth + 1, merging_.weight());
     if (films.on_path) {
         weigher->keep_paths();
     }
@@ -65,9 +66,17 @@ BidirectionalIntegrator::Scratch BidirectionalIntegrator::make_scratch(const Fil
                    .sink = std::move(sink)};
 }
 
-std::int64_t BidirectionalIntegrator::begin_pass(SampleRange /*samples*/)
+std::int64_t BidirectionalIntegrator::begin_pass(SampleRange samples)
 {
+    merging_ = Merging(options_, cache_.counts(), world_.bounding_sphere(), samples.begin);
     return cache_.counts().shared ? cache_.chunks() : 0;
+}
+
+void BidirectionalIntegrator::end_parts()
+{
+    if (cache_.counts().merged) {
+        grid_.build(cache_, world_.bounding_sphere().center, merging_.radius);
+    }
 }
 
 RenderStats BidirectionalIntegrator::render_tile(const Tile& tile, SampleRange samples,
@@ -125,6 +134,9 @@ void BidirectionalIntegrator::add_sample(int x, int y, std::int64_t index, Phase
         sink.begin_joins(i);
         join_paths(sample, cache_.path(shared, i), scratch);
     }
+    if (cache_.counts().merged) {
+        merge_paths(sample, scratch);
+    }
     const int own_paths = cache_.counts().shared ? 0 : static_cast<int>(strategies_.light_paths());
     for (int i = 0; i < own_paths; ++i) {
         if (i > 0) {
@@ -149,7 +161,8 @@ RenderStats BidirectionalIntegrator::do_part(std::int64_t chunk, SampleRange sam
     const std::int64_t last = std::min(first + LightPathCache::chunk_bundles, counts.bundles);
     cache_.begin_chunk(chunk);
     for (std::int64_t bundle = first; bundle < last; ++bundle) {
-        Sampler sampler = cache_.sampler(index, bundle * counts.bundle);
+        // Whatever may merge has one time and one wavelength: those of the first light path.
+        Sampler sampler = cache_.sampler(index, counts.merged ? 0 : bundle * counts.bundle);
         sampler.start(SampleUse::film);
         const SampleMoment moment = draw_moment(sampler, world_, camera_);
         cache_.add_bundle(chunk, moment);
@@ -253,6 +266,26 @@ void BidirectionalIntegrator::join_paths(const SampleContext& sample,
                 sample.enter(Phase::connect);
             }
         }
+    }
+}
+
+void BidirectionalIntegrator::merge_paths(const SampleContext& sample, Scratch& scratch) const
+{
+    for (int t = 2; t <= scratch.camera_path.size(); ++t) {
+        const auto camera = scratch.camera_path.first(t);
+        if (!can_merge(camera.back())) {
+            continue;
+        }
+        grid_.for_each_near(camera.back().end.p, [&](std::span<const PathVertex> light) {
+            const auto s = static_cast<int>(light.size());
+            if (!strategies_.merges(s, t)) {
+                return;
+            }
+            if (const auto found = merge(sample, light, camera, merging_, *scratch.weigher)) {
+                scratch.sink.add(sample, {.s = s, .t = t}, *found, merging_.light_paths);
+                sample.enter(Phase::connect);
+            }
+        });
     }
 }
 

@@ -2,8 +2,10 @@
 
 #include "film/pixel_filter.h"
 #include "integrator/bidirectional/light_path_cache.h"
+#include "integrator/bidirectional/light_vertex_grid.h"
 #include "integrator/contribution_sink.h"
 #include "integrator/integrator.h"
+#include "path/merging.h"
 #include "path/random_walk.h"
 
 namespace bdpt {
@@ -13,7 +15,8 @@ class SampleTimer;
 /// Bidirectional path tracing [Veach 1997, ch. 10]: each sample joins every prefix of a camera
 /// subpath to every prefix of one or more light subpaths. Light tracing is the same with the
 /// strategies t <= 1 alone. Light paths belong to one camera path, or to all of a sample index:
-/// then each camera path is joined to a few of them.
+/// then each camera path is joined to a few of them. Vertex connection and merging [Georgiev et al.
+/// 2012] also merges each camera path with the vertices of all of them.
 class BidirectionalIntegrator final : public Integrator {
 public:
     BidirectionalIntegrator(const World& world, const MovingCamera& camera,
@@ -22,6 +25,7 @@ public:
     [[nodiscard]] std::int64_t begin_pass(SampleRange samples) override;
     [[nodiscard]] RenderStats do_part(std::int64_t part, SampleRange samples,
                                       const Films& films) override;
+    void end_parts() override;
     [[nodiscard]] RenderStats render_tile(const Tile& tile, SampleRange samples,
                                           const Films& films) const override;
 
@@ -39,6 +43,7 @@ private:
     /// s >= 2, t >= 2
     void join_paths(const SampleContext& sample, std::span<const PathVertex> light,
                     Scratch& scratch) const;
+    void merge_paths(const SampleContext& sample, Scratch& scratch) const;
 
     const World& world_;
     const MovingCamera& camera_;
@@ -46,6 +51,8 @@ private:
     PixelFilter filter_;
     StrategySet strategies_;
     LightPathCache cache_;  ///< empty unless light paths are shared
+    Merging merging_;       ///< of the pass's sample index
+    LightVertexGrid grid_;  ///< of what may merge
 };
 
 }  // namespace bdpt

@@ -1,5 +1,6 @@
 #include "integrator/bidirectional/light_path_cache.h"
 
+#include "integrator/bidirectional/light_vertex_grid.h"
 #include "math/sampler.h"
 #include "math/sobol.h"
 #include "math/split_mix.h"
@@ -42,8 +43,10 @@ std::uint64_t LightPathCache::bytes(const LightPathCounts& counts, int max_verti
         return 0;
     }
     // In floating point, where the greatest numbers that options can have do not overflow.
+    const std::size_t vertex =
+        sizeof(PathVertex) + sizeof(Bsdf) + (counts.merged ? LightVertexGrid::bytes_of_vertex : 0);
     const double bytes = static_cast<double>(counts.bundles) * counts.bundle * max_vertices *
-                         static_cast<double>(sizeof(PathVertex) + sizeof(Bsdf));
+                         static_cast<double>(vertex);
     constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
     return bytes < 0x1p63 ? static_cast<std::uint64_t>(bytes) : most;
 }

@@ -56,6 +56,18 @@ public:
     {
         return chunk_of(bundle).moments[place_of(bundle)];
     }
+    /// Visits the light paths in their order.
+    template <typename Visit>
+    void for_each_path(const Visit& visit) const
+    {
+        for (const Chunk& chunk : chunks_) {
+            std::size_t begin = 0;
+            for (const std::size_t end : chunk.path_ends) {
+                visit(std::span(chunk.vertices).subspan(begin, end - begin));
+                begin = end;
+            }
+        }
+    }
     /// Number `which` of the choice; empty if no light has power.
     [[nodiscard]] std::span<const PathVertex> path(const Choice& choice, int which) const;
 

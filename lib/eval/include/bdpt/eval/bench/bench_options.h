@@ -13,7 +13,7 @@ namespace bdpt::eval {
 /// What a benchmark does with each scene. Times are CPU time of all threads [s]: other programs on
 /// the machine count less in it than in the time on the wall.
 struct BenchOptions {
-    std::vector<IntegratorKind> integrators = all_integrators();
+    std::vector<IntegratorKind> integrators = unbiased_integrators();
     /// How to render. Integrator, size, samples and seed do not count.
     RenderOptions render{};
     double seconds = 5.0;  ///< of each run at equal time, > 0

@@ -13,6 +13,8 @@ namespace bdpt::eval {
 
 /// Those of `integrators()`, from the simplest to the one that has all strategies.
 [[nodiscard]] BDPT_EXPORT std::vector<IntegratorKind> all_integrators();
+/// Those of them that are not biased.
+[[nodiscard]] BDPT_EXPORT std::vector<IntegratorKind> unbiased_integrators();
 
 /// In the order of the enumerators.
 inline constexpr std::array all_heuristics{Heuristic::balance, Heuristic::power, Heuristic::cutoff,

@@ -1,0 +1,72 @@
+#pragma once
+
+#include "path/path_vertex.h"
+
+#include <glm/geometric.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace bdpt {
+
+class LightPathCache;
+
+/// Finds the light vertices near a point: a grid of cubes whose sides are the diameter in which
+/// vertices merge, kept in a hash table [Teschner et al. 2003, "Optimized Spatial Hashing for
+/// Collision Detection of Deformable Objects"].
+class LightVertexGrid {
+    /// The last of the first `size` vertices of a light path.
+    struct Entry {
+        Vec3 p;
+        std::uint32_t size;
+        const PathVertex* path;
+    };
+    using Cell = std::array<std::int64_t, 3>;
+
+public:
+    /// That a vertex takes at most: there are less than two buckets for each.
+    static constexpr std::size_t bytes_of_vertex = sizeof(Entry) + 2 * sizeof(std::size_t);
+
+    /// Of all vertices in `cache` that others can merge with, which must stay where they are; those
+    /// not farther away than `radius` are near. Points are measured from `center`, for their
+    /// digits.
+    void build(const LightPathCache& cache, Vec3 center, float radius);
+
+    /// Calls `visit` with the light paths up to each vertex near `p`, in an order that depends on
+    /// nothing but the arguments of `build`.
+    template <typename Visit>
+    void for_each_near(Vec3 p, const Visit& visit) const
+    {
+        for (const std::size_t bucket : buckets_near(p)) {
+            if (bucket == none) {
+                continue;
+            }
+            for (std::size_t i = begins_[bucket]; i < begins_[bucket + 1]; ++i) {
+                const Entry& entry = entries_[i];
+                const Vec3 offset = entry.p - p;
+                if (dot(offset, offset) <= radius_squared_) {
+                    visit(std::span(entry.path, entry.size));
+                }
+            }
+        }
+    }
+
+private:
+    static constexpr std::size_t none = ~std::size_t{0};
+
+    [[nodiscard]] Cell cell_of(Vec3 p, double offset) const;
+    [[nodiscard]] std::size_t bucket_of(const Cell& cell) const;
+    /// Those of the eight cubes that have a point near `p`, each once; the rest is `none`.
+    [[nodiscard]] std::array<std::size_t, 8> buckets_near(Vec3 p) const;
+
+    std::vector<Entry> entries_;       ///< by bucket
+    std::vector<std::size_t> begins_;  ///< of buckets; one more than there are
+    Vec3 center_{0.0f};
+    double cells_per_meter_ = 1.0;
+    float radius_squared_ = 0.0f;
+};
+
+}  // namespace bdpt

@@ -1,0 +1,189 @@
+// Vertex connection and merging: what is promised of it, but for the means (tests/statistical).
+
+#include "catch.hpp"
+#include "path/merging.h"
+#include "room.h"
+#include "scene_builder.h"
+
+#include <bdpt/render.h>
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+
+namespace bdpt::test {
+namespace {
+
+RenderOptions options(IntegratorKind integrator = IntegratorKind::vcm)
+{
+    RenderOptions result;
+    result.integrator = integrator;
+    result.film.width = 37;
+    result.film.height = 29;
+    result.sampling.samples = {.begin = 0, .end = 6};
+    result.sampling.seed = 5;
+    result.transport.max_depth = 5;
+    result.bidirectional.merge_radius = 0.03;
+    return result;
+}
+
+RenderResult image_of(const Scene& scene, const RenderOptions& options)
+{
+    return render(scene, room_camera(), options);
+}
+
+/// The message of what `render` throws.
+std::string refusal(const Scene& scene, const RenderOptions& options,
+                    const RenderControl& control = {})
+{
+    try {
+        static_cast<void>(render(scene, room_camera(), options, control));
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return {};
+}
+
+/// The mean of the middle of a developed film.
+double mean_of_middle(const Film& film)
+{
+    const Image image = film.develop();
+    double sum = 0.0;
+    int count = 0;
+    for (int y = image.height / 3; y < 2 * image.height / 3; ++y) {
+        for (int x = image.width / 3; x < 2 * image.width / 3; ++x) {
+            sum += static_cast<double>(image.at(x, y).g);
+            ++count;
+        }
+    }
+    return sum / count;
+}
+
+}  // namespace
+
+TEST_CASE("vcm without a merge radius is bdpt, to the bit", "[vcm]")
+{
+    const Scene scene = room();
+    const auto [light_paths, connections] =
+        GENERATE(std::tuple(1.0, std::optional<double>()), std::tuple(2.0, std::optional<double>()),
+                 std::tuple(0.25, std::optional<double>()), std::tuple(0.5, std::optional(2.5)));
+    RenderOptions vcm = options();
+    vcm.bidirectional.light_paths = light_paths;
+    vcm.bidirectional.connections = connections;
+    vcm.transport.heuristic = GENERATE(Heuristic::balance, Heuristic::power);
+    RenderOptions bdpt = vcm;
+    bdpt.integrator = IntegratorKind::bdpt;
+    const RenderResult merged = image_of(scene, vcm);
+    vcm.bidirectional.merge_radius = 0.0;
+    const RenderResult connected = image_of(scene, vcm);
+    const RenderResult expected = image_of(scene, bdpt);
+    CHECK(connected.film == expected.film);
+    CHECK(connected.stats == expected.stats);
+    CHECK_FALSE(merged.film == expected.film);
+}
+
+TEST_CASE("merged images are the same for any threads, tiles, parts and crops", "[vcm][purity]")
+{
+    const Scene scene = room();
+    RenderOptions o = options();
+    o.bidirectional.light_paths = GENERATE(0.5, 1.0);
+    o.system.threads = 1;
+    const RenderResult whole = image_of(scene, o);
+    CHECK(whole.film.defects().invalid == 0);
+    RenderOptions other = o;
+    other.system.threads = 8;
+    other.system.tile_size = 5;
+    const RenderResult again = image_of(scene, other);
+    CHECK(again.film == whole.film);
+    CHECK(again.stats == whole.stats);
+
+    other = o;
+    other.sampling.samples = {.begin = 2, .end = 6};
+    Film parts = image_of(scene, other).film;
+    other.sampling.samples = {.begin = 0, .end = 2};
+    parts.merge(image_of(scene, other).film);
+    CHECK(parts == whole.film);
+
+    other = o;
+    other.film.crop = PixelRect{5, 3, 24, 20};
+    const Image part = image_of(scene, other).film.develop();
+    const Image all = whole.film.develop();
+    int different = 0;
+    for (int y = 3; y < 20; ++y) {
+        for (int x = 5; x < 24; ++x) {
+            different += part.at(x - 5, y - 3) == all.at(x, y) ? 0 : 1;
+        }
+    }
+    CHECK(different == 0);
+}
+
+TEST_CASE("the merge radius shrinks with the sample index", "[vcm]")
+{
+    RenderOptions o = options();
+    o.bidirectional.merge_radius = 0.1;
+    const LightPathCounts counts(o);
+    const BoundingSphere sphere{.center = Vec3(1.0f), .radius = 20.0f};
+    const auto radius = [&](std::int64_t index) {
+        return Merging(o, counts, sphere, index).radius;
+    };
+    CHECK(radius(0) == Approx(2.0));
+    CHECK(radius(15) == Approx(2.0 * std::pow(16.0, -0.125)));
+    CHECK(radius(4'000'000'000) == Approx(2.0 * std::pow(4e9, -0.125)));
+    CHECK(Merging(o, counts, sphere, 3).light_paths == 37.0f * 29.0f);
+    CHECK(Merging(o, counts, sphere, 0).weight() == Approx(37.0 * 29.0 * 4.0 * 3.14159265));
+    o.bidirectional.merge_alpha = 1.0;
+    CHECK(radius(4'000'000'000) == Approx(2.0));
+    o.bidirectional.merge_radius = 1e-12;  // finer than positions are
+    CHECK(radius(0) > 1e-7f);
+    o.bidirectional.merge_radius = 0.0;
+    CHECK(Merging(o, LightPathCounts(o), sphere, 0).weight() == 0.0);
+}
+
+TEST_CASE("vcm sees a caustic in a mirror, which no other integrator can", "[vcm]")
+{
+    // A point light in a bulb of glass, over a floor that the camera sees in a mirror: neither the
+    // light nor the floor can be joined to.
+    SceneBuilder builder;
+    builder.quad({-3, -1, 3}, {3, -1, 3}, {3, -1, -3}, {-3, -1, -3}, lambertian(Rgb(0.7f)));
+    builder.quad({-2, -1, -1}, {2, -1, -1}, {2, 2, -1}, {-2, 2, -1}, metal(Rgb(0.9f), 0.0f));
+    builder.sphere({0.0f, 0.0f, 0.5f}, 0.3f, glass(0.0f), 48);
+    builder.light(PointLightDesc{.position = {0.0f, 0.0f, 0.5f}, .intensity = Rgb(3.0f)});
+    const Scene scene(std::move(builder.desc));
+    // Looks into the mirror alone.
+    const CameraDesc camera = camera_at({1.2f, 1.0f, 2.5f}, {0.3f, -0.3f, -1.0f}, 0.3f);
+    RenderOptions o = options();
+    o.transport.max_depth = 7;
+    o.sampling.samples.end = 16;
+    o.bidirectional.merge_radius = 0.01;
+    CHECK(mean_of_middle(render(scene, camera, o).film) > 0.02);
+    for (const auto kind : {IntegratorKind::bdpt, IntegratorKind::mis, IntegratorKind::lt}) {
+        o.integrator = kind;
+        CHECK(mean_of_middle(render(scene, camera, o).film) == 0.0);
+    }
+}
+
+TEST_CASE("vcm refuses what it cannot do", "[vcm]")
+{
+    const Scene scene = room();
+    RenderOptions o = options();
+    o.bidirectional.strategy_depth = 3;
+    CHECK(refusal(scene, o).find("need the integrator bdpt or lt") != std::string::npos);
+    o = options();
+    RenderControl control;
+    control.on_path = [](const PathContribution&) {};
+    CHECK(refusal(scene, o, control).find("vcm cannot tell of single paths (on_path)") == 0);
+}
+
+TEST_CASE("scenes without light have nothing to merge with", "[vcm]")
+{
+    SceneBuilder builder;
+    builder.walls(lambertian(Rgb(0.7f)), lambertian(Rgb(0.5f)));
+    const RenderResult result = image_of(Scene(std::move(builder.desc)), options());
+    CHECK(mean_of_middle(result.film) == 0.0);
+    CHECK(result.film.defects().invalid == 0);
+}
+
+}  // namespace bdpt::test

@@ -27,7 +27,10 @@ CHOICES = {"own 1": ["--light-paths", "1"],
            "n 0.25 c 1": ["--light-paths", "0.25", "--connections", "1"],
            "n 0.25 c 3": ["--light-paths", "0.25", "--connections", "3"],
            "n 0.06 c 0.25": ["--light-paths", "0.06", "--connections", "0.25"],
-           "n 4 c 1": ["--light-paths", "4", "--connections", "1"]}
+           "n 4 c 1": ["--light-paths", "4", "--connections", "1"],
+           "vcm": ["--integrator", "vcm"],
+           "vcm n 0.25": ["--integrator", "vcm", "--light-paths", "0.25"],
+           "vcm wider": ["--integrator", "vcm", "--merge-radius", "0.01"]}
 
 
 def child_seconds():

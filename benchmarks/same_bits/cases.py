@@ -45,6 +45,7 @@ OPTIONS = (
     Options("maximum", ("--heuristic", "maximum"), VARIED),
     Options("uniform", ("--heuristic", "uniform"), VARIED),
     Options("disable", ("--disable", "s0t2,s1t2,s2t1,s2t2")),
+    Options("merging", ("--merge-radius", "0.02"), VARIED, integrators=("vcm",)),
     Options("two light paths", ("--light-paths", "2"), integrators=("bdpt", "lt")),
     # Lengths
     Options("direct", ("--only", "direct"), VARIED, integrators=("bdpt", "mis", "lt")),

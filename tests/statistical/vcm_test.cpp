@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <iostream>
 #include <string>
@@ -63,7 +64,7 @@ void check_small_radius(const std::vector<EqualityCase>& cases, std::size_t step
         small.transport.heuristic = i % 2 == 0 ? Heuristic::power : Heuristic::balance;
         TileMeans vcm(scene, test.camera, small, sampler);
         const MeanComparison result =
-            compare(test, "mis = vcm", mis, vcm, {.detectable_bias = 0.03});
+            compare(test, "mis = vcm", mis, vcm, {.detectable_bias = 0.04});
         CHECK(result.sharp_enough);
         CHECK(result.equal);
     }
@@ -94,15 +95,14 @@ TEST_CASE("vcm with a small radius agrees with mis: alpha, layers and many light
     check_small_radius(alpha_cases(), 2, 510000);
     check_small_radius(layer_cases(), 3, 520000);
     check_small_radius(many_light_cases(), 2, 540000);
+    check_small_radius(volume_cases(), 3, 550000);
     check_small_radius(normal_map_cases(), 3, 560000);
 }
 
-TEST_CASE("vcm with a small radius agrees with mis: what moves, and bodies in bodies",
-          "[equality][motion][vcm]")
+TEST_CASE("vcm with a small radius agrees with mis: what moves", "[equality][motion][vcm]")
 {
     // All pixels of a sample have one time, so samples must be evenly spread over time.
-    check_small_radius(motion_cases(), 1, 530000, SamplerKind::sobol);
-    check_small_radius(volume_cases(), 2, 550000, SamplerKind::sobol);
+    check_small_radius(motion_cases(), 2, 530000, SamplerKind::sobol);
 }
 
 TEST_CASE("merging alone finds all light of two edges and more", "[equality][vcm]")
@@ -115,8 +115,7 @@ TEST_CASE("merging alone finds all light of two edges and more", "[equality][vcm
     std::vector<EqualityCase> cases{
         room_of("diffuse", lambertian({0.7f, 0.5f, 0.4f})),
         room_of("glossy", plastic({0.7f, 0.5f, 0.4f}, 0.4f)),
-        {.name = "walls that let rays pass", .scene = panes.desc, .camera = room_camera()},
-        equality_cases().front()};
+        {.name = "walls that let rays pass", .scene = panes.desc, .camera = room_camera()}};
     std::uint64_t seed = 570000;
     for (const EqualityCase& test : cases) {
         const Scene scene(test.scene);
@@ -126,35 +125,59 @@ TEST_CASE("merging alone finds all light of two edges and more", "[equality][vcm
         merging.bidirectional.light_paths = 4.0;
         TileMeans vcm(scene, test.camera, merging);
         const MeanComparison result =
-            compare(test, "mis = merging alone", mis, vcm, {.detectable_bias = 0.03});
+            compare(test, "mis = merging alone", mis, vcm, {.detectable_bias = 0.04});
         CHECK(result.sharp_enough);
-        CHECK(result.greatest_bias < 0.03);
+        CHECK(result.greatest_bias < 0.05);
     }
 }
 
 TEST_CASE("merging is biased by its radius, and less so as that shrinks", "[vcm]")
 {
+    // Light does not arrive beyond the edges of a plate, where the disk of merging does: of a
+    // square of side 2 that is 4 / 2 * 2 / (3 pi) of the radius, if that is small.
     std::uint64_t seed = 580000;
-    for (const EqualityCase& test : {room_of("diffuse", lambertian({0.7f, 0.5f, 0.4f})),
-                                     room_of("glossy", plastic({0.7f, 0.5f, 0.4f}, 0.4f))}) {
+    for (const MaterialDesc& material :
+         {lambertian({0.7f, 0.5f, 0.4f}), plastic({0.7f, 0.5f, 0.4f}, 0.4f)}) {
+        SceneBuilder builder;
+        builder.quad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, material);
+        builder.light(
+            DirectionalLightDesc{.direction = {0.2f, -0.3f, -1.0f}, .illuminance = Rgb(1.0f)});
+        const EqualityCase test{
+            .name = "plate",
+            .scene = std::move(builder.desc),
+            .camera = in_parallel(camera_at({0.0f, 0.0f, 3.0f}, {0.0f, 0.0f, 0.0f}, 0.7f), 2.0f),
+            .max_depth = 2};
         const Scene scene(test.scene);
         TileMeans mis(scene, test.camera, options(test, IntegratorKind::mis, ++seed));
+        mis.refine(100);
         const auto bias = [&](double radius, double alpha) {
             RenderOptions merging = merging_alone(options(test, IntegratorKind::vcm, ++seed));
-            merging.bidirectional.merge_radius = radius;
+            merging.bidirectional.merge_radius = radius / std::sqrt(2.0);  // of the sphere
             merging.bidirectional.merge_alpha = alpha;
             TileMeans vcm(scene, test.camera, merging);
-            const std::string what = "mis = merging within " + std::to_string(radius) + ", alpha " +
-                                     std::to_string(alpha);
-            vcm.refine(1000);  // what the first, larger radii bring must not stand out
-            return compare(test, what, mis, vcm, {.detectable_bias = 0.02}).greatest_bias;
+            vcm.refine(200);
+            double found = 0.0;
+            double expected = 0.0;
+            double variance = 0.0;
+            for (std::size_t i = 0; i < TileMeans::cells; ++i) {
+                found += vcm.cell_moments()[i].mean();
+                expected += mis.cell_moments()[i].mean();
+                variance += std::pow(vcm.cell_moments()[i].standard_error(), 2);
+            }
+            if (std::getenv("BDPT_TEST_VERBOSE") != nullptr) {
+                std::cout << "plate within " << radius << ", alpha " << alpha << ": "
+                          << found / expected - 1.0 << " +- " << std::sqrt(variance) / expected
+                          << "\n";
+            }
+            CHECK(std::sqrt(variance) < 0.01 * expected);
+            return found / expected - 1.0;
         };
-        const double wide = bias(0.4, 1.0);
-        const double half = bias(0.2, 1.0);
-        CHECK(wide > 0.1);
-        CHECK(half < 0.7 * wide);
-        CHECK(half > 0.03);
-        CHECK(bias(0.4, 0.2) < 0.02);
+        const double edge = -4.0 / (3.0 * 3.14159265);
+        CHECK(bias(0.2, 1.0) == Approx(0.2 * edge).margin(0.02));
+        CHECK(bias(0.1, 1.0) == Approx(0.1 * edge).margin(0.02));
+        // The mean of i^-0.4 for i up to 200.
+        CHECK(bias(0.2, 0.2) == Approx(0.2 * 0.2 * edge).margin(0.02));
+        CHECK(std::abs(bias(0.02, 1.0)) < 0.02);
     }
 }
 

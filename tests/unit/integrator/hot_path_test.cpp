@@ -180,6 +180,12 @@ void check(const World& world, const CameraDesc& desc, const RenderOptions& opti
     const std::function<void(const PathContribution&)> nobody;
     const Films films{.film = &film, .strategies = strategies, .on_path = nobody};
     std::uint64_t rays = 0;
+    // What tiles share; here the samples of all indices do.
+    const std::int64_t parts = integrator->begin_pass({.begin = 0, .end = 1});
+    for (std::int64_t part = 0; part < parts; ++part) {
+        static_cast<void>(integrator->do_part(part, {.begin = 0, .end = 1}, films));
+    }
+    integrator->end_parts();
     check_costs_nothing_a_sample([&](std::int64_t samples) {
         rays = integrator->render_tile(whole, {.begin = 0, .end = samples}, films).rays.total();
     });
@@ -214,8 +220,8 @@ TEST_CASE("hot path: a sample allocates nothing, takes no lock and throws nothin
 {
     const World world(everything());
     for (const CameraDesc& camera : cameras()) {
-        for (const auto kind : {IntegratorKind::bdpt, IntegratorKind::lt, IntegratorKind::mis,
-                                IntegratorKind::nee, IntegratorKind::pt}) {
+        for (const auto kind : {IntegratorKind::bdpt, IntegratorKind::lt, IntegratorKind::vcm,
+                                IntegratorKind::mis, IntegratorKind::nee, IntegratorKind::pt}) {
             CAPTURE(static_cast<int>(kind));
             check(world, camera, options_of(kind));
         }
@@ -243,6 +249,10 @@ TEST_CASE("hot path: nor do the options change that", "[hot_path]")
         options.film.clamp = 0.5f;
         check(world, camera, options);
     }
+    RenderOptions merging = options_of(IntegratorKind::vcm);
+    merging.bidirectional.merge_radius = 0.1;
+    merging.bidirectional.disabled = {{.s = 2, .t = 1}};
+    check(world, camera, merging);
 }
 
 TEST_CASE("hot path: nor do AOVs", "[hot_path]")

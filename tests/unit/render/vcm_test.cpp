@@ -1,6 +1,7 @@
 // Vertex connection and merging: what is promised of it, but for the means (tests/statistical).
 
 #include "catch.hpp"
+#include "moving_scenes.h"
 #include "path/merging.h"
 #include "room.h"
 #include "scene_builder.h"
@@ -163,6 +164,36 @@ TEST_CASE("vcm sees a caustic in a mirror, which no other integrator can", "[vcm
         o.integrator = kind;
         CHECK(mean_of_middle(render(scene, camera, o).film) == 0.0);
     }
+}
+
+TEST_CASE("vertices of different times do not merge", "[vcm]")
+{
+    // Early a shade keeps light from a plate, late another one hides the plate from the camera.
+    const auto brightness = [](bool hides) {
+        SceneBuilder builder;
+        builder.quad({-0.5f, -0.5f, 0}, {0.5f, -0.5f, 0}, {0.5f, 0.5f, 0}, {-0.5f, 0.5f, 0},
+                     lambertian(Rgb(0.7f)));
+        const auto shade = [&](float x, float begin) {
+            builder.quad({x - 0.9f, -3, 1}, {x + 0.9f, -3, 1}, {x + 0.9f, 3, 1}, {x - 0.9f, 3, 1},
+                         lambertian(Rgb(0.0f)));
+            move_last(builder, 1, [begin](float t) {
+                return translation({0.0f, 4.3f * (begin + t), 0.0f});
+            });
+        };
+        shade(-1.0f, 0.0f);
+        if (hides) {
+            shade(1.0f, -1.0f);
+        }
+        builder.light(
+            DirectionalLightDesc{.direction = {1.0f, 0.0f, -1.0f}, .illuminance = Rgb(1.0f)});
+        RenderOptions o = options();
+        o.transport.max_depth = 2;
+        o.sampling.samples.end = 64;
+        const CameraDesc camera = camera_at({3.0f, 0.0f, 3.0f}, {0.0f, 0.0f, 0.0f}, 0.15f);
+        return mean_of_middle(render(Scene(std::move(builder.desc)), camera, o).film);
+    };
+    CHECK(brightness(false) > 0.005);
+    CHECK(brightness(true) == 0.0);
 }
 
 TEST_CASE("vcm refuses what it cannot do", "[vcm]")

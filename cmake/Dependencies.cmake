@@ -15,6 +15,9 @@ endif()
 
 find_package(TBB CONFIG REQUIRED)
 
+# The header of xxHash alone, from 0.8 on: it is compiled in.
+find_path(BDPT_XXHASH_INCLUDE_DIR xxhash.h REQUIRED)
+
 set(BDPT_HAS_DRACO OFF)
 set(BDPT_HAS_MESHOPT OFF)
 if(BDPT_BUILD_IO)

@@ -11,6 +11,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <string>
 #include <vector>
 
 namespace bdpt {
@@ -44,11 +46,26 @@ public:
     /// the main layer. `film` is that of the same samples; throws `Error` (usage) when its region
     /// is another.
     [[nodiscard]] std::vector<Layer> develop(const Film& film) const;
+
+    // For files, as those of `Film`: "albedo.R", ..., and "hits" of every pixel.
+    [[nodiscard]] std::vector<std::string> plane_names() const;
+    void read_row(std::size_t plane, int row, std::span<ExactSum::Words> words) const;
+    void add_row(std::size_t plane, int row, std::span<const ExactSum::Words> words);
+
     /// Equal to the bit.
     [[nodiscard]] bool operator==(const AovFilm& other) const = default;
 
 private:
     using Sum3 = std::array<ExactSum, 3>;
+
+    /// A sum of each pixel, or a count.
+    struct Plane {
+        std::string name;
+        std::vector<Sum3> AovFilm::*color = nullptr;
+        std::size_t channel = 0;
+        std::vector<ExactSum> AovFilm::*single = nullptr;
+    };
+    [[nodiscard]] std::vector<Plane> planes() const;
 
     PixelRect region_;
     AovSet aovs_;

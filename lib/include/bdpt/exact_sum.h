@@ -16,6 +16,20 @@ public:
     /// Largest magnitude that may be added. The sum is right below 2^67: 2^25 times this.
     static constexpr float max_value = 0x1p42f;
 
+    /// The 128-bit number in multiples of 2^-60, in two's complement. Adding two wraps around.
+    struct Words {
+        std::uint64_t low = 0;
+        std::uint64_t high = 0;
+        Words& operator+=(const Words& other) noexcept
+        {
+            low += other.low;
+            high += other.high + (low < other.low ? 1U : 0U);
+            return *this;
+        }
+        [[nodiscard]] double value() const noexcept;
+        [[nodiscard]] bool operator==(const Words&) const = default;
+    };
+
     ExactSum() = default;
     ExactSum(const ExactSum& other) noexcept { *this = other; }
     ExactSum& operator=(const ExactSum& other) noexcept;
@@ -25,8 +39,14 @@ public:
     /// The same, several times faster, while no other thread adds.
     void add_alone(float value) noexcept;
     /// Not safe while other threads add.
-    void add(const ExactSum& other) noexcept;
-    [[nodiscard]] double value() const noexcept;
+    void add(const ExactSum& other) noexcept { add(other.words()); }
+    void add(const Words& words) noexcept;
+    [[nodiscard]] Words words() const noexcept
+    {
+        return {.low = low_.load(std::memory_order_relaxed),
+                .high = high_.load(std::memory_order_relaxed)};
+    }
+    [[nodiscard]] double value() const noexcept { return words().value(); }
     [[nodiscard]] bool operator==(const ExactSum& other) const noexcept;
 
 private:

@@ -12,6 +12,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace bdpt {
@@ -44,6 +45,13 @@ struct FilmLayout {
     /// The greatest component [nit] that one contribution may have; greater ones are scaled down.
     float clamp = std::numeric_limits<float>::infinity();
     [[nodiscard]] bool operator==(const FilmLayout&) const = default;
+};
+
+/// What a film knows beside the sums of pixels: for files.
+struct FilmTotals {
+    FilmDefects defects;
+    std::array<ExactSum::Words, 3> clamped{};  ///< radiance that clamping took, summed up
+    ExactSum::Words clamped_contributions{};
 };
 
 /// What clamping took from the estimate.
@@ -95,6 +103,18 @@ public:
     [[nodiscard]] Image variance() const;
     [[nodiscard]] FilmDefects defects() const;
     [[nodiscard]] ClampLoss clamp_loss() const;
+
+    // For files: the sums as planes, of which each row has a number a pixel.
+
+    /// "half0.R", ..., "half1.B". A plane has camera samples and splats in one: no image tells them
+    /// apart.
+    [[nodiscard]] static std::vector<std::string> plane_names();
+    /// `row` counts from the top of the region; `words` is as long as the region is wide.
+    void read_row(std::size_t plane, int row, std::span<ExactSum::Words> words) const;
+    void add_row(std::size_t plane, int row, std::span<const ExactSum::Words> words);
+    [[nodiscard]] FilmTotals totals() const;
+    void add_totals(const FilmTotals& totals);
+
     /// Equal to the bit: sums, counts, defects and what was clamped.
     [[nodiscard]] bool operator==(const Film& other) const;
 
@@ -114,6 +134,9 @@ private:
         [[nodiscard]] bool operator==(const RowLoss&) const = default;
     };
 
+    /// Camera samples and splats of a channel of a pixel.
+    [[nodiscard]] ExactSum::Words sum(std::size_t half, std::size_t pixel,
+                                      std::size_t channel) const noexcept;
     [[nodiscard]] Image develop(std::span<const std::size_t> halves) const;
     [[nodiscard]] Rgb clamp(Rgb value, int y) noexcept;
     [[nodiscard]] bool accept(Rgb& value, int x, int y, std::int64_t sample_index) noexcept;

@@ -5,6 +5,7 @@
 #include <bdpt/film.h>
 #include <bdpt/path_contribution.h>
 #include <bdpt/render_options.h>
+#include <bdpt/render_part.h>
 #include <bdpt/render_stats.h>
 #include <bdpt/scene.h>
 #include <bdpt/strategy_film.h>
@@ -40,6 +41,8 @@ struct RenderControl {
     /// Called between passes on the thread that called render(). What it throws ends the render and
     /// reaches the caller.
     std::function<void(const Progress&)> on_progress;
+    /// Called after it, with all samples that there are by then: for checkpoints.
+    std::function<void(const RenderPart&)> on_part;
     /// Called for each path that brings light to the film's region, on many threads at once; slows
     /// the render down.
     std::function<void(const PathContribution&)> on_path;
@@ -77,6 +80,22 @@ struct RenderResult {
 [[nodiscard]] BDPT_EXPORT RenderResult render(const Scene& scene, const CameraDesc& camera,
                                               const RenderOptions& options,
                                               const RenderControl& control = {});
+
+/// What render_part() gives back.
+struct PartResult {
+    RenderPart part;                       ///< `so_far` and what was rendered
+    double seconds = 0.0;                  ///< of this call
+    std::optional<TimeProfile> profile{};  ///< of the samples of this call; with Profiling::on
+};
+
+/// Goes on where `so_far` ends, or begins if that has no samples: renders those samples of
+/// `options` that it lacks, into its own films. If it lacks some, at least one pass is done. Parts
+/// of a render that are merged have the bits of one render() of all their samples, however they
+/// were split. `control` is told of the samples of this call. Throws what render() does, and
+/// `Error` (invalid_input) when `so_far` is of another render, saying in what it differs.
+[[nodiscard]] BDPT_EXPORT PartResult render_part(const Scene& scene, const CameraDesc& camera,
+                                                 const RenderOptions& options, RenderPart so_far,
+                                                 const RenderControl& control = {});
 
 /// Memory that the images of strategies of this render take [bytes], with the layers that they are
 /// developed to; 0 if none are asked for. Throws `Error` (usage) for options out of range.

@@ -70,6 +70,7 @@ enum class LightSampling : std::uint8_t {
 struct SampleRange {
     std::int64_t begin = 0;
     std::int64_t end = 64;
+    [[nodiscard]] bool operator==(const SampleRange&) const = default;
 };
 
 /// The image and its pixels. Ranges: width and height [1, 65536].

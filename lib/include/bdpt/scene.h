@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bdpt/export.h>
+#include <bdpt/identity.h>
 #include <bdpt/isa.h>
 #include <bdpt/scene_desc.h>
 
@@ -48,11 +49,15 @@ public:
     /// What is likely not meant, such as bodies that are not closed; one line each.
     [[nodiscard]] const std::vector<std::string>& warnings() const;
 
+    /// What its bits depend on (bdpt/identity.h), the instruction set and Embree included.
+    [[nodiscard]] const std::vector<IdentityComponent>& identity() const { return identity_; }
+
     /// For the library itself.
     [[nodiscard]] const World& world() const { return *world_; }
 
 private:
-    std::unique_ptr<const World> world_;
+    std::vector<IdentityComponent> identity_;
+    std::unique_ptr<const World> world_;  // after the identity, as it takes the description
 };
 
 }  // namespace bdpt

@@ -59,6 +59,12 @@ public:
     [[nodiscard]] Image weighted(Strategy strategy) const;
     /// All of them: layers "s02t03" (weighted) and "s02t03.unweighted" with RGB.
     [[nodiscard]] std::vector<Layer> develop() const;
+
+    // For files, as those of `Film`: "s02t03.R", "s02t03.unweighted.R", ... of every strategy.
+    [[nodiscard]] std::vector<std::string> plane_names() const;
+    void read_row(std::size_t plane, int row, std::span<ExactSum::Words> words) const;
+    void add_row(std::size_t plane, int row, std::span<const ExactSum::Words> words);
+
     /// Equal to the bit.
     [[nodiscard]] bool operator==(const StrategyFilm& other) const = default;
 
@@ -69,6 +75,14 @@ private:
         Sum3 unweighted;
         [[nodiscard]] bool operator==(const Pixel&) const = default;
     };
+
+    /// A plane's row in `pixels_`.
+    struct PlaneRow {
+        std::size_t first_pixel;
+        Sum3 Pixel::*sums;
+        std::size_t channel;
+    };
+    [[nodiscard]] PlaneRow place_of(std::size_t plane, int row) const;
 
     /// Where the images of a strategy begin in `pixels_`; the size of `pixels_` without any.
     [[nodiscard]] std::size_t begin_of(Strategy strategy) const noexcept;

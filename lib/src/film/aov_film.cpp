@@ -90,6 +90,65 @@ void AovFilm::merge(const AovFilm& other)
     }
 }
 
+std::vector<AovFilm::Plane> AovFilm::planes() const
+{
+    std::vector<Plane> result;
+    const auto add_color = [&](const char* name, const char* channels,
+                               std::vector<Sum3> AovFilm::*sums) {
+        for (std::size_t c = 0; c < 3 && !(this->*sums).empty(); ++c) {
+            result.push_back(
+                {.name = std::string(name) + "." + channels[c], .color = sums, .channel = c});
+        }
+    };
+    add_color("albedo", "RGB", &AovFilm::albedo_);
+    add_color("normal", "XYZ", &AovFilm::normal_);
+    add_color("position", "XYZ", &AovFilm::position_);
+    if (!depth_.empty()) {
+        result.push_back({.name = "depth.Z", .single = &AovFilm::depth_});
+    }
+    if (!hits_.empty()) {
+        result.push_back({.name = "hits"});
+    }
+    return result;
+}
+
+std::vector<std::string> AovFilm::plane_names() const
+{
+    std::vector<std::string> names;
+    for (const Plane& plane : planes()) {
+        names.push_back(plane.name);
+    }
+    return names;
+}
+
+void AovFilm::read_row(std::size_t plane, int row, std::span<ExactSum::Words> words) const
+{
+    const Plane which = planes()[plane];
+    const std::size_t first =
+        static_cast<std::size_t>(row) * static_cast<std::size_t>(region_.width());
+    for (std::size_t x = 0; x < words.size(); ++x) {
+        words[x] = which.color    ? (this->*which.color)[first + x][which.channel].words()
+                   : which.single ? (this->*which.single)[first + x].words()
+                                  : ExactSum::Words{.low = hits_[first + x], .high = 0};
+    }
+}
+
+void AovFilm::add_row(std::size_t plane, int row, std::span<const ExactSum::Words> words)
+{
+    const Plane which = planes()[plane];
+    const std::size_t first =
+        static_cast<std::size_t>(row) * static_cast<std::size_t>(region_.width());
+    for (std::size_t x = 0; x < words.size(); ++x) {
+        if (which.color) {
+            (this->*which.color)[first + x][which.channel].add(words[x]);
+        } else if (which.single) {
+            (this->*which.single)[first + x].add(words[x]);
+        } else {
+            hits_[first + x] += words[x].low;
+        }
+    }
+}
+
 std::vector<Layer> AovFilm::develop(const Film& film) const
 {
     if (film.region() != region_) {

@@ -8,11 +8,7 @@ namespace {
 
 constexpr int unit_exponent = -60;  // the low word counts multiples of 2^-60
 
-/// A 128-bit number.
-struct Words {
-    std::uint64_t low = 0;
-    std::uint64_t high = 0;
-};
+using Words = ExactSum::Words;
 
 /// In two's complement.
 Words negative(const Words& words)
@@ -76,10 +72,12 @@ void ExactSum::add_alone(float value) noexcept
     }
 }
 
-void ExactSum::add(const ExactSum& other) noexcept
+void ExactSum::add(const Words& words) noexcept
 {
-    add_words(other.low_.load(std::memory_order_relaxed),
-              other.high_.load(std::memory_order_relaxed));
+    Words sum = this->words();
+    sum += words;
+    low_.store(sum.low, std::memory_order_relaxed);
+    high_.store(sum.high, std::memory_order_relaxed);
 }
 
 void ExactSum::add_words(std::uint64_t low, std::uint64_t high) noexcept
@@ -93,10 +91,9 @@ void ExactSum::add_words(std::uint64_t low, std::uint64_t high) noexcept
     }
 }
 
-double ExactSum::value() const noexcept
+double ExactSum::Words::value() const noexcept
 {
-    Words words{.low = low_.load(std::memory_order_relaxed),
-                .high = high_.load(std::memory_order_relaxed)};
+    Words words = *this;
     const bool below_zero = (words.high >> 63U) != 0;
     if (below_zero) {
         words = negative(words);  // else small sums would be differences of large numbers

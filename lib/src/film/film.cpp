@@ -14,6 +14,14 @@ std::size_t half_of(std::int64_t sample_index)
     return static_cast<std::size_t>(sample_index & 1);
 }
 
+/// A number for a sample of a pixel: the lower, the earlier.
+std::uint64_t place_code(const FilmLayout& layout, int x, int y, std::int64_t sample_index)
+{
+    const auto pixel = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(layout.width) +
+                       static_cast<std::uint64_t>(x);
+    return static_cast<std::uint64_t>(sample_index) << 32U | pixel;
+}
+
 std::string text(const FilmLayout& layout)
 {
     const PixelRect& r = layout.region;
@@ -89,10 +97,7 @@ bool Film::accept(Rgb& value, int x, int y, std::int64_t sample_index) noexcept
     for (int c = 0; c < 3; ++c) {
         if (!(value[c] >= 0.0f && value[c] <= std::numeric_limits<float>::max())) {
             invalid_.fetch_add(1, std::memory_order_relaxed);
-            const auto pixel =
-                static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(layout_.width) +
-                static_cast<std::uint64_t>(x);
-            const std::uint64_t place = static_cast<std::uint64_t>(sample_index) << 32U | pixel;
+            const std::uint64_t place = place_code(layout_, x, y, sample_index);
             std::uint64_t first = first_invalid_.load(std::memory_order_relaxed);
             while (place < first && !first_invalid_.compare_exchange_weak(first, place)) {
             }
@@ -195,6 +200,15 @@ void Film::merge(const Film& other)
     first_invalid_ = std::min(first_invalid_.load(), other.first_invalid_.load());
 }
 
+ExactSum::Words Film::sum(std::size_t half, std::size_t pixel, std::size_t channel) const noexcept
+{
+    ExactSum::Words result = samples_[half][pixel].rgb[channel].words();
+    if (!splats_[half].empty()) {
+        result += splats_[half][pixel].rgb[channel].words();
+    }
+    return result;
+}
+
 Image Film::develop(std::span<const std::size_t> halves) const
 {
     std::int64_t count = 0;
@@ -207,13 +221,13 @@ Image Film::develop(std::span<const std::size_t> halves) const
     }
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
         for (std::size_t c = 0; c < 3; ++c) {
-            double sum = 0.0;
+            // Rounded once, so that it does not matter how the samples were split.
+            ExactSum::Words total;
             for (const std::size_t half : halves) {
-                sum += samples_[half][i].rgb[c].value();
-                sum += splats_[half].empty() ? 0.0 : splats_[half][i].rgb[c].value();
+                total += sum(half, i, c);
             }
             image.pixels[i][static_cast<int>(c)] =
-                static_cast<float>(sum / static_cast<double>(count));
+                static_cast<float>(total.value() / static_cast<double>(count));
         }
     }
     return image;
@@ -251,17 +265,13 @@ Image Film::variance() const
 
 ClampLoss Film::clamp_loss() const
 {
-    RowLoss sum;
-    for (const RowLoss& loss : losses_) {
-        sum.light.add(loss.light);
-        sum.contributions.add(loss.contributions);
-    }
-    ClampLoss result{.contributions = static_cast<std::uint64_t>(sum.contributions.value()),
+    const FilmTotals sum = totals();
+    ClampLoss result{.contributions = static_cast<std::uint64_t>(sum.clamped_contributions.value()),
                      .radiance = Rgb(0.0f)};
     const double samples = static_cast<double>(sample_count()) * width() * height();
     for (int c = 0; c < 3 && samples > 0.0; ++c) {
-        const double light = sum.light.rgb[static_cast<std::size_t>(c)].value();
-        result.radiance[c] = static_cast<float>(light / samples);
+        result.radiance[c] =
+            static_cast<float>(sum.clamped[static_cast<std::size_t>(c)].value() / samples);
     }
     return result;
 }
@@ -278,6 +288,57 @@ FilmDefects Film::defects() const
                                .sample_index = static_cast<std::int64_t>(first >> 32U)};
     }
     return defects;
+}
+
+std::vector<std::string> Film::plane_names()
+{
+    return {"half0.R", "half0.G", "half0.B", "half1.R", "half1.G", "half1.B"};
+}
+
+void Film::read_row(std::size_t plane, int row, std::span<ExactSum::Words> words) const
+{
+    const std::size_t first = index(region().x0, region().y0 + row);
+    for (std::size_t x = 0; x < words.size(); ++x) {
+        words[x] = sum(plane / 3, first + x, plane % 3);
+    }
+}
+
+void Film::add_row(std::size_t plane, int row, std::span<const ExactSum::Words> words)
+{
+    const std::size_t first = index(region().x0, region().y0 + row);
+    for (std::size_t x = 0; x < words.size(); ++x) {
+        samples_[plane / 3][first + x].rgb[plane % 3].add(words[x]);
+    }
+}
+
+FilmTotals Film::totals() const
+{
+    RowLoss sum;
+    for (const RowLoss& loss : losses_) {
+        sum.light.add(loss.light);
+        sum.contributions.add(loss.contributions);
+    }
+    return {
+        .defects = defects(),
+        .clamped = {sum.light.rgb[0].words(), sum.light.rgb[1].words(), sum.light.rgb[2].words()},
+        .clamped_contributions = sum.contributions.words()};
+}
+
+void Film::add_totals(const FilmTotals& totals)
+{
+    invalid_ += totals.defects.invalid;
+    saturated_ += totals.defects.saturated;
+    if (const auto& place = totals.defects.first_invalid) {
+        first_invalid_ = std::min(first_invalid_.load(),
+                                  place_code(layout_, place->x, place->y, place->sample_index));
+    }
+    if (losses_.empty()) {
+        return;
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+        losses_.front().light.rgb[c].add(totals.clamped[c]);
+    }
+    losses_.front().contributions.add(totals.clamped_contributions);
 }
 
 bool Film::operator==(const Film& other) const

@@ -8,6 +8,8 @@
 namespace bdpt {
 namespace {
 
+constexpr std::size_t planes_of_strategy = 6;  // three channels, weighted and unweighted
+
 std::size_t area(const PixelRect& region)
 {
     return static_cast<std::size_t>(region.width()) * static_cast<std::size_t>(region.height());
@@ -108,6 +110,45 @@ void StrategyFilm::merge(const StrategyFilm& other)
         bdpt::add(pixels_[i].unweighted, other.pixels_[i].unweighted);
     }
     samples_ += other.samples_;
+}
+
+std::vector<std::string> StrategyFilm::plane_names() const
+{
+    std::vector<std::string> names;
+    for (const Strategy& strategy : strategies_) {
+        for (const char* kind : {"", ".unweighted"}) {
+            for (const char* channel : {".R", ".G", ".B"}) {
+                names.push_back(strategy_name(strategy) + kind + channel);
+            }
+        }
+    }
+    return names;
+}
+
+StrategyFilm::PlaneRow StrategyFilm::place_of(std::size_t plane, int row) const
+{
+    const std::size_t image = plane / planes_of_strategy * area(region_);
+    const std::size_t channel = plane % planes_of_strategy;
+    return {.first_pixel =
+                image + static_cast<std::size_t>(row) * static_cast<std::size_t>(region_.width()),
+            .sums = channel < 3 ? &Pixel::weighted : &Pixel::unweighted,
+            .channel = channel % 3};
+}
+
+void StrategyFilm::read_row(std::size_t plane, int row, std::span<ExactSum::Words> words) const
+{
+    const PlaneRow place = place_of(plane, row);
+    for (std::size_t x = 0; x < words.size(); ++x) {
+        words[x] = (pixels_[place.first_pixel + x].*place.sums)[place.channel].words();
+    }
+}
+
+void StrategyFilm::add_row(std::size_t plane, int row, std::span<const ExactSum::Words> words)
+{
+    const PlaneRow place = place_of(plane, row);
+    for (std::size_t x = 0; x < words.size(); ++x) {
+        (pixels_[place.first_pixel + x].*place.sums)[place.channel].add(words[x]);
+    }
 }
 
 Image StrategyFilm::develop(Strategy strategy, Sum3 Pixel::*sums) const

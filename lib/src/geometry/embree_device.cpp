@@ -79,6 +79,16 @@ EmbreeDevice::EmbreeDevice(Isa isa) : isa_(isa)
     }
 }
 
+std::string EmbreeDevice::version() const
+{
+    const auto number = [this](RTCDeviceProperty property) {
+        return std::to_string(rtcGetDeviceProperty(get(), property));
+    };
+    return number(RTC_DEVICE_PROPERTY_VERSION_MAJOR) + "." +
+           number(RTC_DEVICE_PROPERTY_VERSION_MINOR) + "." +
+           number(RTC_DEVICE_PROPERTY_VERSION_PATCH);
+}
+
 void check_embree(RTCDevice device, const char* action)
 {
     const RTCError code = rtcGetDeviceError(device);

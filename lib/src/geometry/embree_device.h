@@ -5,6 +5,7 @@
 #include <bdpt/isa.h>
 
 #include <memory>
+#include <string>
 #include <type_traits>
 
 namespace bdpt {
@@ -19,6 +20,8 @@ public:
     [[nodiscard]] RTCDevice get() const { return device_.get(); }
     /// The one in use; native only where it is not known, on other CPUs than x86.
     [[nodiscard]] Isa isa() const { return isa_; }
+    /// Of the library that is loaded: "3.13.5".
+    [[nodiscard]] std::string version() const;
 
 private:
     struct Release {

@@ -276,6 +276,11 @@ Isa EmbreeScene::isa() const noexcept
     return state_->device.isa();
 }
 
+std::string EmbreeScene::embree_version() const
+{
+    return state_->device.version();
+}
+
 std::optional<RayHit> EmbreeScene::intersect(const Ray& ray) const noexcept
 {
     if (!state_->can_trace(ray)) [[unlikely]] {

@@ -33,6 +33,8 @@ public:
     [[nodiscard]] float farthest_origin() const noexcept;
     /// What rays are traced with.
     [[nodiscard]] Isa isa() const noexcept;
+    /// As that of `EmbreeDevice`.
+    [[nodiscard]] std::string embree_version() const;
     /// The first surface that the ray does not pass.
     [[nodiscard]] std::optional<RayHit> intersect(const Ray& ray) const noexcept;
     /// Anything in (0, ray.t_max) that the ray does not pass?

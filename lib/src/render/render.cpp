@@ -20,7 +20,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 #include <optional>
+#include <utility>
 
 namespace bdpt {
 namespace {
@@ -43,7 +45,7 @@ struct Work {
 };
 
 void render_pass(const Work& work, const RenderOptions& options, SampleRange samples,
-                 RenderResult& result)
+                 RenderPart& result)
 {
     // Each pixel of the whole image has its light path, and any of them can reach a crop.
     const PixelRect area =
@@ -88,20 +90,117 @@ void render_pass(const Work& work, const RenderOptions& options, SampleRange sam
     stats_of_threads.combine_each([&](const RenderStats& stats) { result.stats += stats; });
     result.film.count_samples(samples.begin, samples.end);
     result.strategies.count_samples(samples.end - samples.begin);
+    result.samples.add(samples);
+}
+
+/// How many samples passes have, so that one takes about `pass_seconds`.
+class PassSize {
+public:
+    explicit PassSize(const Integrator& integrator)
+        : most_(std::min(most_samples_in_pass, integrator.most_samples_in_pass()))
+    {}
+    [[nodiscard]] std::int64_t samples() const { return samples_; }
+    /// Takes note of the last pass.
+    void learn(std::int64_t samples, double seconds)
+    {
+        seconds_a_sample_ = seconds / static_cast<double>(samples);
+        if (seconds_a_sample_ * static_cast<double>(2 * samples_) < pass_seconds) {
+            samples_ = std::min(2 * samples_, most_);
+        }
+    }
+    /// What the next pass will probably take [s].
+    [[nodiscard]] double seconds() const
+    {
+        return seconds_a_sample_ * static_cast<double>(samples_);
+    }
+
+private:
+    std::int64_t most_;
+    std::int64_t samples_ = 1;
+    double seconds_a_sample_ = 0.0;
+};
+
+/// What is missing of `wanted`, as passes of at most `size` samples.
+SampleRange next_pass(const SampleSet& done, const SampleSet& wanted, std::int64_t size)
+{
+    const SampleSet missing = done.missing(wanted);
+    if (missing.empty()) {
+        return {.begin = 0, .end = 0};
+    }
+    const SampleRange first = missing.ranges().front();
+    return {.begin = first.begin, .end = std::min(first.begin + size, first.end)};
+}
+
+double cpu_seconds()
+{
+    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+FilmLayout film_layout(const RenderOptions& options)
+{
+    return {.width = options.film.width,
+            .height = options.film.height,
+            .region = options.film.crop.value_or(whole_image(options)),
+            .splats = info(options.integrator).traces_light_paths ? SplatImage::present
+                                                                  : SplatImage::absent,
+            .clamp = options.film.clamp};
+}
+
+/// A part of the render without any samples.
+RenderPart empty_part(Identity identity, const RenderOptions& options, const CameraDesc& camera)
+{
+    const FilmLayout layout = film_layout(options);
+    return {.identity = std::move(identity),
+            .samples = {},
+            .film = Film(layout),
+            .aovs = AovFilm(layout.region, options.film.aovs),
+            .strategies = StrategyFilm(layout.region, strategies_with_images(options, camera)),
+            .stats = {}};
+}
+
+void check_part(const RenderPart& part, const Identity& identity, const RenderOptions& options)
+{
+    if (const auto what = difference(identity, part.identity)) {
+        throw Error(ErrorCode::invalid_input, "the part is of another render: " + *what);
+    }
+    if (part.film.layout() != film_layout(options)) {
+        throw Error(ErrorCode::usage, "the part's film is not that of its render");
+    }
 }
 
 }  // namespace
 
-RenderResult render(const Scene& scene, const CameraDesc& camera_desc, const RenderOptions& asked,
+RenderResult render(const Scene& scene, const CameraDesc& camera, const RenderOptions& options,
                     const RenderControl& control)
 {
+    PartResult result = render_part(scene, camera, options, {}, control);
+    RenderPart& part = result.part;
+    return {.film = std::move(part.film),
+            .aovs = std::move(part.aovs),
+            .strategies = std::move(part.strategies),
+            .stats = part.stats,
+            .options = std::move(result.options),
+            .samples = {.begin = options.sampling.samples.begin, .end = part.samples.end()},
+            .seconds = result.seconds,
+            .profile = std::move(result.profile)};
+}
+
+PartResult render_part(const Scene& scene, const CameraDesc& camera_desc,
+                       const RenderOptions& asked, RenderPart so_far,
+                       const RenderControl& control)
+{
     const auto start = std::chrono::steady_clock::now();
+    const double cpu_start = cpu_seconds();
     const RenderOptions options = chosen_options(scene, camera_desc, asked);
     check_strategy_memory(options, camera_desc);
     if (control.on_path && options.integrator == IntegratorKind::vcm) {
         throw Error(ErrorCode::usage,
                     "vcm cannot tell of single paths (on_path): a path that it "
                     "merges is not that of a strategy (s, t)");
+    }
+    Identity identity = bdpt::identity(scene, camera_desc, options);
+    if (!so_far.samples.empty()) {
+        check_part(so_far, identity, options);
     }
     const PixelRect region = options.film.crop.value_or(whole_image(options));
     const MovingCamera camera = open_camera(scene.world(), camera_desc, options);
@@ -110,55 +209,46 @@ RenderResult render(const Scene& scene, const CameraDesc& camera_desc, const Ren
 
     Threads threads(options.system.threads);
 
-    const FilmLayout layout{.width = options.film.width,
-                            .height = options.film.height,
-                            .region = region,
-                            .splats = info(options.integrator).traces_light_paths
-                                          ? SplatImage::present
-                                          : SplatImage::absent,
-                            .clamp = options.film.clamp};
-    RenderResult result{
-        .film = Film(layout),
-        .aovs = AovFilm(region, options.film.aovs),
-        .strategies = StrategyFilm(region, strategies_with_images(options, camera_desc)),
-        .stats = {},
-        .options = options,
-        .samples = {.begin = options.sampling.samples.begin, .end = options.sampling.samples.begin},
-        .seconds = 0.0};
+    PartResult result{.part = so_far.samples.empty()
+                                  ? empty_part(std::move(identity), options, camera_desc)
+                                  : std::move(so_far),
+                      .options = options};
+    RenderPart& part = result.part;
     std::optional<TimeRecorder> times;
     if (control.profiling == Profiling::on) {
         times.emplace(region);
     }
-    std::int64_t pass_size = 1;
-    while (result.samples.end < options.sampling.samples.end) {
-        const std::int64_t begin = result.samples.end;
-        const std::int64_t end = std::min(begin + pass_size, options.sampling.samples.end);
+    const SampleSet wanted(options.sampling.samples);
+    const std::int64_t total = part.samples.missing(wanted).count();
+    const double cpu_before = part.cpu_seconds;
+    std::int64_t done = 0;
+    PassSize pass_size(*integrator);
+    while (done < total) {
+        const SampleRange pass = next_pass(part.samples, wanted, pass_size.samples());
         const double before = seconds_since(start);
         threads.execute([&] {
-            render_pass({*integrator, aov_pass, control, times ? &*times : nullptr}, options,
-                        {.begin = begin, .end = end}, result);
+            render_pass({*integrator, aov_pass, control, times ? &*times : nullptr}, options, pass,
+                        part);
         });
-        result.samples.end = end;
+        done += pass.end - pass.begin;
         result.seconds = seconds_since(start);
+        part.cpu_seconds = cpu_before + cpu_seconds() - cpu_start;
         if (control.on_progress) {
             control.on_progress(
-                {.samples_done = end - options.sampling.samples.begin,
-                 .samples_total = options.sampling.samples.end - options.sampling.samples.begin,
-                 .seconds = result.seconds});
+                {.samples_done = done, .samples_total = total, .seconds = result.seconds});
         }
-        const double seconds_a_sample =
-            (result.seconds - before) / static_cast<double>(end - begin);
-        if (seconds_a_sample * static_cast<double>(2 * pass_size) < pass_seconds) {
-            pass_size =
-                std::min({2 * pass_size, most_samples_in_pass, integrator->most_samples_in_pass()});
+        if (control.on_part) {
+            control.on_part(part);
         }
-        const double next = seconds_a_sample * static_cast<double>(pass_size);
-        if (control.stop.stop_requested() || result.seconds + next > control.time_limit) {
+        pass_size.learn(pass.end - pass.begin, result.seconds - before);
+        // What `on_part` took counts, too.
+        if (control.stop.stop_requested() ||
+            seconds_since(start) + pass_size.seconds() > control.time_limit) {
             break;
         }
     }
     if (times) {
-        result.profile = times->profile(result.samples.end - result.samples.begin);
+        result.profile = times->profile(done);
     }
     return result;
 }

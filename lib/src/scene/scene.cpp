@@ -6,8 +6,13 @@
 
 namespace bdpt {
 
-Scene::Scene(SceneDesc desc, Isa isa) : world_(std::make_unique<const World>(std::move(desc), isa))
-{}
+Scene::Scene(SceneDesc desc, Isa isa)
+    : identity_(identity_components(desc)),
+      world_(std::make_unique<const World>(std::move(desc), isa))
+{
+    identity_.push_back({.name = "build: instruction set", .value = isa_name(world_->isa())});
+    identity_.push_back({.name = "build: Embree", .value = world_->embree_version()});
+}
 Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;
 Scene::~Scene() = default;

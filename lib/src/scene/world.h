@@ -79,6 +79,7 @@ public:
     [[nodiscard]] const Bounds& bounds() const { return bounds_; }
     [[nodiscard]] const SceneCounts& counts() const { return counts_; }
     [[nodiscard]] Isa isa() const noexcept { return embree_->isa(); }
+    [[nodiscard]] std::string embree_version() const { return embree_->embree_version(); }
     /// As that of `EmbreeScene`.
     [[nodiscard]] float farthest_origin() const noexcept { return embree_->farthest_origin(); }
     /// What absorbs around a point that lies on no surface; null if nothing does.

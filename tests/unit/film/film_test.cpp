@@ -70,6 +70,39 @@ TEST_CASE("Film::merge adds samples, counts and defects; sizes must match", "[fi
     CHECK_THROWS_AS(a.merge(Film(layout(1, 1))), Error);
 }
 
+TEST_CASE("Film rounds once, so that images do not tell how its sums were split", "[film]")
+{
+    // Just above the middle of two floats, but only if the two last digits are added first: one by
+    // one they are lost to a double that holds the rest.
+    Film split(layout(1, 1));
+    Film whole(layout(1, 1));
+    const float digit = 0x1p-13f;
+    for (const float value : {0x1p40f, 0x1p16f}) {
+        whole.add_sample(0, 0, 0, Rgb(value));
+        split.add_sample(0, 0, 0, Rgb(value));
+    }
+    whole.add_sample(0, 0, 0, Rgb(digit));
+    whole.add_sample(0, 0, 0, Rgb(digit));
+    split.add_splat({0.5f, 0.5f}, 0, Rgb(digit));
+    split.add_sample(0, 0, 1, Rgb(digit));
+    whole.count_samples(0, 2);
+    split.count_samples(0, 2);
+    CHECK(whole.develop().at(0, 0).r == 0x1.000002p39f);
+    CHECK(split.develop().at(0, 0) == whole.develop().at(0, 0));
+
+    // And what comes back from rows has camera samples and splats in one.
+    Film copy(layout(1, 1));
+    for (std::size_t plane = 0; plane < Film::plane_names().size(); ++plane) {
+        ExactSum::Words words;
+        split.read_row(plane, 0, {&words, 1});
+        copy.add_row(plane, 0, {&words, 1});
+    }
+    copy.count_samples(0, 2);
+    CHECK(copy.develop_half(0).at(0, 0) == split.develop_half(0).at(0, 0));
+    CHECK(copy.develop_half(1).at(0, 0) == split.develop_half(1).at(0, 0));
+    CHECK(copy.develop().at(0, 0) == split.develop().at(0, 0));
+}
+
 TEST_CASE("ExactSum adds alone what it adds among threads", "[film]")
 {
     std::mt19937 engine(3);

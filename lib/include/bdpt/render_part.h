@@ -1,0 +1,30 @@
+#pragma once
+
+#include <bdpt/aov_film.h>
+#include <bdpt/export.h>
+#include <bdpt/film.h>
+#include <bdpt/identity.h>
+#include <bdpt/render_stats.h>
+#include <bdpt/sample_set.h>
+#include <bdpt/strategy_film.h>
+
+namespace bdpt {
+
+/// What some of the samples of a render brought, and which samples they are. Parts of one render
+/// add up to its other samples', in any order, to the bit: they are checkpoints, what a machine of
+/// a farm gives back, and the whole.
+struct RenderPart {
+    Identity identity;  ///< of the render
+    SampleSet samples;  ///< that the films hold, of every pixel
+    Film film;
+    AovFilm aovs;             ///< empty if none were asked for
+    StrategyFilm strategies;  ///< empty if none were asked for
+    RenderStats stats;
+    double cpu_seconds = 0.0;  ///< [s] of the process, while it rendered these samples
+};
+
+/// Adds the samples of `other` to `part`. Throws `Error` (invalid_input) when they are of another
+/// render, saying in what it differs, or when `part` has some of them already.
+BDPT_EXPORT void merge(RenderPart& part, const RenderPart& other);
+
+}  // namespace bdpt

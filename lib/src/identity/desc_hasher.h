@@ -1,0 +1,105 @@
+#pragma once
+
+#include <bdpt/content_hash.h>
+#include <bdpt/fields.h>
+#include <bdpt/image.h>
+#include <bdpt/light_desc.h>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+namespace bdpt {
+
+/// Values without pointers and padding: numbers, enumerators, vectors and matrices of GLM.
+template <typename T>
+concept PlainValue = std::is_arithmetic_v<T> || std::is_enum_v<T> || requires(const T& value)
+{
+    typename T::value_type;
+    value.length();
+    requires std::is_trivially_copyable_v<T>;
+    requires !std::is_convertible_v<T, std::string_view>;
+};
+
+/// Hashes descriptions by their lists of fields (bdpt/fields.h). Names do not count, as they show
+/// in no image.
+class DescHasher {
+public:
+    template <PlainValue T>
+    void add(const T& value)
+    {
+        hasher_.add(&value, sizeof value);
+    }
+    void add(const std::string& /*name*/) {}
+    template <typename T>
+    void add(const std::vector<T>& values)
+    {
+        add(values.size());
+        if constexpr (PlainValue<T>) {
+            hasher_.add(values.data(), values.size() * sizeof(T));
+        } else {
+            for (const T& value : values) {
+                add(value);
+            }
+        }
+    }
+    template <typename T, std::size_t n>
+    void add(const std::array<T, n>& values)
+    {
+        for (const T& value : values) {
+            add(value);
+        }
+    }
+    template <typename T>
+    void add(const std::optional<T>& value)
+    {
+        add(value.has_value());
+        if (value) {
+            add(*value);
+        }
+    }
+    void add(const LightDesc& light)
+    {
+        add(light.index());
+        std::visit([this](const auto& kind) { add(kind); }, light);
+    }
+    void add(const Image& image)
+    {
+        add(image.width);
+        add(image.height);
+        add(image.pixels);
+    }
+    void add(const TexelImage& image)
+    {
+        add(image.width);
+        add(image.height);
+        add(image.channels);
+        add(image.type);
+        add(image.bytes);
+    }
+    template <HasFields Desc>
+    void add(const Desc& desc)
+    {
+        for_each_field(desc, [this](const auto& /*field*/, const auto& value) { add(value); });
+    }
+
+    [[nodiscard]] ContentHash hash() const { return hasher_.hash(); }
+
+private:
+    ContentHasher hasher_;
+};
+
+/// "#" and the hash of one value.
+template <typename T>
+[[nodiscard]] std::string hash_text(const T& value)
+{
+    DescHasher hasher;
+    hasher.add(value);
+    return "#" + to_string(hasher.hash());
+}
+
+}  // namespace bdpt

@@ -1,0 +1,168 @@
+#include <bdpt/identity.h>
+
+#include "identity/desc_hasher.h"
+
+#include <bdpt/integrators.h>
+#include <bdpt/option_fields.h>
+#include <bdpt/scene.h>
+#include <bdpt/version.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <type_traits>
+
+namespace bdpt {
+namespace {
+
+/// As many digits as tell the number from all others.
+template <typename T>
+requires std::is_arithmetic_v<T> std::string text(T value)
+{
+    if constexpr (std::is_floating_point_v<T>) {
+        std::array<char, 64> digits{};
+        const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+        return {digits.data(), end};
+    } else {
+        return std::to_string(value);
+    }
+}
+
+std::string text(IntegratorKind kind)
+{
+    return std::string(info(kind).name);
+}
+
+/// Numbers of enumerators tell people nothing.
+template <typename T>
+requires std::is_enum_v<T> std::string text(T value)
+{
+    return "#" + std::to_string(static_cast<std::uint64_t>(value));
+}
+
+std::string text(const AovSet& aovs)
+{
+    return "#" + std::to_string(std::bit_cast<std::uint32_t>(aovs));
+}
+
+template <HasFields T>
+std::string text(const T& value)
+{
+    std::string result;
+    for_each_field(value, [&result](const auto& /*field*/, const auto& number) {
+        result += (result.empty() ? "" : ",") + text(number);
+    });
+    return result;
+}
+
+template <typename T>
+std::string text(const std::optional<T>& value)
+{
+    return value ? text(*value) : "none";
+}
+
+template <typename T>
+std::string text(const std::vector<T>& values)
+{
+    std::string result;
+    for (const T& value : values) {
+        result += (result.empty() ? "" : " ") + text(value);
+    }
+    return result.empty() ? "none" : result;
+}
+
+/// Adds the fields of options and of the groups in them.
+template <typename Options>
+void add_options(std::vector<IdentityComponent>& result, const Options& options)
+{
+    for_each_field(options, [&result](const auto& field, const auto& value) {
+        using T = std::remove_cvref_t<decltype(value)>;
+        const bool is_limit = field.name.ends_with(" memory");
+        if constexpr (std::is_same_v<T, SystemOptions> || std::is_same_v<T, SampleRange>) {
+            return;  // changes no bit of a sample
+        } else if constexpr (HasFields<T> && !std::is_same_v<T, PixelRect>) {
+            add_options(result, value);
+        } else if (!is_limit) {
+            result.push_back({.name = "option: " + std::string(field.name), .value = text(value)});
+        }
+    });
+}
+
+void add_camera(std::vector<IdentityComponent>& result, const CameraDesc& camera)
+{
+    for_each_field(camera, [&result](const auto& field, const auto& value) {
+        using T = std::remove_cvref_t<decltype(value)>;
+        const std::string name = "camera: " + std::string(field.name);
+        if constexpr (std::is_same_v<T, std::string> || std::is_same_v<T, std::optional<float>>) {
+            return;  // its name, and the shape of image that its author had in mind
+        } else if constexpr (std::is_arithmetic_v<T>) {
+            result.push_back({.name = name, .value = text(value)});
+        } else {
+            result.push_back({.name = name, .value = hash_text(value)});
+        }
+    });
+}
+
+const IdentityComponent* find(const Identity& identity, std::string_view name)
+{
+    const auto found = std::find_if(identity.components.begin(), identity.components.end(),
+                                    [&](const auto& component) { return component.name == name; });
+    return found != identity.components.end() ? &*found : nullptr;
+}
+
+bool is_readable(const std::string& value)
+{
+    return !value.starts_with('#');
+}
+
+}  // namespace
+
+Identity identity(const Scene& scene, const CameraDesc& camera, const RenderOptions& options)
+{
+    Identity result{scene.identity()};
+    add_camera(result.components, camera);
+    add_options(result.components, options);
+    result.components.push_back({.name = "build: version", .value = BDPT_VERSION});
+#if defined(__VERSION__)
+    result.components.push_back({.name = "build: compiler", .value = __VERSION__});
+#endif
+    return result;
+}
+
+std::optional<std::string> difference(const Identity& here, const Identity& there)
+{
+    constexpr std::size_t most_named = 3;
+    std::vector<std::string> names;
+    for (const auto& [name, value] : here.components) {
+        const IdentityComponent* other = find(there, name);
+        if (other == nullptr) {
+            names.push_back(name + " (missing there)");
+        } else if (other->value != value) {
+            const bool readable = is_readable(value) && is_readable(other->value);
+            names.push_back(name +
+                            (readable ? " (" + other->value + " there, " + value + " here)" : ""));
+        }
+    }
+    for (const auto& [name, value] : there.components) {
+        if (find(here, name) == nullptr) {
+            names.push_back(name + " (missing here)");
+        }
+    }
+    if (names.empty()) {
+        // Then they can but differ in their order, or in names that come twice.
+        return here == there ? std::nullopt : std::optional<std::string>("the order of components");
+    }
+    std::string result;
+    for (std::size_t i = 0; i < std::min(names.size(), most_named); ++i) {
+        result += (i > 0 ? "; " : "") + names[i];
+    }
+    return names.size() > most_named
+               ? result + "; and " + std::to_string(names.size() - most_named) + " more"
+               : result;
+}
+
+}  // namespace bdpt

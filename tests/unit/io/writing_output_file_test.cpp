@@ -6,7 +6,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cstddef>
+#include <cstdio>
 #include <filesystem>
+#include <iostream>
+#include <memory>
+#include <regex>
 #include <set>
 #include <string>
 #include <string_view>
@@ -107,20 +112,55 @@ TEST_CASE("an output file can be written out of order")
     CHECK(test::read_text(folder / "a.png") == "headdata");
 }
 
-TEST_CASE("the temporary file is in the same folder and names the process")
+/// For `name_in_new_process`.
+TEST_CASE("prints a temporary name", "[.temporary-name]")
 {
-    CHECK(OutputFile::temporary_path("some/where/a.exr") ==
-          "some/where/a.exr.tmp-" + std::to_string(::getpid()));
+    std::cout << "name=" << OutputFile::temporary_path("a.exr").string() << "=\n";
 }
 
-TEST_CASE("a temporary file of a process that died does not block the name")
+/// The name of the temporary file for "a.exr" in another process that runs this program.
+std::string name_in_new_process()
+{
+    const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
+    const auto close = [](FILE* pipe) { ::pclose(pipe); };
+    const std::unique_ptr<FILE, decltype(close)> pipe(
+        ::popen(("'" + program + "' '[.temporary-name]'").c_str(), "r"), close);
+    REQUIRE(pipe);
+    std::string out(4000, ' ');
+    out.resize(std::fread(out.data(), 1, out.size(), pipe.get()));
+    const std::size_t begin = out.find("name=") + 5;
+    return out.substr(begin, out.find('=', begin) - begin);
+}
+
+TEST_CASE("the temporary file is in the same folder, with a name of this process alone")
+{
+    const std::string one = name_in_new_process();
+    const std::string other = name_in_new_process();
+    const std::regex form("a\\.exr\\.tmp-[A-Za-z0-9_]*-[0-9]+-[0-9a-f]{16}");
+    CHECK(std::regex_match(one, form));
+    // Not even the same number of a process on a machine of the same name makes names equal.
+    const auto digits = [](const std::string& name) { return name.substr(name.size() - 16); };
+    CHECK(digits(one) != digits(other));
+    const std::string own = OutputFile::temporary_path("some/where/a.exr").string();
+    CHECK(own.starts_with("some/where/a.exr.tmp-"));
+    CHECK(own.find("-" + std::to_string(::getpid()) + "-") != std::string::npos);
+    CHECK(OutputFile::temporary_path("some/where/a.exr") == own);
+}
+
+TEST_CASE("two writers of one file do not mix their bytes")
 {
     const ScratchFolder folder;
-    test::write_text(OutputFile::temporary_path(folder / "a.exr"), "left over, and longer");
-    OutputFile file(folder / "a.exr");
-    file.write(std::string_view("new"));
-    file.commit();
-    CHECK(test::read_text(folder / "a.exr") == "new");
+    OutputFile one(folder / "a.exr");
+    {
+        OutputFile other(folder / "a.exr");
+        CHECK(folder.names().size() == 2);
+        other.write(std::string_view("the other"));
+        one.write(std::string_view("one"));
+        other.commit();
+        CHECK(test::read_text(folder / "a.exr") == "the other");
+    }
+    one.commit();
+    CHECK(test::read_text(folder / "a.exr") == "one");
     CHECK(folder.names() == Names{"a.exr"});
 }
 

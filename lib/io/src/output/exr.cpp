@@ -1,24 +1,16 @@
 #include <bdpt/io/exr.h>
 
 #include <OpenEXR/ImfChannelList.h>
-#include <OpenEXR/ImfFloatAttribute.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfIO.h>
-#include <OpenEXR/ImfIntAttribute.h>
-#include <OpenEXR/ImfMatrixAttribute.h>
 #include <OpenEXR/ImfOutputFile.h>
-#include <OpenEXR/ImfStandardAttributes.h>
-#include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfTileDescription.h>
 #include <OpenEXR/ImfTiledOutputFile.h>
 #include <bdpt/error.h>
 #include <bdpt/io/output_file.h>
-#include <fmt/chrono.h>
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <limits>
 #include <list>
 #include <new>
 #include <set>
@@ -26,66 +18,14 @@
 #include <utility>
 #include <vector>
 
-#include "output/camera_matrices.h"
 #include "output/check_pixels.h"
+#include "output/exr_metadata.h"
+#include "output/exr_stream.h"
 
 namespace bdpt::io {
 namespace {
 
 constexpr float largest_half = 65504.0f;
-
-/// Lets OpenEXR write into an `OutputFile`, which reports errors that it would swallow.
-class OutputStream : public Imf::OStream {
-public:
-    OutputStream(OutputFile& file, const std::string& name)
-        : Imf::OStream(name.c_str()), file_(file)
-    {}
-    void write(const char bytes[], int count) override
-    {
-        file_.write({bytes, static_cast<std::size_t>(count)});
-    }
-    uint64_t tellp() override { return file_.position(); }
-    void seekp(uint64_t position) override { file_.seek(position); }
-
-private:
-    OutputFile& file_;
-};
-
-/// GLM has v' = M v in columns, Imath v' = v M in rows: the same numbers in the same places.
-Imath::M44f to_imath(const Mat4& matrix)
-{
-    Imath::M44f result;
-    for (int i = 0; i < 4; ++i) {
-        for (int j = 0; j < 4; ++j) {
-            result[i][j] = matrix[i][j];
-        }
-    }
-    return result;
-}
-
-void add_metadata(Imf::Header& header, const ImageMetadata& metadata, float aspect)
-{
-    const float seconds = static_cast<float>(metadata.render_seconds);
-    const int samples = static_cast<int>(
-        std::min<std::int64_t>(metadata.samples_per_pixel, std::numeric_limits<int>::max()));
-
-    Imf::addChromaticities(header, Imf::Chromaticities{});  // whose default is Rec. 709
-    Imf::addWhiteLuminance(header, 1.0f);                   // pixels are in nit
-    const std::time_t created = std::chrono::system_clock::to_time_t(metadata.created);
-    Imf::addCapDate(header, fmt::format("{:%Y:%m:%d %H:%M:%S}", fmt::gmtime(created)));
-    Imf::addUtcOffset(header, 0.0f);
-    Imf::addWorldToCamera(header, to_imath(camera_from_world(metadata.camera)));
-    Imf::addWorldToNDC(header, to_imath(ndc_from_world(metadata.camera, aspect)));
-
-    header.insert("software", Imf::StringAttribute(software_name(metadata)));
-    for (const auto& [name, text] : text_entries(metadata)) {
-        header.insert(name.c_str(), Imf::StringAttribute(text));
-    }
-    header.insert("bdpt.spp", Imf::IntAttribute(samples));
-    header.insert("bdpt.renderTimeSeconds", Imf::FloatAttribute(seconds));
-    header.insert("samplesPerPixel", Imf::IntAttribute(samples));
-    header.insert("renderTimeSeconds", Imf::FloatAttribute(seconds));
-}
 
 /// The crop in the whole image; Imath's boxes hold their upper corner.
 Imath::Box2i data_window(const Image& image, const ExrPlacement& placement)
@@ -157,7 +97,7 @@ Imf::Header make_header(const Imath::Box2i& window, const ExrPlacement& placemen
     for (const Channel& channel : content.channels()) {
         header.channels().insert(channel.name, Imf::Channel(channel.type));
     }
-    add_metadata(
+    add_exr_metadata(
         header, options.metadata,
         static_cast<float>(placement.full_width) / static_cast<float>(placement.full_height));
     return header;
@@ -175,7 +115,7 @@ Imf::FrameBuffer make_frame_buffer(const Imath::Box2i& window, const Content& co
     return buffer;
 }
 
-void write_to(OutputStream& stream, const Imf::Header& header, const Imf::FrameBuffer& buffer)
+void write_to(ExrStream& stream, const Imf::Header& header, const Imf::FrameBuffer& buffer)
 {
     if (header.hasTileDescription()) {
         Imf::TiledOutputFile exr(stream, header);
@@ -237,7 +177,7 @@ ExrReport write_exr(const std::filesystem::path& file, const Image& image,
         ExrPlacement{.x = 0, .y = 0, .full_width = image.width, .full_height = image.height});
     const Imath::Box2i window = data_window(image, placement);
     OutputFile output(file);
-    OutputStream stream(output, file.string());
+    ExrStream stream(output, file.string());
     try {
         write_to(stream, make_header(window, placement, content, options),
                  make_frame_buffer(window, content));

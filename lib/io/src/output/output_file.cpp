@@ -8,10 +8,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cerrno>
 #include <cstddef>
+#include <random>
 #include <string>
 #include <system_error>
+#include <utility>
 
 namespace bdpt::io {
 namespace {
@@ -56,17 +60,49 @@ void check_target(const fs::path& name, const fs::path& target)
     }
 }
 
-int create(const fs::path& temporary)
+std::string host_name()
 {
-    constexpr int flags = O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC;
+    std::array<char, 33> name{};  // the first 32 letters
+    ::gethostname(name.data(), name.size() - 1);
+    std::string result = name.data();
+    std::replace_if(
+        result.begin(), result.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+    return result;
+}
+
+/// Tells this process from all others that may write to the same folder. Its number does not:
+/// processes of two containers, or of two machines, may have the same.
+const std::string& process_name()
+{
+    static const std::string name = [] {
+        std::random_device random;
+        return fmt::format("{}-{}-{:08x}{:08x}", host_name(), ::getpid(), random(), random());
+    }();
+    return name;
+}
+
+struct Created {
+    int descriptor = -1;
+    fs::path path;
+};
+
+/// A new file, named `temporary`. It is there already if this process has another `OutputFile` for
+/// the same target: then the name gets a number.
+Created create(const fs::path& temporary)
+{
+    constexpr int flags = O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC;
     constexpr mode_t mode = 0666;  // less the umask, as for any new file
-    const int descriptor = ::open(temporary.c_str(), flags, mode);
-    if (descriptor >= 0 || errno != EEXIST) {
-        return descriptor;
+    constexpr int most_writers = 1000;
+    Created result{.path = temporary};
+    for (int i = 1; i <= most_writers; ++i) {
+        result.descriptor = ::open(result.path.c_str(), flags, mode);
+        if (result.descriptor >= 0 || errno != EEXIST) {
+            break;
+        }
+        result.path = temporary;
+        result.path += fmt::format("-{}", i);
     }
-    // Left over by a process that had our id and was killed.
-    ::unlink(temporary.c_str());
-    return ::open(temporary.c_str(), flags, mode);
+    return result;
 }
 
 /// So that the new name survives a power cut too. File systems that cannot do it need not.
@@ -115,15 +151,16 @@ private:
 fs::path OutputFile::temporary_path(const fs::path& file)
 {
     fs::path temporary = resolve_link(file);
-    temporary += fmt::format(".tmp-{}", ::getpid());
+    temporary += ".tmp-" + process_name();
     return temporary;
 }
 
-OutputFile::OutputFile(const fs::path& file)
-    : name_(file), target_(resolve_link(file)), temporary_(temporary_path(file))
+OutputFile::OutputFile(const fs::path& file) : name_(file), target_(resolve_link(file))
 {
     check_target(name_, target_);
-    descriptor_ = create(temporary_);
+    Created created = create(temporary_path(file));
+    descriptor_ = created.descriptor;
+    temporary_ = std::move(created.path);
     if (descriptor_ < 0) {
         fail(name_, reason_of(errno));
     }
@@ -152,6 +189,23 @@ void OutputFile::write(std::span<const char> bytes)
             fail(name_, reason_of(error_number));
         }
         position_ += static_cast<std::uint64_t>(count);
+        size_ = std::max(size_, position_);
+        bytes = bytes.subspan(static_cast<std::size_t>(count));
+    }
+}
+
+void OutputFile::read(std::uint64_t position, std::span<char> bytes) const
+{
+    while (!bytes.empty()) {
+        const ssize_t count =
+            ::pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(position));
+        if (count < 0 && errno == EINTR) {
+            continue;
+        }
+        if (count <= 0) {
+            fail(name_, count < 0 ? reason_of(errno) : "what was written is not there");
+        }
+        position += static_cast<std::uint64_t>(count);
         bytes = bytes.subspan(static_cast<std::size_t>(count));
     }
 }

@@ -12,7 +12,9 @@ namespace bdpt::io {
 /// `temporary_path()`, in the same folder; without a commit nothing is left of it.
 class BDPT_EXPORT OutputFile {
 public:
-    /// Where `file` grows: `NAME.tmp-PID` beside it. A symbolic link is followed first.
+    /// Where `file` grows: `NAME.tmp-HOST-PID-` and 16 random digits beside it, which no other
+    /// process has, be it on another machine or in another container. A symbolic link is followed
+    /// first.
     [[nodiscard]] static std::filesystem::path temporary_path(const std::filesystem::path& file);
 
     /// Throws `Error` (output) when the folder is missing or cannot be written, or when `file`
@@ -26,6 +28,11 @@ public:
     void write(std::span<const char> bytes);
     [[nodiscard]] std::uint64_t position() const { return position_; }
     void seek(std::uint64_t position) { position_ = position; }
+    /// One behind the last byte that was written.
+    [[nodiscard]] std::uint64_t size() const { return size_; }
+
+    /// Reads what was written at `position` back. Throws `Error` (output) when it is not there.
+    void read(std::uint64_t position, std::span<char> bytes) const;
 
     /// Brings the bytes to the disk and gives the file its name, in place of one that had it.
     /// Throws `Error` (output), also when an earlier write failed.
@@ -37,6 +44,7 @@ private:
     std::filesystem::path temporary_;
     int descriptor_ = -1;
     std::uint64_t position_ = 0;
+    std::uint64_t size_ = 0;
     int first_error_ = 0;  // errno of the first write that failed
 };
 

@@ -1,0 +1,60 @@
+#include "output/exr_metadata.h"
+
+#include <OpenEXR/ImfFloatAttribute.h>
+#include <OpenEXR/ImfIntAttribute.h>
+#include <OpenEXR/ImfMatrixAttribute.h>
+#include <OpenEXR/ImfStandardAttributes.h>
+#include <OpenEXR/ImfStringAttribute.h>
+#include <fmt/chrono.h>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <ctime>
+#include <limits>
+
+#include "output/camera_matrices.h"
+
+namespace bdpt::io {
+namespace {
+
+/// GLM has v' = M v in columns, Imath v' = v M in rows: the same numbers in the same places.
+Imath::M44f to_imath(const Mat4& matrix)
+{
+    Imath::M44f result;
+    for (int i = 0; i < 4; ++i) {
+        for (int j = 0; j < 4; ++j) {
+            result[i][j] = matrix[i][j];
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+void add_exr_metadata(Imf::Header& header, const ImageMetadata& metadata, float aspect)
+{
+    const float seconds = static_cast<float>(metadata.render_seconds);
+    const int samples = static_cast<int>(
+        std::min<std::int64_t>(metadata.samples_per_pixel, std::numeric_limits<int>::max()));
+
+    Imf::addChromaticities(header, Imf::Chromaticities{});  // whose default is Rec. 709
+    Imf::addWhiteLuminance(header, 1.0f);                   // pixels are in nit
+    const std::time_t created = std::chrono::system_clock::to_time_t(metadata.created);
+    Imf::addCapDate(header, fmt::format("{:%Y:%m:%d %H:%M:%S}", fmt::gmtime(created)));
+    Imf::addUtcOffset(header, 0.0f);
+    Imf::addWorldToCamera(header, to_imath(camera_from_world(metadata.camera)));
+    Imf::addWorldToNDC(header, to_imath(ndc_from_world(metadata.camera, aspect)));
+
+    header.insert("software", Imf::StringAttribute(software_name(metadata)));
+    for (const auto& [name, text] : text_entries(metadata)) {
+        header.insert(name.c_str(), Imf::StringAttribute(text));
+    }
+    header.insert("bdpt.spp", Imf::IntAttribute(samples));
+    header.insert("bdpt.renderTimeSeconds", Imf::FloatAttribute(seconds));
+    header.insert("samplesPerPixel", Imf::IntAttribute(samples));
+    header.insert("renderTimeSeconds", Imf::FloatAttribute(seconds));
+}
+
+}  // namespace bdpt::io

@@ -1,0 +1,94 @@
+#include "part/part_planes.h"
+
+#include <bit>
+#include <cstdint>
+
+namespace bdpt::io {
+namespace {
+
+constexpr int words_of_sum = 4;  // of 32 bits
+static_assert(sizeof(ExactSum::Words) == words_of_sum * sizeof(std::uint32_t));
+
+/// Where in memory the 32 bits with that rank are, the lowest being 0.
+std::size_t place_of(int rank)
+{
+    constexpr bool little = std::endian::native == std::endian::little;
+    return sizeof(std::uint32_t) * static_cast<std::size_t>(little ? rank : rank ^ 1);
+}
+
+}  // namespace
+
+PlaneRow::PlaneRow(const RenderPart& part)
+    : left_(part.film.region().x0),
+      width_(static_cast<std::size_t>(part.film.width())),
+      film_(Film::plane_names()),
+      aovs_(part.aovs.plane_names()),
+      strategies_(part.strategies.plane_names()),
+      words_((film_.size() + aovs_.size() + strategies_.size()) * width_)
+{}
+
+std::vector<std::string> PlaneRow::channels() const
+{
+    std::vector<std::string> result;
+    for (const auto* planes : {&film_, &aovs_, &strategies_}) {
+        for (const std::string& plane : *planes) {
+            for (int rank = 0; rank < words_of_sum; ++rank) {
+                result.push_back(plane + "." + std::to_string(rank));
+            }
+        }
+    }
+    return result;
+}
+
+Imf::FrameBuffer PlaneRow::frame_buffer()
+{
+    Imf::FrameBuffer buffer;
+    constexpr std::size_t stride = sizeof(ExactSum::Words);
+    std::size_t i = 0;
+    for (const std::string& channel : channels()) {
+        auto* const first = reinterpret_cast<char*>(row_of(i / words_of_sum).data());
+        char* const base = first + place_of(static_cast<int>(i % words_of_sum)) -
+                           static_cast<std::ptrdiff_t>(stride) * left_;
+        buffer.insert(channel, Imf::Slice(Imf::UINT, base, stride, 0));  // all rows in one place
+        ++i;
+    }
+    return buffer;
+}
+
+std::span<ExactSum::Words> PlaneRow::row_of(std::size_t plane)
+{
+    return {words_.data() + plane * width_, width_};
+}
+
+std::span<const ExactSum::Words> PlaneRow::row_of(std::size_t plane) const
+{
+    return {words_.data() + plane * width_, width_};
+}
+
+void PlaneRow::take(const RenderPart& part, int row)
+{
+    std::size_t plane = 0;
+    const auto take_planes = [&](const auto& film, std::size_t count) {
+        for (std::size_t i = 0; i < count; ++i) {
+            film.read_row(i, row, row_of(plane++));
+        }
+    };
+    take_planes(part.film, film_.size());
+    take_planes(part.aovs, aovs_.size());
+    take_planes(part.strategies, strategies_.size());
+}
+
+void PlaneRow::add_to(RenderPart& part, int row) const
+{
+    std::size_t plane = 0;
+    const auto add_planes = [&](auto& film, std::size_t count) {
+        for (std::size_t i = 0; i < count; ++i) {
+            film.add_row(i, row, row_of(plane++));
+        }
+    };
+    add_planes(part.film, film_.size());
+    add_planes(part.aovs, aovs_.size());
+    add_planes(part.strategies, strategies_.size());
+}
+
+}  // namespace bdpt::io

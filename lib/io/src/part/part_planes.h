@@ -1,0 +1,41 @@
+#pragma once
+
+#include <bdpt/render_part.h>
+
+#include <OpenEXR/ImfFrameBuffer.h>
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace bdpt::io {
+
+/// The sums of all films of a part, a row of all planes at a time, and how OpenEXR sees that row:
+/// each sum as four channels of 32 bits, "half0.R.0" (the lowest) to "half0.R.3".
+class PlaneRow {
+public:
+    /// `part` has the films.
+    explicit PlaneRow(const RenderPart& part);
+
+    /// Names of channels.
+    [[nodiscard]] std::vector<std::string> channels() const;
+    /// Refers to this object.
+    [[nodiscard]] Imf::FrameBuffer frame_buffer();
+    /// Row `row`, counted from the top of the region, of the films.
+    void take(const RenderPart& part, int row);
+    void add_to(RenderPart& part, int row) const;
+
+private:
+    [[nodiscard]] std::span<ExactSum::Words> row_of(std::size_t plane);
+    [[nodiscard]] std::span<const ExactSum::Words> row_of(std::size_t plane) const;
+
+    int left_;
+    std::size_t width_;
+    std::vector<std::string> film_;
+    std::vector<std::string> aovs_;
+    std::vector<std::string> strategies_;
+    std::vector<ExactSum::Words> words_;  // a row of a plane after the other
+};
+
+}  // namespace bdpt::io

@@ -1,0 +1,209 @@
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfInputPart.h>
+#include <OpenEXR/ImfMultiPartInputFile.h>
+#include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfStringAttribute.h>
+#include <bdpt/error.h>
+#include <bdpt/io/part_file.h>
+#include <bdpt/io/read_limits.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <new>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "file/bytes.h"
+#include "file/named_errors.h"
+#include "image/exr_header.h"
+#include "part/part_header.h"
+#include "part/part_planes.h"
+#include "part/part_seal.h"
+
+namespace bdpt::io {
+namespace {
+
+constexpr std::uint64_t most_header_bytes = 64 << 20;
+constexpr int most_side = 1 << 16;  // [pixels]
+/// No line of zeros is smaller than that; what claims to be would only take our memory.
+constexpr std::uint64_t greatest_compression = 1100;
+
+/// Lets OpenEXR read a sealed file.
+class SealedStream : public Imf::IStream {
+public:
+    explicit SealedStream(const SealedFile& file) : Imf::IStream("part"), file_(file) {}
+
+    bool read(char target[], int count) override
+    {
+        const auto wanted = static_cast<std::uint64_t>(count);
+        if (position_ > file_.size() || wanted > file_.size() - position_) {
+            throw std::runtime_error("the file is truncated");
+        }
+        file_.read(position_, {target, static_cast<std::size_t>(count)});
+        position_ += wanted;
+        return position_ < file_.size();
+    }
+    std::uint64_t tellg() override { return position_; }
+    void seekg(std::uint64_t position) override { position_ = position; }
+
+private:
+    const SealedFile& file_;
+    std::uint64_t position_ = 0;
+};
+
+/// Before OpenEXR asks for memory by it.
+void check_file_header(const SealedFile& file)
+{
+    Bytes bytes(static_cast<std::size_t>(std::min(file.size(), most_header_bytes)));
+    file.read(0, {reinterpret_cast<char*>(bytes.data()), bytes.size()});
+    ReadLimits limits;
+    limits.image_side = most_side;
+    check_exr_header(bytes, limits);
+}
+
+[[noreturn]] void fail(const char* what)
+{
+    throw Error(ErrorCode::invalid_input, what);
+}
+
+PartHeader read_header(const Imf::MultiPartInputFile& exr)
+{
+    const auto* text = exr.parts() == 2
+                           ? exr.header(1).findTypedAttribute<Imf::StringAttribute>("bdpt.part")
+                           : nullptr;
+    if (text == nullptr) {
+        fail("is an OpenEXR file, but no part of a render");
+    }
+    return parse_part_header(text->value());
+}
+
+/// That the planes of the file are those that the header tells of.
+void check_planes(const Imf::Header& exr, const PartHeader& header, const SealedFile& file)
+{
+    const PixelRect& r = header.layout.region;
+    const bool has_window = exr.dataWindow() == Imath::Box2i({r.x0, r.y0}, {r.x1 - 1, r.y1 - 1});
+    if (!has_window || !exr.hasType() || exr.type() != Imf::SCANLINEIMAGE) {
+        fail("its sums are not those of the film that it tells of");
+    }
+    std::size_t channels = 0;
+    for (auto i = exr.channels().begin(); i != exr.channels().end(); ++i) {
+        const Imf::Channel& channel = i.channel();
+        if (channel.type != Imf::UINT || channel.xSampling != 1 || channel.ySampling != 1) {
+            fail("its sums have channels that no part has");
+        }
+        ++channels;
+    }
+    const std::uint64_t pixels =
+        static_cast<std::uint64_t>(r.width()) * static_cast<std::uint64_t>(r.height());
+    if (pixels * channels * sizeof(std::uint32_t) > greatest_compression * file.size()) {
+        fail("claims more pixels than it can hold");
+    }
+    // Films of one pixel have the names.
+    PartHeader pixel = header;
+    pixel.layout.width = 1;
+    pixel.layout.height = 1;
+    pixel.layout.region = {.x0 = 0, .y0 = 0, .x1 = 1, .y1 = 1};
+    const RenderPart small = make_part(pixel);
+    const std::vector<std::string> wanted = PlaneRow(small).channels();
+    const bool all = std::all_of(wanted.begin(), wanted.end(), [&exr](const std::string& name) {
+        return exr.channels().findChannel(name) != nullptr;
+    });
+    const std::set<std::string> different(wanted.begin(), wanted.end());
+    if (!all || different.size() != wanted.size() || channels != wanted.size()) {
+        fail("its sums have channels that no part has");
+    }
+}
+
+void merge_header(RenderPart& part, const PartHeader& header)
+{
+    if (part.samples.empty()) {
+        part = make_part(header);
+    }
+    if (const auto what = difference(part.identity, header.identity)) {
+        fail(("is of another render: " + *what).c_str());
+    }
+    if (const SampleSet both = part.samples.overlap(header.samples); !both.empty()) {
+        fail(("has samples that are there already: " + both.text()).c_str());
+    }
+    if (part.film.layout() != header.layout || part.aovs.aovs() != header.aovs ||
+        part.strategies.strategies() != header.strategies) {
+        fail("its films are not those of its render");
+    }
+    for (const SampleRange& range : header.samples.ranges()) {
+        part.film.count_samples(range.begin, range.end);
+        part.strategies.count_samples(range.end - range.begin);
+    }
+    part.film.add_totals(header.totals);
+    part.samples.add(header.samples);
+    part.stats += header.stats;
+    part.cpu_seconds += header.cpu_seconds;
+}
+
+/// What `read` makes of the open file. All that goes wrong is an `Error` that names the file.
+template <typename Read>
+auto with_part_file(const std::filesystem::path& path, const Read& read)
+{
+    return with_named_errors(path, [&] {
+        try {
+            const SealedFile file(path);
+            check_file_header(file);
+            SealedStream stream(file);
+            Imf::MultiPartInputFile exr(stream);
+            return read(exr, file);
+        } catch (const Error&) {
+            throw;
+        } catch (const std::bad_alloc&) {
+            throw;
+        } catch (const std::exception& error) {
+            std::string what = error.what();
+            std::replace(what.begin(), what.end(), '\n', ' ');
+            throw Error(ErrorCode::invalid_input, "OpenEXR: " + what);
+        }
+    });
+}
+
+}  // namespace
+
+PartInfo read_part_info(const std::filesystem::path& path)
+{
+    return with_part_file(path, [&](Imf::MultiPartInputFile& exr, const SealedFile& file) {
+        PartHeader header = read_header(exr);
+        check_planes(exr.header(1), header, file);
+        return PartInfo{.file = path,
+                        .identity = std::move(header.identity),
+                        .samples = std::move(header.samples),
+                        .notes = std::move(header.notes),
+                        .hash = file.hash()};
+    });
+}
+
+void merge_part(RenderPart& part, const PartInfo& info)
+{
+    with_part_file(info.file, [&](Imf::MultiPartInputFile& exr, const SealedFile& file) {
+        if (file.hash() != info.hash) {
+            fail("was replaced while it was in use; run the command again");
+        }
+        const PartHeader header = read_header(exr);
+        check_planes(exr.header(1), header, file);
+        merge_header(part, header);
+        Imf::InputPart input(exr, 1);
+        PlaneRow row(part);
+        input.setFrameBuffer(row.frame_buffer());
+        const int top = header.layout.region.y0;
+        for (int y = 0; y < part.film.height(); ++y) {
+            input.readPixels(top + y);
+            row.add_to(part, y);
+        }
+        return 0;
+    });
+}
+
+}  // namespace bdpt::io

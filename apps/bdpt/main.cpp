@@ -16,6 +16,7 @@
 #include "commands/bench_command.h"
 #include "commands/compare_command.h"
 #include "commands/info_command.h"
+#include "commands/merge_command.h"
 #include "commands/render_command.h"
 #include "commands/verify_command.h"
 #include "options/arguments.h"
@@ -33,6 +34,7 @@ constexpr const char* footer = R"(Examples:
   bdpt render scene.gltf -o out.exr
   bdpt render scene.glb -o out.exr -o preview.png --spp 256
   bdpt info scene.glb
+  bdpt merge part-*.part.exr -o out.exr
   bdpt compare out.exr reference.exr
   bdpt bench scene.gltf -o bench --quick
   bdpt verify scene.gltf
@@ -43,12 +45,14 @@ constexpr const char* footer = R"(Examples:
 struct CommandLine {
     CLI::App app{"bdpt renders glTF 2.0 scenes by bidirectional path tracing.", "bdpt"};
     RenderWords render_words;
+    MergeWords merge_words;
     InfoArguments info_arguments;
     CompareWords compare_words;
     BenchWords bench_words;
     VerifyWords verify_words;
     std::string topic;  // what to help with
     CLI::App* render = nullptr;
+    CLI::App* merge = nullptr;
     CLI::App* info = nullptr;
     CLI::App* compare = nullptr;
     CLI::App* bench = nullptr;
@@ -75,6 +79,8 @@ void describe(CommandLine& line)
     line.app.formatter(std::make_shared<HelpFormatter>());
     line.render = line.app.add_subcommand("render", "Render a scene to .exr and .png files");
     add_render_options(*line.render, line.render_words);
+    line.merge = line.app.add_subcommand("merge", "Add parts of a render that were rendered apart");
+    add_merge_options(*line.merge, line.merge_words);
     line.info = line.app.add_subcommand("info", "Print what a scene contains");
     add_info_options(*line.info, line.info_arguments);
     line.compare =
@@ -89,7 +95,8 @@ void describe(CommandLine& line)
     line.help = line.app.add_subcommand("help", "Print the help of a command");
     line.help->add_option("command", line.topic, "The command. Default: all")->type_name("COMMAND");
     line.version = line.app.add_subcommand("version", "Print the version");
-    for (CLI::App* command : {line.render, line.info, line.compare, line.bench, line.verify}) {
+    for (CLI::App* command :
+         {line.render, line.merge, line.info, line.compare, line.bench, line.verify}) {
         let_the_last_count(*command);
     }
 }
@@ -123,7 +130,8 @@ std::string help_of(const CommandLine& line)
 std::string unknown_command(const std::string& word, const std::string& help)
 {
     return fmt::format(
-        "unknown command \"{}\": there are render, info, compare, bench and verify; see \"{}\"",
+        "unknown command \"{}\": there are render, merge, info, compare, bench and verify; see "
+        "\"{}\"",
         word, help);
 }
 
@@ -177,6 +185,9 @@ int run_command(const CommandLine& line, const std::vector<std::string>& words)
         print_report("bdpt " BDPT_VERSION "\n");
         return 0;
     }
+    if (line.merge->parsed()) {
+        return run_merge(understand(line.merge_words));
+    }
     if (line.compare->parsed()) {
         return run_compare(understand(line.compare_words));
     }
@@ -187,7 +198,7 @@ int run_command(const CommandLine& line, const std::vector<std::string>& words)
         return run_verify(understand(line.verify_words));
     }
     return line.info->parsed() ? run_info(line.info_arguments)
-                               : run_render(understand(line.render_words));
+                               : run_render(understand(line.render_words), words);
 }
 
 int run(int argc, char** argv, Format format)

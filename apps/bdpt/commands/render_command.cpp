@@ -11,9 +11,9 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <exception>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,7 +22,10 @@
 #include "options/output_files.h"
 #include "options/strategy_arguments.h"
 #include "options/transport_arguments.h"
+#include "report/film_report.h"
 #include "report/image_files.h"
+#include "report/part_command.h"
+#include "report/part_keeper.h"
 #include "report/render_settings.h"
 #include "report/stats_file.h"
 #include "report/strategy_files.h"
@@ -78,25 +81,6 @@ PreparedScene prepare_within_memory(RenderArguments arguments)
     }
 }
 
-/// That the image will show next to nothing, and what helps.
-std::optional<std::string> warning_of_darkness(const RenderArguments& arguments,
-                                               const PreparedScene& stage)
-{
-    constexpr double nearly_all = 0.9;
-    if (!stage.only_emitters || arguments.environment) {
-        return std::nullopt;
-    }
-    const double dark = dark_share(stage, arguments.options, arguments.exposure);
-    if (dark < nearly_all) {
-        return std::nullopt;
-    }
-    return fmt::format(
-        "{}: nearly black: the only lights of the file are surfaces that emit, and {:.0f} % of "
-        "what "
-        "the camera sees gets next to no light; --env default adds a soft sky",
-        arguments.file.string(), 100.0 * dark);
-}
-
 void announce(Console& console, const RenderArguments& arguments, const PreparedScene& stage,
               const ordered_json& settings)
 {
@@ -116,12 +100,10 @@ void announce(Console& console, const RenderArguments& arguments, const Prepared
 RenderOptions options_for(const RenderArguments& arguments, const PreparedScene& stage,
                           Console& console)
 {
-    // With --time alone, more samples than anyone has time for.
-    constexpr std::int64_t no_limit = std::int64_t{1} << 31;
     RenderOptions options = arguments.options;
     options.film.width = stage.size.width;
     options.film.height = stage.size.height;
-    options.sampling.samples = {0, arguments.goal.samples.value_or(no_limit)};
+    options.sampling.samples = arguments.samples;
     if (arguments.max_memory) {
         options.bidirectional.strategy_memory =
             std::min(options.bidirectional.strategy_memory,
@@ -148,19 +130,61 @@ RenderArguments with_choice(RenderArguments arguments, const PreparedScene& stag
     return arguments;
 }
 
-RenderResult render_stage(const RenderArguments& arguments, const PreparedScene& stage,
-                          Console& console, const std::stop_token& stop)
+PartResult render_stage(const RenderArguments& arguments, const PreparedScene& stage,
+                        const io::PartNotes& notes, Console& console, Interrupt& interrupt,
+                        std::optional<PartKeeper>& keeper)
 {
+    const RenderOptions& options = arguments.options;
+    RenderPart part;
     RenderControl control;
-    control.stop = stop;
+    control.stop = interrupt.stop_token();
     control.time_limit = arguments.goal.seconds;
     control.profiling = arguments.profiling;
     control.on_progress = [&](const Progress& progress) {
-        console.progress(progress, arguments.goal);
+        Goal goal = arguments.goal;
+        if (goal.samples) {
+            goal.samples = progress.samples_total;  // fewer when the render goes on
+        }
+        console.progress(progress, goal);
     };
-    RenderResult result = render(stage.scene, stage.camera, arguments.options, control);
+    if (keeper) {
+        part = keeper->start(identity(stage.scene, stage.camera, options), notes);
+        control.on_part = [&](const RenderPart& now) {
+            const bool asked = interrupt.take_checkpoint_request();
+            if (!interrupt.signal()) {  // else it is written in a moment
+                keeper->after_pass(now, asked ? Checkpoint::now : Checkpoint::when_due);
+            }
+        };
+    }
+    PartResult result = render_part(stage.scene, stage.camera, options, std::move(part), control);
     console.end_progress();
     return result;
+}
+
+/// Writes the part, if there is to be one. Returns what went wrong: images are written all the
+/// same.
+std::exception_ptr finish_part(std::optional<PartKeeper>& keeper, const RenderPart& part)
+{
+    try {
+        if (keeper) {
+            keeper->finish(part);
+        }
+    } catch (const Error&) {
+        return std::current_exception();
+    }
+    return nullptr;
+}
+
+RenderResult to_result(PartResult done)
+{
+    RenderPart& part = done.part;
+    return {.film = std::move(part.film),
+            .aovs = std::move(part.aovs),
+            .strategies = std::move(part.strategies),
+            .stats = part.stats,
+            .samples = part.samples.empty() ? SampleRange{} : part.samples.ranges().front(),
+            .seconds = done.seconds,
+            .profile = std::move(done.profile)};
 }
 
 /// The same; the console shows how far loading is.
@@ -184,54 +208,8 @@ RenderArguments with_progress(RenderArguments arguments, Console& console)
     return arguments;
 }
 
-void warn_of_defects(Console& console, const FilmDefects& defects)
-{
-    if (defects.invalid > 0) {
-        const FilmDefects::Place place = defects.first_invalid.value_or(FilmDefects::Place{});
-        console.warning(
-            fmt::format("{} contributions were NaN, infinite or negative and were dropped; the "
-                        "first at pixel ({}, {}), sample {}",
-                        defects.invalid, place.x, place.y, place.sample_index));
-    }
-    if (defects.saturated > 0) {
-        console.warning(fmt::format("{} contributions were above {:.3g} nit and count as that",
-                                    defects.saturated, ExactSum::max_value));
-    }
-}
-
-void report_clamp(Console& console, const Film& film, const Image& image)
-{
-    const ClampLoss loss = film.clamp_loss();
-    if (loss.contributions == 0) {
-        return;
-    }
-    const auto sum = [](Rgb c) { return static_cast<double>(c.r + c.g + c.b); };
-    double left = 0.0;
-    for (const Rgb& pixel : image.pixels) {
-        left += sum(pixel) / static_cast<double>(image.pixels.size());
-    }
-    const double taken = sum(loss.radiance);
-    console.note(fmt::format("clamping at {:g} nit took {:.2f} % of the light: {} contributions",
-                             film.layout().clamp, 100.0 * taken / (left + taken),
-                             loss.contributions));
-}
-
-/// Microseconds of a sample: seconds would be too small for files of 16 bits.
-Layer time_layer(const TimeProfile& profile)
-{
-    Layer layer{.name = "time",
-                .channels = "Y",
-                .width = profile.region.width(),
-                .height = profile.region.height(),
-                .values = profile.pixel_seconds};
-    for (float& value : layer.values) {
-        value *= 1e6f;
-    }
-    return layer;
-}
-
-ImageFileOptions image_file_options(const RenderArguments& arguments, const PreparedScene& stage,
-                                    const RenderResult& result, const ordered_json& settings)
+io::ImageMetadata metadata_of(const RenderArguments& arguments, const PreparedScene& stage,
+                              const ordered_json& settings)
 {
     io::ImageMetadata metadata;
     metadata.version = BDPT_VERSION;
@@ -239,11 +217,26 @@ ImageFileOptions image_file_options(const RenderArguments& arguments, const Prep
     metadata.settings = settings.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
     metadata.integrator = eval::to_string(arguments.options.integrator);
     metadata.seed = arguments.options.sampling.seed;
-    metadata.samples_per_pixel = result.film.sample_count();
-    metadata.render_seconds = result.seconds;
     metadata.camera = stage.camera;
     metadata.created = std::chrono::system_clock::now();
     metadata.xmp = stage.xmp;
+    return metadata;
+}
+
+io::PartNotes part_notes(const RenderArguments& arguments, io::ImageMetadata metadata,
+                         const std::vector<std::string>& words)
+{
+    return {.goal = arguments.goal.samples ? SampleSet(arguments.samples) : SampleSet(),
+            .metadata = std::move(metadata),
+            .command = render_words(words)};
+}
+
+ImageFileOptions image_file_options(const RenderArguments& arguments, const PreparedScene& stage,
+                                    const RenderResult& result, io::ImageMetadata metadata)
+{
+    metadata.samples_per_pixel = result.film.sample_count();
+    metadata.render_seconds = result.seconds;
+    metadata.created = std::chrono::system_clock::now();
     const PixelRect& region = result.film.region();
     const io::ExrPlacement placement{.x = region.x0,
                                      .y = region.y0,
@@ -281,6 +274,9 @@ std::vector<std::filesystem::path> all_image_files(const RenderArguments& argume
 /// Refuses, before anything is rendered, what could not be written. Returns all that will be.
 std::vector<std::filesystem::path> check_files(const RenderArguments& arguments)
 {
+    if (arguments.outputs.empty() && !arguments.part) {
+        throw OptionError("--output is required");
+    }
     std::vector<std::filesystem::path> taken{arguments.file};
     if (arguments.environment) {
         taken.emplace_back(*arguments.environment);
@@ -292,6 +288,11 @@ std::vector<std::filesystem::path> check_files(const RenderArguments& arguments)
         check_strategy_files(*arguments.strategies, taken);
         const auto more = arguments.strategies->both();
         taken.insert(taken.end(), more.begin(), more.end());
+    }
+    if (arguments.part) {
+        check_part_file(arguments.part->file, taken);
+        taken.push_back(arguments.part->file);
+        written.push_back(arguments.part->file);
     }
     if (arguments.stats) {
         check_stats_file(*arguments.stats, taken);
@@ -319,13 +320,20 @@ void report_done(Console& console, const RenderArguments& arguments, const Rende
 
 }  // namespace
 
-int run_render(const RenderArguments& asked)
+int run_render(const RenderArguments& asked, const std::vector<std::string>& words)
 {
     const std::vector<std::filesystem::path> written = check_files(asked);
     Console console(asked.format, asked.verbosity);
-    Interrupt interrupt(temporary_paths(written), [&console] {
-        console.note("stopping after the pass in flight; interrupt again to end at once");
-    });
+    Interrupt interrupt(
+        temporary_paths(written),
+        [&console] {
+            console.note("stopping after the pass in flight; interrupt again to end at once");
+        },
+        asked.part ? UserSignal::checkpoint : UserSignal::default_action);
+    std::optional<PartKeeper> keeper;
+    if (asked.part) {
+        keeper.emplace(*asked.part, console);
+    }
 
     const PreparedScene stage = prepare_within_memory(with_progress(asked, console));
     console.end_progress();
@@ -345,7 +353,13 @@ int run_render(const RenderArguments& asked)
     if (const std::optional<std::string> warning = warning_of_darkness(arguments, stage)) {
         console.warning(*warning);
     }
-    const RenderResult result = render_stage(arguments, stage, console, interrupt.stop_token());
+    const io::ImageMetadata metadata = metadata_of(arguments, stage, settings);
+    PartResult done = render_stage(arguments, stage, part_notes(arguments, metadata, words),
+                                   console, interrupt, keeper);
+    const std::exception_ptr part_failure = finish_part(keeper, done.part);
+    const double cpu_seconds = done.part.cpu_seconds;
+    const std::string samples = done.part.samples.text();
+    const RenderResult result = to_result(std::move(done));
     warn_of_defects(console, result.film.defects());
     if (result.profile) {
         console.event("profile", profile_json(*result.profile));
@@ -355,7 +369,7 @@ int run_render(const RenderArguments& asked)
     const auto writing_start = std::chrono::steady_clock::now();
     const Image image = result.film.develop();
     report_clamp(console, result.film, image);
-    const ImageFileOptions options = image_file_options(arguments, stage, result, settings);
+    const ImageFileOptions options = image_file_options(arguments, stage, result, metadata);
     const WrittenImages images = write_image_files(arguments.outputs, image, options);
     if (arguments.strategies) {
         write_strategy_files(*arguments.strategies, image, result.strategies, options.exr,
@@ -376,11 +390,19 @@ int run_render(const RenderArguments& asked)
                                          .choose = choosing.count(),
                                          .render = result.seconds,
                                          .write = writing.count()}));
+        if (arguments.part) {
+            stats["part"] = {{"file", arguments.part->file.string()},
+                             {"samples", samples},
+                             {"cpu_seconds", cpu_seconds}};
+        }
         write_stats_file(*arguments.stats, stats);
     }
     if (signal) {
         console.note(fmt::format("stopped by {} after {} samples per pixel", signal_name(*signal),
                                  result.film.sample_count()));
+    }
+    if (part_failure) {
+        std::rethrow_exception(part_failure);
     }
     report_done(console, arguments, result, images, signal);
     return signal ? 128 + *signal : 0;

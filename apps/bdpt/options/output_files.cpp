@@ -69,6 +69,18 @@ void check_outputs(std::span<const fs::path> outputs, std::span<const fs::path> 
     }
 }
 
+void check_part_file(const fs::path& file, std::span<const fs::path> others)
+{
+    for (const fs::path& other : others) {
+        if (same_file(file, other)) {
+            throw Error(ErrorCode::usage,
+                        fmt::format("--part \"{}\": the same file is an input or another output",
+                                    file.string()));
+        }
+    }
+    io::check_writable(file);
+}
+
 bool writes_exr(std::span<const fs::path> outputs)
 {
     return std::any_of(outputs.begin(), outputs.end(),

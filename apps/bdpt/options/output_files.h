@@ -19,6 +19,11 @@ namespace bdpt::app {
 void check_outputs(std::span<const std::filesystem::path> outputs,
                    std::span<const std::filesystem::path> inputs);
 
+/// The same of the file of --part, which may be there already: throws `Error` (usage) when it is
+/// one of `others`, (output) for a place where nothing can be written.
+void check_part_file(const std::filesystem::path& file,
+                     std::span<const std::filesystem::path> others);
+
 /// Is one of `outputs` an EXR file?
 [[nodiscard]] bool writes_exr(std::span<const std::filesystem::path> outputs);
 

@@ -20,11 +20,13 @@ constexpr const char* footer = R"(Examples:
   bdpt render scene.glb -o out.exr -o out.png --spp 256 --size 1920x1080
   bdpt render room.glb -o out.exr --time 90s --camera "Camera 2"
   bdpt render walk.glb -o out.png --animation run --frame-time 0.25
+  bdpt render hall.glb -o out.exr --spp 4096 --part out.part.exr
   bdpt render model.glb -o out.png --env sky.hdr --from 3,2,4 --look-at 0,1,0 --fov 40
 
 A file without a camera is framed as a whole, one without light gets a soft sky (and a lamp, if it
 is a closed room); a warning says so. Ctrl-C finishes the current pass and writes the image; a
-second Ctrl-C quits at once.
+second Ctrl-C quits at once. With --part, SIGUSR1 writes a checkpoint, and what was killed goes on
+when the same command runs again.
 
 Exit codes: 0 done, 1 internal error, 2 wrong usage, 3 input not found, 4 invalid input,
 5 unsupported feature, 6 output cannot be written, 7 out of memory, 130 stopped by SIGINT,
@@ -51,10 +53,23 @@ Goal to_goal(const RenderWords& words)
         }
         goal.seconds = *seconds;
     }
-    if (words.samples || !words.time) {
+    if (const std::optional<SampleRange> range = sample_range(words.part)) {
+        if (words.samples) {
+            reject("--samples", *words.part.samples, "no --spp beside it");
+        }
+        goal.samples = range->end - range->begin;
+    } else if (words.samples || !words.time) {
         goal.samples = words.samples.value_or(SampleRange{}.end);
     }
     return goal;
+}
+
+SampleRange to_samples(const RenderWords& words, const Goal& goal)
+{
+    // With --time alone, more samples than anyone has time for.
+    constexpr std::int64_t no_limit = std::int64_t{1} << 31;
+    return sample_range(words.part)
+        .value_or(SampleRange{.begin = 0, .end = goal.samples.value_or(no_limit)});
 }
 
 std::optional<Vec3> to_point(const char* option, const std::optional<std::string>& word)
@@ -81,16 +96,6 @@ ViewOverrides to_view(const RenderWords& words)
         view.vertical_fov = static_cast<float>(*words.fov * std::numbers::pi / 180.0);
     }
     return view;
-}
-
-std::optional<float> to_exposure(const std::optional<double>& word)
-{
-    // 2^100 is far beyond any ratio of a scene to a screen.
-    constexpr double most = 100.0;
-    if (word && !(std::abs(*word) <= most)) {
-        reject("--exposure", fmt::format("{}", *word), "EV from -100 to 100");
-    }
-    return word ? std::optional(static_cast<float>(*word)) : std::nullopt;
 }
 
 std::vector<std::string> isa_names()
@@ -151,8 +156,8 @@ void add_output(CLI::App& command, RenderWords& words)
     const auto group = "Output";
     command
         .add_option("-o,--output", words.outputs,
-                    "Required: .exr (linear radiance) or .png (tone-mapped); may be repeated")
-        ->required()
+                    "Required, but with --part: .exr (linear radiance) or .png (tone-mapped); may "
+                    "be repeated")
         ->allow_extra_args(false)
         ->type_name("FILE")
         ->group(group);
@@ -180,6 +185,7 @@ void add_output(CLI::App& command, RenderWords& words)
                   "time.Y (microseconds per sample). Does not change the image")
         ->group(group);
     add_strategy_options(command, words.strategies);
+    add_part_options(command, words.part, group);
     command.add_flag("-q,--quiet", words.quiet, "Print errors only")->group(group);
     command
         .add_flag("--json", words.json,
@@ -189,6 +195,16 @@ void add_output(CLI::App& command, RenderWords& words)
 }
 
 }  // namespace
+
+std::optional<float> to_exposure(const std::optional<double>& word)
+{
+    // 2^100 is far beyond any ratio of a scene to a screen.
+    constexpr double most = 100.0;
+    if (word && !(std::abs(*word) <= most)) {
+        reject("--exposure", fmt::format("{}", *word), "EV from -100 to 100");
+    }
+    return word ? std::optional(static_cast<float>(*word)) : std::nullopt;
+}
 
 void add_view_options(CLI::App& command, RenderWords& words)
 {
@@ -255,7 +271,9 @@ RenderArguments understand(const RenderWords& words)
     RenderArguments result;
     result.file = words.file;
     result.outputs.assign(words.outputs.begin(), words.outputs.end());
+    result.part = part_choice(words.part);
     result.goal = to_goal(words);
+    result.samples = to_samples(words, result.goal);
     if (words.size) {
         result.size = parse_size(*words.size);
         if (!result.size) {
@@ -269,8 +287,9 @@ RenderArguments understand(const RenderWords& words)
     result.options.sampling.seed = to_seed(words.seed);
     result.options = with_transport(words.transport, result.options);
     result.options = with_film(words.film, result.options);
-    if (!result.options.film.aovs.empty() && !writes_exr(result.outputs)) {
-        reject("--aov", *words.film.aovs, "an .exr file among the outputs to hold the layers");
+    if (!result.options.film.aovs.empty() && !writes_exr(result.outputs) && !result.part) {
+        reject("--aov", *words.film.aovs,
+               "an .exr file among the outputs, or --part, to hold the layers");
     }
     result.camera = words.camera;
     result.view = to_view(words);

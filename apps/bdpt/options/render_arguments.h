@@ -15,6 +15,7 @@
 #include "options/arguments.h"
 #include "options/film_arguments.h"
 #include "options/lens_arguments.h"
+#include "options/part_arguments.h"
 #include "options/scene_arguments.h"
 #include "options/strategy_arguments.h"
 #include "options/transport_arguments.h"
@@ -51,6 +52,7 @@ struct RenderWords {
     std::optional<std::string> stats;
     bool profile = false;
     StrategyWords strategies;
+    PartWords part;
     bool tiled = false;
     std::string seed = "0";
     bool half = false;
@@ -80,6 +82,8 @@ struct RenderArguments {
     std::optional<std::filesystem::path> stats;  ///< where numbers about the render go
     Profiling profiling = Profiling::off;
     std::optional<StrategyFiles> strategies;  ///< where images of strategies go
+    std::optional<PartChoice> part;           ///< what the render goes on with
+    SampleRange samples;                      ///< of each pixel
     Format format = Format::text;
     Verbosity verbosity = Verbosity::normal;
 };
@@ -89,6 +93,9 @@ void add_render_options(CLI::App& command, RenderWords& words);
 
 /// Of these, those that say what to render and through which lens: for other commands, too.
 void add_view_options(CLI::App& command, RenderWords& words);
+/// The exposure [EV] of --exposure. Throws `OptionError`.
+[[nodiscard]] std::optional<float> to_exposure(const std::optional<double>& word);
+
 /// --seed and --threads.
 void add_seed_and_threads(CLI::App& command, RenderWords& words, const char* group);
 

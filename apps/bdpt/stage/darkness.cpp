@@ -2,6 +2,7 @@
 
 #include <bdpt/io/tone_map.h>
 #include <bdpt/render.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -50,6 +51,24 @@ double dark_share(const PreparedScene& stage, RenderOptions options,
         }
     }
     return seen > 0 ? static_cast<double>(dark) / seen : 0.0;
+}
+
+std::optional<std::string> warning_of_darkness(const RenderArguments& arguments,
+                                               const PreparedScene& stage)
+{
+    constexpr double nearly_all = 0.9;
+    if (!stage.only_emitters || arguments.environment) {
+        return std::nullopt;
+    }
+    const double dark = dark_share(stage, arguments.options, arguments.exposure);
+    if (dark < nearly_all) {
+        return std::nullopt;
+    }
+    return fmt::format(
+        "{}: nearly black: the only lights of the file are surfaces that emit, and {:.0f} % of "
+        "what "
+        "the camera sees gets next to no light; --env default adds a soft sky",
+        arguments.file.string(), 100.0 * dark);
 }
 
 }  // namespace bdpt::app

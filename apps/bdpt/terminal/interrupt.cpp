@@ -8,12 +8,17 @@
 namespace bdpt::app {
 namespace {
 
-/// SIGINT and SIGTERM, unless who started us had them ignored (as nohup and background jobs do).
-sigset_t signals_to_watch()
+/// SIGINT, SIGTERM and perhaps SIGUSR1, unless who started us had them ignored (as nohup and
+/// background jobs do).
+sigset_t signals_to_watch(UserSignal user_signal)
 {
+    std::vector<int> numbers{SIGINT, SIGTERM};
+    if (user_signal == UserSignal::checkpoint) {
+        numbers.push_back(SIGUSR1);
+    }
     sigset_t result;
     sigemptyset(&result);
-    for (const int signal_number : {SIGINT, SIGTERM}) {
+    for (const int signal_number : numbers) {
         struct sigaction action {};
         sigaction(signal_number, nullptr, &action);
         if (action.sa_handler != SIG_IGN) {
@@ -25,10 +30,11 @@ sigset_t signals_to_watch()
 
 }  // namespace
 
-Interrupt::Interrupt(std::vector<std::filesystem::path> temporaries, std::function<void()> on_stop)
+Interrupt::Interrupt(std::vector<std::filesystem::path> temporaries, std::function<void()> on_stop,
+                     UserSignal user_signal)
     : temporaries_(std::move(temporaries)),
       on_stop_(std::move(on_stop)),
-      signals_(signals_to_watch())
+      signals_(signals_to_watch(user_signal))
 {
     pthread_sigmask(SIG_BLOCK, &signals_, &previous_);
     watcher_ = std::jthread([this](const std::stop_token& finished) { watch(finished); });
@@ -61,6 +67,13 @@ void Interrupt::watch(const std::stop_token& finished)
 
 void Interrupt::handle(int signal_number)
 {
+    if (signal_number == SIGUSR1) {
+        checkpoint_ = true;
+        return;
+    }
+    if (signal_number == SIGTERM && signal_ == SIGTERM) {
+        return;
+    }
     if (stop_allowed_ && signal_ == 0) {
         signal_ = signal_number;
         stop_.request_stop();

@@ -3,6 +3,7 @@
 #include <signal.h>
 
 #include <atomic>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -12,13 +13,21 @@
 
 namespace bdpt::app {
 
+/// What SIGUSR1 does.
+enum class UserSignal : std::uint8_t {
+    default_action,
+    checkpoint,  ///< asks for a checkpoint
+};
+
 /// Turns SIGINT and SIGTERM into a polite request while it lives: the first one asks for a stop
 /// once `allow_stop()` was called; any other removes `temporaries` and ends the process with 128 +
-/// the signal's number. Make it before any other thread, which then inherits the blocked signals.
+/// the signal's number. Only a SIGTERM after a SIGTERM waits for the stop: who takes machines back
+/// sends it twice. Make it before any other thread, which then inherits the blocked signals.
 class Interrupt {
 public:
     /// `on_stop` is called on another thread when a stop is requested.
-    Interrupt(std::vector<std::filesystem::path> temporaries, std::function<void()> on_stop);
+    Interrupt(std::vector<std::filesystem::path> temporaries, std::function<void()> on_stop,
+              UserSignal user_signal = UserSignal::default_action);
     ~Interrupt();
     Interrupt(const Interrupt&) = delete;
     Interrupt& operator=(const Interrupt&) = delete;
@@ -28,6 +37,8 @@ public:
     [[nodiscard]] std::stop_token stop_token() const { return stop_.get_token(); }
     /// The signal that requested the stop.
     [[nodiscard]] std::optional<int> signal() const;
+    /// Whether a checkpoint was asked for since the last call.
+    [[nodiscard]] bool take_checkpoint_request() { return checkpoint_.exchange(false); }
 
 private:
     void watch(const std::stop_token& finished);
@@ -40,6 +51,7 @@ private:
     std::stop_source stop_;
     std::atomic<bool> stop_allowed_{false};
     std::atomic<int> signal_{0};
+    std::atomic<bool> checkpoint_{false};
     std::jthread watcher_;  // last: it uses all of the above
 };
 

@@ -35,8 +35,8 @@ struct Identity {
 /// The components of a scene: for `Scene`.
 [[nodiscard]] std::vector<IdentityComponent> identity_components(const SceneDesc& scene);
 
-/// What differs, such as "option: longest path (8 there, 4 here)", at most three of these; none if
-/// the identities are equal.
+/// In what `there` differs, such as "option: longest path (8, not 4)" where it has 8 and `here` has
+/// 4; at most three of these. None if the identities are equal.
 [[nodiscard]] BDPT_EXPORT std::optional<std::string> difference(const Identity& here,
                                                                 const Identity& there);
 

@@ -138,18 +138,17 @@ std::optional<std::string> difference(const Identity& here, const Identity& ther
     constexpr std::size_t most_named = 3;
     std::vector<std::string> names;
     for (const auto& [name, value] : here.components) {
-        const IdentityComponent* other = find(there, name);
-        if (other == nullptr) {
-            names.push_back(name + " (missing there)");
-        } else if (other->value != value) {
-            const bool readable = is_readable(value) && is_readable(other->value);
-            names.push_back(name +
-                            (readable ? " (" + other->value + " there, " + value + " here)" : ""));
+        const IdentityComponent* its = find(there, name);
+        if (its == nullptr) {
+            names.push_back(name + " (missing in it)");
+        } else if (its->value != value) {
+            const bool readable = is_readable(value) && is_readable(its->value);
+            names.push_back(name + (readable ? " (" + its->value + ", not " + value + ")" : ""));
         }
     }
     for (const auto& [name, value] : there.components) {
         if (find(here, name) == nullptr) {
-            names.push_back(name + " (missing here)");
+            names.push_back(name + " (only in it)");
         }
     }
     if (names.empty()) {

@@ -199,7 +199,7 @@ TEST_CASE("another scene, camera or option is refused by name", "[part]")
     scene("scene: meshes[0]", [](SceneDesc& s) { s.meshes[0].positions[0].x -= 0.01f; });
     scene("scene: instances[1]",
           [](SceneDesc& s) { s.instances[1].world_from_object[3].y = 1.0f; });
-    scene("scene: lights[0] (missing there)",
+    scene("scene: lights[0] (missing in it)",
           [](SceneDesc& s) { s.lights.emplace_back(PointLightDesc{}); });
     scene("scene: texture filter",
           [](SceneDesc& s) { s.texture_filter = TextureFilter::mip_mapped; });
@@ -208,7 +208,7 @@ TEST_CASE("another scene, camera or option is refused by name", "[part]")
               go_on(
                   no_scene, [](CameraDesc& c) { c.lens_radius = 0.25f; }, no_option);
           }),
-          "camera: lens radius (0 there, 0.25 here)");
+          "camera: lens radius (0, not 0.25)");
     check(message_of([&] {
               go_on(
                   no_scene, [](CameraDesc& c) { c.world_from_camera[3].x += 0.01f; }, no_option);
@@ -218,19 +218,18 @@ TEST_CASE("another scene, camera or option is refused by name", "[part]")
     const auto option = [&](const char* name, const std::function<void(RenderOptions&)>& change) {
         check(message_of([&] { go_on(no_scene, no_camera, change); }), name);
     };
-    option("option: longest path (5 there, 6 here)",
-           [](RenderOptions& o) { o.transport.max_depth = 6; });
-    option("option: integrator (bdpt there, mis here)",
+    option("option: longest path (5, not 6)", [](RenderOptions& o) { o.transport.max_depth = 6; });
+    option("option: integrator (bdpt, not mis)",
            [](RenderOptions& o) { o.integrator = IntegratorKind::mis; });
-    option("option: seed (0 there, 1 here)", [](RenderOptions& o) { o.sampling.seed = 1; });
-    option("option: width (19 there, 20 here)", [](RenderOptions& o) { o.film.width = 20; });
-    option("option: crop (none there, 0,0,19,13 here)",
+    option("option: seed (0, not 1)", [](RenderOptions& o) { o.sampling.seed = 1; });
+    option("option: width (19, not 20)", [](RenderOptions& o) { o.film.width = 20; });
+    option("option: crop (none, not 0,0,19,13)",
            [](RenderOptions& o) { o.film.crop = PixelRect{.x0 = 0, .y0 = 0, .x1 = 19, .y1 = 13}; });
     option("option: filter", [](RenderOptions& o) { o.film.filter.kind = FilterKind::tent; });
     option("option: layers", [](RenderOptions& o) { o.film.aovs = {Aov::albedo}; });
-    option("option: connections (none there, 3 here)",
+    option("option: connections (none, not 3)",
            [](RenderOptions& o) { o.bidirectional.connections = 3.0; });
-    option("option: disabled strategies (none there, 1,2 here)",
+    option("option: disabled strategies (none, not 1,2)",
            [](RenderOptions& o) { o.bidirectional.disabled = {{.s = 1, .t = 2}}; });
 
     // What changes no bit is no difference.

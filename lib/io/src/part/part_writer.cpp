@@ -49,6 +49,7 @@ Imf::Header image_header(const RenderPart& part, const PartNotes& notes)
     }
     ImageMetadata metadata = notes.metadata;
     metadata.samples_per_pixel = part.samples.count();
+    metadata.render_seconds = part.cpu_seconds;
     add_exr_metadata(header, metadata,
                      static_cast<float>(layout.width) / static_cast<float>(layout.height));
     return header;

@@ -1,0 +1,143 @@
+#include "options/part_arguments.h"
+
+#include <bdpt/sample_set.h>
+
+#include <CLI/CLI.hpp>
+
+#include "options/arguments.h"
+#include "options/number.h"
+#include "options/output_files.h"
+#include "options/render_arguments.h"
+
+namespace bdpt::app {
+namespace {
+
+constexpr const char* footer = R"(Examples:
+  bdpt merge job/*.part.exr -o out.exr -o out.png
+  bdpt merge job/*.part.exr -o now.png --partial
+  bdpt merge job/0-*.part.exr -o job-0.part.exr
+
+Parts come from bdpt render --part. They may be in any order, and the image is that of one render of
+all their samples, to the bit. A part that lies within another one is left out with a note. Layers
+(AOVs) of the parts are written to .exr files.
+
+Exit codes: 0 done, 12 samples are missing (the message says which, and what renders them; nothing
+is written without --partial), 2 wrong usage, 3 part not found, 4 a part is broken, of another
+render, or overlaps another one, 6 output cannot be written, 7 out of memory.)";
+
+}  // namespace
+
+void add_part_options(CLI::App& command, PartWords& words, const char* group)
+{
+    command
+        .add_option("--part", words.file,
+                    "Keep the render in this .exr file while it runs, and go on with it if it is "
+                    "there: after a crash, with more --spp, or for bdpt merge. Without -o only "
+                    "this file is written")
+        ->type_name("FILE")
+        ->group(group);
+    command
+        .add_flag("--restart", words.restart,
+                  "Do not go on with the file of --part, but replace it")
+        ->group(group);
+    command
+        .add_option("--samples", words.samples,
+                    "Render the samples A to B - 1 of each pixel, in place of --spp: a part of a "
+                    "render that other machines share")
+        ->type_name("A:B")
+        ->group(group);
+}
+
+std::optional<PartChoice> part_choice(const PartWords& words)
+{
+    if (!words.file) {
+        if (words.restart) {
+            throw OptionError("--restart: expected --part FILE with it");
+        }
+        return std::nullopt;
+    }
+    if (!has_extension(*words.file, ".exr")) {
+        reject("--part", *words.file, "a file that is named .exr, best .part.exr");
+    }
+    return PartChoice{.file = *words.file,
+                      .existing = words.restart ? ExistingPart::restart : ExistingPart::go_on};
+}
+
+std::optional<SampleRange> sample_range(const PartWords& words)
+{
+    if (!words.samples) {
+        return std::nullopt;
+    }
+    const std::optional<SampleSet> set = SampleSet::parse(*words.samples);
+    if (!set || set->ranges().size() != 1) {
+        reject("--samples", *words.samples,
+               "two whole numbers A:B with A below B, and below 2^32, like 64:128");
+    }
+    return set->ranges().front();
+}
+
+bool is_part_name(const std::filesystem::path& file)
+{
+    return has_extension(file, ".exr") && has_extension(file.stem(), ".part");
+}
+
+void add_merge_options(CLI::App& command, MergeWords& words)
+{
+    command.add_option("part", words.parts, "Parts of a render, made by bdpt render --part")
+        ->required()
+        ->type_name("PART");
+    const auto group = "Output";
+    command
+        .add_option("-o,--output", words.outputs,
+                    "Required: .part.exr (a part again), .exr (linear radiance) or .png "
+                    "(tone-mapped); may be repeated")
+        ->required()
+        ->allow_extra_args(false)
+        ->type_name("FILE")
+        ->group(group);
+    command
+        .add_flag("--partial", words.partial,
+                  "Write what there is when samples are missing: the image has more noise, but is "
+                  "right otherwise")
+        ->group(group);
+    command
+        .add_option("--spp", words.samples,
+                    "Samples per pixel that the render was to have. Default: what the parts say")
+        ->check(whole_number(1, std::int64_t{1} << 31))
+        ->type_name("N")
+        ->group(group);
+    command
+        .add_option("--exposure", words.exposure,
+                    "Exposure of .png: pixels times 2^EV. Default: automatic")
+        ->type_name("EV")
+        ->group(group);
+    command.add_flag("--half", words.half, "Store .exr as 16-bit floats")->group(group);
+    command
+        .add_flag("--tiled", words.tiled, "Store .exr in tiles, for programs that read parts of it")
+        ->group(group);
+    command.add_flag("-q,--quiet", words.quiet, "Print errors only")->group(group);
+    command
+        .add_flag("--json", words.json,
+                  "Print one JSON object per line on stdout: warning, done, error. With --quiet "
+                  "only done and error")
+        ->group(group);
+    command.footer(footer);
+}
+
+MergeArguments understand(const MergeWords& words)
+{
+    MergeArguments result;
+    result.parts.assign(words.parts.begin(), words.parts.end());
+    result.outputs.assign(words.outputs.begin(), words.outputs.end());
+    result.samples = words.samples;
+    result.incomplete = words.partial ? Incomplete::write : Incomplete::refuse;
+    result.exposure = to_exposure(words.exposure);
+    result.channel_type =
+        words.half ? io::ExrChannelType::half_float : io::ExrChannelType::single_float;
+    result.storage = words.tiled ? io::ExrStorage::tiles : io::ExrStorage::scanlines;
+    result.format = words.json ? Format::json : Format::text;
+    result.verbosity = words.quiet ? Verbosity::quiet : Verbosity::normal;
+    return result;
+}
+
+}  // namespace bdpt::app

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <bdpt/io/exr.h>
+#include <bdpt/render_options.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "terminal/console.h"
+
+namespace CLI {
+class App;
+}
+
+namespace bdpt::app {
+
+/// What the words after `bdpt render` say about parts, as they were given.
+struct PartWords {
+    std::optional<std::string> file;
+    bool restart = false;
+    std::optional<std::string> samples;
+};
+
+/// What a file that is there already means to the render that would write it.
+enum class ExistingPart : std::uint8_t { go_on, restart };
+
+/// The file that a render goes on with.
+struct PartChoice {
+    std::filesystem::path file;
+    ExistingPart existing = ExistingPart::go_on;
+};
+
+/// Describes --part, --restart and --samples to the parser.
+void add_part_options(CLI::App& command, PartWords& words, const char* group);
+
+/// None without --part. Throws `OptionError`.
+[[nodiscard]] std::optional<PartChoice> part_choice(const PartWords& words);
+
+/// The samples of --samples, if that was given. Throws `OptionError`.
+[[nodiscard]] std::optional<SampleRange> sample_range(const PartWords& words);
+
+/// What the words after `bdpt merge` say, as they were given.
+struct MergeWords {
+    std::vector<std::string> parts;
+    std::vector<std::string> outputs;
+    std::optional<std::int64_t> samples;
+    bool partial = false;
+    std::optional<double> exposure;  // [EV]
+    bool half = false;
+    bool tiled = false;
+    bool quiet = false;
+    bool json = false;
+};
+
+/// What becomes of a merge of which samples are missing.
+enum class Incomplete : std::uint8_t { refuse, write };
+
+/// The same, understood and checked.
+struct MergeArguments {
+    std::vector<std::filesystem::path> parts;
+    std::vector<std::filesystem::path> outputs;
+    std::optional<std::int64_t> samples;  ///< per pixel, that the render was to have
+    Incomplete incomplete = Incomplete::refuse;
+    std::optional<float> exposure;  ///< [EV]
+    io::ExrChannelType channel_type = io::ExrChannelType::single_float;
+    io::ExrStorage storage = io::ExrStorage::scanlines;
+    Format format = Format::text;
+    Verbosity verbosity = Verbosity::normal;
+};
+
+/// Is `file` named as a part of a render: NAME.part.exr?
+[[nodiscard]] bool is_part_name(const std::filesystem::path& file);
+
+/// Describes the options of `bdpt merge` to the parser, which will store into `words`.
+void add_merge_options(CLI::App& command, MergeWords& words);
+
+/// Throws `Error` (usage) that names the option and the value.
+[[nodiscard]] MergeArguments understand(const MergeWords& words);
+
+}  // namespace bdpt::app

@@ -1,0 +1,52 @@
+#include "report/film_report.h"
+
+#include <fmt/core.h>
+
+namespace bdpt::app {
+
+void warn_of_defects(Console& console, const FilmDefects& defects)
+{
+    if (defects.invalid > 0) {
+        const FilmDefects::Place place = defects.first_invalid.value_or(FilmDefects::Place{});
+        console.warning(
+            fmt::format("{} contributions were NaN, infinite or negative and were dropped; the "
+                        "first at pixel ({}, {}), sample {}",
+                        defects.invalid, place.x, place.y, place.sample_index));
+    }
+    if (defects.saturated > 0) {
+        console.warning(fmt::format("{} contributions were above {:.3g} nit and count as that",
+                                    defects.saturated, ExactSum::max_value));
+    }
+}
+
+void report_clamp(Console& console, const Film& film, const Image& image)
+{
+    const ClampLoss loss = film.clamp_loss();
+    if (loss.contributions == 0) {
+        return;
+    }
+    const auto sum = [](Rgb c) { return static_cast<double>(c.r + c.g + c.b); };
+    double left = 0.0;
+    for (const Rgb& pixel : image.pixels) {
+        left += sum(pixel) / static_cast<double>(image.pixels.size());
+    }
+    const double taken = sum(loss.radiance);
+    console.note(fmt::format("clamping at {:g} nit took {:.2f} % of the light: {} contributions",
+                             film.layout().clamp, 100.0 * taken / (left + taken),
+                             loss.contributions));
+}
+
+Layer time_layer(const TimeProfile& profile)
+{
+    Layer layer{.name = "time",
+                .channels = "Y",
+                .width = profile.region.width(),
+                .height = profile.region.height(),
+                .values = profile.pixel_seconds};
+    for (float& value : layer.values) {
+        value *= 1e6f;
+    }
+    return layer;
+}
+
+}  // namespace bdpt::app

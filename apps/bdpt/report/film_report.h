@@ -1,0 +1,21 @@
+#pragma once
+
+#include <bdpt/film.h>
+#include <bdpt/image.h>
+#include <bdpt/layer.h>
+#include <bdpt/time_profile.h>
+
+#include "terminal/console.h"
+
+namespace bdpt::app {
+
+/// Tells of contributions that could not be added as they were, if there were any.
+void warn_of_defects(Console& console, const FilmDefects& defects);
+
+/// Tells what clamping took from `image`, which is the developed `film`.
+void report_clamp(Console& console, const Film& film, const Image& image);
+
+/// Microseconds of a sample: seconds would be too small for files of 16 bits.
+[[nodiscard]] Layer time_layer(const TimeProfile& profile);
+
+}  // namespace bdpt::app

@@ -1,0 +1,81 @@
+#include "report/part_command.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstddef>
+#include <string_view>
+
+#include "terminal/text.h"
+
+namespace bdpt::app {
+namespace {
+
+constexpr std::array<std::string_view, 9> with_value{"-o",        "--output",  "--spp",
+                                                     "--samples", "--time",    "--part",
+                                                     "--stats",   "--threads", "--max-memory"};
+constexpr std::array<std::string_view, 5> flags{"--restart", "-q", "--quiet", "--json",
+                                                "--profile"};
+
+template <typename Names>
+bool has(const Names& names, std::string_view word)
+{
+    return std::find(names.begin(), names.end(), word) != names.end();
+}
+
+/// As a shell reads it back.
+std::string quoted(const std::string& word)
+{
+    const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) {
+        return std::isalnum(c) != 0 ||
+               std::string_view("_./:,=+@%-").find(static_cast<char>(c)) != std::string_view::npos;
+    });
+    if (plain) {
+        return word;
+    }
+    std::string result = "'";
+    for (const char c : word) {
+        result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    }
+    return result + "'";
+}
+
+}  // namespace
+
+std::vector<std::string> render_words(const std::vector<std::string>& words)
+{
+    std::vector<std::string> result{"bdpt"};
+    for (std::size_t i = 1; i < words.size(); ++i) {
+        const std::string& word = words[i];
+        const std::string name = word.substr(0, word.find('='));
+        if (has(with_value, name)) {
+            i += std::size_t{name.size() == word.size() ? 1U : 0U};  // else it has the value
+        } else if (!has(flags, word) && !(word.starts_with("-o") && word.size() > 2)) {
+            result.push_back(one_line(word));
+        }
+    }
+    return result;
+}
+
+std::vector<std::string> commands_for(const std::vector<std::string>& words,
+                                      const SampleSet& samples, const std::filesystem::path& folder)
+{
+    std::vector<std::string> result;
+    for (const SampleRange& range : samples.ranges()) {
+        if (words.empty()) {
+            break;
+        }
+        std::string command;
+        for (const std::string& word : words) {
+            command += quoted(word) + " ";
+        }
+        const auto file = folder / fmt::format("{}-{}.part.exr", range.begin, range.end);
+        result.push_back(fmt::format("{}--samples {}:{} --part {}", command, range.begin, range.end,
+                                     quoted(one_line(file.string()))));
+    }
+    return result;
+}
+
+}  // namespace bdpt::app

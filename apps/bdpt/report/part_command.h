@@ -1,0 +1,21 @@
+#pragma once
+
+#include <bdpt/sample_set.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace bdpt::app {
+
+/// Of the words of a command line those that say what is rendered: without files that are written,
+/// numbers of samples, and what changes no bit.
+[[nodiscard]] std::vector<std::string> render_words(const std::vector<std::string>& words);
+
+/// Commands, for a shell, that render `samples`, each into a file of its own in `folder`; empty
+/// without `words`.
+[[nodiscard]] std::vector<std::string> commands_for(const std::vector<std::string>& words,
+                                                    const SampleSet& samples,
+                                                    const std::filesystem::path& folder);
+
+}  // namespace bdpt::app

@@ -1,0 +1,110 @@
+#include "report/part_keeper.h"
+
+#include <bdpt/error.h>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <system_error>
+#include <utility>
+
+namespace bdpt::app {
+namespace {
+
+constexpr std::chrono::duration<double> least_interval{60.0};
+/// Of the time that the last write took: checkpoints take at most 1 % of the time.
+constexpr double interval_of_writes = 100.0;
+/// Of the interval, after a write that failed.
+constexpr double patience = 10.0;
+
+}  // namespace
+
+PartKeeper::PartKeeper(PartChoice choice, Console& console)
+    : choice_(std::move(choice)),
+      console_(console),
+      old_(choice_.existing == ExistingPart::restart ? io::OldPart::replace
+                                                     : io::OldPart::keep_if_more),
+      interval_(least_interval)
+{
+    std::error_code ignored;
+    const bool exists = std::filesystem::exists(choice_.file, ignored);
+    if (!exists || choice_.existing == ExistingPart::restart) {
+        return;
+    }
+    try {
+        there_ = io::read_part_info(choice_.file);
+    } catch (const Error& error) {
+        if (error.code() != ErrorCode::invalid_input) {
+            throw;
+        }
+        throw Error(error.code(), fmt::format("{} (--restart replaces it)", error.what()));
+    }
+}
+
+RenderPart PartKeeper::start(const Identity& identity, io::PartNotes notes)
+{
+    notes_ = std::move(notes);
+    RenderPart part;
+    if (!there_) {
+        return part;
+    }
+    if (const auto what = difference(identity, there_->identity)) {
+        throw Error(ErrorCode::invalid_input,
+                    fmt::format("{}: is a part of another render: {} (--restart replaces it)",
+                                choice_.file.string(), *what));
+    }
+    io::merge_part(part, *there_);
+    written_ = part.samples;
+    console_.event("part", {{"file", choice_.file.string()}, {"samples", written_.text()}});
+    console_.note(fmt::format("going on with {}: it has the samples {}", choice_.file.string(),
+                              written_.text()));
+    return part;
+}
+
+void PartKeeper::after_pass(const RenderPart& part, Checkpoint checkpoint)
+{
+    if (checkpoint == Checkpoint::when_due && Clock::now() - last_ < interval_) {
+        return;
+    }
+    try {
+        write(part);
+    } catch (const Error& error) {
+        if (error.code() != ErrorCode::output) {
+            throw;
+        }
+        last_ = Clock::now();
+        interval_ *= patience;
+        console_.warning(
+            fmt::format("{}; the render goes on, and so it will be tried again in "
+                        "{:.0f} minutes",
+                        error.what(), interval_.count() / 60.0));
+    }
+}
+
+void PartKeeper::finish(const RenderPart& part)
+{
+    if (written_ != part.samples) {
+        write(part);
+    }
+}
+
+void PartKeeper::write(const RenderPart& part)
+{
+    const Clock::time_point start = Clock::now();
+    const io::PartWrite write = io::write_part(choice_.file, part, notes_, old_);
+    last_ = Clock::now();
+    const std::chrono::duration<double> taken = last_ - start;
+    interval_ = std::max(least_interval, interval_of_writes * taken);
+    if (write == io::PartWrite::kept) {
+        console_.note(
+            fmt::format("{}: has more samples by now, and stays as it is", choice_.file.string()));
+        return;
+    }
+    old_ = io::OldPart::keep_if_more;  // from now on it is ours
+    written_ = part.samples;
+    console_.event("part", {{"file", choice_.file.string()}, {"samples", written_.text()}});
+    console_.note(fmt::format("wrote {}: samples {}", choice_.file.string(), written_.text()));
+}
+
+}  // namespace bdpt::app

@@ -31,7 +31,8 @@ TEST_CASE("help and version are worth reading and no errors")
                              "--json",           "--filter",     "--aov",       "--crop",
                              "--clamp",          "--stats",      "--tiled",     "--strategies",
                              "--strategy-depth", "--profile",    "--variant",   "--frame-time",
-                             "--animation",      "--shutter",    "Exit codes",  "143"}) {
+                             "--animation",      "--shutter",    "Exit codes",  "143",
+                             "--part",           "--samples",    "--restart"}) {
         CAPTURE(word);
         CHECK(help.find(word) != std::string::npos);
     }

@@ -20,6 +20,7 @@
 #include "report/image_files.h"
 #include "report/part_command.h"
 #include "terminal/console.h"
+#include "terminal/interrupt.h"
 
 namespace bdpt::app {
 namespace {
@@ -145,6 +146,8 @@ int run_merge(const MergeArguments& arguments)
 {
     check_outputs(arguments.outputs, arguments.parts);
     Console console(arguments.format, arguments.verbosity);
+    // Nothing is worth finishing; but nothing half-written is left, either.
+    const Interrupt interrupt(temporary_paths(arguments.outputs), [] {});
     const std::vector<PartInfo> parts = read_parts(arguments.parts, console);
     SampleSet samples;
     for (const PartInfo& part : parts) {

@@ -11,7 +11,6 @@ namespace bdpt {
 
 class Scene;
 struct CameraDesc;
-struct SceneDesc;
 
 /// One thing that the bits of a render depend on.
 struct IdentityComponent {
@@ -31,9 +30,6 @@ struct Identity {
 /// tiles, limits of memory, names.
 [[nodiscard]] BDPT_EXPORT Identity identity(const Scene& scene, const CameraDesc& camera,
                                             const RenderOptions& options);
-
-/// The components of a scene: for `Scene`.
-[[nodiscard]] std::vector<IdentityComponent> identity_components(const SceneDesc& scene);
 
 /// In what `there` differs, such as "option: longest path (8, not 4)" where it has 8 and `here` has
 /// 4; at most three of these. None if the identities are equal.

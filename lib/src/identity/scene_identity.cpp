@@ -1,10 +1,9 @@
-#include <bdpt/identity.h>
+#include "identity/scene_identity.h"
 
 #include "identity/desc_hasher.h"
 
-#include <bdpt/scene_desc.h>
-
 #include <cstddef>
+#include <string>
 
 namespace bdpt {
 namespace {

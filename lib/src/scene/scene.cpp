@@ -1,5 +1,6 @@
 #include <bdpt/scene.h>
 
+#include "identity/scene_identity.h"
 #include "scene/world.h"
 
 #include <utility>

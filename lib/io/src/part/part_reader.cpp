@@ -76,11 +76,17 @@ void check_file_header(const SealedFile& file)
 
 PartHeader read_header(const Imf::MultiPartInputFile& exr)
 {
-    const auto* text = exr.parts() == 2
-                           ? exr.header(1).findTypedAttribute<Imf::StringAttribute>("bdpt.part")
+    constexpr const char* no_part = "is an OpenEXR file, but no part of a render";
+    if (exr.parts() != 2) {
+        fail(no_part);
+    }
+    // OpenEXR's own templates for this would become symbols of our library.
+    const auto found = exr.header(1).find("bdpt.part");
+    const auto* text = found != exr.header(1).end()
+                           ? dynamic_cast<const Imf::StringAttribute*>(&found.attribute())
                            : nullptr;
     if (text == nullptr) {
-        fail("is an OpenEXR file, but no part of a render");
+        fail(no_part);
     }
     return parse_part_header(text->value());
 }

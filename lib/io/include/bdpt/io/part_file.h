@@ -41,7 +41,11 @@ enum class OldPart : std::uint8_t {
     replace,
 };
 
-enum class PartWrite : std::uint8_t { written, kept };
+/// What has become of the new part.
+enum class PartWrite : std::uint8_t {
+    written,
+    kept,  ///< the file there is ahead, and stays
+};
 
 /// Writes `part` as an OpenEXR file of two parts, atomically: the image, which any viewer shows,
 /// and its sums, from which renders go on. Camera samples and splats are stored in one, which no

@@ -175,19 +175,7 @@ std::exception_ptr finish_part(std::optional<PartKeeper>& keeper, const RenderPa
     return nullptr;
 }
 
-RenderResult to_result(PartResult done)
-{
-    RenderPart& part = done.part;
-    return {.film = std::move(part.film),
-            .aovs = std::move(part.aovs),
-            .strategies = std::move(part.strategies),
-            .stats = part.stats,
-            .samples = part.samples.empty() ? SampleRange{} : part.samples.ranges().front(),
-            .seconds = done.seconds,
-            .profile = std::move(done.profile)};
-}
-
-/// The same; the console shows how far loading is.
+/// `arguments`, whose loading shows on the console how far it is.
 RenderArguments with_progress(RenderArguments arguments, Console& console)
 {
     const auto start = std::chrono::steady_clock::now();
@@ -359,7 +347,7 @@ int run_render(const RenderArguments& asked, const std::vector<std::string>& wor
     const std::exception_ptr part_failure = finish_part(keeper, done.part);
     const double cpu_seconds = done.part.cpu_seconds;
     const std::string samples = done.part.samples.text();
-    const RenderResult result = to_result(std::move(done));
+    const RenderResult result = result_of(std::move(done));
     warn_of_defects(console, result.film.defects());
     if (result.profile) {
         console.event("profile", profile_json(*result.profile));

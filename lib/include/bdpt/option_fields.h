@@ -52,6 +52,8 @@ template <>
 inline constexpr auto fields<BidirectionalOptions> = all_fields(
     Field{"light paths", &BidirectionalOptions::light_paths},
     Field{"connections", &BidirectionalOptions::connections},
+    Field{"merge radius", &BidirectionalOptions::merge_radius},
+    Field{"merge alpha", &BidirectionalOptions::merge_alpha},
     Field{"light path memory", &BidirectionalOptions::light_path_memory},
     Field{"longest camera subpath", &BidirectionalOptions::max_camera_depth},
     Field{"longest light subpath", &BidirectionalOptions::max_light_depth},

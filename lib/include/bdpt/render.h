@@ -84,6 +84,7 @@ struct RenderResult {
 /// What render_part() gives back.
 struct PartResult {
     RenderPart part;                       ///< `so_far` and what was rendered
+    RenderOptions options{};               ///< as in `RenderResult`
     double seconds = 0.0;                  ///< of this call
     std::optional<TimeProfile> profile{};  ///< of the samples of this call; with Profiling::on
 };
@@ -96,6 +97,9 @@ struct PartResult {
 [[nodiscard]] BDPT_EXPORT PartResult render_part(const Scene& scene, const CameraDesc& camera,
                                                  const RenderOptions& options, RenderPart so_far,
                                                  const RenderControl& control = {});
+
+/// The same, for those who do not go on. `RenderResult::samples` are the first range of the part's.
+[[nodiscard]] BDPT_EXPORT RenderResult result_of(PartResult done);
 
 /// Memory that the images of strategies of this render take [bytes], with the layers that they are
 /// developed to; 0 if none are asked for. Throws `Error` (usage) for options out of range.

@@ -4,6 +4,7 @@
 
 #include <bdpt/integrators.h>
 #include <bdpt/option_fields.h>
+#include <bdpt/render.h>
 #include <bdpt/scene.h>
 #include <bdpt/version.h>
 
@@ -125,7 +126,7 @@ Identity identity(const Scene& scene, const CameraDesc& camera, const RenderOpti
 {
     Identity result{scene.identity()};
     add_camera(result.components, camera);
-    add_options(result.components, options);
+    add_options(result.components, chosen_options(scene, camera, options));
     result.components.push_back({.name = "build: version", .value = BDPT_VERSION});
 #if defined(__VERSION__)
     result.components.push_back({.name = "build: compiler", .value = __VERSION__});

@@ -170,24 +170,27 @@ void check_part(const RenderPart& part, const Identity& identity, const RenderOp
 
 }  // namespace
 
-RenderResult render(const Scene& scene, const CameraDesc& camera, const RenderOptions& options,
-                    const RenderControl& control)
+RenderResult result_of(PartResult done)
 {
-    PartResult result = render_part(scene, camera, options, {}, control);
-    RenderPart& part = result.part;
+    RenderPart& part = done.part;
     return {.film = std::move(part.film),
             .aovs = std::move(part.aovs),
             .strategies = std::move(part.strategies),
             .stats = part.stats,
-            .options = std::move(result.options),
-            .samples = {.begin = options.sampling.samples.begin, .end = part.samples.end()},
-            .seconds = result.seconds,
-            .profile = std::move(result.profile)};
+            .options = std::move(done.options),
+            .samples = part.samples.empty() ? SampleRange{} : part.samples.ranges().front(),
+            .seconds = done.seconds,
+            .profile = std::move(done.profile)};
+}
+
+RenderResult render(const Scene& scene, const CameraDesc& camera, const RenderOptions& options,
+                    const RenderControl& control)
+{
+    return result_of(render_part(scene, camera, options, {}, control));
 }
 
 PartResult render_part(const Scene& scene, const CameraDesc& camera_desc,
-                       const RenderOptions& asked, RenderPart so_far,
-                       const RenderControl& control)
+                       const RenderOptions& asked, RenderPart so_far, const RenderControl& control)
 {
     const auto start = std::chrono::steady_clock::now();
     const double cpu_start = cpu_seconds();

@@ -141,14 +141,21 @@ FilmTotals read_totals(const ordered_json& json, const FilmLayout& layout)
 
 ordered_json to_json(const RenderStats& stats)
 {
-    return {stats.rays.camera, stats.rays.light,   stats.rays.shadow,
-            stats.rays.aov,    stats.paths.camera, stats.paths.light};
+    return {stats.rays.camera,         stats.rays.light,
+            stats.rays.shadow,         stats.rays.aov,
+            stats.paths.camera,        stats.paths.light,
+            stats.rays.shadow_to_lens, stats.rays.shadow_interior};
 }
 
 RenderStats read_stats(const ordered_json& json)
 {
     const auto count = [&json](std::size_t i) { return json.at(i).get<std::uint64_t>(); };
-    return {.rays = {.camera = count(0), .light = count(1), .shadow = count(2), .aov = count(3)},
+    return {.rays = {.camera = count(0),
+                     .light = count(1),
+                     .shadow = count(2),
+                     .aov = count(3),
+                     .shadow_to_lens = count(6),
+                     .shadow_interior = count(7)},
             .paths = {.camera = count(4), .light = count(5)}};
 }
 

@@ -25,10 +25,11 @@ using Words = std::vector<std::string>;
 /// `bdpt render` of a small cube, with the words `more`.
 Words render_words(const ScratchFolder& folder, const Words& more)
 {
-    Words words{"render",      (folder / "cube.gltf").string(),
-                "--size",      "24x16",
-                "--max-depth", "4",
-                "--threads",   "2"};
+    Words words{"render",       (folder / "cube.gltf").string(),
+                "--size",       "24x16",
+                "--integrator", "bdpt",
+                "--max-depth",  "4",
+                "--threads",    "2"};
     words.insert(words.end(), more.begin(), more.end());
     return words;
 }

@@ -20,6 +20,7 @@ namespace {
 RenderOptions options()
 {
     RenderOptions result;
+    result.integrator = IntegratorKind::bdpt;
     result.film.width = 19;
     result.film.height = 14;
     result.sampling.samples = {.begin = 0, .end = 16};

@@ -18,7 +18,7 @@ struct LightPathCounts {
     /// own, which are as many as `connections`.
     bool shared;
     /// Vertices of the set are wanted after their splats.
-    [[nodiscard]] bool kept() const { return shared && connections > 0.0; }
+    [[nodiscard]] bool kept() const { return shared && (merged || connections > 0.0); }
     /// Of the set: light paths that lie side by side and have one time and one wavelength, so that
     /// a camera path can be joined to all of them.
     int bundle = 1;

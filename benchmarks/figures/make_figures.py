@@ -96,8 +96,8 @@ class Renderer:
         """What the command said when it was done, its statistics and itself."""
         width, height = size_of(scene, self.scale)
         stats = output.with_suffix(".stats.json")
-        command = [self.bdpt, "render", self.file(scene), *options, "--size", f"{width}x{height}", *limits,
-                   "-o", str(output), "--stats", str(stats), "--json", *extra]
+        command = [self.bdpt, "render", self.file(scene), "--integrator", "bdpt", *options, "--size", f"{width}x{height}",
+                   *limits, "-o", str(output), "--stats", str(stats), "--json", *extra]
         lines = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout.splitlines()
         done = next(event for event in map(json.loads, lines) if event["event"] == "done")
         told = json.loads(stats.read_text(encoding="utf-8"))

@@ -68,7 +68,8 @@ def main():
         with tempfile.TemporaryDirectory() as folder:
             reference = pathlib.Path(folder) / "reference.exr"
             image = pathlib.Path(folder) / "image.exr"
-            render(arguments.bdpt, scene, reference, "--spp", str(arguments.reference_spp), "--seed", "999")
+            render(arguments.bdpt, scene, reference, "--light-paths", "1", "--spp", str(arguments.reference_spp), "--seed",
+                   "999")
             averages = averaged(reference)
             first = None
             print(f"{scene.stem}\n  {'choice':14} {'seconds':>8} {'relMSE':>9} {'averages':>9} {'at equal time':>14} {'shared':>7}")

@@ -2,7 +2,7 @@
 
 #include <bdpt/error.h>
 #include <bdpt/io/part_file.h>
-#include <bdpt/render_part.h>
+#include <bdpt/part/render_part.h>
 #include <bdpt/version.h>
 #include <fmt/core.h>
 

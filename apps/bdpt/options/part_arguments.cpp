@@ -1,6 +1,6 @@
 #include "options/part_arguments.h"
 
-#include <bdpt/sample_set.h>
+#include <bdpt/part/sample_set.h>
 
 #include <CLI/CLI.hpp>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <bdpt/sample_set.h>
+#include <bdpt/part/sample_set.h>
 
 #include <filesystem>
 #include <string>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <bdpt/identity.h>
 #include <bdpt/io/part_file.h>
-#include <bdpt/render_part.h>
+#include <bdpt/part/identity.h>
+#include <bdpt/part/render_part.h>
 
 #include <chrono>
 #include <cstdint>

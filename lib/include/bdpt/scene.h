@@ -1,8 +1,8 @@
 #pragma once
 
 #include <bdpt/export.h>
-#include <bdpt/identity.h>
 #include <bdpt/isa.h>
+#include <bdpt/part/identity.h>
 #include <bdpt/scene_desc.h>
 
 #include <cstddef>

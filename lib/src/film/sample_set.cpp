@@ -1,4 +1,4 @@
-#include <bdpt/sample_set.h>
+#include <bdpt/part/sample_set.h>
 
 #include <algorithm>
 #include <charconv>

@@ -1,4 +1,4 @@
-#include <bdpt/content_hash.h>
+#include <bdpt/part/content_hash.h>
 
 #include <array>
 #include <cstdio>

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <bdpt/content_hash.h>
 #include <bdpt/fields.h>
 #include <bdpt/image.h>
 #include <bdpt/light_desc.h>
+#include <bdpt/part/content_hash.h>
 
 #include <array>
 #include <optional>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <bdpt/identity.h>
+#include <bdpt/part/identity.h>
 #include <bdpt/scene_desc.h>
 
 #include <vector>

@@ -1,5 +1,6 @@
 #include "pilot/pilot.h"
 
+#include "geometry/flush_denormals.h"
 #include "integrator/bidirectional/bidirectional_integrator.h"
 #include "path/strategy_set.h"
 #include "pilot/pilot_brightness.h"
@@ -17,10 +18,14 @@ namespace {
 RenderOptions pilot_options(RenderOptions options)
 {
     constexpr std::uint64_t seed = 0x70696c6f74;  // one that nobody will choose
+    // Longer paths bring little, and would cost a pilot more time and memory than it is worth.
+    constexpr int longest_path = 32;  // [edges]
     options.integrator = IntegratorKind::bdpt;
     options.film.crop.reset();
     options.sampling.sampler = SamplerKind::independent;
     options.sampling.seed = seed;
+    options.transport.max_depth =
+        std::min(options.transport.max_depth, std::max(longest_path, options.transport.min_depth));
     options.bidirectional = {};
     options.bidirectional.light_paths = PathShares::pilot_light_paths;
     options.bidirectional.connections = PathShares::pilot_light_paths;
@@ -94,6 +99,7 @@ PilotResult run_pilot(const World& world, const MovingCamera& camera, const Rend
     const PilotGrid grid(options.film.width, options.film.height);
     std::vector<PilotRow> rows(static_cast<std::size_t>(grid.rows()));
     tbb::parallel_for(0, grid.rows(), [&](int row) {
+        const FlushDenormals flush;
         rows[static_cast<std::size_t>(row)].render(integrator, grid, options.transport.heuristic,
                                                    row);
     });

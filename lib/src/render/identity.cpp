@@ -1,12 +1,12 @@
-#include <bdpt/identity.h>
+#include <bdpt/part/identity.h>
 
 #include "identity/desc_hasher.h"
 
 #include <bdpt/integrators.h>
-#include <bdpt/option_fields.h>
 #include <bdpt/render.h>
 #include <bdpt/scene.h>
 #include <bdpt/version.h>
+#include "identity/option_fields.h"
 
 #include <algorithm>
 #include <array>

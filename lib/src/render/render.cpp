@@ -4,11 +4,11 @@
 
 #include "camera/moving_camera.h"
 #include "film/pixel_filter.h"
+#include "geometry/flush_denormals.h"
 #include "integrator/integrator.h"
 #include "profile/time_recorder.h"
 #include "render/aov_pass.h"
 #include "render/check_options.h"
-#include "render/flush_denormals.h"
 #include "render/open_camera.h"
 #include "render/strategy_images.h"
 #include "render/threads.h"

@@ -1,4 +1,4 @@
-#include <bdpt/render_part.h>
+#include <bdpt/part/render_part.h>
 
 #include <bdpt/error.h>
 

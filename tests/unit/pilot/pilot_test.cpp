@@ -132,6 +132,20 @@ TEST_CASE("a pilot depends on the scene, not on which samples are wanted", "[pil
     CHECK_FALSE(pilot_of(scene, inside(), other).errors == pilot.errors);
 }
 
+TEST_CASE("a pilot does not follow paths as long as renders may", "[pilot]")
+{
+    const Scene scene = indirect_room();
+    RenderOptions options = small();
+    options.transport.max_depth = 32;
+    const PilotResult pilot = pilot_of(scene, inside(), options);
+    options.transport.max_depth = 1000;
+    CHECK(pilot_of(scene, inside(), options).errors == pilot.errors);
+    // But far enough for what the render is about.
+    options.transport.min_depth = 40;
+    options.transport.rr_start = 1000;
+    CHECK(pilot_of(scene, inside(), options).errors[0] > 0.0);
+}
+
 TEST_CASE("what costs more rays has a higher price", "[pilot]")
 {
     RenderStats stats;

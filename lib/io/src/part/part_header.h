@@ -3,7 +3,7 @@
 #include <bdpt/aov.h>
 #include <bdpt/film.h>
 #include <bdpt/io/part_file.h>
-#include <bdpt/render_part.h>
+#include <bdpt/part/render_part.h>
 #include <bdpt/render_stats.h>
 
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <bdpt/render_part.h>
+#include <bdpt/part/render_part.h>
 
 #include <OpenEXR/ImfFrameBuffer.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <bdpt/content_hash.h>
 #include <bdpt/io/output_file.h>
+#include <bdpt/part/content_hash.h>
 
 #include <cstdint>
 #include <filesystem>

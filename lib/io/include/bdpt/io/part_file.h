@@ -1,11 +1,11 @@
 #pragma once
 
-#include <bdpt/content_hash.h>
 #include <bdpt/export.h>
-#include <bdpt/identity.h>
 #include <bdpt/io/image_metadata.h>
-#include <bdpt/render_part.h>
-#include <bdpt/sample_set.h>
+#include <bdpt/part/content_hash.h>
+#include <bdpt/part/identity.h>
+#include <bdpt/part/render_part.h>
+#include <bdpt/part/sample_set.h>
 
 #include <cstdint>
 #include <filesystem>

@@ -3,9 +3,9 @@
 #include <bdpt/aov_film.h>
 #include <bdpt/export.h>
 #include <bdpt/film.h>
-#include <bdpt/identity.h>
+#include <bdpt/part/identity.h>
+#include <bdpt/part/sample_set.h>
 #include <bdpt/render_stats.h>
-#include <bdpt/sample_set.h>
 #include <bdpt/strategy_film.h>
 
 namespace bdpt {

@@ -13,7 +13,6 @@ constexpr IntegratorKind integrators[] = {IntegratorKind::pt, IntegratorKind::mi
 RenderOptions options(IntegratorKind integrator, int max_depth, std::uint64_t seed = 0)
 {
     RenderOptions result;
-    result.integrator = IntegratorKind::bdpt;
     result.integrator = integrator;
     result.transport.max_depth = max_depth;
     result.sampling.seed = seed;

@@ -18,7 +18,6 @@ void check_irradiance(SceneBuilder builder, double irradiance)
     const double expected = static_cast<double>(floor_albedo) * irradiance / pi_double;
     for (const auto kind : {IntegratorKind::pt, IntegratorKind::mis, IntegratorKind::bdpt}) {
         RenderOptions options;
-        options.integrator = IntegratorKind::bdpt;
         options.integrator = kind;
         options.transport.max_depth = 2;
         TileMeans means(scene, camera, options);

@@ -35,7 +35,6 @@ void check_irradiance(SceneBuilder builder, const std::function<double(double)>&
     for (const auto kind :
          {IntegratorKind::pt, IntegratorKind::nee, IntegratorKind::mis, IntegratorKind::bdpt}) {
         RenderOptions options;
-        options.integrator = IntegratorKind::bdpt;
         options.integrator = kind;
         options.transport.max_depth = 2;
         TileMeans means(scene, camera, options);

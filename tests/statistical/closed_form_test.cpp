@@ -23,7 +23,6 @@ double average(Rgb color)
 RenderOptions options(IntegratorKind integrator, int max_depth)
 {
     RenderOptions result;
-    result.integrator = IntegratorKind::bdpt;
     result.integrator = integrator;
     result.transport.max_depth = max_depth;
     return result;

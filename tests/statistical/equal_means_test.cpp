@@ -25,7 +25,6 @@ Scene square_of(Rgb radiance, float right)
 TileMeans means_of(const Scene& scene)
 {
     RenderOptions options;
-    options.integrator = IntegratorKind::bdpt;
     options.integrator = IntegratorKind::pt;
     options.transport.max_depth = 1;
     return {scene, camera_at({0.0f, 0.0f, 5.0f}, {0.0f, 0.0f, 0.0f}, 0.5f), options};

@@ -21,7 +21,6 @@ namespace {
 RenderOptions options(const EqualityCase& test, IntegratorKind integrator, std::uint64_t seed)
 {
     RenderOptions result;
-    result.integrator = IntegratorKind::bdpt;
     result.integrator = integrator;
     result.transport.max_depth = test.max_depth;
     result.sampling.seed = seed;

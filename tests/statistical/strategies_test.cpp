@@ -59,7 +59,6 @@ public:
     [[nodiscard]] RenderOptions operator()(IntegratorKind integrator, int min_depth, int max_depth)
     {
         RenderOptions result;
-        result.integrator = IntegratorKind::bdpt;
         result.integrator = integrator;
         result.transport.min_depth = min_depth;
         result.transport.max_depth = max_depth;

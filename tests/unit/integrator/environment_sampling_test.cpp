@@ -26,7 +26,6 @@ Scene open_room()
 RenderOptions options_of(IntegratorKind integrator)
 {
     RenderOptions options;
-    options.integrator = IntegratorKind::bdpt;
     options.integrator = integrator;
     options.film.width = 12;
     options.film.height = 12;

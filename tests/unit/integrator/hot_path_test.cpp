@@ -136,7 +136,6 @@ std::array<CameraDesc, 3> cameras()
 RenderOptions options_of(IntegratorKind integrator)
 {
     RenderOptions options;
-    options.integrator = IntegratorKind::bdpt;
     options.integrator = integrator;
     options.film.width = size;
     options.film.height = size;

@@ -39,7 +39,6 @@ SceneDesc closed_room()
 RenderOptions options_for(IntegratorKind kind)
 {
     RenderOptions options;
-    options.integrator = IntegratorKind::bdpt;
     options.integrator = kind;
     options.film.width = columns;
     options.film.height = rows;

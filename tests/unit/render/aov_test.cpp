@@ -18,7 +18,6 @@ constexpr int size = 24;
 RenderOptions options(AovSet aovs)
 {
     RenderOptions result;
-    result.integrator = IntegratorKind::bdpt;
     result.integrator = IntegratorKind::pt;
     result.film.width = size;
     result.film.height = size;

@@ -23,7 +23,6 @@ using test::room;
 RenderOptions options(IntegratorKind integrator, std::uint64_t seed)
 {
     RenderOptions result;
-    result.integrator = IntegratorKind::bdpt;
     result.integrator = integrator;
     result.film.width = 19;
     result.film.height = 13;

@@ -22,7 +22,6 @@ using test::SceneBuilder;
 RenderOptions options(IntegratorKind integrator)
 {
     RenderOptions result;
-    result.integrator = IntegratorKind::bdpt;
     result.integrator = integrator;
     result.film.width = 24;
     result.film.height = 18;
@@ -82,7 +81,6 @@ Slide slide()
 std::vector<float> row(const Slide& what, IntegratorKind integrator)
 {
     RenderOptions o;
-    o.integrator = IntegratorKind::bdpt;
     o.integrator = integrator;
     o.film.width = 8;
     o.film.height = 1;

@@ -28,7 +28,6 @@ Scene room()
 RenderOptions options(IntegratorKind integrator)
 {
     RenderOptions result;
-    result.integrator = IntegratorKind::bdpt;
     result.integrator = integrator;
     result.film.width = 12;
     result.film.height = 8;

@@ -1,6 +1,7 @@
 #include <bdpt/render.h>
 
 #include "catch.hpp"
+#include "purity.h"
 #include "room.h"
 #include "scene_builder.h"
 
@@ -15,13 +16,13 @@
 namespace bdpt {
 namespace {
 
+using test::check_region;
 using test::room;
 using test::SceneBuilder;
 
 RenderOptions options(IntegratorKind integrator)
 {
     RenderOptions result;
-    result.integrator = IntegratorKind::bdpt;
     result.integrator = integrator;
     result.film.width = 37;
     result.film.height = 29;
@@ -34,20 +35,6 @@ RenderOptions options(IntegratorKind integrator)
 Film film_of(const Scene& scene, const RenderOptions& options)
 {
     return render(scene, test::room_camera(), options).film;
-}
-
-/// `part` is the region `crop` of `whole`.
-void check_region(const Image& part, const Image& whole, const PixelRect& crop)
-{
-    REQUIRE(part.width == crop.width());
-    REQUIRE(part.height == crop.height());
-    int different = 0;
-    for (int y = crop.y0; y < crop.y1; ++y) {
-        for (int x = crop.x0; x < crop.x1; ++x) {
-            different += part.at(x - crop.x0, y - crop.y0) == whole.at(x, y) ? 0 : 1;
-        }
-    }
-    CHECK(different == 0);
 }
 
 const AovSet all_aovs{Aov::albedo,       Aov::normal,   Aov::depth, Aov::position,

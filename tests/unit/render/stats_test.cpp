@@ -15,7 +15,6 @@ constexpr std::uint64_t camera_paths = samples * pixels;
 RenderOptions options(IntegratorKind integrator, int max_depth)
 {
     RenderOptions result;
-    result.integrator = IntegratorKind::bdpt;
     result.integrator = integrator;
     result.film.width = 20;
     result.film.height = 10;

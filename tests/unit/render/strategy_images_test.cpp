@@ -43,7 +43,6 @@ CameraDesc parallel()
 RenderOptions options(IntegratorKind integrator = IntegratorKind::bdpt)
 {
     RenderOptions result;
-    result.integrator = IntegratorKind::bdpt;
     result.integrator = integrator;
     result.film.width = 23;
     result.film.height = 17;

@@ -3,6 +3,7 @@
 #include "catch.hpp"
 #include "moving_scenes.h"
 #include "path/merging.h"
+#include "purity.h"
 #include "room.h"
 #include "scene_builder.h"
 
@@ -94,31 +95,7 @@ TEST_CASE("merged images are the same for any threads, tiles, parts and crops", 
     o.system.threads = 1;
     const RenderResult whole = image_of(scene, o);
     CHECK(whole.film.defects().invalid == 0);
-    RenderOptions other = o;
-    other.system.threads = 8;
-    other.system.tile_size = 5;
-    const RenderResult again = image_of(scene, other);
-    CHECK(again.film == whole.film);
-    CHECK(again.stats == whole.stats);
-
-    other = o;
-    other.sampling.samples = {.begin = 2, .end = 6};
-    Film parts = image_of(scene, other).film;
-    other.sampling.samples = {.begin = 0, .end = 2};
-    parts.merge(image_of(scene, other).film);
-    CHECK(parts == whole.film);
-
-    other = o;
-    other.film.crop = PixelRect{5, 3, 24, 20};
-    const Image part = image_of(scene, other).film.develop();
-    const Image all = whole.film.develop();
-    int different = 0;
-    for (int y = 3; y < 20; ++y) {
-        for (int x = 5; x < 24; ++x) {
-            different += part.at(x - 5, y - 3) == all.at(x, y) ? 0 : 1;
-        }
-    }
-    CHECK(different == 0);
+    check_purity(scene, o, whole);
 }
 
 TEST_CASE("the merge radius shrinks with the sample index", "[vcm]")

@@ -65,7 +65,6 @@ Rgb seen_down(SceneDesc desc, Vec3 from)
     camera.world_from_camera[3] = Vec4(from, 1.0f);
     camera.vertical_fov = 0.001f;
     RenderOptions options;
-    options.integrator = IntegratorKind::bdpt;
     options.integrator = IntegratorKind::pt;
     options.film.width = 1;
     options.film.height = 1;

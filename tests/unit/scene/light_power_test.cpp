@@ -42,7 +42,6 @@ FilmDefects defects(SceneDesc desc, IntegratorKind integrator)
     const Scene scene(std::move(desc));
     const CameraDesc camera = test::camera_at({0.0f, 1.0f, 4.0f}, {0.0f, 0.5f, 0.0f}, 0.9f);
     RenderOptions options;
-    options.integrator = IntegratorKind::bdpt;
     options.film.width = 8;
     options.film.height = 8;
     options.sampling.samples = {0, 16};

@@ -32,7 +32,6 @@ Rgb center_pixel(SceneDesc desc, IntegratorKind integrator)
 {
     const Scene scene(std::move(desc));
     RenderOptions options;
-    options.integrator = IntegratorKind::bdpt;
     options.film.width = 1;
     options.film.height = 1;
     options.sampling.samples = {0, 16};

@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <list>
-#include <new>
 #include <set>
 #include <string>
 #include <utility>
@@ -21,6 +20,7 @@
 #include "output/check_pixels.h"
 #include "output/exr_metadata.h"
 #include "output/exr_stream.h"
+#include "output/write_errors.h"
 
 namespace bdpt::io {
 namespace {
@@ -178,17 +178,10 @@ ExrReport write_exr(const std::filesystem::path& file, const Image& image,
     const Imath::Box2i window = data_window(image, placement);
     OutputFile output(file);
     ExrStream stream(output, file.string());
-    try {
+    with_write_errors(file, [&] {
         write_to(stream, make_header(window, placement, content, options),
                  make_frame_buffer(window, content));
-    } catch (const Error&) {
-        throw;
-    } catch (const std::bad_alloc&) {
-        throw;
-    } catch (const std::exception& failure) {
-        throw Error(ErrorCode::output,
-                    fmt::format("{}: cannot write: {}", file.string(), failure.what()));
-    }
+    });
     output.commit();
     return make_report(image, options);
 }

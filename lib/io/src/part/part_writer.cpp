@@ -13,12 +13,11 @@
 
 #include <array>
 #include <cstddef>
-#include <exception>
-#include <new>
 #include <string>
 
 #include "output/exr_metadata.h"
 #include "output/exr_stream.h"
+#include "output/write_errors.h"
 #include "part/part_header.h"
 #include "part/part_planes.h"
 #include "part/part_seal.h"
@@ -117,21 +116,14 @@ PartWrite write_part(const std::filesystem::path& file, const RenderPart& part,
                      const PartNotes& notes, OldPart old)
 {
     OutputFile output(file);
-    try {
+    with_write_errors(file, [&] {
         ExrStream stream(output, file.string());
         PlaneRow row(part);
         const std::array headers{image_header(part, notes), sums_header(part, notes, row)};
         Imf::MultiPartOutputFile exr(stream, headers.data(), static_cast<int>(headers.size()));
         write_image(exr, part.film);
         write_sums(exr, part, row);
-    } catch (const Error&) {
-        throw;
-    } catch (const std::bad_alloc&) {
-        throw;
-    } catch (const std::exception& failure) {
-        throw Error(ErrorCode::output,
-                    fmt::format("{}: cannot write: {}", file.string(), failure.what()));
-    }
+    });
     seal(output, output.size());
     if (old == OldPart::keep_if_more && is_ahead(file, part)) {
         return PartWrite::kept;

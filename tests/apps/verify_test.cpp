@@ -4,7 +4,9 @@
 #include <bdpt/eval/verify/verify_report.h>
 
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "catch.hpp"
@@ -86,6 +88,34 @@ TEST_CASE("verify: options choose camera, light and seed as in render")
           0.9 * plain);  // the sky alone
 }
 
+TEST_CASE("verify: light paths are chosen by hand or by auto")
+{
+    const Room room;
+    const auto report = [&](const Words& more) {
+        Words words{"--time", "0.001s", "--json", "--bias", "0.001"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Outcome outcome = room.verify(words);
+        REQUIRE(outcome.exit_code == 11);
+        return std::pair(json::parse(outcome.out)["radiance"].get<double>(), outcome.err);
+    };
+    const auto [plain, nothing] = report({});
+    CHECK_FALSE(contains(nothing, "auto"));
+    CHECK(report({"--light-paths", "1"}).first == plain);
+    CHECK(report({"--light-paths", "0.25"}).first != plain);
+    CHECK(report({"--light-paths", "0.25", "--connections", "2"}).first !=
+          report({"--light-paths", "0.25"}).first);
+    // The words that the note has choose the same by hand; mis is verified as always.
+    const auto [chosen, told] = report({"--integrator", "auto"});
+    INFO(told);
+    const std::regex note(
+        "auto chooses (mis|bdpt --light-paths ([0-9.]+) --connections ([0-9.]+))\n");
+    std::smatch words;
+    REQUIRE(std::regex_search(told, words, note));
+    CHECK(chosen == (words[1] == "mis"
+                         ? plain
+                         : report({"--light-paths", words[2], "--connections", words[3]}).first));
+}
+
 TEST_CASE("verify: what makes no sense is refused")
 {
     const Room room;
@@ -94,7 +124,8 @@ TEST_CASE("verify: what makes no sense is refused")
           Words{"--false-alarm", "-1"}, Words{"--time", "soon"}, Words{"--max-depth", "0"},
           Words{"--max-depth", "65"}, Words{"--grid", "0"}, Words{"--size", "5000x4"},
           Words{"--size", "big"}, Words{"--seed", "-1"}, Words{"--fov", "200"},
-          Words{"--integrator", "pt"}}) {
+          Words{"--integrator", "pt"}, Words{"--light-paths", "0"}, Words{"--light-paths", "-1"},
+          Words{"--connections", "x"}}) {
         CAPTURE(words.front(), words.back());
         const Outcome outcome = room.verify(words);
         CHECK(outcome.exit_code == 2);

@@ -2,10 +2,12 @@
 
 #include <bdpt/eval/verify/verify.h>
 #include <bdpt/eval/verify/verify_json.h>
+#include <bdpt/render.h>
 #include <fmt/core.h>
 
 #include <string>
 
+#include "options/transport_arguments.h"
 #include "report/verify_text.h"
 #include "stage/prepared_scene.h"
 #include "terminal/interrupt.h"
@@ -26,6 +28,30 @@ int exit_code(eval::Verdict verdict)
     return verify_failed;
 }
 
+namespace {
+
+/// What is verified, with the light paths that auto chooses if that is asked for.
+eval::VerifyOptions options_for(const VerifyArguments& arguments, const PreparedScene& stage,
+                                Console& console)
+{
+    eval::VerifyOptions options = arguments.options;
+    if (arguments.stage.options.integrator != IntegratorKind::automatic) {
+        return options;
+    }
+    RenderOptions asked = arguments.stage.options;
+    asked.film.width = options.width;
+    asked.film.height = options.height;
+    const RenderOptions chosen = chosen_options(stage.scene, stage.camera, asked);
+    console.note(fmt::format("auto chooses {}", integrator_words(chosen)));
+    if (chosen.integrator == IntegratorKind::bdpt) {
+        options.light_paths = chosen.bidirectional.light_paths;
+        options.connections = chosen.bidirectional.connections;
+    }
+    return options;
+}
+
+}  // namespace
+
 int run_verify(const VerifyArguments& arguments)
 {
     const RenderArguments& what = arguments.stage;
@@ -44,21 +70,21 @@ int run_verify(const VerifyArguments& arguments)
                              counted(stage.scene.counts().instanced_triangles, "triangle"),
                              counted(stage.lights, "light"), stage.size.width, stage.size.height,
                              stage.camera.name));
+    const eval::VerifyOptions options = options_for(arguments, stage, console);
     eval::VerifyControl control;
     control.stop = interrupt.stop_token();
     control.on_progress = [&](const eval::VerifyProgress& progress) {
         console.progress({.samples_done = progress.batches * eval::bdpt_samples,
                           .samples_total = 0,
                           .seconds = progress.seconds},
-                         {.samples = std::nullopt, .seconds = arguments.options.seconds});
+                         {.samples = std::nullopt, .seconds = options.seconds});
     };
-    const eval::VerifyReport report =
-        eval::verify(stage.scene, stage.camera, arguments.options, control);
+    const eval::VerifyReport report = eval::verify(stage.scene, stage.camera, options, control);
     console.end_progress();
     if (what.format == Format::json) {
         print_report(eval::verify_json(report, file));
     } else if (what.verbosity == Verbosity::normal) {
-        print_report(verify_text(report, arguments.options));
+        print_report(verify_text(report, options));
     }
     if (const std::optional<int> signal = interrupt.signal()) {
         return 128 + *signal;

@@ -238,10 +238,29 @@ std::optional<std::vector<Strategy>> parse_strategies(std::string_view text)
     }
 }
 
+void add_light_path_options(CLI::App& command, TransportWords& words, const char* group)
+{
+    constexpr double most_light_paths = 4096.0;
+    command
+        .add_option(
+            "--light-paths", words.light_paths,
+            "Light subpaths per camera subpath (bdpt, lt, vcm); a fraction, like 0.1, shares "
+            "them among all pixels. Default: 1; auto chooses it")
+        ->check(number(0.0, most_light_paths))
+        ->type_name("N")
+        ->group(group);
+    command
+        .add_option("--connections", words.connections,
+                    "Light subpaths that each camera subpath is connected to (bdpt, vcm). Default: "
+                    "all of its own, or 1 if --light-paths is a fraction; auto chooses it")
+        ->check(number(0.0, most_light_paths))
+        ->type_name("C")
+        ->group(group);
+}
+
 void add_transport_options(CLI::App& command, TransportWords& words)
 {
     const auto group = "How to render";
-    constexpr double most_light_paths = 4096.0;
     const auto add_choice = [&](const char* name, std::string& value,
                                 const std::vector<std::string>& values, const std::string& help) {
         command.add_option(name, value, help)
@@ -260,21 +279,7 @@ void add_transport_options(CLI::App& command, TransportWords& words)
                "Choice of one light: power (by emitted power), tree (light tree: by estimated "
                "contribution to the point), auto (default: tree if there are many lights)");
     add_limits(command, words, group);
-    command
-        .add_option(
-            "--light-paths", words.light_paths,
-            "Light subpaths per camera subpath (bdpt, lt, vcm); a fraction, like 0.1, shares "
-            "them among all pixels. Default: 1; auto chooses it")
-        ->check(number(0.0, most_light_paths))
-        ->type_name("N")
-        ->group(group);
-    command
-        .add_option("--connections", words.connections,
-                    "Light subpaths that each camera subpath is connected to (bdpt, vcm). Default: "
-                    "all of its own, or 1 if --light-paths is a fraction; auto chooses it")
-        ->check(number(0.0, most_light_paths))
-        ->type_name("C")
-        ->group(group);
+    add_light_path_options(command, words, group);
     const BidirectionalOptions standard;
     command
         .add_option("--merge-radius", words.merge_radius,
@@ -371,18 +376,21 @@ nlohmann::ordered_json transport_json(const RenderOptions& options)
     return result;
 }
 
-std::string integrator_text(const RenderOptions& options, bool chosen)
+std::string integrator_words(const RenderOptions& options)
 {
     const std::string name(eval::to_string(options.integrator));
-    if (!chosen) {
+    if (!info(options.integrator).traces_light_paths) {
         return name;
     }
-    if (!info(options.integrator).traces_light_paths) {
-        return "auto: " + name;
-    }
     const double light_paths = options.bidirectional.light_paths;
-    return fmt::format("auto: {} --light-paths {:g} --connections {:g}", name, light_paths,
+    return fmt::format("{} --light-paths {:g} --connections {:g}", name, light_paths,
                        options.bidirectional.connections.value_or(light_paths));
+}
+
+std::string integrator_text(const RenderOptions& options, bool chosen)
+{
+    return chosen ? "auto: " + integrator_words(options)
+                  : std::string(eval::to_string(options.integrator));
 }
 
 }  // namespace bdpt::app

@@ -35,10 +35,17 @@ struct TransportWords {
 /// "s2t1,s0t3": strategies that make a path, with at most 1001 vertices on either side.
 [[nodiscard]] std::optional<std::vector<Strategy>> parse_strategies(std::string_view text);
 
+/// --light-paths and --connections.
+void add_light_path_options(CLI::App& command, TransportWords& words, const char* group);
+/// These and all others.
 void add_transport_options(CLI::App& command, TransportWords& words);
 
 /// `options` with what `words` say. Throws `Error` (usage) that names the option and the value.
 [[nodiscard]] RenderOptions with_transport(const TransportWords& words, RenderOptions options);
+
+/// The integrator and, if it has them, its light paths and connections: "bdpt --light-paths 0.5
+/// --connections 1".
+[[nodiscard]] std::string integrator_words(const RenderOptions& options);
 
 /// The integrator's name; or, if it was chosen by auto, the words that choose the same by hand.
 [[nodiscard]] std::string integrator_text(const RenderOptions& options, bool chosen);

@@ -15,6 +15,7 @@ constexpr const char* footer = R"(Examples:
   bdpt verify scene.gltf
   bdpt verify room.glb --from 0,1.6,2 --look-at 0,1,0 --time 10m
   bdpt verify scene.gltf --size 64x64 --max-depth 8 --json
+  bdpt verify scene.gltf --light-paths 0.25 --connections 2
 
 Renders the scene by pt, nee, mis, lt, bdpt and every strategy of bdpt, at low resolution with many
 independent samples, and tests whether they agree: for each path length, in the whole image and in
@@ -69,6 +70,26 @@ void add_how(CLI::App& command, VerifyWords& words)
         ->type_name("PERCENT")
         ->group(group);
     add_seed_and_threads(command, words.render, group);
+    command
+        .add_option("--integrator", words.render.transport.integrator,
+                    "What is verified: bdpt (default), or auto: bdpt with the light paths and "
+                    "connections that auto chooses for the scene")
+        ->check(CLI::IsMember({"bdpt", "auto"}))
+        ->type_name("bdpt|auto")
+        ->group(group);
+    add_light_path_options(command, words.render.transport, group);
+}
+
+/// The choice of light paths is bdpt's, unless it is left to auto.
+RenderWords named_integrator(RenderWords words)
+{
+    if (words.transport.integrator.empty()) {
+        words.transport.integrator = "bdpt";
+    }
+    if (words.transport.light_paths == 0.0) {
+        reject("--light-paths", "0", "more than 0 light paths: without them there is only mis");
+    }
+    return words;
 }
 
 }  // namespace
@@ -93,7 +114,7 @@ void add_verify_options(CLI::App& command, VerifyWords& words)
 VerifyArguments understand(const VerifyWords& words)
 {
     constexpr int widest = 4096;
-    VerifyArguments result{.stage = understand(words.render), .options = {}};
+    VerifyArguments result{.stage = understand(named_integrator(words.render)), .options = {}};
     eval::VerifyOptions& options = result.options;
     if (const std::optional<Size>& size = result.stage.size) {
         if (std::max(size->width, size->height) > widest) {
@@ -110,6 +131,8 @@ VerifyArguments understand(const VerifyWords& words)
     if (words.render.time) {
         options.seconds = result.stage.goal.seconds;
     }
+    options.light_paths = result.stage.options.bidirectional.light_paths;
+    options.connections = result.stage.options.bidirectional.connections;
     options.seed = result.stage.options.sampling.seed;
     options.threads = result.stage.options.system.threads;
     return result;

@@ -122,9 +122,12 @@ TEST_CASE("a benchmark keeps runs, images and the reference, in turn")
             std::find_if(result.runs[3].checkpoints.begin(), result.runs[3].checkpoints.end(),
                          [&](const Checkpoint& one) { return one.samples == goals.equal_time; });
         REQUIRE(point != result.runs[3].checkpoints.end());
-        CHECK(point->relmse ==
-              Approx(evaluate(Metric::relmse, whole, reference,
-                              {.epsilon = 0.01, .epsilon_unit = EpsilonUnit::reference_mean})));
+        const auto error = [&](Metric metric) {
+            return Approx(evaluate(metric, whole, reference,
+                                   {.epsilon = 0.01, .epsilon_unit = EpsilonUnit::reference_mean}));
+        };
+        CHECK(point->relmse == error(Metric::relmse));
+        CHECK(point->relmse_scales == error(Metric::relmse_scales));
     }
     SECTION("checkpoints rise in samples and time, and rays are those of all samples")
     {
@@ -330,6 +333,7 @@ TEST_CASE("JSON, CSV and page have all runs and what is needed to repeat them")
     CHECK(scene["runs"].size() == 4);
     CHECK(scene["integrators"][1]["integrator"] == "bdpt");
     CHECK(scene["integrators"][1]["equal_time"]["relmse"]["median"].get<double>() > 0.0);
+    CHECK(scene["integrators"][1]["equal_time"]["relmse_scales"]["median"].get<double>() > 0.0);
     CHECK(scene["integrators"][0]["speed_up"]["factor"] == 1.0);
     CHECK(scene["integrators"][1]["time_split"]["shares"]["connect"].is_number());
 

@@ -21,6 +21,7 @@ BenchRun run_of(IntegratorKind kind, std::uint64_t seed, double first, double se
                                    .cpu_seconds = n * seconds,
                                    .wall_seconds = n * seconds / 2.0,
                                    .relmse = first / n,
+                                   .relmse_scales = 0.4 * first / n,
                                    .mape = std::sqrt(first / n)});
     }
     run.stats.rays = {.camera = 160, .light = 80, .shadow = 40, .aov = 0};
@@ -106,6 +107,8 @@ TEST_CASE("a summary tells of equal time, equal samples and equal error")
     CHECK(pt.equal_samples.error.median == Approx(2.0));
     CHECK(bdpt.equal_samples.error.median == Approx(0.25));
     CHECK(bdpt.equal_samples.mape.median == Approx(0.5));
+    CHECK(bdpt.equal_samples.error_scales.median == Approx(0.4 * 0.25));
+    CHECK(bdpt.equal_time.error_scales.median == Approx(0.4 * 0.25 * 1.0 / 0.8));
     CHECK(pt.efficiency == Approx(1.0 / 0.8));
     CHECK(bdpt.efficiency == Approx(1.0 / (0.3125 * 0.8)));
 
@@ -139,6 +142,8 @@ TEST_CASE("the noise of the reference is not an error of the image")
     const auto all = summarize(two_integrators(0.2), 0.8);
     CHECK(all[0].equal_time.error.median == Approx(0.8));
     CHECK_FALSE(all[0].equal_time.near_noise);
+    // Of pixels that are independent; averages over squares have less of it.
+    CHECK(all[0].equal_time.error_scales.median == Approx(0.4 - 0.2 * 341.0 / 256.0 / 5.0));
     CHECK(all[1].equal_samples.error.median == Approx(0.05));
     CHECK(all[1].equal_samples.near_noise);
     // The luckiest run is below the noise: no logarithm of a negative number.

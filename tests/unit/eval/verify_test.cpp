@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <optional>
 #include <stop_token>
 #include <string>
 
@@ -72,6 +73,26 @@ TEST_CASE("verify passes on a stage through all cameras")
         CHECK(report.radiance > 0.0);
         // What the point light casts through the glass only light paths can make.
         CHECK(report.lengths[3].seen_from_camera < 1.0);
+    }
+}
+
+TEST_CASE("verify passes with shared light paths and any number of connections")
+{
+    const Scene scene = stage();
+    struct Choice {
+        double light_paths;
+        std::optional<double> connections;
+    };
+    for (const Choice& choice : {Choice{0.0625, 1.0}, Choice{0.5, 0.25}, Choice{0.3, 1.7},
+                                 Choice{4.0, 0.25}, Choice{2.0, std::nullopt}}) {
+        VerifyOptions how = options(2048);
+        how.detectable_bias = 0.2;
+        how.light_paths = choice.light_paths;
+        how.connections = choice.connections;
+        const VerifyReport report = verify(scene, camera(), how);
+        INFO(choice.light_paths << " light paths: " << text_of(report));
+        CHECK(report.verdict == Verdict::pass);
+        CHECK(report.weights.paths > 1000);
     }
 }
 

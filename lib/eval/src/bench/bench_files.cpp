@@ -178,6 +178,7 @@ ordered_json run_json(const BenchRun& run)
                                {"cpu_seconds", point.cpu_seconds},
                                {"wall_seconds", point.wall_seconds},
                                {"relmse", point.relmse},
+                               {"relmse_scales", point.relmse_scales},
                                {"mape", point.mape}});
     }
     const RenderStats& stats = run.stats;
@@ -209,6 +210,7 @@ BenchRun parse_run(const ordered_json& json, const fs::path& file)
                                        .cpu_seconds = point.at("cpu_seconds").get<double>(),
                                        .wall_seconds = point.at("wall_seconds").get<double>(),
                                        .relmse = point.at("relmse").get<double>(),
+                                       .relmse_scales = point.at("relmse_scales").get<double>(),
                                        .mape = point.at("mape").get<double>()});
         }
         const ordered_json& rays = json.at("rays");

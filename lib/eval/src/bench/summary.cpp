@@ -31,6 +31,10 @@ std::vector<double> at(const std::vector<const BenchRun*>& runs, std::int64_t sa
     return result;
 }
 
+/// What noise that pixels do not share adds to relMSE over scales, of what it adds to relMSE: the
+/// averages over squares of 2, 4, 8 and 16 pixels a side have the less the larger they are.
+constexpr double noise_at_scales = (1.0 + 1.0 / 4.0 + 1.0 / 16.0 + 1.0 / 64.0 + 1.0 / 256.0) / 5.0;
+
 /// `seconds`: the CPU time that errors are brought to; none: they are what they are.
 GoalSummary summarize_goal(const std::vector<const BenchRun*>& runs, std::int64_t samples,
                            double noise, std::optional<double> seconds)
@@ -39,16 +43,26 @@ GoalSummary summarize_goal(const std::vector<const BenchRun*>& runs, std::int64_
         return spread(at(runs, samples, value)).median;
     };
     const double raw = median_of([](const Checkpoint& point) { return point.relmse; });
-    return {.samples = samples,
-            .cpu_seconds = median_of([](const Checkpoint& point) { return point.cpu_seconds; }),
-            .wall_seconds = median_of([](const Checkpoint& point) { return point.wall_seconds; }),
-            .error = spread(at(runs, samples,
-                               [&](const Checkpoint& point) {
-                                   return without_noise(point.relmse, noise) *
-                                          (seconds ? point.cpu_seconds / *seconds : 1.0);
-                               })),
-            .mape = spread(at(runs, samples, [](const Checkpoint& point) { return point.mape; })),
-            .near_noise = raw < 3.0 * noise};
+    // As if errors fell with the inverse of the time.
+    const auto brought_to_time = [&](double error, const Checkpoint& point) {
+        return error * (seconds ? point.cpu_seconds / *seconds : 1.0);
+    };
+    return {
+        .samples = samples,
+        .cpu_seconds = median_of([](const Checkpoint& point) { return point.cpu_seconds; }),
+        .wall_seconds = median_of([](const Checkpoint& point) { return point.wall_seconds; }),
+        .error = spread(at(runs, samples,
+                           [&](const Checkpoint& point) {
+                               return brought_to_time(without_noise(point.relmse, noise), point);
+                           })),
+        .error_scales =
+            spread(at(runs, samples,
+                      [&](const Checkpoint& point) {
+                          return brought_to_time(
+                              without_noise(point.relmse_scales, noise_at_scales * noise), point);
+                      })),
+        .mape = spread(at(runs, samples, [](const Checkpoint& point) { return point.mape; })),
+        .near_noise = raw < 3.0 * noise};
 }
 
 std::vector<CurvePoint> curve_of(const std::vector<const BenchRun*>& runs, double noise)

@@ -61,6 +61,7 @@ void judge(const Image& image, const Reference& reference, const MetricScale& sc
         return mean(error_terms(metric, image, reference.image, scale));
     };
     point.relmse = error(Metric::relmse);
+    point.relmse_scales = error(Metric::relmse_scales);
     point.mape = error(Metric::mape);
 }
 

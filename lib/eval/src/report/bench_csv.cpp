@@ -9,7 +9,8 @@ namespace {
 
 constexpr const char* columns =
     "scene,file,content,width,height,max_depth,sampler,integrator,seed,samples,equal_time,"
-    "equal_samples,cpu_seconds,wall_seconds,relmse,reference_noise,mape,walk_share,shade_share,"
+    "equal_samples,cpu_seconds,wall_seconds,relmse,reference_noise,relmse_scales,mape,walk_share,"
+    "shade_share,"
     "connect_share,weigh_share,splat_share,threads,cpu,libraries,version\n";
 
 /// A field of a CSV file [RFC 4180].
@@ -71,7 +72,7 @@ std::string bench_csv(const BenchRecord& record)
                           (point.samples == goals->equal_samples ? "1," : "0,") +
                           number(point.cpu_seconds) + "," + number(point.wall_seconds) + "," +
                           number(point.relmse) + "," + number(scene.reference_noise) + "," +
-                          number(point.mape) + shares + tail;
+                          number(point.relmse_scales) + "," + number(point.mape) + shares + tail;
             }
         }
     }

@@ -41,9 +41,13 @@ ordered_json spread_json(const Spread& spread)
 
 ordered_json goal_json(const GoalSummary& goal)
 {
-    return {{"samples", goal.samples},           {"cpu_seconds", goal.cpu_seconds},
-            {"wall_seconds", goal.wall_seconds}, {"relmse", spread_json(goal.error)},
-            {"mape", spread_json(goal.mape)},    {"near_reference_noise", goal.near_noise}};
+    return {{"samples", goal.samples},
+            {"cpu_seconds", goal.cpu_seconds},
+            {"wall_seconds", goal.wall_seconds},
+            {"relmse", spread_json(goal.error)},
+            {"relmse_scales", spread_json(goal.error_scales)},
+            {"mape", spread_json(goal.mape)},
+            {"near_reference_noise", goal.near_noise}};
 }
 
 ordered_json time_json(const TimeSplit& split)

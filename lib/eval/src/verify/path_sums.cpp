@@ -80,9 +80,10 @@ LengthSums& LengthSums::operator+=(const LengthSums& other)
     return *this;
 }
 
-PathSums::PathSums(const TileGrid& grid, int max_depth)
+PathSums::PathSums(const TileGrid& grid, int max_depth, double light_paths)
     : grid_(grid),
       row_(max_depth),
+      light_paths_(light_paths),
       roulette_(max_depth),
       strategies_(grid.size() * row_.size()),
       lengths_(grid.size() * static_cast<std::size_t>(max_depth)),
@@ -190,8 +191,13 @@ void PathSums::add_to_length(LengthSums& sums, const PathContribution& path,
     const Finder hit = finder(0);
     // Of paths of one edge, s = 1 goes through the lens: no path tracer has that.
     const Finder next_event = n > 2 ? finder(1) : Finder{};
-    const Finder to_lens = finder(n - 1);
-    const Finder hit_lens = finder(n);
+    // Light tracing has one light path for each pixel, whatever bdpt has.
+    const auto from_one = [&](Finder of_all) {
+        return Finder{.share = of_all.share / light_paths_,
+                      .greatest_weight = of_all.greatest_weight};
+    };
+    const Finder to_lens = from_one(finder(n - 1));
+    const Finder hit_lens = from_one(finder(n));
     const double weighted = measure.weighted;
     const double all = measure.all;
     sums.radiance += weighted;

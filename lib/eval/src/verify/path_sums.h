@@ -94,7 +94,8 @@ struct LengthSums {
 /// Sums over the paths that bdpt found in some samples. Not for several threads at once.
 class PathSums {
 public:
-    PathSums(const TileGrid& grid, int max_depth);
+    /// `light_paths`: of bdpt, for each camera path.
+    PathSums(const TileGrid& grid, int max_depth, double light_paths = 1.0);
 
     /// Those with more than `max_depth` edges or values that are not finite are ignored. Knows its
     /// shares; weighed by the power heuristic.
@@ -139,6 +140,7 @@ private:
 
     const TileGrid& grid_;
     StrategyRow row_;
+    double light_paths_;
     Roulette roulette_;
     std::vector<StrategySums> strategies_;  // by tile, then by index
     std::vector<LengthSums> lengths_;       // by tile, then by length

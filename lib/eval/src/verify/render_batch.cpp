@@ -36,6 +36,8 @@ RenderOptions render_options(const VerifyOptions& options, IntegratorKind integr
     if (integrator == IntegratorKind::bdpt) {
         // Its strategies are judged one by one, and s = 1 alone needs all of the sky.
         result.sampling.environment = EnvironmentSampling::plain;
+        result.bidirectional.light_paths = options.light_paths;
+        result.bidirectional.connections = options.connections;
     }
     result.system.threads = 1;
     result.sampling.seed =
@@ -78,7 +80,7 @@ Batch render_batch(const Scene& scene, const CameraDesc& camera, const VerifyOpt
                    const TileGrid& grid, std::int64_t number)
 {
     const RadianceSums none(grid, options.max_depth);
-    Batch batch{.bdpt = PathSums(grid, options.max_depth),
+    Batch batch{.bdpt = PathSums(grid, options.max_depth, options.light_paths),
                 .others = {none, none, none, none},
                 .images = {}};
     const int longest = options.max_depth;

@@ -42,6 +42,10 @@ void check_options(const VerifyOptions& options)
             "there must be 1 tile or more along each side, and not more than pixels");
     require(options.max_depth >= 1 && options.max_depth <= longest,
             "the longest path must have 1 to 64 edges");
+    require(options.light_paths > 0.0 && options.light_paths <= 4096.0,
+            "the number of light paths must be more than 0 and at most 4096");
+    require(options.connections.value_or(0.0) >= 0.0 && options.connections.value_or(0.0) <= 4096.0,
+            "the number of connections must be in [0, 4096]");
     require(options.false_alarm > 0.0 && options.false_alarm < 1.0,
             "the chance of a false alarm must be between 0 and 1");
     require(options.detectable_bias > 0.0, "the bias to detect must be greater than 0");

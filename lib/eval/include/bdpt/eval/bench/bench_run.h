@@ -15,6 +15,7 @@ struct Checkpoint {
     double cpu_seconds = 0.0;   ///< of all threads [s]
     double wall_seconds = 0.0;  ///< [s]
     double relmse = 0.0;
+    double relmse_scales = 0.0;
     double mape = 0.0;
 };
 

@@ -25,6 +25,7 @@ struct GoalSummary {
     /// relMSE without the reference's noise; at equal time that after exactly those seconds, as if
     /// it fell with the inverse of the time from where it was measured.
     Spread error;
+    Spread error_scales;  ///< the same of relMSE over scales, where blotches count
     Spread mape;
     /// The reference's noise is a third of the error or more: what is left is not sure.
     bool near_noise = false;

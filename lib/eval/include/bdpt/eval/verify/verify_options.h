@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <stop_token>
 
 namespace bdpt::eval {
@@ -23,6 +24,10 @@ struct VerifyOptions {
     int grid = 4;
     /// Longest paths that are tested [edges], at least 1.
     int max_depth = 5;
+    /// Light paths for each camera path, and how many of them it is connected to, of bdpt; as
+    /// `BidirectionalOptions` has them.
+    double light_paths = 1.0;
+    std::optional<double> connections{};
     /// Chance of `Verdict::fail` for a renderer without fault.
     double false_alarm = 1e-3;
     /// Errors of a strategy that change the mean of the image by this fraction must be found with

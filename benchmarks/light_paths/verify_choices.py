@@ -1,0 +1,45 @@
+#!/usr/bin/env python3
+"""Has `bdpt verify` judge bdpt with every number of light paths and connections that auto can choose:
+verify_choices.py BDPT [SCENE...]
+
+Prints a line for each scene: how many choices passed, were inconclusive in the time, and failed. Exit status 1 if one
+failed, and its words."""
+
+import argparse
+import collections
+import pathlib
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+CHOICES = [(n, c) for n in (1 / 16, 1 / 4) for c in (0.25, 1, 2, 3)] + [
+    (n, c) for n in (0.5, 1) for c in (0.25, 1, 2)] + [(n, c) for n in (2, 4) for c in (0.25, 1)]
+VERDICTS = {0: "passed", 10: "failed", 11: "inconclusive"}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("bdpt", type=pathlib.Path)
+    parser.add_argument("scenes", nargs="*", type=pathlib.Path, metavar="SCENE", help="default: all of scenes/")
+    parser.add_argument("--time", default="10s", help="for each choice (10s)")
+    parser.add_argument("--bias", default="5", help="error of a strategy that must be found [%% of the image] (5)")
+    arguments = parser.parse_args()
+    failed = False
+    for scene in arguments.scenes or sorted((ROOT / "scenes").glob("*.gltf")):
+        counts = collections.Counter()
+        for n, c in CHOICES:
+            done = subprocess.run(
+                [arguments.bdpt, "verify", scene, "--light-paths", str(n), "--connections", str(c), "--time", arguments.time,
+                 "--bias", arguments.bias], capture_output=True, text=True, check=False)
+            if done.returncode not in VERDICTS:
+                sys.exit(f"{scene}: {done.stderr}")
+            counts[VERDICTS[done.returncode]] += 1
+            if done.returncode == 10:
+                failed = True
+                print(f"{scene.stem}, {n:g} light paths, {c:g} connections:\n{done.stdout}", flush=True)
+        print(f"{scene.stem:26} " + ", ".join(f"{counts[word]} {word}" for word in VERDICTS.values()), flush=True)
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

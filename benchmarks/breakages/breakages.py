@@ -20,9 +20,11 @@ CONNECT = "lib/src/path/connect.cpp"
 WALK = "lib/src/path/random_walk.cpp"
 SUMS = "lib/src/path/weight_sums.cpp"
 CAMERA = "lib/src/camera/camera.cpp"
+CACHE = "lib/src/integrator/bidirectional/light_path_cache.cpp"
 
 # So wide, and so far into the box, that light paths hit it.
 WIDE_LENS = ("--lens-radius", "0.1", "--from", "0.278,0.273,-0.1", "--look-at", "0.278,0.273,0.28", "--fov", "100")
+SHARED = ("--light-paths", "0.25", "--connections", "1.5")
 # In the roughest sphere of glass-rough.gltf, below the lamp.
 INSIDE_GLASS = ("--from", "1.05,0.29,0.3", "--look-at", "1.05,1.5,0.31", "--fov", "90")
 
@@ -67,6 +69,13 @@ BREAKAGES = (
              "(2.0 * camera_term(joinable(camera[t - 2]), t - 1) +"),
     Breakage("weights count lenses that are hit twice", SUMS, "lens_term(neighbor, camera[0])",
              "2.0 * lens_term(neighbor, camera[0])", options=WIDE_LENS),
+    Breakage("weights take connections for as many as light paths", SUMS, "joins_(raise(strategies.connections()))",
+             "joins_(raise(strategies.light_paths()))", options=SHARED),
+    Breakage("the fraction of a connection is dropped", CACHE,
+             "std::floor(before + counts_.connections) - std::floor(before)", "std::floor(counts_.connections)",
+             options=SHARED),
+    Breakage("splats of shared light paths count as those of own ones", BIDIRECTIONAL,
+             "{.s = s, .t = 1}, *splat, strategies_.count(s, 1),", "{.s = s, .t = 1}, *splat, 1.0f,", options=SHARED),
     Breakage("shadow rays to infinity meet nothing", "lib/src/scene/world.cpp",
              "if (embree_->occluded({.origin = offset_origin(a.p, a.error, a.ng, direction),\n"
              "                           .direction = direction,",

@@ -42,8 +42,10 @@ def errors(bdpt, image, reference):
 def measure(bdpt, scene, arguments):
     """Name of the integrator -> seconds times each error, and what auto chose."""
     with tempfile.TemporaryDirectory() as folder:
-        image, reference, stats = (pathlib.Path(folder) / name for name in ("image.exr", "reference.exr", "stats.json"))
-        render(bdpt, scene, reference, arguments.side, "--spp", str(arguments.reference_spp), "--seed", "999")
+        image, stats = (pathlib.Path(folder) / name for name in ("image.exr", "stats.json"))
+        reference = (arguments.references or pathlib.Path(folder)) / f"{scene.stem}.exr"
+        if not reference.exists():
+            render(bdpt, scene, reference, arguments.side, "--spp", str(arguments.reference_spp), "--seed", "999")
         start = min(render(bdpt, scene, image, arguments.side, "--spp", "1", "--integrator", "mis") for _ in range(2))
         products = {}
         for name in INTEGRATORS:
@@ -73,6 +75,7 @@ def main():
     parser.add_argument("--spp", type=int, default=64, help="samples per pixel (64)")
     parser.add_argument("--seeds", type=int, default=5, help="renders by each integrator (5)")
     parser.add_argument("--reference-spp", type=int, default=1024, help="samples of the reference (1024)")
+    parser.add_argument("--references", type=pathlib.Path, metavar="DIR", help="where references are kept for later runs")
     arguments = parser.parse_args()
     print(f"{'scene':26} {'auto chose':14} {'pilot':>6} {'over best single':>17} {'scales':>7} {'over bdpt':>10} {'scales':>7}")
     ratios = []

@@ -69,7 +69,7 @@ TEST_CASE("roulette keeps the light of dark surfaces", "[closed-form][roulette]"
     const Scene scene = furnace_sphere(emitted, dark);
     const CameraDesc camera = camera_at({0.1f, 0.0f, 0.3f}, {0.0f, 0.1f, -1.0f}, 0.9f);
     for (const auto& [kind, edges, survival] :
-         {std::tuple(IntegratorKind::pt, 2, 0.0f), std::tuple(IntegratorKind::nee, 3, 0.0f),
+         {std::tuple(IntegratorKind::pt, 3, 0.0f), std::tuple(IntegratorKind::nee, 3, 0.0f),
           std::tuple(IntegratorKind::mis, 3, 0.0f), std::tuple(IntegratorKind::bdpt, 3, 0.0f),
           std::tuple(IntegratorKind::lt, 3, 0.0f), std::tuple(IntegratorKind::mis, 3, 0.5f),
           std::tuple(IntegratorKind::bdpt, 3, 0.5f)}) {

@@ -102,7 +102,9 @@ struct SamplingOptions {
 struct TransportOptions {
     int max_depth = 8;  ///< longest path in edges: 1 sees lights only, 2 adds direct light
     int min_depth = 1;  ///< shortest path in edges that is measured
-    /// Edges of a subpath after which Russian roulette may end it; `max_depth` or more: never.
+    /// Edges of a subpath after which Russian roulette may end it; `max_depth` or more: never. A
+    /// light subpath goes on with the probability that its throughput has kept since the start, a
+    /// camera subpath with what it has kept since the first surface.
     int rr_start = 3;
     /// Least probability with which roulette lets a walk go on, at each edge. 0: what the
     /// throughput asks for, however small; 1: no roulette.

@@ -114,9 +114,9 @@ void look_for_lens(const Camera& camera, const Step& step, float free_distance, 
     path.add_crossing(crossing);
 }
 
-/// Ends a walk by chance in proportion to what it has lost since `full`, but lets it go on with a
-/// probability of at least `least`. The survivors are worth more in return; no density knows of it,
-/// so that all strategies are treated alike.
+/// Ends a walk by chance in proportion to what it has lost since its throughput was `full`, but
+/// lets it go on with a probability of at least `least`. The survivors are worth more in return; no
+/// density knows of it, so that all strategies are treated alike.
 bool survives(Rgb& beta, Rgb full, float least, Sampler& sampler)
 {
     const float survival = std::max(max_component(beta) / max_component(full), least);
@@ -148,7 +148,7 @@ const SurfacePoint* find_surface(const SampleContext& sample, const Step& step, 
 /// Goes on from the first vertex until the path is full, leaves the scene or is absorbed.
 void walk(SampleContext& sample, const Walk& rules, Step step, Subpath& path)
 {
-    const Rgb full = step.beta;
+    Rgb full = step.beta;  // what roulette compares with
     const Camera& camera = sample.camera;
     const bool watches_lens = !rules.from_camera() && camera.has_finite_lens();
     const int max_vertices = rules.limits.max_vertices;
@@ -190,17 +190,22 @@ void walk(SampleContext& sample, const Walk& rules, Step step, Subpath& path)
         const Vec2 u_direction = sampler.next_2d();
         const float u_lobe = vertex.bsdf->has_one_lobe() ? 0.0f : sampler.next_1d();
         const auto scattered = vertex.bsdf->sample(u_lobe, u_direction, rules.mode);
-        if (!scattered || is_black(scattered->weight)) {
+        const Rgb beta = scattered ? vertex.beta * scattered->weight : Rgb(0.0f);
+        if (is_black(beta)) {
             return;
         }
         vertex.scattered_delta = scattered->delta;
         PathVertex& previous = path[path.size() - 2];
         previous.pdf_rev = {scattered->pdf_rev.value * previous.area_per_solid_angle};
         step = {.direction = scattered->wi,
-                .beta = vertex.beta * scattered->weight,
+                .beta = beta,
                 .pdf = scattered->pdf_fwd,
                 .pdf_plane = std::nullopt,
                 .origin = &vertex.end};
+        // A pixel that sees a dark surface is dark: its paths are worth as much to it as others are
+        // to theirs.
+        const bool seen_first = rules.from_camera() && path.size() == 2;
+        full = seen_first ? step.beta : full;
         if (path.size() > rules.limits.rr_start &&
             !survives(step.beta, full, rules.limits.rr_survival, sampler)) {
             return;

@@ -49,7 +49,7 @@ public:
 private:
     static constexpr double share_of_pixels = 1.0 / 16.0;
     static constexpr double fewest_cells = 512.0;
-    static constexpr double most_cells = 4096.0;
+    static constexpr double most_cells = 8192.0;
 
     static int place(int cell, int cells, int pixels, std::uint32_t random)
     {

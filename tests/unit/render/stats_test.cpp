@@ -1,6 +1,7 @@
 #include <bdpt/render.h>
 
 #include "catch.hpp"
+#include "furnace.h"
 #include "scene_builder.h"
 
 #include <cmath>
@@ -46,6 +47,25 @@ const CameraDesc from_above = [] {
 }();
 
 }  // namespace
+
+TEST_CASE("roulette compares camera paths with what the first surface leaves", "[stats]")
+{
+    // All surfaces keep a: the second of them ends none but the part 1 - a of the walks, however
+    // dark the first one has made the pixel.
+    constexpr float a = 0.1f;
+    const Scene scene = test::furnace_sphere(Rgb(1.0f), Rgb(a));
+    const auto camera = test::camera_at({0.1f, 0.0f, 0.3f}, {0.0f, 0.1f, -1.0f}, 0.9f);
+    for (const auto kind : {IntegratorKind::pt, IntegratorKind::bdpt}) {
+        RenderOptions o = options(kind, 4);
+        o.transport.rr_start = 2;
+        o.sampling.samples = {.begin = 0, .end = 64};
+        const RenderStats stats = render(scene, camera, o).stats;
+        const double rays =
+            static_cast<double>(stats.rays.camera) / static_cast<double>(stats.paths.camera);
+        INFO("integrator " << static_cast<int>(kind));
+        CHECK(rays == Catch::Approx(2.0 + a + a * a).epsilon(0.01));
+    }
+}
 
 TEST_CASE("rays and paths are counted by kind", "[stats]")
 {

@@ -73,6 +73,7 @@ void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, Contribution
     const CameraRay first = camera.generate_ray(raster, u_lens);
     Ray ray{.origin = first.lens, .direction = first.direction, .pdf = first.pdf_direction};
     Rgb beta(1.0f);
+    float full = 1.0f;  // throughput that roulette compares with
     bool dispersed = false;
     const auto add = [&](Strategy strategy, Rgb found) {
         if (strategy.s + strategy.t > options_.transport.min_depth && !is_black(found)) {
@@ -128,10 +129,10 @@ void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, Contribution
         const Vec2 u_direction = sampler.next_2d();
         const float u_lobe = point.bsdf.has_one_lobe() ? 0.0f : sampler.next_1d();
         const auto scattered = point.bsdf.sample(u_lobe, u_direction, TransportMode::radiance);
-        if (!scattered || is_black(scattered->weight)) {
+        beta = scattered ? beta * scattered->weight : Rgb(0.0f);
+        if (is_black(beta)) {
             break;
         }
-        beta *= scattered->weight;
         ray.origin = point.end;
         ray.direction = scattered->wi;
         ray.pdf = scattered->pdf_fwd;
@@ -139,8 +140,11 @@ void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, Contribution
         if (ray.competes && world_.lights().uses_tree(next_event_sampling_.lights)) {
             ray.receiver = {.p = point.end.p, .normal = point.bsdf.opaque_normal()};
         }
+        // Of what the first surface leaves: where that is dark, the pixel is.
+        full = depth == 1 ? max_component(beta) : full;
         if (depth >= options_.transport.rr_start) {
-            const float survival = std::max(max_component(beta), options_.transport.rr_survival);
+            const float survival =
+                std::max(max_component(beta) / full, options_.transport.rr_survival);
             if (survival < 1.0f) {
                 if (sampler.next_1d() >= survival) {
                     break;

@@ -91,7 +91,7 @@ def contest(stage, entries, peers, tell):
     for entry in entries:
         unsupported_kinds = stage.scene and entry.unsupported_kinds(stage.scene)
         if unsupported_kinds:
-            skipped[entry.name] = f"it does not show {blindness}"
+            skipped[entry.name] = f"it does not show {unsupported_kinds}"
         else:
             runs[entry.name] = []
     for seed in range(stage.options.seeds):

@@ -38,6 +38,7 @@ class Entry:
 
 ENTRIES = (
     Entry("bdpt", "bdpt", {"integrator": "bdpt"}),
+    Entry("bdpt-auto", "bdpt", {"integrator": "auto"}, note="which chooses path tracing, or its light paths and connections"),
     Entry("bdpt-mis", "bdpt", {"integrator": "mis"}, note="our path tracer"),
     Entry("mitsuba-path", "mitsuba", {"integrator": "path"}),
     Entry("mitsuba-ptracer", "mitsuba", {"integrator": "ptracer"}, frozenset(SMOOTH),

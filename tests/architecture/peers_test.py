@@ -11,6 +11,7 @@ import stat
 import subprocess
 import sys
 import tempfile
+import types
 import unittest
 import unittest.mock
 
@@ -189,6 +190,11 @@ class Adapters(unittest.TestCase):
         ptracer = next(entry for entry in peers.ENTRIES if entry.name == "mitsuba-ptracer")
         self.assertEqual(ptracer.unsupported_kinds(scene("cornell-box")), "")
         self.assertEqual(ptracer.unsupported_kinds(scene("cornell-spheres")), "glass, metal")
+        stage = types.SimpleNamespace(name="cornell-spheres", scene=scene("cornell-spheres"),
+                                      options=types.SimpleNamespace(seeds=1))
+        runs, skipped = contest.contest(stage, [ptracer], {}, print)
+        self.assertEqual(runs, {})
+        self.assertEqual(skipped, {"mitsuba-ptracer": "it does not show glass, metal"})
 
 
 class Recorder:
@@ -298,8 +304,8 @@ class Missing(unittest.TestCase):
             document = json.loads((folder / "results.json").read_text(encoding="utf-8"))
             self.assertEqual(set(document["missing"]), set(peers.PEERS))
             entries = document["scenes"][0]["entries"]
-            self.assertEqual(set(entries), {"bdpt", "bdpt-mis"})
-            self.assertEqual(len((folder / "results.csv").read_text(encoding="utf-8").splitlines()), 3)
+            self.assertEqual(set(entries), {"bdpt", "bdpt-auto", "bdpt-mis"})
+            self.assertEqual(len((folder / "results.csv").read_text(encoding="utf-8").splitlines()), 4)
 
 
 class Readme(unittest.TestCase):

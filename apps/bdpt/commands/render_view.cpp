@@ -1,0 +1,275 @@
+#include "commands/render_view.h"
+
+#include <bdpt/error.h>
+#include <bdpt/eval/bench/option_names.h>
+#include <bdpt/io/tone_map.h>
+#include <bdpt/render.h>
+#include <bdpt/version.h>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+
+#include "options/transport_arguments.h"
+#include "report/film_report.h"
+#include "report/image_files.h"
+#include "report/part_command.h"
+#include "report/render_files.h"
+#include "report/render_settings.h"
+#include "report/stats_file.h"
+#include "report/strategy_files.h"
+#include "stage/darkness.h"
+#include "stage/memory_budget.h"
+#include "terminal/text.h"
+
+namespace bdpt::app {
+namespace {
+
+using nlohmann::ordered_json;
+
+void announce(Console& console, const RenderArguments& arguments, const PreparedScene& stage,
+              const ordered_json& settings)
+{
+    const SceneCounts counts = stage.scene.counts();
+    console.event("start", {{"version", BDPT_VERSION},
+                            {"file", arguments.file.string()},
+                            {"triangles", counts.instanced_triangles},
+                            {"lights", stage.lights},
+                            {"settings", settings}});
+    console.note(fmt::format("{}: {}, {}; {}x{}, {}, camera {}", arguments.file.string(),
+                             counted(counts.instanced_triangles, "triangle"),
+                             counted(stage.lights, "light"), stage.size.width, stage.size.height,
+                             integrator_text(arguments.options, settings.contains("chosen_by")),
+                             stage.camera.name));
+}
+
+RenderOptions options_for(const RenderArguments& arguments, const PreparedScene& stage,
+                          Console& console)
+{
+    RenderOptions options = arguments.options;
+    options.film.width = stage.size.width;
+    options.film.height = stage.size.height;
+    options.sampling.samples = arguments.samples;
+    if (arguments.max_memory) {
+        options.bidirectional.strategy_memory =
+            std::min(options.bidirectional.strategy_memory,
+                     *arguments.max_memory - reserved_bytes(arguments));
+        options.bidirectional.light_path_memory =
+            std::min(options.bidirectional.light_path_memory,
+                     *arguments.max_memory - reserved_bytes(arguments));
+    }
+    if (arguments.strategies) {
+        const StrategyDepth depth = strategy_depth(*arguments.strategies, options, stage.camera);
+        options.bidirectional.strategy_depth = depth.edges;
+        if (depth.warning) {
+            console.warning(*depth.warning);
+        }
+    }
+    return options;
+}
+
+/// What is left open in the options is chosen; the rest stays.
+RenderArguments with_choice(RenderArguments arguments, const PreparedScene& stage, Console& console)
+{
+    arguments.options =
+        chosen_options(stage.scene, stage.camera, options_for(arguments, stage, console));
+    return arguments;
+}
+
+PartResult render_stage(const RenderArguments& arguments, const PreparedScene& stage,
+                        const io::PartNotes& notes, Console& console, Interrupt& interrupt,
+                        std::optional<PartKeeper>& keeper)
+{
+    const RenderOptions& options = arguments.options;
+    RenderPart part;
+    RenderControl control;
+    control.stop = interrupt.stop_token();
+    control.time_limit = arguments.goal.seconds;
+    control.profiling = arguments.profiling;
+    control.on_progress = [&](const Progress& progress) {
+        Goal goal = arguments.goal;
+        if (goal.samples) {
+            goal.samples = progress.samples_total;  // fewer when the render goes on
+        }
+        console.progress(progress, goal);
+    };
+    if (keeper) {
+        part = keeper->start(identity(stage.scene, stage.camera, options), notes);
+        control.on_part = [&](const RenderPart& now) {
+            const bool asked = interrupt.take_checkpoint_request();
+            if (!interrupt.signal()) {  // else it is written in a moment
+                keeper->after_pass(now, asked ? Checkpoint::now : Checkpoint::when_due);
+            }
+        };
+    }
+    PartResult result = render_part(stage.scene, stage.camera, options, std::move(part), control);
+    console.end_progress();
+    return result;
+}
+
+/// Writes the part, if there is to be one. Returns what went wrong: images are written all the
+/// same.
+std::exception_ptr finish_part(std::optional<PartKeeper>& keeper, const RenderPart& part)
+{
+    try {
+        if (keeper) {
+            keeper->finish(part);
+        }
+    } catch (const Error&) {
+        return std::current_exception();
+    }
+    return nullptr;
+}
+
+io::ImageMetadata metadata_of(const RenderArguments& arguments, const PreparedScene& stage,
+                              const ordered_json& settings)
+{
+    io::ImageMetadata metadata;
+    metadata.version = BDPT_VERSION;
+    metadata.scene = one_line(arguments.file.string());
+    metadata.settings = settings.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+    metadata.integrator = eval::to_string(arguments.options.integrator);
+    metadata.seed = arguments.options.sampling.seed;
+    metadata.camera = stage.camera;
+    metadata.created = std::chrono::system_clock::now();
+    metadata.xmp = stage.xmp;
+    return metadata;
+}
+
+io::PartNotes part_notes(const RenderArguments& arguments, io::ImageMetadata metadata,
+                         const std::vector<std::string>& words)
+{
+    return {.goal = arguments.goal.samples ? SampleSet(arguments.samples) : SampleSet(),
+            .metadata = std::move(metadata),
+            .command = render_words(words)};
+}
+
+ImageFileOptions image_file_options(const RenderArguments& arguments, const PreparedScene& stage,
+                                    const RenderResult& result, io::ImageMetadata metadata)
+{
+    metadata.samples_per_pixel = result.film.sample_count();
+    metadata.render_seconds = result.seconds;
+    metadata.created = std::chrono::system_clock::now();
+    const PixelRect& region = result.film.region();
+    const io::ExrPlacement placement{.x = region.x0,
+                                     .y = region.y0,
+                                     .full_width = stage.size.width,
+                                     .full_height = stage.size.height};
+    std::vector<Layer> layers = result.aovs.develop(result.film);
+    if (result.profile) {
+        layers.push_back(time_layer(*result.profile));
+    }
+    return {.exr = {arguments.channel_type, std::move(metadata), arguments.storage, placement},
+            .layers = std::move(layers),
+            .exposure = arguments.exposure};
+}
+
+ordered_json head_of_stats(const RenderArguments& arguments, const ordered_json& settings,
+                           const std::optional<int>& signal)
+{
+    ordered_json stats{
+        {"version", BDPT_VERSION}, {"file", arguments.file.string()}, {"settings", settings}};
+    stats["stopped_by"] = signal ? ordered_json(signal_name(*signal)) : ordered_json();
+    return stats;
+}
+
+void report_done(Console& console, const RenderArguments& arguments, const RenderResult& result,
+                 const WrittenImages& images, std::optional<int> signal)
+{
+    ordered_json outputs = ordered_json::array();
+    for (const std::filesystem::path& output : all_image_files(arguments)) {
+        outputs.push_back(output.string());
+        console.note(fmt::format("wrote {}: {} spp in {:.1f} s", output.string(),
+                                 result.film.sample_count(), result.seconds));
+    }
+    ordered_json fields{{"samples", result.film.sample_count()},
+                        {"seconds", result.seconds},
+                        {"outputs", std::move(outputs)}};
+    fields["exposure"] = images.exposure ? ordered_json(*images.exposure) : ordered_json();
+    fields["stopped_by"] = signal ? ordered_json(signal_name(*signal)) : ordered_json();
+    console.event("done", fields);
+}
+
+}  // namespace
+
+void render_view(const RenderArguments& asked, const PreparedScene& stage,
+                 std::optional<PartKeeper>& keeper, const RenderSession& session)
+{
+    Console& console = session.console;
+    Interrupt& interrupt = session.interrupt;
+    const auto choosing_start = std::chrono::steady_clock::now();
+    const RenderArguments arguments = with_choice(asked, stage, console);
+    const std::chrono::duration<double> choosing =
+        std::chrono::steady_clock::now() - choosing_start;
+    ordered_json settings = settings_of(arguments, stage);
+    if (asked.options.integrator == IntegratorKind::automatic) {
+        settings["chosen_by"] = "auto";
+    }
+    interrupt.allow_stop();
+    announce(console, arguments, stage, settings);
+    for (const std::string& warning : stage.warnings) {
+        console.warning(warning);
+    }
+    if (const std::optional<std::string> warning = warning_of_darkness(arguments, stage)) {
+        console.warning(*warning);
+    }
+    const io::ImageMetadata metadata = metadata_of(arguments, stage, settings);
+    PartResult done = render_stage(arguments, stage, part_notes(arguments, metadata, session.words),
+                                   console, interrupt, keeper);
+    const std::exception_ptr part_failure = finish_part(keeper, done.part);
+    const double cpu_seconds = done.part.cpu_seconds;
+    const std::string samples = done.part.samples.text();
+    const RenderResult result = result_of(std::move(done));
+    warn_of_defects(console, result.film.defects());
+    if (result.profile) {
+        console.event("profile", profile_json(*result.profile));
+        console.note(profile_text(*result.profile));
+    }
+
+    const auto writing_start = std::chrono::steady_clock::now();
+    const Image image = result.film.develop();
+    report_clamp(console, result.film, image);
+    const ImageFileOptions options = image_file_options(arguments, stage, result, metadata);
+    const WrittenImages images = write_image_files(arguments.outputs, image, options);
+    if (arguments.strategies) {
+        write_strategy_files(*arguments.strategies, image, result.strategies, options.exr,
+                             arguments.exposure.value_or(io::automatic_exposure(image)));
+    }
+    const std::chrono::duration<double> writing = std::chrono::steady_clock::now() - writing_start;
+    if (images.clamped_pixels > 0) {
+        console.warning(
+            fmt::format("{} pixels were beyond 65504 and are stored as that; --float "
+                        "keeps them",
+                        images.clamped_pixels));
+    }
+    const std::optional<int> signal = interrupt.signal();
+    if (arguments.stats) {
+        ordered_json stats = head_of_stats(arguments, settings, signal);
+        stats.update(stats_json(result, {.load = stage.load_seconds,
+                                         .build = stage.build_seconds,
+                                         .choose = choosing.count(),
+                                         .render = result.seconds,
+                                         .write = writing.count()}));
+        if (arguments.part) {
+            stats["part"] = {{"file", arguments.part->file.string()},
+                             {"samples", samples},
+                             {"cpu_seconds", cpu_seconds}};
+        }
+        write_stats_file(*arguments.stats, stats);
+    }
+    if (signal) {
+        console.note(fmt::format("stopped by {} after {} samples per pixel", signal_name(*signal),
+                                 result.film.sample_count()));
+    }
+    if (part_failure) {
+        std::rethrow_exception(part_failure);
+    }
+    report_done(console, arguments, result, images, signal);
+}
+
+}  // namespace bdpt::app

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "options/render_arguments.h"
+#include "report/part_keeper.h"
+#include "stage/prepared_scene.h"
+#include "terminal/console.h"
+#include "terminal/interrupt.h"
+
+namespace bdpt::app {
+
+/// What the views of a command have in common.
+struct RenderSession {
+    Console& console;
+    Interrupt& interrupt;
+    const std::vector<std::string>& words;  ///< those that were typed
+};
+
+/// Renders what the camera of `stage` sees, goes on with the part of `keeper` if there is one, and
+/// writes all files that `asked` names. From then on the session may be stopped, and what is there
+/// is written. Throws `Error`; what went wrong with the part comes after the images are written.
+void render_view(const RenderArguments& asked, const PreparedScene& stage,
+                 std::optional<PartKeeper>& keeper, const RenderSession& session);
+
+}  // namespace bdpt::app

@@ -17,13 +17,17 @@
 #include "commands/compare_command.h"
 #include "commands/info_command.h"
 #include "commands/merge_command.h"
+#include "commands/plan_command.h"
 #include "commands/render_command.h"
 #include "commands/verify_command.h"
 #include "options/arguments.h"
 #include "options/bench_arguments.h"
+#include "options/command_options.h"
 #include "options/compare_arguments.h"
+#include "options/plan_arguments.h"
 #include "options/render_arguments.h"
 #include "options/verify_arguments.h"
+#include "plan/planned_words.h"
 #include "terminal/console.h"
 #include "terminal/help_formatter.h"
 
@@ -34,6 +38,7 @@ constexpr const char* footer = R"(Examples:
   bdpt render scene.gltf -o out.exr
   bdpt render scene.glb -o out.exr -o preview.png --spp 256
   bdpt info scene.glb
+  bdpt plan scene.glb -o out.exr --spp 4096 --parts 64 --for slurm -d job
   bdpt merge part-*.part.exr -o out.exr
   bdpt compare out.exr reference.exr
   bdpt bench scene.gltf -o bench --quick
@@ -45,6 +50,7 @@ constexpr const char* footer = R"(Examples:
 struct CommandLine {
     CLI::App app{"bdpt renders glTF 2.0 scenes by bidirectional path tracing.", "bdpt"};
     RenderWords render_words;
+    PlanWords plan_words;
     MergeWords merge_words;
     InfoArguments info_arguments;
     CompareWords compare_words;
@@ -52,6 +58,7 @@ struct CommandLine {
     VerifyWords verify_words;
     std::string topic;  // what to help with
     CLI::App* render = nullptr;
+    CLI::App* plan = nullptr;
     CLI::App* merge = nullptr;
     CLI::App* info = nullptr;
     CLI::App* compare = nullptr;
@@ -61,16 +68,6 @@ struct CommandLine {
     CLI::App* version = nullptr;
 };
 
-/// Of an option that takes one value, the last one counts if it is given more than once.
-void let_the_last_count(CLI::App& command)
-{
-    for (CLI::Option* option : command.get_options()) {
-        if (!option->get_positional() && option->get_items_expected_max() <= 1) {
-            option->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-        }
-    }
-}
-
 void describe(CommandLine& line)
 {
     line.app.set_version_flag("--version", "bdpt " BDPT_VERSION);
@@ -79,6 +76,8 @@ void describe(CommandLine& line)
     line.app.formatter(std::make_shared<HelpFormatter>());
     line.render = line.app.add_subcommand("render", "Render a scene to .exr and .png files");
     add_render_options(*line.render, line.render_words);
+    line.plan = line.app.add_subcommand("plan", "Share a render among many processes or machines");
+    add_plan_options(*line.plan, line.plan_words);
     line.merge = line.app.add_subcommand("merge", "Add parts of a render that were rendered apart");
     add_merge_options(*line.merge, line.merge_words);
     line.info = line.app.add_subcommand("info", "Print what a scene contains");
@@ -96,7 +95,7 @@ void describe(CommandLine& line)
     line.help->add_option("command", line.topic, "The command. Default: all")->type_name("COMMAND");
     line.version = line.app.add_subcommand("version", "Print the version");
     for (CLI::App* command :
-         {line.render, line.merge, line.info, line.compare, line.bench, line.verify}) {
+         {line.render, line.plan, line.merge, line.info, line.compare, line.bench, line.verify}) {
         let_the_last_count(*command);
     }
 }
@@ -130,7 +129,8 @@ std::string help_of(const CommandLine& line)
 std::string unknown_command(const std::string& word, const std::string& help)
 {
     return fmt::format(
-        "unknown command \"{}\": there are render, merge, info, compare, bench and verify; see "
+        "unknown command \"{}\": there are render, plan, merge, info, compare, bench and verify; "
+        "see "
         "\"{}\"",
         word, help);
 }
@@ -185,6 +185,9 @@ int run_command(const CommandLine& line, const std::vector<std::string>& words)
         print_report("bdpt " BDPT_VERSION "\n");
         return 0;
     }
+    if (line.plan->parsed()) {
+        return run_plan(understand(line.plan_words));
+    }
     if (line.merge->parsed()) {
         return run_merge(understand(line.merge_words));
     }
@@ -201,21 +204,27 @@ int run_command(const CommandLine& line, const std::vector<std::string>& words)
                                : run_render(understand(line.render_words), words);
 }
 
-int run(int argc, char** argv, Format format)
+int run(const std::vector<std::string>& given, Format format)
 {
     CommandLine line;
     describe(line);
+    std::vector<std::string> words = given;
     try {
-        line.app.parse(argc, argv);
+        words = with_planned_words(given);
+        // The parser takes words from the end.
+        line.app.parse(std::vector<std::string>(words.rbegin(), words.rend() - 1));
     } catch (const CLI::Success& help_or_version) {
         return line.app.exit(help_or_version);
+    } catch (const OptionError& error) {
+        throw Error(error.code(),
+                    fmt::format("{}; see \"bdpt {} --help\"", error.what(), given[1]));
     } catch (const CLI::ParseError& error) {
         const int code = static_cast<int>(ErrorCode::usage);
         report_error(format, code, explain(line, error));
         return code;
     }
     try {
-        return run_command(line, {argv, argv + argc});
+        return run_command(line, words);
     } catch (const OptionError& error) {
         throw Error(error.code(), fmt::format("{}; see \"{}\"", error.what(), help_of(line)));
     }
@@ -239,7 +248,7 @@ int main(int argc, char** argv)
         return static_cast<int>(code);
     };
     try {
-        return app::run(argc, argv, format);
+        return app::run({words.begin(), words.end()}, format);
     } catch (const Error& error) {
         return fail(error.code(), error.what());
     } catch (const std::bad_alloc&) {

@@ -17,7 +17,9 @@
 #include <vector>
 
 #include "options/output_files.h"
+#include "plan/plan.h"
 #include "report/image_files.h"
+#include "report/part_collection.h"
 #include "report/part_command.h"
 #include "terminal/console.h"
 #include "terminal/interrupt.h"
@@ -29,74 +31,35 @@ namespace fs = std::filesystem;
 using io::PartInfo;
 using nlohmann::ordered_json;
 
-void check_same_render(const PartInfo& first, const PartInfo& other)
+/// Commands that render `missing`.
+std::vector<std::string> commands_for_missing(const SampleSet& missing,
+                                              const PartCollection& collection,
+                                              const MergeArguments& arguments)
 {
-    if (const auto what = difference(first.identity, other.identity)) {
-        throw Error(ErrorCode::invalid_input,
-                    fmt::format("{}: is of another render than {}: {}", other.file.string(),
-                                first.file.string(), *what));
+    if (arguments.plan) {
+        return commands_for(read_plan(*arguments.plan), *arguments.plan, missing);
     }
+    const PartInfo& part = collection.parts.front();
+    return commands_for(part.notes.command, missing, part.file.parent_path());
 }
 
-/// Parts of one render, of which none has samples of another. Those that bring nothing are left
-/// out.
-std::vector<PartInfo> read_parts(const std::vector<fs::path>& files, Console& console)
-{
-    std::vector<PartInfo> all;
-    for (const fs::path& file : files) {
-        all.push_back(io::read_part_info(file));
-        check_same_render(all.front(), all.back());
-    }
-    // The larger ones first: what lies in another one comes behind it.
-    std::stable_sort(all.begin(), all.end(), [](const PartInfo& a, const PartInfo& b) {
-        return a.samples.count() > b.samples.count();
-    });
-    std::vector<PartInfo> result;
-    for (PartInfo& part : all) {
-        const auto overlapping = std::find_if(
-            result.begin(), result.end(),
-            [&](const PartInfo& other) { return !part.samples.overlap(other.samples).empty(); });
-        if (overlapping == result.end()) {
-            result.push_back(std::move(part));
-        } else if (overlapping->samples.contains(part.samples)) {
-            console.note(fmt::format("{}: left out, as {} has its samples {}", part.file.string(),
-                                     overlapping->file.string(), part.samples.text()));
-        } else {
-            throw Error(ErrorCode::invalid_input,
-                        fmt::format("{} and {} both have the samples {}, and each has others",
-                                    overlapping->file.string(), part.file.string(),
-                                    part.samples.overlap(overlapping->samples).text()));
-        }
-    }
-    return result;
-}
-
-/// The samples that the render was to have, as far as parts tell.
-SampleSet goal_of(const std::vector<PartInfo>& parts, const std::optional<std::int64_t>& samples)
-{
-    if (samples) {
-        return SampleSet({.begin = 0, .end = *samples});
-    }
-    std::int64_t end = 0;
-    for (const PartInfo& part : parts) {
-        end = std::max({end, part.samples.end(), part.notes.goal.end()});
-    }
-    return SampleSet({.begin = 0, .end = end});
-}
-
-std::string message_of_missing(const SampleSet& missing, const PartInfo& part)
+std::string message_of_missing(const PartCollection& collection, const MergeArguments& arguments)
 {
     constexpr std::size_t most_shown = 3;
+    const SampleSet missing = collection.missing();
     std::string text = fmt::format("samples are missing: {}", missing.text());
-    const std::vector<std::string> commands =
-        commands_for(part.notes.command, missing, part.file.parent_path());
+    if (arguments.plan) {
+        text += fmt::format(" (tasks {} of {})", tasks_text(read_plan(*arguments.plan), missing),
+                            arguments.plan->string());
+    }
+    const std::vector<std::string> commands = commands_for_missing(missing, collection, arguments);
     for (std::size_t i = 0; i < std::min(commands.size(), most_shown); ++i) {
         text += (i == 0 ? "; to render them: " : " && ") + commands[i];
     }
     if (commands.size() > most_shown) {
         text += fmt::format(" && ... ({} more)", commands.size() - most_shown);
     }
-    return text + "; --partial writes what there is";
+    return collection.parts.empty() ? text : text + "; --partial writes what there is";
 }
 
 /// The settings that the parts have, with the number of samples of all.
@@ -148,16 +111,19 @@ int run_merge(const MergeArguments& arguments)
     Console console(arguments.format, arguments.verbosity);
     // Nothing is worth finishing; but nothing half-written is left, either.
     const Interrupt interrupt(temporary_paths(arguments.outputs), [] {});
-    const std::vector<PartInfo> parts = read_parts(arguments.parts, console);
-    SampleSet samples;
-    for (const PartInfo& part : parts) {
-        samples.add(part.samples);
+    const PartCollection collection = collect_parts(arguments, console);
+    const std::vector<PartInfo>& parts = collection.parts;
+    for (const std::string& note : collection.notes) {
+        console.note(note);
     }
-    const SampleSet goal = goal_of(parts, arguments.samples);
-    const SampleSet missing = samples.missing(goal);
-    if (!missing.empty() && arguments.incomplete == Incomplete::refuse) {
+    for (const std::string& fault : collection.faults) {
+        console.warning(fault);
+    }
+    const SampleSet missing = collection.missing();
+    if (parts.empty() || (!missing.empty() && arguments.incomplete == Incomplete::refuse)) {
         report_error(arguments.format, merge_incomplete,
-                     message_of_missing(missing, parts.front()));
+                     parts.empty() && !arguments.plan ? "none of the parts is there"
+                                                      : message_of_missing(collection, arguments));
         return merge_incomplete;
     }
     RenderPart sum;
@@ -165,7 +131,7 @@ int run_merge(const MergeArguments& arguments)
         io::merge_part(sum, part);
     }
     io::PartNotes notes = parts.front().notes;
-    notes.goal = goal;
+    notes.goal = collection.goal;
     write_outputs(arguments, sum, std::move(notes));
 
     if (!missing.empty()) {

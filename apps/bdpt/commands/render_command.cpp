@@ -2,41 +2,37 @@
 
 #include <fmt/core.h>
 
-#include <chrono>
+#include <cstdint>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
-#include <utility>
+#include <string>
+#include <vector>
 
 #include "commands/render_view.h"
 #include "options/output_files.h"
 #include "report/part_keeper.h"
 #include "report/render_files.h"
-#include "stage/memory_budget.h"
+#include "stage/render_preparation.h"
 #include "terminal/console.h"
 #include "terminal/interrupt.h"
 
 namespace bdpt::app {
 namespace {
 
-/// `arguments`, whose loading shows on the console how far it is.
-RenderArguments with_progress(RenderArguments arguments, Console& console)
+using nlohmann::ordered_json;
+
+/// Of a task that has been done before.
+int report_complete(Console& console, const RenderArguments& arguments)
 {
-    const auto start = std::chrono::steady_clock::now();
-    arguments.scene.on_progress = [&console, start](const io::LoadProgress& progress) {
-        const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
-        constexpr double report_threshold = 1.0;  // [s]
-        if (passed.count() < report_threshold) {
-            return;
-        }
-        const double done =
-            static_cast<double>(progress.images_done) / static_cast<double>(progress.images_total);
-        console.task({.fraction = done,
-                      .seconds = passed.count(),
-                      .seconds_left = passed.count() * (1.0 - done) / done,
-                      .activity = fmt::format("loading textures, {}/{}", progress.images_done,
-                                              progress.images_total)});
-    };
-    return arguments;
+    const std::int64_t samples = arguments.samples.end - arguments.samples.begin;
+    console.note(fmt::format("{}: has all samples of the task", arguments.part->file.string()));
+    console.event("done", {{"samples", samples},
+                           {"seconds", 0.0},
+                           {"outputs", ordered_json::array()},
+                           {"exposure", nullptr},
+                           {"stopped_by", nullptr}});
+    return 0;
 }
 
 }  // namespace
@@ -54,9 +50,12 @@ int run_render(const RenderArguments& asked, const std::vector<std::string>& wor
     std::optional<PartKeeper> keeper;
     if (asked.part) {
         keeper.emplace(*asked.part, console);
+        if (keeper->is_complete(asked.samples) && asked.outputs.empty()) {
+            return report_complete(console, asked);
+        }
     }
 
-    const PreparedScene stage = prepare_within_memory(with_progress(asked, console));
+    const PreparedScene stage = prepare_within_memory(asked, console);
     console.end_progress();
     render_view(asked, stage, keeper, {console, interrupt, words});
     const std::optional<int> signal = interrupt.signal();

@@ -7,7 +7,6 @@
 #include <bdpt/version.h>
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <chrono>
 #include <exception>
 #include <filesystem>
@@ -24,7 +23,7 @@
 #include "report/stats_file.h"
 #include "report/strategy_files.h"
 #include "stage/darkness.h"
-#include "stage/memory_budget.h"
+#include "stage/render_preparation.h"
 #include "terminal/text.h"
 
 namespace bdpt::app {
@@ -46,39 +45,6 @@ void announce(Console& console, const RenderArguments& arguments, const Prepared
                              counted(stage.lights, "light"), stage.size.width, stage.size.height,
                              integrator_text(arguments.options, settings.contains("chosen_by")),
                              stage.camera.name));
-}
-
-RenderOptions options_for(const RenderArguments& arguments, const PreparedScene& stage,
-                          Console& console)
-{
-    RenderOptions options = arguments.options;
-    options.film.width = stage.size.width;
-    options.film.height = stage.size.height;
-    options.sampling.samples = arguments.samples;
-    if (arguments.max_memory) {
-        options.bidirectional.strategy_memory =
-            std::min(options.bidirectional.strategy_memory,
-                     *arguments.max_memory - reserved_bytes(arguments));
-        options.bidirectional.light_path_memory =
-            std::min(options.bidirectional.light_path_memory,
-                     *arguments.max_memory - reserved_bytes(arguments));
-    }
-    if (arguments.strategies) {
-        const StrategyDepth depth = strategy_depth(*arguments.strategies, options, stage.camera);
-        options.bidirectional.strategy_depth = depth.edges;
-        if (depth.warning) {
-            console.warning(*depth.warning);
-        }
-    }
-    return options;
-}
-
-/// What is left open in the options is chosen; the rest stays.
-RenderArguments with_choice(RenderArguments arguments, const PreparedScene& stage, Console& console)
-{
-    arguments.options =
-        chosen_options(stage.scene, stage.camera, options_for(arguments, stage, console));
-    return arguments;
 }
 
 PartResult render_stage(const RenderArguments& arguments, const PreparedScene& stage,

@@ -1,8 +1,10 @@
 #include "options/part_arguments.h"
 
 #include <bdpt/part/sample_set.h>
+#include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <limits>
 
 #include "options/arguments.h"
 #include "options/number.h"
@@ -12,10 +14,13 @@
 namespace bdpt::app {
 namespace {
 
+constexpr const char* no_end = "forever";
+
 constexpr const char* footer = R"(Examples:
   bdpt merge job/*.part.exr -o out.exr -o out.png
   bdpt merge job/*.part.exr -o now.png --partial
   bdpt merge job/0-*.part.exr -o job-0.part.exr
+  bdpt merge --plan job/plan.json --wait
 
 Parts come from bdpt render --part. They may be in any order, and the image is that of one render of
 all their samples, to the bit. A part that lies within another one is left out with a note. Layers
@@ -24,6 +29,19 @@ all their samples, to the bit. A part that lies within another one is left out w
 Exit codes: 0 done, 12 samples are missing (the message says which, and what renders them; nothing
 is written without --partial), 2 wrong usage, 3 part not found, 4 a part is broken, of another
 render, or overlaps another one, 6 output cannot be written, 7 out of memory.)";
+
+/// [s]
+double to_patience(const std::string& word)
+{
+    if (word == no_end) {
+        return std::numeric_limits<double>::infinity();
+    }
+    const std::optional<double> seconds = parse_duration(word);
+    if (!seconds) {
+        reject("--wait", word, "a time like 90s, 30m or 2h");
+    }
+    return *seconds;
+}
 
 }  // namespace
 
@@ -40,6 +58,21 @@ void add_part_options(CLI::App& command, PartWords& words, const char* group)
         .add_flag("--restart", words.restart,
                   "Do not go on with the file of --part, but replace it")
         ->group(group);
+    command
+        .add_option("--plan", words.plan,
+                    "Render one task of this plan (bdpt plan), which says all but --threads, "
+                    "--max-memory, --stats, --restart, --quiet and --json")
+        ->type_name("FILE")
+        ->group(group);
+    command
+        .add_option("--task", words.task,
+                    "The task of --plan, from 0, or the environment variable that has its number")
+        ->type_name("N|env:NAME")
+        ->group(group);
+}
+
+void add_samples_option(CLI::App& command, PartWords& words, const char* group)
+{
     command
         .add_option("--samples", words.samples,
                     "Render the samples A to B - 1 of each pixel, in place of --spp: a part of a "
@@ -60,7 +93,8 @@ std::optional<PartChoice> part_choice(const PartWords& words)
         reject("--part", *words.file, "a file that is named .exr, best .part.exr");
     }
     return PartChoice{.file = *words.file,
-                      .existing = words.restart ? ExistingPart::restart : ExistingPart::go_on};
+                      .existing = words.restart ? ExistingPart::restart : ExistingPart::go_on,
+                      .plan = words.plan};
 }
 
 std::optional<SampleRange> sample_range(const PartWords& words)
@@ -96,6 +130,17 @@ void add_merge_options(CLI::App& command, MergeWords& words)
         ->type_name("FILE")
         ->group(group);
     command
+        .add_option("--plan", words.plan,
+                    "Merge the parts of this plan (bdpt plan); without -o, to the files that it "
+                    "names. Parts need not be given")
+        ->type_name("FILE")
+        ->group("Parts");
+    command
+        .add_flag("--wait{forever}", words.wait,
+                  "Wait for parts that are not there or not complete, until there are all samples; "
+                  "as --wait=90s, 30m or 2h no longer than that")
+        ->group("Parts");
+    command
         .add_flag("--partial", words.partial,
                   "Write what there is when samples are missing: the image has more noise, but is "
                   "right otherwise")
@@ -127,6 +172,13 @@ void add_merge_options(CLI::App& command, MergeWords& words)
 MergeArguments understand(const MergeWords& words)
 {
     MergeArguments result;
+    if (words.plan && words.samples) {
+        reject("--spp", fmt::format("{}", *words.samples), "no --plan beside it, which says that");
+    }
+    if (!words.wait.empty()) {
+        result.wait = to_patience(words.wait);
+    }
+    result.plan = words.plan;
     result.parts.assign(words.parts.begin(), words.parts.end());
     result.outputs.assign(words.outputs.begin(), words.outputs.end());
     result.samples = words.samples;

@@ -21,6 +21,8 @@ namespace bdpt::app {
 struct PartWords {
     std::optional<std::string> file;
     bool restart = false;
+    std::optional<std::string> plan;
+    std::optional<std::string> task;  ///< of the plan
     std::optional<std::string> samples;
 };
 
@@ -31,10 +33,14 @@ enum class ExistingPart : std::uint8_t { go_on, restart };
 struct PartChoice {
     std::filesystem::path file;
     ExistingPart existing = ExistingPart::go_on;
+    std::optional<std::filesystem::path> plan{};  ///< that the render must be one of
 };
 
-/// Describes --part, --restart and --samples to the parser.
+/// Describes --part, --restart, --plan and --task to the parser.
 void add_part_options(CLI::App& command, PartWords& words, const char* group);
+
+/// Describes --samples to the parser.
+void add_samples_option(CLI::App& command, PartWords& words, const char* group);
 
 /// None without --part. Throws `OptionError`.
 [[nodiscard]] std::optional<PartChoice> part_choice(const PartWords& words);
@@ -46,7 +52,9 @@ void add_part_options(CLI::App& command, PartWords& words, const char* group);
 struct MergeWords {
     std::vector<std::string> parts;
     std::vector<std::string> outputs;
+    std::optional<std::string> plan;
     std::optional<std::int64_t> samples;
+    std::string wait;  // "" not at all, or a time
     bool partial = false;
     std::optional<double> exposure;  // [EV]
     bool half = false;
@@ -62,7 +70,9 @@ enum class Incomplete : std::uint8_t { refuse, write };
 struct MergeArguments {
     std::vector<std::filesystem::path> parts;
     std::vector<std::filesystem::path> outputs;
-    std::optional<std::int64_t> samples;  ///< per pixel, that the render was to have
+    std::optional<std::filesystem::path> plan;  ///< whose parts they are
+    std::optional<double> wait;                 ///< [s] for parts to come; may be infinite
+    std::optional<std::int64_t> samples;        ///< per pixel, that the render was to have
     Incomplete incomplete = Incomplete::refuse;
     std::optional<float> exposure;  ///< [EV]
     io::ExrChannelType channel_type = io::ExrChannelType::single_float;

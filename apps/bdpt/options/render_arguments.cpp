@@ -124,9 +124,6 @@ void add_how(CLI::App& command, RenderWords& words)
         ->check(whole_number(1, most_samples))
         ->type_name("N")
         ->group(group);
-    command.add_option("--time", words.time, "Time to render for, like 90s, 2m or 1.5h")
-        ->type_name("TIME")
-        ->group(group);
     command
         .add_option(
             "--size", words.size,
@@ -151,7 +148,7 @@ void add_how(CLI::App& command, RenderWords& words)
         ->group(group);
 }
 
-void add_output(CLI::App& command, RenderWords& words)
+void add_image_output(CLI::App& command, RenderWords& words)
 {
     const auto group = "Output";
     command
@@ -174,6 +171,21 @@ void add_output(CLI::App& command, RenderWords& words)
     command
         .add_flag("--tiled", words.tiled, "Store .exr in tiles, for programs that read parts of it")
         ->group(group);
+    command.add_flag("-q,--quiet", words.quiet, "Print errors only")->group(group);
+    command
+        .add_flag("--json", words.json,
+                  "Print one JSON object per line on stdout: start, progress, warning, done, "
+                  "error. With --quiet only done and error")
+        ->group(group);
+}
+
+/// What concerns one process that renders, and not the render as such.
+void add_process_options(CLI::App& command, RenderWords& words)
+{
+    const auto group = "Output";
+    command.add_option("--time", words.time, "Time to render for, like 90s, 2m or 1.5h")
+        ->type_name("TIME")
+        ->group("How to render");
     command
         .add_option("--stats", words.stats,
                     "Write counts of rays and paths, and times, to this .json file")
@@ -186,12 +198,6 @@ void add_output(CLI::App& command, RenderWords& words)
         ->group(group);
     add_strategy_options(command, words.strategies);
     add_part_options(command, words.part, group);
-    command.add_flag("-q,--quiet", words.quiet, "Print errors only")->group(group);
-    command
-        .add_flag("--json", words.json,
-                  "Print one JSON object per line on stdout: start, progress, warning, done, "
-                  "error. With --quiet only done and error")
-        ->group(group);
 }
 
 }  // namespace
@@ -253,16 +259,23 @@ void add_seed_and_threads(CLI::App& command, RenderWords& words, const char* gro
         ->group(group);
 }
 
-void add_render_options(CLI::App& command, RenderWords& words)
+void add_plannable_options(CLI::App& command, RenderWords& words)
 {
     command.add_option("file", words.file, "The scene: .gltf or .glb")
         ->required()
         ->type_name("FILE");
-    add_output(command, words);
+    add_image_output(command, words);
     add_how(command, words);
+    add_samples_option(command, words.part, "How to render");
     add_transport_options(command, words.transport);
     add_film_options(command, words.film);
     add_view_options(command, words);
+}
+
+void add_render_options(CLI::App& command, RenderWords& words)
+{
+    add_plannable_options(command, words);
+    add_process_options(command, words);
     command.footer(footer);
 }
 

@@ -91,8 +91,13 @@ struct RenderArguments {
 /// Describes the options of `bdpt render` to the parser, which will store into `words`.
 void add_render_options(CLI::App& command, RenderWords& words);
 
-/// Of these, those that say what to render and through which lens: for other commands, too.
+/// Of these, those that say which image is made and where it goes, however many processes render
+/// it.
+void add_plannable_options(CLI::App& command, RenderWords& words);
+
+/// Of those, what is rendered and through which lens: for other commands, too.
 void add_view_options(CLI::App& command, RenderWords& words);
+
 /// The exposure [EV] of --exposure. Throws `OptionError`.
 [[nodiscard]] std::optional<float> to_exposure(const std::optional<double>& word);
 

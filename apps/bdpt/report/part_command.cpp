@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstddef>
 #include <string_view>
 
@@ -13,9 +12,9 @@
 namespace bdpt::app {
 namespace {
 
-constexpr std::array<std::string_view, 9> with_value{"-o",        "--output",  "--spp",
-                                                     "--samples", "--time",    "--part",
-                                                     "--stats",   "--threads", "--max-memory"};
+constexpr std::array<std::string_view, 11> with_value{
+    "-o",     "--output", "--spp",   "--samples", "--time",      "--part",
+    "--plan", "--task",   "--stats", "--threads", "--max-memory"};
 constexpr std::array<std::string_view, 5> flags{"--restart", "-q", "--quiet", "--json",
                                                 "--profile"};
 
@@ -23,23 +22,6 @@ template <typename Names>
 bool has(const Names& names, std::string_view word)
 {
     return std::find(names.begin(), names.end(), word) != names.end();
-}
-
-/// As a shell reads it back.
-std::string quoted(const std::string& word)
-{
-    const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) {
-        return std::isalnum(c) != 0 ||
-               std::string_view("_./:,=+@%-").find(static_cast<char>(c)) != std::string_view::npos;
-    });
-    if (plain) {
-        return word;
-    }
-    std::string result = "'";
-    for (const char c : word) {
-        result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    }
-    return result + "'";
 }
 
 }  // namespace
@@ -69,11 +51,24 @@ std::vector<std::string> commands_for(const std::vector<std::string>& words,
         }
         std::string command;
         for (const std::string& word : words) {
-            command += quoted(word) + " ";
+            command += shell_word(word) + " ";
         }
         const auto file = folder / fmt::format("{}-{}.part.exr", range.begin, range.end);
         result.push_back(fmt::format("{}--samples {}:{} --part {}", command, range.begin, range.end,
-                                     quoted(one_line(file.string()))));
+                                     shell_word(one_line(file.string()))));
+    }
+    return result;
+}
+
+std::vector<std::string> commands_for(const Plan& plan, const std::filesystem::path& file,
+                                      const SampleSet& samples)
+{
+    std::vector<std::string> result;
+    for (std::size_t i = 0; i < plan.tasks.size(); ++i) {
+        if (!samples.overlap(SampleSet(plan.tasks[i].samples)).empty()) {
+            result.push_back(fmt::format("bdpt render --plan {} --task {}",
+                                         shell_word(one_line(file.string())), i));
+        }
     }
     return result;
 }

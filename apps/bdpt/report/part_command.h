@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "plan/plan.h"
+
 namespace bdpt::app {
 
 /// Of the words of a command line those that say what is rendered: without files that are written,
@@ -17,5 +19,11 @@ namespace bdpt::app {
 [[nodiscard]] std::vector<std::string> commands_for(const std::vector<std::string>& words,
                                                     const SampleSet& samples,
                                                     const std::filesystem::path& folder);
+
+/// Commands, for a shell, of those tasks of `plan`, which is in `file`, that render some of
+/// `samples`.
+[[nodiscard]] std::vector<std::string> commands_for(const Plan& plan,
+                                                    const std::filesystem::path& file,
+                                                    const SampleSet& samples);
 
 }  // namespace bdpt::app

@@ -9,6 +9,8 @@
 #include <system_error>
 #include <utility>
 
+#include "plan/plan.h"
+
 namespace bdpt::app {
 namespace {
 
@@ -27,6 +29,9 @@ PartKeeper::PartKeeper(PartChoice choice, Console& console)
                                                      : io::OldPart::keep_if_more),
       interval_(least_interval)
 {
+    if (choice_.plan) {
+        planned_ = read_plan(*choice_.plan).identity;
+    }
     std::error_code ignored;
     const bool exists = std::filesystem::exists(choice_.file, ignored);
     if (!exists || choice_.existing == ExistingPart::restart) {
@@ -42,10 +47,20 @@ PartKeeper::PartKeeper(PartChoice choice, Console& console)
     }
 }
 
+bool PartKeeper::is_complete(SampleRange samples) const
+{
+    return planned_ && there_ && there_->identity == *planned_ &&
+           there_->samples.contains(SampleSet(samples));
+}
+
 RenderPart PartKeeper::start(const Identity& identity, io::PartNotes notes)
 {
     notes_ = std::move(notes);
     RenderPart part;
+    if (const auto what = planned_ ? difference(identity, *planned_) : std::nullopt) {
+        throw Error(ErrorCode::invalid_input, fmt::format("{}: is the plan of another render: {}",
+                                                          choice_.plan->string(), *what));
+    }
     if (!there_) {
         return part;
     }

@@ -20,12 +20,14 @@ enum class Checkpoint : std::uint8_t { when_due, now };
 class PartKeeper {
 public:
     /// Throws `Error`: invalid_input when the file is there, is to be gone on with, and is no whole
-    /// part.
+    /// part; what `read_plan` throws.
     PartKeeper(PartChoice choice, Console& console);
 
+    /// Is nothing left to do: are all of these samples in the file, as the plan wants them?
+    [[nodiscard]] bool is_complete(SampleRange samples) const;
     /// The part to go on with; without samples when the render begins. `identity` is that of the
     /// render, `notes` go into the file. Throws `Error` (invalid_input) when the file is a part of
-    /// another render.
+    /// another render, or the plan one of another.
     [[nodiscard]] RenderPart start(const Identity& identity, io::PartNotes notes);
     /// Between passes: writes a checkpoint when there was none for a while. That it cannot be
     /// written is a warning; there will be another one.
@@ -40,6 +42,7 @@ private:
 
     PartChoice choice_;
     Console& console_;
+    std::optional<Identity> planned_;
     std::optional<io::PartInfo> there_;
     io::PartNotes notes_;
     io::OldPart old_;

@@ -12,6 +12,9 @@ namespace bdpt::app {
 /// "1 light", "2 lights": `noun` has a plural in s.
 [[nodiscard]] std::string counted(std::size_t count, std::string_view noun);
 
+/// `word` as a shell reads it back.
+[[nodiscard]] std::string shell_word(const std::string& word);
+
 /// Seconds as "1:07" or "2:03:09".
 [[nodiscard]] std::string clock_time(double seconds);
 

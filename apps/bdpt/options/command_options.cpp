@@ -1,0 +1,39 @@
+#include "options/command_options.h"
+
+#include <CLI/CLI.hpp>
+
+namespace bdpt::app {
+namespace {
+
+bool takes_one_value_at_most(const CLI::Option& option)
+{
+    return !option.get_positional() && option.get_items_expected_max() <= 1;
+}
+
+}  // namespace
+
+void let_the_last_count(CLI::App& command)
+{
+    for (CLI::Option* option : command.get_options()) {
+        if (takes_one_value_at_most(*option)) {
+            option->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+        }
+    }
+}
+
+std::vector<std::string> given_options(const CLI::App& command, std::string_view group)
+{
+    std::vector<std::string> result;
+    for (const CLI::Option* option : command.get_options()) {
+        if (option->count() == 0 || option->get_group() != group ||
+            !takes_one_value_at_most(*option)) {
+            continue;
+        }
+        const bool is_flag = option->get_items_expected_max() == 0;
+        const std::string name = "--" + option->get_lnames().front();
+        result.push_back(is_flag ? name : name + "=" + option->results().back());
+    }
+    return result;
+}
+
+}  // namespace bdpt::app

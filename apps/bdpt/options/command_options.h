@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace bdpt::app {
+
+/// Of an option that takes one value, the last one counts if it is given more than once.
+void let_the_last_count(CLI::App& command);
+
+/// The options of one group of the help text that were given to `command`, each as one word that
+/// says the same: "--spp=64", "--half". Those that take several values are left out.
+[[nodiscard]] std::vector<std::string> given_options(const CLI::App& command,
+                                                     std::string_view group);
+
+}  // namespace bdpt::app

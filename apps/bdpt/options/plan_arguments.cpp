@@ -1,0 +1,168 @@
+#include "options/plan_arguments.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "options/arguments.h"
+#include "options/command_options.h"
+#include "options/number.h"
+
+namespace bdpt::app {
+namespace {
+
+constexpr const char* footer = R"(Examples:
+  bdpt plan scene.glb -o out.exr --spp 4096 --parts 64 --for slurm -d job
+  bdpt plan scene.glb -o out.exr --spp 4096 --minutes 20 --for make -d job
+  make -C job -j4 -k
+
+The folder of -d gets plan.json and the files of the engine that starts the tasks; their first lines
+say how. A task is bdpt render --plan job/plan.json --task 3, and bdpt merge --plan job/plan.json
+makes the images. What --integrator auto chooses and the instruction set of this machine are part of
+the plan, and each task makes sure that it finds the scene that was planned. Paths that are given as
+relative ones are kept relative to the plan, for machines that have the same folders elsewhere.
+
+Exit codes: 0 done, 1 internal error, 2 wrong usage, 3 input not found, 4 invalid input,
+5 unsupported feature, 6 output cannot be written (also: the folder has another plan), 7 out of
+memory.)";
+
+constexpr std::int64_t most_parts = 100'000;  // as many as Kubernetes indexes
+constexpr double most_minutes = 1e6;          // two years
+
+constexpr std::array<std::pair<const char*, Engine>, 5> engines{{{"slurm", Engine::slurm},
+                                                                 {"kubernetes", Engine::kubernetes},
+                                                                 {"make", Engine::make},
+                                                                 {"opencue", Engine::opencue},
+                                                                 {"aws-batch", Engine::aws_batch}}};
+
+std::vector<std::string> engine_names()
+{
+    std::vector<std::string> names;
+    for (const auto& [name, engine] : engines) {
+        names.emplace_back(name);
+    }
+    return names;
+}
+
+/// The one of that name, which the parser has found.
+Engine to_engine(std::string_view name)
+{
+    return std::find_if(engines.begin(), engines.end(),
+                        [&](const auto& entry) { return entry.first == name; })
+        ->second;
+}
+
+/// `words` but for what says one of `names`, as "--threads".
+std::vector<std::string> without(std::vector<std::string> words,
+                                 const std::vector<std::string>& names)
+{
+    std::erase_if(words, [&](const std::string& word) {
+        const std::string name = word.substr(0, word.find('='));
+        return std::find(names.begin(), names.end(), name) != names.end();
+    });
+    return words;
+}
+
+std::vector<std::string> render_options(const CLI::App& command)
+{
+    std::vector<std::string> words;
+    for (const char* group : {"How to render", "Film", "What to render"}) {
+        for (const std::string& word : given_options(command, group)) {
+            words.push_back(word);
+        }
+    }
+    return without(std::move(words), {"--env", "--spp", "--samples", "--threads"});
+}
+
+bool names_no_file(const std::optional<std::string>& environment)
+{
+    return environment == "none" || environment == "default";
+}
+
+void check_parts(const PlanWords& words, const RenderArguments& render)
+{
+    if (words.parts.has_value() == words.minutes.has_value()) {
+        throw OptionError("--parts: expected either it or --minutes");
+    }
+    const std::int64_t samples = render.samples.end - render.samples.begin;
+    if (words.parts && *words.parts > samples) {
+        reject("--parts", fmt::format("{}", *words.parts),
+               fmt::format("at most one for each of the {} samples", samples));
+    }
+    // AWS Batch has no arrays of one task, and none of more than 10,000.
+    constexpr std::int64_t longest_array = 10'000;
+    if (words.engine == "aws-batch" && words.parts &&
+        (*words.parts < 2 || *words.parts > longest_array)) {
+        reject("--parts", fmt::format("{}", *words.parts), "2 to 10000 for aws-batch");
+    }
+}
+
+}  // namespace
+
+void add_plan_options(CLI::App& command, PlanWords& words)
+{
+    words.command = &command;
+    const auto group = "Plan";
+    command
+        .add_option("--parts", words.parts,
+                    "Number of tasks; each makes a part of the samples of all pixels")
+        ->check(whole_number(1, most_parts))
+        ->type_name("N")
+        ->group(group);
+    command
+        .add_option("--minutes", words.minutes,
+                    "In place of --parts: as many tasks as take about so long on a machine like "
+                    "this one (--threads). Renders for some seconds to find out")
+        ->check(number(0.0, most_minutes))
+        ->type_name("M")
+        ->group(group);
+    const std::vector<std::string> names = engine_names();
+    command.add_option("--for", words.engine, "What starts the tasks")
+        ->required()
+        ->check(CLI::IsMember(names))
+        ->type_name(fmt::format("{}", fmt::join(names, "|")))
+        ->group(group);
+    command
+        .add_option("-d,--directory", words.folder,
+                    "Folder of the plan, and of the parts. It is made if it is not there")
+        ->required()
+        ->type_name("FOLDER")
+        ->group(group);
+    command
+        .add_flag("--restart", words.restart,
+                  "Replace the plan that is there, and remove the parts that its tasks have made")
+        ->group(group);
+    add_plannable_options(command, words.render);
+    command.footer(footer);
+}
+
+PlanArguments understand(const PlanWords& words)
+{
+    PlanArguments result;
+    result.render = understand(words.render);
+    if (words.render.outputs.empty()) {
+        throw OptionError("--output is required");
+    }
+    check_parts(words, result.render);
+    if (words.minutes && !(*words.minutes > 0.0)) {
+        reject("--minutes", fmt::format("{}", *words.minutes), "a number above 0");
+    }
+    result.render_options = render_options(*words.command);
+    if (names_no_file(words.render.environment)) {
+        result.render_options.push_back("--env=" + *words.render.environment);
+    }
+    result.merge_options = without(given_options(*words.command, "Output"),
+                                   {"--output", "--quiet", "--json", "--float"});
+    result.parts = words.parts;
+    result.minutes = words.minutes.value_or(0.0);
+    result.engine = to_engine(words.engine);
+    result.folder = words.folder;
+    result.existing = words.restart ? ExistingPlan::replace : ExistingPlan::must_be_equal;
+    return result;
+}
+
+}  // namespace bdpt::app

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "options/plan_arguments.h"
+#include "plan/plan.h"
+
+namespace bdpt::app {
+
+enum class FileKind : std::uint8_t { text, program };
+
+/// A file that an engine starts tasks with.
+struct EngineFile {
+    std::string name;
+    std::string text;
+    FileKind kind = FileKind::text;
+};
+
+/// Those of `plan`, whose file is plan.json in `folder`, which is absolute.
+[[nodiscard]] std::vector<EngineFile> engine_files(Engine engine, const Plan& plan,
+                                                   const std::filesystem::path& folder);
+
+/// What the user types to start the tasks.
+[[nodiscard]] std::string start_command(Engine engine, const std::filesystem::path& folder);
+
+// One for each engine.
+[[nodiscard]] std::vector<EngineFile> slurm_files(const Plan& plan);
+[[nodiscard]] std::vector<EngineFile> kubernetes_files(const Plan& plan,
+                                                       const std::filesystem::path& folder);
+[[nodiscard]] std::vector<EngineFile> make_files(const Plan& plan);
+[[nodiscard]] std::vector<EngineFile> opencue_files(const Plan& plan,
+                                                    const std::filesystem::path& folder);
+[[nodiscard]] std::vector<EngineFile> aws_batch_files(const Plan& plan,
+                                                      const std::filesystem::path& folder);
+
+}  // namespace bdpt::app

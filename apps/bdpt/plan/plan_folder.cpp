@@ -1,0 +1,99 @@
+#include "plan/plan_folder.h"
+
+#include <bdpt/error.h>
+#include <bdpt/io/output_file.h>
+#include <fmt/core.h>
+
+#include <optional>
+#include <string>
+#include <system_error>
+
+namespace bdpt::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* plan_name = "plan.json";
+
+void write_file(const fs::path& file, const std::string& text, FileKind kind)
+{
+    io::OutputFile output(file);
+    output.write(text);
+    output.commit();
+    if (kind == FileKind::program) {
+        std::error_code failure;  // then it is started as "bash submit.sh"
+        fs::permissions(file,
+                        fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
+                        fs::perm_options::add, failure);
+    }
+}
+
+/// The plan that is there, if it can be read.
+std::optional<Plan> old_plan(const fs::path& file)
+{
+    try {
+        return read_plan(file);
+    } catch (const Error&) {
+        return std::nullopt;
+    }
+}
+
+/// Its parts are of no use to the new one, and its tasks would be refused.
+void remove_plan(const fs::path& file)
+{
+    const std::optional<Plan> plan = old_plan(file);
+    std::error_code ignored;
+    fs::remove(file, ignored);
+    if (!plan) {
+        return;
+    }
+    for (const PlanTask& task : plan->tasks) {
+        fs::remove(resolved(task.part, file), ignored);
+    }
+    for (const fs::path& engine_file : plan->engine_files) {
+        fs::remove(resolved(engine_file, file), ignored);
+    }
+}
+
+}  // namespace
+
+void check_plan_folder(const fs::path& folder)
+{
+    std::error_code ignored;
+    if (fs::exists(folder, ignored) && !fs::is_directory(folder, ignored)) {
+        throw Error(ErrorCode::output,
+                    fmt::format("{}: cannot write: this is no folder", folder.string()));
+    }
+    // One that is not there yet is made beside what is.
+    io::check_writable(fs::exists(folder, ignored)
+                           ? folder / plan_name
+                           : fs::path((folder / ".").lexically_normal().parent_path()) += ".new");
+}
+
+void write_plan(const fs::path& folder, const Plan& plan, const std::vector<EngineFile>& files,
+                ExistingPlan existing)
+{
+    const fs::path file = folder / plan_name;
+    std::error_code failure;
+    if (fs::exists(file, failure)) {
+        if (existing == ExistingPlan::replace) {
+            remove_plan(file);
+        } else if (old_plan(file) != plan) {
+            throw Error(ErrorCode::output,
+                        fmt::format("{}: is another plan; --restart replaces it and removes its "
+                                    "parts",
+                                    file.string()));
+        }
+    }
+    fs::create_directory(folder, failure);
+    if (failure) {
+        throw Error(ErrorCode::output,
+                    fmt::format("{}: cannot write: {}", folder.string(), failure.message()));
+    }
+    for (const EngineFile& engine_file : files) {
+        write_file(folder / engine_file.name, engine_file.text, engine_file.kind);
+    }
+    write_file(file, to_text(plan), FileKind::text);
+}
+
+}  // namespace bdpt::app

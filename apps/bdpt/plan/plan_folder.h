@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "options/plan_arguments.h"
+#include "plan/engines/engine_files.h"
+#include "plan/plan.h"
+
+namespace bdpt::app {
+
+/// Refuses, before anything is loaded, a folder that could not be written: throws `Error` (output).
+void check_plan_folder(const std::filesystem::path& folder);
+
+/// Writes `plan` as plan.json into `folder`, which is made if it is not there, and `files` before
+/// it: with a plan there is all of it. Throws `Error` (output), also when another plan is there and
+/// is not to be replaced.
+void write_plan(const std::filesystem::path& folder, const Plan& plan,
+                const std::vector<EngineFile>& files, ExistingPlan existing);
+
+}  // namespace bdpt::app

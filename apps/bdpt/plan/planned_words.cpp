@@ -1,0 +1,156 @@
+#include "plan/planned_words.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdlib>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "options/arguments.h"
+
+namespace bdpt::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+constexpr std::array<std::string_view, 5> of_a_process{"--plan", "--task", "--threads",
+                                                       "--max-memory", "--stats"};
+constexpr std::array<std::string_view, 4> flags_of_a_process{"--restart", "-q", "--quiet",
+                                                             "--json"};
+
+template <typename Names>
+bool has(const Names& names, std::string_view word)
+{
+    return std::find(names.begin(), names.end(), word) != names.end();
+}
+
+std::string name_of(const std::string& word)
+{
+    return word.substr(0, word.find('='));
+}
+
+/// What is said last for the option `name`.
+std::optional<std::string> value_of(const Words& words, std::string_view name)
+{
+    std::optional<std::string> result;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        if (name_of(words[i]) != name) {
+            continue;
+        }
+        if (words[i].size() > name.size()) {
+            result = words[i].substr(name.size() + 1);
+        } else if (i + 1 < words.size()) {
+            result = words[i + 1];
+        }
+    }
+    return result;
+}
+
+/// Only what is not of the plan may be said beside it.
+void check_render_words(const Words& words)
+{
+    for (std::size_t i = 2; i < words.size(); ++i) {
+        if (has(of_a_process, words[i])) {
+            ++i;  // its value
+        } else if (!has(of_a_process, name_of(words[i])) && !has(flags_of_a_process, words[i])) {
+            throw OptionError(
+                fmt::format("--plan: it says what is rendered, so beside it there may be --task, "
+                            "--threads, --max-memory, --stats, --restart, --quiet and --json, but "
+                            "not \"{}\"",
+                            words[i]));
+        }
+    }
+}
+
+const PlanTask& task_of(const Plan& plan, const fs::path& file, std::string number)
+{
+    constexpr std::string_view variable = "env:";
+    if (number.starts_with(variable)) {
+        const char* value = std::getenv(number.c_str() + variable.size());
+        if (value == nullptr) {
+            reject("--task", number, "an environment variable that is set");
+        }
+        number = value;
+    }
+    const std::optional<std::size_t> index = parse_index(number);
+    if (!index || *index >= plan.tasks.size()) {
+        reject("--task", number,
+               fmt::format("a task of {}, 0 to {}", file.string(), plan.tasks.size() - 1));
+    }
+    return plan.tasks[*index];
+}
+
+bool names_output(const std::string& word)
+{
+    const bool short_options = word.size() > 1 && word[0] == '-' && word[1] != '-';
+    return name_of(word) == "--output" || (short_options && word.find('o') != std::string::npos);
+}
+
+void append(Words& words, Words more)
+{
+    words.insert(words.end(), std::make_move_iterator(more.begin()),
+                 std::make_move_iterator(more.end()));
+}
+
+Words render_words(const Words& words, const Plan& plan, const fs::path& file)
+{
+    check_render_words(words);
+    const std::optional<std::string> number = value_of(words, "--task");
+    if (!number) {
+        throw OptionError("--plan: expected --task N with it");
+    }
+    const PlanTask& task = task_of(plan, file, *number);
+    Words result(words.begin(), words.begin() + 2);
+    append(result, shared_words(plan, file));
+    result.push_back("--samples=" + SampleSet(task.samples).text());
+    result.push_back("--part=" + resolved(task.part, file).string());
+    append(result, {words.begin() + 2, words.end()});
+    return result;
+}
+
+Words merge_words(const Words& words, const Plan& plan, const fs::path& file)
+{
+    Words result(words.begin(), words.begin() + 2);
+    for (const PlanTask& task : plan.tasks) {
+        result.push_back(resolved(task.part, file).string());
+    }
+    append(result, plan.merge_options);
+    if (std::none_of(words.begin() + 2, words.end(), names_output)) {
+        for (const fs::path& output : plan.outputs) {
+            result.push_back("--output=" + resolved(output, file).string());
+        }
+    }
+    append(result, {words.begin() + 2, words.end()});
+    return result;
+}
+
+}  // namespace
+
+std::vector<std::string> with_planned_words(std::vector<std::string> words)
+{
+    const bool render = words.size() > 1 && words[1] == "render";
+    const bool merge = words.size() > 1 && words[1] == "merge";
+    const std::optional<std::string> file = value_of(words, "--plan");
+    if (!(render || merge) || !file || has(words, "--help") || has(words, "-h")) {
+        return words;
+    }
+    const Plan plan = read_plan(*file);
+    return render ? render_words(words, plan, *file) : merge_words(words, plan, *file);
+}
+
+std::vector<std::string> shared_words(const Plan& plan, const fs::path& file)
+{
+    Words result{resolved(plan.scene, file).string()};
+    append(result, plan.render_options);
+    if (plan.environment) {
+        result.push_back("--env=" + resolved(*plan.environment, file).string());
+    }
+    return result;
+}
+
+}  // namespace bdpt::app

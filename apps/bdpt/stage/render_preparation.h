@@ -1,0 +1,21 @@
+#pragma once
+
+#include <bdpt/render_options.h>
+
+#include "options/render_arguments.h"
+#include "stage/prepared_scene.h"
+#include "terminal/console.h"
+
+namespace bdpt::app {
+
+/// Loads the scene into the memory that the film leaves of --max-memory, and shows on the console
+/// how far it is. Throws `Error`.
+[[nodiscard]] PreparedScene prepare_within_memory(const RenderArguments& arguments,
+                                                  Console& console);
+
+/// `arguments` with all their options: size, samples and limits of memory filled in, and what is
+/// left open chosen by a pilot. Throws `Error`.
+[[nodiscard]] RenderArguments with_choice(RenderArguments arguments, const PreparedScene& stage,
+                                          Console& console);
+
+}  // namespace bdpt::app

@@ -1,0 +1,84 @@
+#!/usr/bin/env python3
+"""Fails when a planned render that make runs, of which tasks are killed at random, is not the image of one render:
+plan_make_test.py COMMAND SCENE."""
+
+import json
+import os
+import pathlib
+import random
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+COMMAND, SCENE = sys.argv[1:3]
+WORDS = [SCENE, "--size", "48x36", "--spp", "2048", "--integrator", "bdpt"]
+TASKS = 8
+LEAST_KILLED = 6
+
+
+def bdpt(*words):
+    return subprocess.run([COMMAND, *map(str, words)], check=True, capture_output=True, text=True).stdout
+
+
+def renders_below(group):
+    """Numbers of the processes of a process group that are renders."""
+    found = []
+    for folder in pathlib.Path("/proc").glob("[0-9]*"):
+        try:
+            words = (folder / "cmdline").read_bytes().split(b"\0")
+            if os.getpgid(int(folder.name)) == group and b"render" in words and words[0] == COMMAND.encode():
+                found.append(int(folder.name))
+        except (OSError, ProcessLookupError):
+            pass
+    return found
+
+
+def send(process, number):
+    try:
+        os.kill(process, number)
+    except ProcessLookupError:
+        return False
+    return True
+
+
+def make_and_kill(job):
+    """Runs make while renders are killed, some just when they write a checkpoint; returns how many were."""
+    make = subprocess.Popen(["make", "-C", job, "-j4", "-k", f"BDPT={COMMAND}", "THREADS=1"], start_new_session=True,
+                            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    killed = 0
+    while make.poll() is None:
+        time.sleep(random.uniform(0.1, 0.5))
+        for process in random.sample(found := renders_below(make.pid), min(len(found), 1)):
+            send(process, signal.SIGUSR1)
+            time.sleep(random.uniform(0.0, 0.5))
+            killed += send(process, signal.SIGKILL)
+    return killed
+
+
+def main():
+    seed = random.randrange(1 << 32)
+    print(f"seed {seed}")
+    random.seed(seed)
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        job = folder / "a job"
+        bdpt("plan", *WORDS, "-o", folder / "out.exr", "--parts", TASKS, "--for", "make", "-d", job)
+        killed = sum(make_and_kill(job) for _ in range(2))
+        parts = [part.name for part in job.glob("*.part.exr")]
+        print(f"killed {killed} renders; parts that are there: {len(parts)}")
+        again = subprocess.run(["make", "-C", job, "-j4", "-k", f"BDPT={COMMAND}", "THREADS=1"], capture_output=True,
+                               text=True, check=False)
+        bdpt("render", *WORDS, "-o", folder / "whole.exr")
+        difference = json.loads(bdpt("compare", folder / "out.exr", folder / "whole.exr", "--json"))
+        errors = [] if again.returncode == 0 else [f"make after all the killing: {again.returncode} {again.stderr}"]
+        errors += [] if killed >= LEAST_KILLED and parts else ["too few renders were killed to tell anything"]
+        mse = difference["metrics"]["mse"]["mean"]
+        errors += [] if mse == 0 else [f"the image is another one: mean square error {mse}"]
+        print("\n".join(errors) or "the pixels are those of one render")
+        sys.exit(bool(errors))
+
+
+if __name__ == "__main__":
+    main()

@@ -16,6 +16,7 @@ target_sources(bdpt_io PRIVATE
   src/image/exr_header.cpp
   src/image/exr_reader.cpp
   src/image/hdr_reader.cpp
+  src/image/image_cache.cpp
   src/image/oiio_library.cpp
   src/image/png_image.cpp
   src/image/read_image.cpp

@@ -31,6 +31,11 @@ namespace {
 
 using nlohmann::ordered_json;
 
+bool is_one_of_many(const RenderArguments& arguments)
+{
+    return arguments.sequence_view && arguments.sequence_view->count > 1;
+}
+
 void announce(Console& console, const RenderArguments& arguments, const PreparedScene& stage,
               const ordered_json& settings)
 {
@@ -40,6 +45,9 @@ void announce(Console& console, const RenderArguments& arguments, const Prepared
                             {"triangles", counts.instanced_triangles},
                             {"lights", stage.lights},
                             {"settings", settings}});
+    if (is_one_of_many(arguments) && arguments.sequence_view->index > 0) {
+        return;  // it is much the same for all
+    }
     console.note(fmt::format("{}: {}, {}; {}x{}, {}, camera {}", arguments.file.string(),
                              counted(counts.instanced_triangles, "triangle"),
                              counted(stage.lights, "light"), stage.size.width, stage.size.height,
@@ -103,6 +111,10 @@ io::ImageMetadata metadata_of(const RenderArguments& arguments, const PreparedSc
     metadata.seed = arguments.options.sampling.seed;
     metadata.camera = stage.camera;
     metadata.created = std::chrono::system_clock::now();
+    if (arguments.sequence_view && arguments.sequence_view->frame) {
+        metadata.frame = io::FrameNumber{.number = *arguments.sequence_view->frame,
+                                         .per_second = arguments.sequence_view->fps};
+    }
     metadata.xmp = stage.xmp;
     return metadata;
 }
@@ -144,15 +156,36 @@ ordered_json head_of_stats(const RenderArguments& arguments, const ordered_json&
     return stats;
 }
 
+/// What was written: a line for each file or, if there are several images, one for all.
+void note_done(Console& console, const RenderArguments& arguments, const RenderResult& result)
+{
+    const std::string work =
+        fmt::format("{} spp in {:.1f} s", result.film.sample_count(), result.seconds);
+    std::vector<std::filesystem::path> files = all_image_files(arguments);
+    if (!is_one_of_many(arguments)) {
+        for (const std::filesystem::path& file : files) {
+            console.note(fmt::format("wrote {}: {}", file.string(), work));
+        }
+        return;
+    }
+    if (files.empty()) {
+        files.push_back(arguments.part->file);
+    }
+    std::string names;
+    for (const std::filesystem::path& file : files) {
+        names += (names.empty() ? "" : ", ") + file.string();
+    }
+    console.note(fmt::format("{}: {}: wrote {}", label_text(label_of(arguments)), work, names));
+}
+
 void report_done(Console& console, const RenderArguments& arguments, const RenderResult& result,
                  const WrittenImages& images, std::optional<int> signal)
 {
     ordered_json outputs = ordered_json::array();
     for (const std::filesystem::path& output : all_image_files(arguments)) {
         outputs.push_back(output.string());
-        console.note(fmt::format("wrote {}: {} spp in {:.1f} s", output.string(),
-                                 result.film.sample_count(), result.seconds));
     }
+    note_done(console, arguments, result);
     ordered_json fields{{"samples", result.film.sample_count()},
                         {"seconds", result.seconds},
                         {"outputs", std::move(outputs)}};
@@ -162,6 +195,18 @@ void report_done(Console& console, const RenderArguments& arguments, const Rende
 }
 
 }  // namespace
+
+ImageLabel label_of(const RenderArguments& arguments)
+{
+    if (!arguments.sequence_view) {
+        return {};
+    }
+    const SequenceView& view = *arguments.sequence_view;
+    return {.frame = view.frame,
+            .camera = view.camera ? std::optional(view.camera_name) : std::nullopt,
+            .index = view.index,
+            .count = view.count};
+}
 
 void render_view(const RenderArguments& asked, const PreparedScene& stage,
                  std::optional<PartKeeper>& keeper, const RenderSession& session)

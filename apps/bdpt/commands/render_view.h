@@ -16,8 +16,11 @@ namespace bdpt::app {
 struct RenderSession {
     Console& console;
     Interrupt& interrupt;
-    const std::vector<std::string>& words;  ///< those that were typed
+    std::vector<std::string> words;  ///< of a command that renders this image
 };
+
+/// How messages call the image that `arguments` make.
+[[nodiscard]] ImageLabel label_of(const RenderArguments& arguments);
 
 /// Renders what the camera of `stage` sees, goes on with the part of `keeper` if there is one, and
 /// writes all files that `asked` names. From then on the session may be stopped, and what is there

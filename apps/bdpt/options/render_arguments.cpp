@@ -21,6 +21,7 @@ constexpr const char* footer = R"(Examples:
   bdpt render room.glb -o out.exr --time 90s --camera "Camera 2"
   bdpt render walk.glb -o out.png --animation run --frame-time 0.25
   bdpt render hall.glb -o out.exr --spp 4096 --part out.part.exr
+  bdpt render walk.glb -o walk.####.exr --frames 1:48 --fps 24
   bdpt render model.glb -o out.png --env sky.hdr --from 3,2,4 --look-at 0,1,0 --fov 40
 
 A file without a camera is framed as a whole, one without light gets a soft sky (and a lamp, if it
@@ -276,6 +277,7 @@ void add_render_options(CLI::App& command, RenderWords& words)
 {
     add_plannable_options(command, words);
     add_process_options(command, words);
+    add_sequence_options(command, words.sequence);
     command.footer(footer);
 }
 
@@ -285,6 +287,7 @@ RenderArguments understand(const RenderWords& words)
     result.file = words.file;
     result.outputs.assign(words.outputs.begin(), words.outputs.end());
     result.part = part_choice(words.part);
+    result.sequence = sequence(words);
     result.goal = to_goal(words);
     result.samples = to_samples(words, result.goal);
     if (words.size) {

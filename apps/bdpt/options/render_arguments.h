@@ -17,6 +17,7 @@
 #include "options/lens_arguments.h"
 #include "options/part_arguments.h"
 #include "options/scene_arguments.h"
+#include "options/sequence_arguments.h"
 #include "options/strategy_arguments.h"
 #include "options/transport_arguments.h"
 #include "options/view.h"
@@ -53,6 +54,7 @@ struct RenderWords {
     bool profile = false;
     StrategyWords strategies;
     PartWords part;
+    SequenceWords sequence;
     bool tiled = false;
     std::string seed = "0";
     bool half = false;
@@ -81,9 +83,11 @@ struct RenderArguments {
     io::ExrStorage storage = io::ExrStorage::scanlines;
     std::optional<std::filesystem::path> stats;  ///< where numbers about the render go
     Profiling profiling = Profiling::off;
-    std::optional<StrategyFiles> strategies;  ///< where images of strategies go
-    std::optional<PartChoice> part;           ///< what the render goes on with
-    SampleRange samples;                      ///< of each pixel
+    std::optional<StrategyFiles> strategies;      ///< where images of strategies go
+    std::optional<PartChoice> part;               ///< what the render goes on with
+    SampleRange samples;                          ///< of each pixel
+    std::optional<Sequence> sequence;             ///< if there are several images
+    std::optional<SequenceView> sequence_view{};  ///< which of them this is
     Format format = Format::text;
     Verbosity verbosity = Verbosity::normal;
 };

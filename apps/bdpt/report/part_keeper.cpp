@@ -72,8 +72,8 @@ RenderPart PartKeeper::start(const Identity& identity, io::PartNotes notes)
     io::merge_part(part, *there_);
     written_ = part.samples;
     console_.event("part", {{"file", choice_.file.string()}, {"samples", written_.text()}});
-    console_.note(fmt::format("going on with {}: it has the samples {}", choice_.file.string(),
-                              written_.text()));
+    console_.detail(fmt::format("going on with {}: it has the samples {}", choice_.file.string(),
+                                written_.text()));
     return part;
 }
 
@@ -119,7 +119,7 @@ void PartKeeper::write(const RenderPart& part)
     old_ = io::OldPart::keep_if_more;  // from now on it is ours
     written_ = part.samples;
     console_.event("part", {{"file", choice_.file.string()}, {"samples", written_.text()}});
-    console_.note(fmt::format("wrote {}: samples {}", choice_.file.string(), written_.text()));
+    console_.detail(fmt::format("wrote {}: samples {}", choice_.file.string(), written_.text()));
 }
 
 }  // namespace bdpt::app

@@ -75,6 +75,15 @@ ordered_json settings_of(const RenderArguments& arguments, const PreparedScene& 
     if (arguments.scene.shutter) {
         settings["shutter"] = {arguments.scene.shutter->open, arguments.scene.shutter->close};
     }
+    if (arguments.sequence && arguments.sequence_view->frame) {
+        settings["frame"] = *arguments.sequence_view->frame;
+        if (arguments.sequence->fps > 0.0) {
+            settings["fps"] = arguments.sequence->fps;
+        }
+        if (arguments.sequence->orbit > 0) {
+            settings["orbit"] = arguments.sequence->orbit;
+        }
+    }
     if (arguments.goal.samples) {
         settings["spp"] = *arguments.goal.samples;
     }

@@ -194,7 +194,25 @@ PreparedScene prepare_scene(const RenderArguments& arguments,
             seconds(building_end - loading_end),
             std::move(loaded.facts.xmp),
             lights,
-            only_emitters};
+            only_emitters,
+            std::move(loaded.cameras)};
+}
+
+Viewpoint viewpoint(const PreparedScene& stage, std::size_t index, const RenderArguments& arguments)
+{
+    CameraDesc camera = apply(arguments.view, stage.cameras.at(index), std::nullopt);
+    camera.name = camera_names(stage).at(index);
+    const Size size = arguments.size.value_or(default_size(camera.aspect_ratio));
+    return {.camera = with_lens(arguments.lens, std::move(camera), stage.scene), .size = size};
+}
+
+std::vector<std::string> camera_names(const PreparedScene& stage)
+{
+    std::vector<std::string> names;
+    for (const CameraDesc& camera : stage.cameras) {
+        names.push_back(camera.name.empty() ? std::to_string(names.size()) : camera.name);
+    }
+    return names;
 }
 
 }  // namespace bdpt::app

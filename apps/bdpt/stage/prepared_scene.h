@@ -26,11 +26,25 @@ struct PreparedScene {
     std::size_t lights = 0;  ///< of the file and by --env, without what is added where all is dark
     /// The only lights are surfaces of the file that emit.
     bool only_emitters = false;
+    std::vector<CameraDesc> cameras{};  ///< those of the scene
+};
+
+/// A camera and the size of its image.
+struct Viewpoint {
+    CameraDesc camera;  ///< named by its name or index
+    Size size;
 };
 
 /// Loads the file, and fills in what it lacks by the rules that `bdpt render --help` states.
 /// `look` is shown what the scene will be built from. Throws `Error`.
 [[nodiscard]] PreparedScene prepare_scene(const RenderArguments& arguments,
                                           const std::function<void(const SceneDesc&)>& look = {});
+
+/// Camera `index` of the scene, as `arguments` change its view and its lens. Throws `Error`.
+[[nodiscard]] Viewpoint viewpoint(const PreparedScene& stage, std::size_t index,
+                                  const RenderArguments& arguments);
+
+/// The names of the cameras, or their indices if they have none.
+[[nodiscard]] std::vector<std::string> camera_names(const PreparedScene& stage);
 
 }  // namespace bdpt::app

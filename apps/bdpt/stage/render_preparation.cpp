@@ -84,6 +84,12 @@ RenderOptions options_for(const RenderArguments& arguments, const PreparedScene&
 
 }  // namespace
 
+std::uint64_t image_cache_bytes(const RenderArguments& arguments)
+{
+    constexpr std::uint64_t without_limit = std::uint64_t{2} << 30U;
+    return arguments.max_memory ? *arguments.max_memory / 4 : without_limit;
+}
+
 PreparedScene prepare_within_memory(const RenderArguments& asked, Console& console)
 {
     RenderArguments arguments = with_progress(asked, console);
@@ -91,8 +97,9 @@ PreparedScene prepare_within_memory(const RenderArguments& asked, Console& conso
     if (film == 0) {
         return prepare_scene(arguments);
     }
+    const std::uint64_t kept = arguments.scene.images ? image_cache_bytes(arguments) : 0;
     const std::uint64_t left = *arguments.max_memory - film;
-    arguments.scene.limits = io::limits_within(left);
+    arguments.scene.limits = io::limits_within(left - std::min(left - 1, kept));
     try {
         return prepare_scene(arguments);
     } catch (const Error& error) {
@@ -101,8 +108,11 @@ PreparedScene prepare_within_memory(const RenderArguments& asked, Console& conso
             message.find("of memory in all") == std::string::npos) {
             throw;
         }
-        throw Error(error.code(), fmt::format("{} (--max-memory {} less {} for the film)", message,
-                                              *arguments.max_memory, film));
+        throw Error(
+            error.code(),
+            fmt::format("{} (--max-memory {} less {} for the film{})", message,
+                        *arguments.max_memory, film,
+                        kept > 0 ? fmt::format(" and {} for images of other frames", kept) : ""));
     }
 }
 

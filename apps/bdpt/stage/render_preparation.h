@@ -2,14 +2,19 @@
 
 #include <bdpt/render_options.h>
 
+#include <cstdint>
+
 #include "options/render_arguments.h"
 #include "stage/prepared_scene.h"
 #include "terminal/console.h"
 
 namespace bdpt::app {
 
-/// Loads the scene into the memory that the film leaves of --max-memory, and shows on the console
-/// how far it is. Throws `Error`.
+/// Memory for decoded images that stay from frame to frame [bytes]: a quarter of --max-memory.
+[[nodiscard]] std::uint64_t image_cache_bytes(const RenderArguments& arguments);
+
+/// Loads the scene into the memory that the film and the cache of images, if there is one, leave of
+/// --max-memory, and shows on the console how far it is. Throws `Error`.
 [[nodiscard]] PreparedScene prepare_within_memory(const RenderArguments& arguments,
                                                   Console& console);
 

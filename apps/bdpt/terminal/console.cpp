@@ -23,10 +23,8 @@ void put(std::FILE* stream, const std::string& text)
     std::fflush(stream);
 }
 
-void put_event(std::string_view name, const ordered_json& fields)
+void put_object(const ordered_json& object)
 {
-    ordered_json object{{"event", name}};
-    object.update(fields);
     put(stdout, object.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n");
 }
 
@@ -70,6 +68,18 @@ std::string bar(double fraction)
 
 }  // namespace
 
+std::string label_text(const ImageLabel& label)
+{
+    if (label.count == 1) {
+        return "";
+    }
+    std::string text = label.frame ? fmt::format("frame {}", *label.frame) : "";
+    if (label.camera) {
+        text += fmt::format("{}camera {}", text.empty() ? "" : ", ", one_line(*label.camera));
+    }
+    return fmt::format("{} ({} of {})", text, label.index + 1, label.count);
+}
+
 std::optional<double> time_left(const Progress& progress, const Goal& goal)
 {
     if (progress.samples_done <= 0) {
@@ -90,6 +100,19 @@ Console::Console(Format format, Verbosity verbosity)
       terminal_(stderr_redraws()),
       color_(terminal_ && !is_set("NO_COLOR"))
 {}
+
+void Console::put_event(std::string_view name, const ordered_json& fields)
+{
+    ordered_json object{{"event", name}};
+    if (label_.frame) {
+        object["frame"] = *label_.frame;
+    }
+    if (label_.camera) {
+        object["camera"] = one_line(*label_.camera);
+    }
+    object.update(fields);
+    put_object(object);
+}
 
 Console::~Console()
 {
@@ -112,10 +135,23 @@ void Console::note(std::string_view message)
     }
 }
 
+void Console::detail(std::string_view message)
+{
+    if (label_.count == 1) {
+        note(message);
+    }
+}
+
+void Console::begin_image(const ImageLabel& label)
+{
+    const std::lock_guard lock(mutex_);
+    label_ = label;
+}
+
 void Console::warning(std::string_view message)
 {
     const std::lock_guard lock(mutex_);
-    if (verbosity_ == Verbosity::quiet) {
+    if (verbosity_ == Verbosity::quiet || !warned_.emplace(message).second) {
         return;
     }
     if (format_ == Format::json) {
@@ -169,11 +205,13 @@ void Console::task(const TaskProgress& progress)
 
 void Console::draw_progress(double fraction, const std::string& text)
 {
+    const std::string label = label_text(label_);
+    const std::string labelled = label.empty() ? text : fmt::format("{}  {}", label, text);
     if (!terminal_) {
-        put(stderr, fmt::format("bdpt: {}\n", text));
+        put(stderr, fmt::format("bdpt: {}\n", labelled));
         return;
     }
-    const std::string line = fmt::format("{} {}", bar(fraction), text);
+    const std::string line = fmt::format("{} {}", bar(fraction), labelled);
     put(stderr, fmt::format("\r{:<{}}", line, std::max(drawn_, line.size())));
     drawn_ = line.size();
 }
@@ -225,7 +263,7 @@ void report_error(Format format, int exit_code, std::string_view message) noexce
     try {
         const std::string text = one_line(message);
         if (format == Format::json) {
-            put_event("error", {{"code", exit_code}, {"message", text}});
+            put_object({{"event", "error"}, {"code", exit_code}, {"message", text}});
         }
         put(stderr, fmt::format("bdpt: error: {}\n", text));
     } catch (...) {

@@ -4,11 +4,14 @@
 #include <bdpt/render.h>
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <mutex>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -34,6 +37,17 @@ struct TaskProgress {
     std::string activity;  ///< what is being done
 };
 
+/// Which of several images is rendered.
+struct ImageLabel {
+    std::optional<int> frame{};
+    std::optional<std::string> camera{};
+    std::size_t index = 0;
+    std::size_t count = 1;
+};
+
+/// "frame 12 (3 of 24)", "frame 12, camera front (7 of 48)"; empty when there is one image only.
+[[nodiscard]] std::string label_text(const ImageLabel& label);
+
 /// Seconds that are left until `goal`, judged by `progress`; none when nothing is done yet.
 [[nodiscard]] std::optional<double> time_left(const Progress& progress, const Goal& goal);
 
@@ -50,7 +64,13 @@ public:
     void event(std::string_view name, const nlohmann::ordered_json& fields);
     /// A line for people; nothing when the format is JSON.
     void note(std::string_view message);
+    /// A line for people, if there is one image only.
+    void detail(std::string_view message);
+    /// The same message is shown once.
     void warning(std::string_view message);
+    /// From now on events have "frame" and "camera", as far as there are any, and progress lines
+    /// begin with the label.
+    void begin_image(const ImageLabel& label);
     /// Shows how far a render is; as often as suits the reader, however often it is called.
     void progress(const Progress& progress, const Goal& goal);
     /// The same for a task of many parts.
@@ -60,6 +80,7 @@ public:
 
 private:
     void print_line(std::string_view prefix, std::string_view message);
+    void put_event(std::string_view name, const nlohmann::ordered_json& fields);
     void erase_progress();
     [[nodiscard]] bool is_due(double seconds);
     void draw_progress(double fraction, const std::string& text);
@@ -70,6 +91,8 @@ private:
     bool color_;
     std::mutex mutex_;
     std::size_t drawn_ = 0;  // characters of the progress line on the screen
+    ImageLabel label_;
+    std::set<std::string, std::less<>> warned_;
     double last_shown_ = -std::numeric_limits<double>::infinity();  // [s] of the render
 };
 

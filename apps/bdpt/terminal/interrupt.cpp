@@ -47,6 +47,12 @@ Interrupt::~Interrupt()
     pthread_sigmask(SIG_SETMASK, &previous_, nullptr);
 }
 
+void Interrupt::set_temporaries(std::vector<std::filesystem::path> temporaries)
+{
+    const std::lock_guard lock(mutex_);
+    temporaries_ = std::move(temporaries);
+}
+
 std::optional<int> Interrupt::signal() const
 {
     const int signal_number = signal_;
@@ -80,6 +86,7 @@ void Interrupt::handle(int signal_number)
         on_stop_();
         return;
     }
+    const std::lock_guard lock(mutex_);
     for (const std::filesystem::path& temporary : temporaries_) {
         ::unlink(temporary.c_str());
     }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <mutex>
 #include <optional>
 #include <stop_token>
 #include <thread>
@@ -32,6 +33,8 @@ public:
     Interrupt(const Interrupt&) = delete;
     Interrupt& operator=(const Interrupt&) = delete;
 
+    /// From now on these are removed when the process ends in the middle, in place of those before.
+    void set_temporaries(std::vector<std::filesystem::path> temporaries);
     /// From now on there is something worth finishing.
     void allow_stop() { stop_allowed_ = true; }
     [[nodiscard]] std::stop_token stop_token() const { return stop_.get_token(); }
@@ -44,7 +47,8 @@ private:
     void watch(const std::stop_token& finished);
     void handle(int signal_number);
 
-    std::vector<std::filesystem::path> temporaries_;
+    std::mutex mutex_;
+    std::vector<std::filesystem::path> temporaries_;  // guarded by the mutex
     std::function<void()> on_stop_;
     sigset_t signals_{};
     sigset_t previous_{};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bdpt/aov.h>
+#include <bdpt/export.h>
 #include <bdpt/filter_options.h>
 #include <bdpt/pixel_rect.h>
 
@@ -164,5 +165,10 @@ struct RenderOptions {
     BidirectionalOptions bidirectional{};
     SystemOptions system{};
 };
+
+/// The seed of a frame of an animation whose seed is `seed`: other noise in each frame, and in
+/// frame 7 the same, whatever frames are rendered before it.
+[[nodiscard]] BDPT_EXPORT std::uint64_t seed_of_frame(std::uint64_t seed,
+                                                      std::int64_t frame) noexcept;
 
 }  // namespace bdpt

@@ -28,6 +28,13 @@ constexpr std::uint32_t shuffled(std::uint32_t reversed_index, std::uint32_t see
 
 }  // namespace
 
+std::uint64_t seed_of_frame(std::uint64_t seed, std::int64_t frame) noexcept
+{
+    // Mixed twice, so that neither seed and frame nor two frames can cancel out.
+    return split_mix(split_mix(seed + golden_ratio_64) ^
+                     (static_cast<std::uint64_t>(frame) * golden_ratio_64));
+}
+
 Sampler::Sampler(SamplerKind kind, std::uint64_t seed, int x, int y, std::int64_t sample_index)
     : kind_(kind)
 {

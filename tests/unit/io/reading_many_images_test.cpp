@@ -50,6 +50,35 @@ std::vector<std::string> many()
 
 }  // namespace
 
+TEST_CASE("images that are kept are not decoded again")
+{
+    const std::string encoded = grey(7, 3);
+    GltfOptions options;
+    options.images = std::make_shared<ImageCache>(1000);
+    const auto texel = [&] {
+        return with_images({encoded, grey(9)}).load(options).scene.images.at(0).bytes.at(0);
+    };
+    CHECK(texel() == 7);
+    CHECK(options.images->bytes() == 3 * 3 + 1);
+    CHECK(texel() == 7);
+    CHECK(options.images->bytes() == 3 * 3 + 1);
+
+    // What the cache has is taken: another image proves it.
+    ContentHasher hasher;
+    hasher.add(encoded.data(), encoded.size());
+    TexelImage other{.width = 1, .height = 1, .bytes = {200}, .channels = 1};
+    options.images = std::make_shared<ImageCache>(1000);
+    options.images->keep(hasher.hash(), other);
+    CHECK(texel() == 200);
+    // There is no room for all of them, and an image that is broken is broken again.
+    options.images = std::make_shared<ImageCache>(5);
+    CHECK(texel() == 7);
+    CHECK(options.images->bytes() == 1);
+    for (int i = 0; i < 2; ++i) {
+        CHECK(with_images({"GIF89a"}).load(options).warnings.size() == 1);
+    }
+}
+
 TEST_CASE("images that are decoded at once keep their order, and their materials")
 {
     std::vector<std::string> images = many();

@@ -3,6 +3,7 @@
 #include "file/data_budget.h"
 #include "file/warnings.h"
 
+#include <bdpt/io/image_cache.h>
 #include <bdpt/io/read_limits.h>
 
 #include <filesystem>
@@ -16,6 +17,7 @@ struct LoadContext {
     ReadLimits limits{};
     DataBudget budget{limits};
     Warnings warnings{};
+    ImageCache* images = nullptr;  ///< of other loads, if there is one
 
     /// Adds a warning.
     void warn(const std::string& kind, const std::string& place) { warnings.add(kind, place); }

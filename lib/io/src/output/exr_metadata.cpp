@@ -1,6 +1,7 @@
 #include "output/exr_metadata.h"
 
 #include <OpenEXR/ImfFloatAttribute.h>
+#include <OpenEXR/ImfFramesPerSecond.h>
 #include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfMatrixAttribute.h>
 #include <OpenEXR/ImfStandardAttributes.h>
@@ -50,6 +51,13 @@ void add_exr_metadata(Imf::Header& header, const ImageMetadata& metadata, float 
     header.insert("software", Imf::StringAttribute(software_name(metadata)));
     for (const auto& [name, text] : text_entries(metadata)) {
         header.insert(name.c_str(), Imf::StringAttribute(text));
+    }
+    if (metadata.frame) {
+        // Standard attributes: an image's number in the order of play, and its rate.
+        header.insert("imageCounter", Imf::IntAttribute(metadata.frame->number));
+        if (metadata.frame->per_second > 0.0) {
+            Imf::addFramesPerSecond(header, Imf::guessExactFps(metadata.frame->per_second));
+        }
     }
     header.insert("bdpt.spp", Imf::IntAttribute(samples));
     header.insert("bdpt.renderTimeSeconds", Imf::FloatAttribute(seconds));

@@ -11,6 +11,9 @@ std::vector<std::pair<std::string, std::string>> text_entries(const ImageMetadat
         {"bdpt.settings", metadata.settings},
         {"bdpt.integrator", metadata.integrator},
         {"bdpt.seed", std::to_string(metadata.seed)}};
+    if (metadata.frame) {
+        entries.emplace_back("bdpt.frame", std::to_string(metadata.frame->number));
+    }
     if (!metadata.xmp.empty()) {
         entries.emplace_back("bdpt.xmp", metadata.xmp);
     }

@@ -168,6 +168,9 @@ ordered_json to_json(const ImageMetadata& metadata)
                       {"seed", metadata.seed},
                       {"seconds", metadata.render_seconds},
                       {"xmp", metadata.xmp}};
+    if (metadata.frame) {
+        json["frame"] = {metadata.frame->number, metadata.frame->per_second};
+    }
     for_each_field(metadata.camera, [&json](const auto& field, const auto& value) {
         json["camera"][std::string(field.name)] = value_to_json(value);
     });
@@ -184,6 +187,12 @@ ImageMetadata read_metadata(const ordered_json& json)
     metadata.seed = json.at("seed").get<std::uint64_t>();
     metadata.render_seconds = json.at("seconds").get<double>();
     metadata.xmp = json.at("xmp").get<std::string>();
+    if (json.contains("frame")) {
+        const ordered_json& frame = json.at("frame");
+        constexpr double most = 1e6;
+        metadata.frame = FrameNumber{.number = frame.at(0).get<int>(),
+                                     .per_second = checked(frame.at(1).get<double>(), 0.0, most)};
+    }
     for_each_field(metadata.camera, [&json](const auto& field, auto& value) {
         value_from_json(json.at("camera").at(std::string(field.name)), value);
     });

@@ -50,7 +50,8 @@ struct ExrReport {
 /// Writes channels R, G, B (linear Rec. 709 [nit]) with ZIP compression, atomically. The data
 /// window is the rendered part, the display window the whole image. Beside our own entries the
 /// header has those that other tools show: "renderTimeSeconds", "samplesPerPixel", "worldToCamera",
-/// "worldToNDC". Throws `Error` (output).
+/// "worldToNDC", of frames
+/// "imageCounter" and "framesPerSecond". Throws `Error` (output).
 BDPT_EXPORT ExrReport write_exr(const std::filesystem::path& file, const Image& image,
                                 const ExrOptions& options);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bdpt/export.h>
+#include <bdpt/io/image_cache.h>
 #include <bdpt/io/read_limits.h>
 #include <bdpt/scene_desc.h>
 
@@ -8,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -45,6 +47,9 @@ struct GltfOptions {
     /// Called while images are decoded, each time that one is done; on any thread, but never on
     /// two at once. What it throws ends the loading and reaches the caller.
     std::function<void(const LoadProgress&)> on_progress{};
+    /// Images that are in it are not decoded again, others are added; none: nothing is kept. What
+    /// it holds is not counted by `limits`.
+    std::shared_ptr<ImageCache> images{};
 };
 
 /// What we make of a glTF extension.

@@ -5,11 +5,18 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace bdpt::io {
+
+/// Which image of an animation one is.
+struct FrameNumber {
+    int number = 0;
+    double per_second = 0.0;  ///< frames a second, above 0; 0: unknown
+};
 
 /// How an image came about; written into its file.
 struct ImageMetadata {
@@ -22,11 +29,12 @@ struct ImageMetadata {
     double render_seconds = 0.0;
     CameraDesc camera;
     std::chrono::system_clock::time_point created{};
+    std::optional<FrameNumber> frame{};  ///< none: it stands alone
     std::string xmp{};  ///< what the scene says about itself, JSON-LD; empty: nothing
 };
 
 /// The text entries that all formats share: "bdpt.version", "bdpt.scene", "bdpt.settings",
-/// "bdpt.integrator" and "bdpt.seed"; "bdpt.xmp" if there is any.
+/// "bdpt.integrator" and "bdpt.seed"; "bdpt.frame" and "bdpt.xmp" if there are any.
 [[nodiscard]] BDPT_EXPORT std::vector<std::pair<std::string, std::string>> text_entries(
     const ImageMetadata& metadata);
 

@@ -46,6 +46,7 @@ struct ImageTable::Job {
     Bytes own_bytes{};  // if it is not in a buffer
     ByteView bytes{};
     std::optional<EncodedImage> encoded{};
+    std::optional<ContentHash> hash{};  // of the bytes, if images are kept
     TexelImage image{};
     std::exception_ptr failure{};
     bool fatal = false;  // does it end more than this image?
@@ -90,15 +91,40 @@ void ImageTable::open(const OiioLibrary& library, Job& job)
                             : read_image_file(source.uri, context_);
         job.bytes = job.own_bytes;
     }
+    if (take_kept(job)) {
+        spend(job.image.bytes.size());
+        return;
+    }
     job.encoded.emplace(library, job.bytes, context_.limits);
-    total_bytes_ += job.encoded->decoded_bytes();
+    spend(job.encoded->decoded_bytes());
+}
+
+/// Copies the image, if the cache has it.
+bool ImageTable::take_kept(Job& job) const
+{
+    if (context_.images == nullptr) {
+        return false;
+    }
+    ContentHasher hasher;
+    hasher.add(job.bytes.data(), job.bytes.size());
+    job.hash = hasher.hash();
+    if (const TexelImage* const kept = context_.images->find(*job.hash)) {
+        job.image = *kept;
+        return true;
+    }
+    return false;
+}
+
+void ImageTable::spend(std::uint64_t bytes)
+{
+    total_bytes_ += bytes;
     if (total_bytes_ > context_.limits.texture_bytes) {
         throw Error(
             ErrorCode::invalid_input,
             fmt::format("all images together need more than {}",
                         human_bytes(static_cast<long double>(context_.limits.texture_bytes))));
     }
-    context_.budget.spend_memory(job.encoded->decoded_bytes());
+    context_.budget.spend_memory(bytes);
 }
 
 /// Decodes the images of a batch at once, and adds them in their order.
@@ -109,7 +135,7 @@ void ImageTable::finish(std::deque<Job>& batch, const std::function<void()>& tel
         [&](const tbb::blocked_range<std::size_t>& range) {
             for (std::size_t i = range.begin(); i < range.end(); ++i) {
                 Job& job = batch[i];
-                if (!job.failure) {
+                if (!job.failure && job.encoded) {
                     job.attempt([&job] { job.image = std::move(*job.encoded).decode(); });
                 }
                 job.encoded.reset();
@@ -131,6 +157,9 @@ void ImageTable::add(Job& job)
     try {
         if (job.failure) {
             std::rethrow_exception(job.failure);
+        }
+        if (job.hash) {
+            context_.images->keep(*job.hash, job.image);
         }
         id = static_cast<ImageId>(images_.size());
         images_.push_back(std::move(job.image));

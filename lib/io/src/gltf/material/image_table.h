@@ -38,6 +38,8 @@ public:
 
 private:
     struct Job;
+    [[nodiscard]] bool take_kept(Job& job) const;
+    void spend(std::uint64_t bytes);
     void open(const OiioLibrary& library, Job& job);
     void finish(std::deque<Job>& batch, const std::function<void()>& tell);
     void add(Job& job);

@@ -17,6 +17,7 @@ namespace {
 LoadedScene load(const std::filesystem::path& file, const GltfOptions& options)
 {
     LoadContext context{.folder = file.parent_path(), .limits = options.limits};
+    context.images = options.images.get();
     CheckedGltf checked = read_checked_gltf(file, context);
     GltfFacts facts = collect_facts(checked);
     facts.scene = select_scene(checked.document, options.scene);

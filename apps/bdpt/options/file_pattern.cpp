@@ -1,0 +1,71 @@
+#include "options/file_pattern.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+#include "options/arguments.h"
+
+namespace bdpt::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view camera_place = "{camera}";
+
+std::string as_file_name(std::string camera)
+{
+    for (std::size_t i = 0; i < camera.size(); ++i) {
+        const auto c = static_cast<unsigned char>(camera[i]);
+        const bool special = c < 0x20 || c == 0x7f || c == '/' || c == '\\' || c == ':';
+        if (special || (i == 0 && c == '.')) {
+            camera[i] = '_';
+        }
+    }
+    return camera;
+}
+
+}  // namespace
+
+bool takes_number(const fs::path& file)
+{
+    return file.filename().string().find('#') != std::string::npos;
+}
+
+fs::path with_number(const fs::path& file, int number)
+{
+    std::string name = file.filename().string();
+    const std::size_t begin = name.find('#');
+    if (begin == std::string::npos) {
+        return file;
+    }
+    const std::size_t end = std::min(name.find_first_not_of('#', begin), name.size());
+    if (name.find('#', end) != std::string::npos) {
+        throw OptionError(fmt::format(
+            "{}: expected one run of # in the name, for the number of a frame", file.string()));
+    }
+    const std::string digits =
+        fmt::format("{}{:0{}}", number < 0 ? "-" : "", std::abs(std::int64_t{number}), end - begin);
+    return file.parent_path() / name.replace(begin, end - begin, digits);
+}
+
+bool takes_camera(const fs::path& file)
+{
+    return file.filename().string().find(camera_place) != std::string::npos;
+}
+
+fs::path with_camera(const fs::path& file, const std::string& camera)
+{
+    std::string name = file.filename().string();
+    const std::string replacement = as_file_name(camera);
+    for (std::size_t at = name.find(camera_place); at != std::string::npos;
+         at = name.find(camera_place, at + replacement.size())) {
+        name.replace(at, camera_place.size(), replacement);
+    }
+    return file.parent_path() / name;
+}
+
+}  // namespace bdpt::app

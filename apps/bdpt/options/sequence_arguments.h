@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace bdpt::app {
+
+struct RenderArguments;
+struct RenderWords;
+
+/// What the words after `bdpt render` say about several images, as they were given.
+struct SequenceWords {
+    std::optional<std::string> frames;
+    std::optional<std::string> fps;
+    std::optional<int> orbit;
+    std::optional<std::string> cameras;
+    bool same_noise = false;
+};
+
+/// Frames from `first` to `last`, both of them included.
+struct FrameRange {
+    int first = 0;
+    int last = 0;
+    int step = 1;  ///< at least 1
+    [[nodiscard]] bool operator==(const FrameRange&) const = default;
+};
+
+/// "A:B", "A:B:S" or "A", whole numbers with A not above B and S above 0; at most a million frames.
+[[nodiscard]] std::optional<FrameRange> parse_frames(const std::string& text);
+
+/// "24", "23.976" or "24000/1001": frames a second, above 0 and at most 10^6.
+[[nodiscard]] std::optional<double> parse_rate(const std::string& text);
+
+/// Which random numbers the images of a sequence have.
+enum class SequenceNoise : std::uint8_t {
+    fresh,  ///< each its own
+    same,   ///< all those of the seed
+};
+
+/// Which cameras of the file are rendered.
+enum class SequenceCameras : std::uint8_t { one, all };
+
+/// Several images that one command makes.
+struct Sequence {
+    std::optional<FrameRange> frames;  ///< of the animation, or of the turn
+    double fps = 0.0;                  ///< frames a second; 0: there is none
+    int orbit = 0;                     ///< views of a whole turn; 0: the camera stays
+    SequenceCameras cameras = SequenceCameras::one;
+    SequenceNoise noise = SequenceNoise::fresh;
+};
+
+/// One image of a sequence.
+struct SequenceView {
+    std::optional<int> frame;
+    std::optional<double> time;         ///< of the animation [s]
+    std::optional<double> turn;         ///< of the camera around its target [rad]
+    std::optional<std::size_t> camera;  ///< index in the scene
+    std::string camera_name{};          ///< that, or the index
+    std::size_t index = 0;              ///< among all
+    std::size_t count = 1;              ///< of all
+    double fps = 0.0;                   ///< frames a second; 0: there is none
+};
+
+/// Describes --frames, --fps, --orbit, --cameras and --same-noise to the parser.
+void add_sequence_options(CLI::App& command, SequenceWords& words);
+
+/// None for a single image. Throws `OptionError`.
+[[nodiscard]] std::optional<Sequence> sequence(const RenderWords& words);
+
+/// Throws `OptionError` when the names of files have no place for what tells the images apart.
+void check_patterns(const RenderArguments& arguments);
+
+/// All images that `arguments` ask for; those of a frame next to each other. `cameras` are the
+/// names of those that the scene has; needed for all of them only. Throws `Error` (invalid_input)
+/// when cameras are named alike, (not_found) when there are none.
+[[nodiscard]] std::vector<SequenceView> views_of(const RenderArguments& arguments,
+                                                 const std::vector<std::string>& cameras);
+
+/// The arguments that make this image alone: files, time, seed.
+[[nodiscard]] RenderArguments arguments_of(const RenderArguments& arguments,
+                                           const SequenceView& view);
+
+/// `words` of a command line, and more that choose this image of those that they make.
+[[nodiscard]] std::vector<std::string> words_of(std::vector<std::string> words,
+                                                const SequenceView& view);
+
+}  // namespace bdpt::app

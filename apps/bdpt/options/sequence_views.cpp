@@ -1,0 +1,176 @@
+#include <bdpt/error.h>
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <map>
+#include <numbers>
+
+#include "options/arguments.h"
+#include "options/file_pattern.h"
+#include "options/render_arguments.h"
+#include "options/sequence_arguments.h"
+
+namespace bdpt::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// All files that an image has.
+std::vector<fs::path> files_of(const RenderArguments& arguments)
+{
+    std::vector<fs::path> files = arguments.outputs;
+    if (arguments.strategies) {
+        files.push_back(arguments.strategies->layers);
+    }
+    if (arguments.part) {
+        files.push_back(arguments.part->file);
+    }
+    if (arguments.stats) {
+        files.push_back(*arguments.stats);
+    }
+    return files;
+}
+
+std::vector<int> numbers_of(const FrameRange& range)
+{
+    std::vector<int> numbers;
+    for (std::int64_t frame = range.first; frame <= range.last; frame += range.step) {
+        numbers.push_back(static_cast<int>(frame));
+    }
+    return numbers;
+}
+
+/// Throws when two cameras have the same files.
+void check_names(const std::vector<std::string>& cameras, const RenderArguments& arguments)
+{
+    if (cameras.empty()) {
+        throw Error(
+            ErrorCode::not_found,
+            fmt::format("{}: the scene has no camera for --cameras all", arguments.file.string()));
+    }
+    std::map<fs::path, std::string> owners;
+    for (const std::string& camera : cameras) {
+        const auto [owner, is_new] = owners.try_emplace(with_camera("{camera}", camera), camera);
+        if (!is_new) {
+            throw Error(ErrorCode::invalid_input,
+                        fmt::format("{}: the cameras \"{}\" and \"{}\" would have the same files; "
+                                    "render each with --camera INDEX",
+                                    arguments.file.string(), owner->second, camera));
+        }
+    }
+}
+
+}  // namespace
+
+void check_patterns(const RenderArguments& arguments)
+{
+    if (!arguments.sequence) {
+        return;
+    }
+    const Sequence& sequence = *arguments.sequence;
+    const bool many = sequence.frames && numbers_of(*sequence.frames).size() > 1;
+    for (const fs::path& file : files_of(arguments)) {
+        if (many && !takes_number(file)) {
+            throw OptionError(fmt::format(
+                "{}: expected #### in the name, as there are several frames", file.string()));
+        }
+        static_cast<void>(with_number(file, 0));
+        if (sequence.cameras == SequenceCameras::all && !takes_camera(file)) {
+            throw OptionError(fmt::format("{}: expected {{camera}} in the name, for --cameras all",
+                                          file.string()));
+        }
+    }
+}
+
+std::vector<SequenceView> views_of(const RenderArguments& arguments,
+                                   const std::vector<std::string>& cameras)
+{
+    if (!arguments.sequence) {
+        return {SequenceView{}};
+    }
+    const Sequence& sequence = *arguments.sequence;
+    std::vector<SequenceView> views;
+    const auto add = [&](SequenceView view) {
+        view.fps = sequence.fps;
+        if (sequence.cameras == SequenceCameras::one) {
+            views.push_back(view);
+            return;
+        }
+        for (std::size_t i = 0; i < cameras.size(); ++i) {
+            view.camera = i;
+            view.camera_name = cameras[i];
+            views.push_back(view);
+        }
+    };
+    if (sequence.cameras == SequenceCameras::all) {
+        check_names(cameras, arguments);
+    }
+    if (!sequence.frames) {
+        add({});
+    } else {
+        for (const int number : numbers_of(*sequence.frames)) {
+            SequenceView view;
+            view.frame = number;
+            if (sequence.orbit > 0) {
+                view.turn = 2.0 * std::numbers::pi * (number - 1) / sequence.orbit;
+            } else {
+                view.time = arguments.scene.time.value_or(0.0) + number / sequence.fps;
+            }
+            add(view);
+        }
+    }
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        views[i].index = i;
+        views[i].count = views.size();
+    }
+    return views;
+}
+
+RenderArguments arguments_of(const RenderArguments& arguments, const SequenceView& view)
+{
+    RenderArguments result = arguments;
+    if (!arguments.sequence) {
+        return result;
+    }
+    const auto file_of = [&view](const fs::path& pattern) {
+        const fs::path file = view.frame ? with_number(pattern, *view.frame) : pattern;
+        return view.camera ? with_camera(file, view.camera_name) : file;
+    };
+    for (fs::path& output : result.outputs) {
+        output = file_of(output);
+    }
+    if (result.strategies) {
+        result.strategies->layers = file_of(result.strategies->layers);
+        result.strategies->sheet = file_of(result.strategies->sheet);
+    }
+    if (result.part) {
+        result.part->file = file_of(result.part->file);
+    }
+    if (result.stats) {
+        result.stats = file_of(*result.stats);
+    }
+    if (view.time) {
+        result.scene.time = view.time;
+    }
+    if (view.frame && arguments.sequence->noise == SequenceNoise::fresh) {
+        std::uint64_t& seed = result.options.sampling.seed;
+        seed = seed_of_frame(seed, *view.frame);
+    }
+    result.sequence_view = view;
+    return result;
+}
+
+std::vector<std::string> words_of(std::vector<std::string> words, const SequenceView& view)
+{
+    if (view.frame) {
+        words.emplace_back("--frames");  // the last one counts
+        words.push_back(fmt::format("{0}:{0}", *view.frame));
+    }
+    if (view.camera) {
+        words.emplace_back("--camera");
+        words.push_back(view.camera_name);
+    }
+    return words;
+}
+
+}  // namespace bdpt::app

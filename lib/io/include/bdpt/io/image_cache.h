@@ -1,0 +1,34 @@
+#pragma once
+
+#include <bdpt/export.h>
+#include <bdpt/image.h>
+#include <bdpt/part/content_hash.h>
+
+#include <cstdint>
+#include <map>
+#include <utility>
+
+namespace bdpt::io {
+
+/// Decoded images of files, known by the bytes that they were decoded from: for those who load a
+/// file again and again, as for the frames of an animation. For one load at a time.
+class BDPT_EXPORT ImageCache {
+public:
+    /// Keeps images of up to `most_bytes` in all: the first ones, as a file that is loaded again
+    /// asks for them in the same order.
+    explicit ImageCache(std::uint64_t most_bytes) : most_bytes_(most_bytes) {}
+
+    /// The image that was decoded from bytes of this hash; null if it was not kept.
+    [[nodiscard]] const TexelImage* find(const ContentHash& encoded) const;
+    /// Keeps a copy of `image`, if there is room.
+    void keep(const ContentHash& encoded, const TexelImage& image);
+    /// What the images take [bytes].
+    [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
+
+private:
+    std::uint64_t most_bytes_;
+    std::uint64_t bytes_ = 0;
+    std::map<std::pair<std::uint64_t, std::uint64_t>, TexelImage> images_;
+};
+
+}  // namespace bdpt::io

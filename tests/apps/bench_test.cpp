@@ -152,7 +152,7 @@ TEST_CASE("what cannot be read or written is told with its exit code")
     }
     SECTION("a full disk: the page is too large, the runs are kept")
     {
-        const Outcome outcome = run(Launch{.arguments = tiny(folder), .file_size = 20'000});
+        const Outcome outcome = run(Launch{.arguments = tiny(folder), .file_size = 24'000});
         CAPTURE(outcome.err);
         CHECK(outcome.exit_code == 6);
         CHECK(outcome.err.find("report.html") != std::string::npos);

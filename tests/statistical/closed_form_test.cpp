@@ -52,7 +52,7 @@ TEST_CASE("closed Lambertian furnace: L = Le (1 - a^k) / (1 - a)", "[closed-form
             }
             TileMeans means(scene, camera, options(kind, k));
             const MeanComparison result =
-                compare_means(means, average(expected), {.detectable_bias = 0.01});
+                compare_means(means, average(expected), {.detectable_bias = 0.003});
             INFO("integrator " << static_cast<int>(kind) << ", " << k
                                << " edges: " << result.text());
             CHECK(result.sharp_enough);

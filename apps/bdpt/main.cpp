@@ -2,6 +2,7 @@
 #include <bdpt/version.h>
 #include <fmt/core.h>
 #include <signal.h>
+#include <tbb/task_arena.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -28,6 +29,7 @@
 #include "options/render_arguments.h"
 #include "options/verify_arguments.h"
 #include "plan/planned_words.h"
+#include "terminal/cgroup_limits.h"
 #include "terminal/console.h"
 #include "terminal/help_formatter.h"
 
@@ -230,6 +232,16 @@ int run(const std::vector<std::string>& given, Format format)
     }
 }
 
+/// `work`, by as many threads as the quota of a container lets run at a time: oneTBB knows of the
+/// processors that the process may run on, and not of quotas.
+template <typename Work>
+int within_quota(const Work& work)
+{
+    const int quota = cgroup_limits().processors.value_or(tbb::task_arena::automatic);
+    const int available = tbb::this_task_arena::max_concurrency();
+    return quota > 0 && quota < available ? tbb::task_arena(quota).execute(work) : work();
+}
+
 }  // namespace
 }  // namespace bdpt::app
 
@@ -248,7 +260,7 @@ int main(int argc, char** argv)
         return static_cast<int>(code);
     };
     try {
-        return app::run({words.begin(), words.end()}, format);
+        return app::within_quota([&] { return app::run({words.begin(), words.end()}, format); });
     } catch (const Error& error) {
         return fail(error.code(), error.what());
     } catch (const std::bad_alloc&) {

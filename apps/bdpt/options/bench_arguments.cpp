@@ -158,8 +158,9 @@ void add_image_options(CLI::App& command, RenderWords& words)
         ->type_name("sobol|independent")
         ->group(group);
     command
-        .add_option("--threads", words.threads,
-                    "Number of threads. Default: 0, one for each processor")
+        .add_option(
+            "--threads", words.threads,
+            "Number of threads. Default: 0, one for each processor that the process may use")
         ->check(whole_number(0, 4096))
         ->type_name("N")
         ->group(group);

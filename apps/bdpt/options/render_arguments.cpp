@@ -254,7 +254,8 @@ void add_seed_and_threads(CLI::App& command, RenderWords& words, const char* gro
         ->group(group);
     command
         .add_option("--threads", words.threads,
-                    "Number of threads. Does not change the image. Default: all")
+                    "Number of threads. Does not change the image. Default: one for each processor "
+                    "that the process may use; quotas of containers count")
         ->check(whole_number(0, 4096))
         ->type_name("N")
         ->group(group);

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "options/arguments.h"
+#include "terminal/cgroup_limits.h"
 
 namespace bdpt::app {
 namespace {
@@ -57,7 +58,8 @@ void add_scene_options(CLI::App& command, SceneWords& words, const std::string& 
     command
         .add_option("--max-memory", words.max_memory,
                     "Refuse scenes that need more memory than this, like 500M or 2G; a render "
-                    "counts its film and layers, too. Default: see bdpt info --limits")
+                    "counts its film and layers, too. Default: see bdpt info --limits, or what the "
+                    "container is allowed if that is less")
         ->type_name("SIZE")
         ->group(group);
 }
@@ -65,7 +67,8 @@ void add_scene_options(CLI::App& command, SceneWords& words, const std::string& 
 std::optional<std::uint64_t> memory_limit(const SceneWords& words)
 {
     if (!words.max_memory) {
-        return std::nullopt;
+        const std::optional<std::uint64_t> allowed = cgroup_limits().memory;
+        return allowed && *allowed < io::ReadLimits{}.memory_bytes ? allowed : std::nullopt;
     }
     const std::optional<std::uint64_t> bytes = parse_bytes(*words.max_memory);
     if (!bytes) {

@@ -27,7 +27,8 @@ struct SceneWords {
 /// group `group` of the help text.
 void add_scene_options(CLI::App& command, SceneWords& words, const std::string& group);
 
-/// The limit of --max-memory [bytes], if there is one. Throws `OptionError`.
+/// The limit of --max-memory [bytes], or that of the control group if it is below our default one.
+/// Throws `OptionError`.
 [[nodiscard]] std::optional<std::uint64_t> memory_limit(const SceneWords& words);
 
 /// Throws `Error` (usage) that names the option and the value.

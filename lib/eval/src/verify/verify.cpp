@@ -69,7 +69,8 @@ VerifyReport verify(const Scene& scene, const CameraDesc& camera, const VerifyOp
     const auto start = std::chrono::steady_clock::now();
     const TileGrid grid(options.width, options.height, options.grid);
     Evidence evidence(grid, options.max_depth);
-    const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
+    const int threads =
+        options.threads > 0 ? options.threads : tbb::this_task_arena::max_concurrency();
     // More threads than cores are allowed only while somebody asks for them.
     const tbb::global_control allowance(
         tbb::global_control::max_allowed_parallelism,

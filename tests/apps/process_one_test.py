@@ -1,0 +1,80 @@
+#!/usr/bin/env python3
+"""Fails when bdpt does not do as process 1 of a container what it does elsewhere, or when two of these with the same name
+and number spoil each other's parts: process_one_test.py COMMAND SCENE. Skipped (77) where no process may have a
+namespace of its own."""
+
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+COMMAND, SCENE = sys.argv[1:3]
+ISOLATED = ["unshare", "--user", "--map-root-user", "--pid", "--fork", "--kill-child", "--mount-proc"]
+WORDS = [SCENE, "--size", "64x48", "--integrator", "bdpt", "--threads", "1", "--quiet"]
+
+
+def start(*words):
+    return subprocess.Popen([*ISOLATED, COMMAND, "render", *WORDS, *map(str, words)])
+
+
+def inner(process):
+    """The number, out here, of what is process 1 in there."""
+    for _ in range(200):
+        children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
+        if children:
+            status = pathlib.Path(f"/proc/{children[0]}/status").read_text()
+            if "bdpt" in status.splitlines()[0]:
+                assert "NSpid:\t" in status and status.split("NSpid:\t")[1].split("\n")[0].split()[-1] == "1"
+                return int(children[0])
+        time.sleep(0.05)
+    raise RuntimeError("bdpt has not started")
+
+
+def send(process, number):
+    try:
+        os.kill(inner(process), number)
+    except OSError:
+        pass  # it has ended
+
+
+def main():
+    permitted = subprocess.run([*ISOLATED, "true"], capture_output=True, check=False)
+    if permitted.returncode != 0:
+        print("skipped: no namespaces here")
+        sys.exit(77)
+    checks = []
+
+    def check(what, good):
+        checks.append(good)
+        print(f"{'ok  ' if good else 'FAIL'} {what}")
+
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        part = folder / "a.part.exr"
+        process = start("--spp", 2_000_000_000, "--part", part)
+        time.sleep(2)
+        send(process, signal.SIGTERM)
+        # unshare hands the exit code on.
+        code = process.wait(timeout=60)
+        check(f"SIGTERM to process 1: exit code {code}", code == 143)
+        check("and its part is there", part.exists())
+        part.unlink()
+
+        # Two containers, both process 1, one target, as many writes as may be.
+        both = [start("--spp", 3000, "--part", part) for _ in range(2)]
+        while all(process.poll() is None for process in both):
+            for process in both:
+                send(process, signal.SIGUSR1)
+            time.sleep(0.05)
+        check("two writers of one part both succeed", [process.wait(timeout=300) for process in both] == [0, 0])
+        merged = subprocess.run([COMMAND, "merge", part, "-o", folder / "out.exr", "--spp", "3000"], check=False)
+        check("and what is there is whole", merged.returncode == 0)
+        check("with nothing beside it", {file.name for file in folder.iterdir()} == {"a.part.exr", "out.exr"})
+    sys.exit(not all(checks))
+
+
+if __name__ == "__main__":
+    main()

@@ -2,11 +2,13 @@
 find_package(PNG REQUIRED GLOBAL)
 target_sources(bdpt_io PRIVATE
   src/output/camera_matrices.cpp
+  src/output/display.cpp
   src/output/exr.cpp
   src/output/exr_metadata.cpp
   src/output/image_metadata.cpp
   src/output/output_file.cpp
   src/output/png.cpp
+  src/output/tone_curve.cpp
   src/output/tone_map.cpp
   src/part/part_header.cpp
   src/part/part_planes.cpp

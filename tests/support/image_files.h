@@ -91,8 +91,11 @@ struct PngFile {
     int width = 0;
     int height = 0;
     bool has_srgb_chunk = false;
+    int channels = 0;
+    int bits = 0;  ///< of a channel
     std::map<std::string, std::string> text;
-    std::vector<std::uint8_t> rgb;
+    std::vector<std::uint16_t> values;  ///< of all channels
+    std::vector<std::uint8_t> rgb;      ///< of a file of 8 bits
 };
 
 [[nodiscard]] inline PngFile read_png(const std::filesystem::path& file)
@@ -105,11 +108,13 @@ struct PngFile {
     png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
     png_infop info = png_create_info_struct(png);
     png_init_io(png, stream);
-    png_read_png(png, info, PNG_TRANSFORM_STRIP_ALPHA, nullptr);
+    png_read_png(png, info, PNG_TRANSFORM_IDENTITY, nullptr);
 
     PngFile result;
     result.width = static_cast<int>(png_get_image_width(png, info));
     result.height = static_cast<int>(png_get_image_height(png, info));
+    result.channels = png_get_channels(png, info);
+    result.bits = png_get_bit_depth(png, info);
     int intent = 0;
     result.has_srgb_chunk = png_get_sRGB(png, info, &intent) != 0;
     png_textp texts = nullptr;
@@ -118,8 +123,16 @@ struct PngFile {
         result.text[texts[i].key] = texts[i].text;
     }
     png_bytepp rows = png_get_rows(png, info);
+    const int row_values = result.channels * result.width;
     for (int y = 0; y < result.height; ++y) {
-        result.rgb.insert(result.rgb.end(), rows[y], rows[y] + 3 * result.width);
+        for (int i = 0; i < row_values; ++i) {
+            const int value =
+                result.bits == 16 ? 256 * rows[y][2 * i] + rows[y][2 * i + 1] : int{rows[y][i]};
+            result.values.push_back(static_cast<std::uint16_t>(value));
+            if (result.bits == 8 && i % result.channels < 3) {
+                result.rgb.push_back(rows[y][i]);
+            }
+        }
     }
     png_destroy_read_struct(&png, &info, nullptr);
     std::fclose(stream);

@@ -6,10 +6,13 @@
 #include <fmt/core.h>
 #include <png.h>
 
+#include <bit>
 #include <csetjmp>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <new>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,7 +32,8 @@ Text all_text(const PngOptions& options)
               {"Creation Time", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(created))},
               {"bdpt.spp", std::to_string(metadata.samples_per_pixel)},
               {"bdpt.renderTimeSeconds", fmt::format("{}", metadata.render_seconds)},
-              {"bdpt.exposure", fmt::format("{}", options.exposure)}};
+              {"bdpt.exposure", fmt::format("{}", options.exposure)},
+              {"bdpt.toneMap", std::string(tone_curve_name(options.curve))}};
     for (auto& entry : text_entries(metadata)) {
         text.push_back(std::move(entry));
     }
@@ -86,36 +90,55 @@ void flush(png_structp) {}
 
 void ignore_warning(png_structp, png_const_charp) {}
 
+/// What is written; it belongs to someone else.
+struct Pixels {
+    int width;
+    int height;
+    int channels;  // 1 to 4
+    int bits;      // 8 or 16, of each channel
+    std::span<const std::uint8_t> bytes;
+
+    [[nodiscard]] std::size_t pixel_size() const
+    {
+        return static_cast<std::size_t>(channels * bits / 8);
+    }
+};
+
 /// libpng reports errors by longjmp, so nothing with a destructor lives in here. Returns whether
 /// all went well.
-bool encode(png_structp png, png_infop info, const DisplayImage& image,
+bool encode(png_structp png, png_infop info, const Pixels& pixels,
             const std::vector<png_text>& text)
 {
+    constexpr int color_types[]{PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA, PNG_COLOR_TYPE_RGB,
+                                PNG_COLOR_TYPE_RGB_ALPHA};
     if (setjmp(png_jmpbuf(png)) != 0) {
         return false;
     }
-    png_set_IHDR(png, info, static_cast<png_uint_32>(image.width),
-                 static_cast<png_uint_32>(image.height), 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
-                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(png, info, static_cast<png_uint_32>(pixels.width),
+                 static_cast<png_uint_32>(pixels.height), pixels.bits,
+                 color_types[pixels.channels - 1], PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+                 PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
     png_set_text(png, info, text.data(), static_cast<int>(text.size()));
     png_write_info(png, info);
-    const std::size_t stride = 3 * static_cast<std::size_t>(image.width);
-    for (int y = 0; y < image.height; ++y) {
-        png_write_row(png, image.rgb.data() + stride * static_cast<std::size_t>(y));
+    if (pixels.bits == 16 && std::endian::native == std::endian::little) {
+        png_set_swap(png);
+    }
+    const std::size_t stride = pixels.pixel_size() * static_cast<std::size_t>(pixels.width);
+    for (int y = 0; y < pixels.height; ++y) {
+        png_write_row(png, pixels.bytes.data() + stride * static_cast<std::size_t>(y));
     }
     png_write_end(png, nullptr);
     return true;
 }
 
-}  // namespace
-
-void write_png(const std::filesystem::path& file, const DisplayImage& image,
-               const PngOptions& options)
+void write_pixels(const std::filesystem::path& file, const Pixels& pixels,
+                  const PngOptions& options)
 {
     // Part of a pixel is as wrong as one too many.
-    const std::size_t pixels = image.rgb.size() % 3 == 0 ? image.rgb.size() / 3 : 0;
-    check_pixels(file, image.width, image.height, pixels);
+    const std::size_t size = pixels.pixel_size();
+    const bool whole = pixels.bytes.size() % size == 0;
+    check_pixels(file, pixels.width, pixels.height, whole ? pixels.bytes.size() / size : 0);
     Text text = all_text(options);
     const std::vector<png_text> entries = to_png_text(text);
     Sink sink;
@@ -127,7 +150,7 @@ void write_png(const std::filesystem::path& file, const DisplayImage& image,
         throw std::bad_alloc();
     }
     png_set_write_fn(png, &sink, &append, &flush);
-    const bool encoded = encode(png, info, image, entries);
+    const bool encoded = encode(png, info, pixels, entries);
     png_destroy_write_struct(&png, &info);
     if (sink.out_of_memory) {
         throw std::bad_alloc();
@@ -139,6 +162,38 @@ void write_png(const std::filesystem::path& file, const DisplayImage& image,
     OutputFile output(file);
     output.write(sink.bytes);
     output.commit();
+}
+
+}  // namespace
+
+void write_png(const std::filesystem::path& file, const DisplayImage& image,
+               const PngOptions& options)
+{
+    write_pixels(file,
+                 {.width = image.width,
+                  .height = image.height,
+                  .channels = 3,
+                  .bits = 8,
+                  .bytes = image.rgb},
+                 options);
+}
+
+void write_png(const std::filesystem::path& file, const TexelImage& image,
+               const PngOptions& options)
+{
+    const bool integers = image.type == TexelType::unorm8 || image.type == TexelType::unorm16;
+    if (!integers || image.channels < 1 || image.channels > 4) {
+        throw Error(
+            ErrorCode::usage,
+            fmt::format("{}: a PNG file has 1 to 4 channels of 8 or 16 bits", file.string()));
+    }
+    write_pixels(file,
+                 {.width = image.width,
+                  .height = image.height,
+                  .channels = image.channels,
+                  .bits = static_cast<int>(8 * size_of(image.type)),
+                  .bytes = image.bytes},
+                 options);
 }
 
 }  // namespace bdpt::io

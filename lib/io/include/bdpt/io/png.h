@@ -12,12 +12,18 @@ namespace bdpt::io {
 struct PngOptions {
     float exposure = 0.0f;  ///< [EV] that the image was made with; for the record
     ImageMetadata metadata;
+    ToneCurve curve = ToneCurve::filmic;  ///< that it was made with; for the record
 };
 
 /// Writes an 8-bit RGB PNG with an sRGB chunk and the metadata as text, atomically. Throws `Error`:
 /// usage for an image without pixels or with too few or too many, output when the file cannot be
 /// written.
 BDPT_EXPORT void write_png(const std::filesystem::path& file, const DisplayImage& image,
+                           const PngOptions& options);
+
+/// The same of 8 or 16 bits with 1 to 4 channels: grey or RGB, without or with straight alpha, all
+/// but alpha sRGB-encoded. Throws `Error` (usage) for other types and numbers of channels, too.
+BDPT_EXPORT void write_png(const std::filesystem::path& file, const TexelImage& image,
                            const PngOptions& options);
 
 }  // namespace bdpt::io

@@ -2,6 +2,7 @@
 
 #include <bdpt/export.h>
 #include <bdpt/image.h>
+#include <bdpt/io/tone_curve.h>
 
 #include <cstdint>
 #include <vector>
@@ -22,15 +23,11 @@ struct DisplayImage {
 /// image.
 [[nodiscard]] BDPT_EXPORT float automatic_exposure(const Image& image);
 
-/// From scene-linear to display-linear [0, 1]: a filmic curve [Narkowicz 2016, ACES Filmic Tone
-/// Mapping Curve] on the largest component; hues stay, and bright ones fade to white. NaN and
-/// negative components count as 0.
-[[nodiscard]] BDPT_EXPORT Rgb filmic(Rgb scene_linear);
-
 /// `linear` in [0, 1], else it is clamped; NaN gives 0. Rounds to the nearest.
 [[nodiscard]] BDPT_EXPORT std::uint8_t encode_srgb(float linear);
 
-/// Multiplies each pixel by 2^exposure [EV], then applies `filmic` and `encode_srgb`.
-[[nodiscard]] BDPT_EXPORT DisplayImage tone_map(const Image& image, float exposure);
+/// Multiplies each pixel by 2^exposure [EV], then applies the curve and `encode_srgb`.
+[[nodiscard]] BDPT_EXPORT DisplayImage tone_map(const Image& image, float exposure,
+                                                ToneCurve curve = ToneCurve::filmic);
 
 }  // namespace bdpt::io

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <bdpt/export.h>
+#include <bdpt/image.h>
+#include <bdpt/io/tone_curve.h>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace bdpt::io {
+
+/// An sRGB-encoded colour [IEC 61966-2-1]: red, green, blue.
+using SrgbColor = std::array<std::uint8_t, 3>;
+
+/// How an image becomes one for a screen.
+struct DisplayOptions {
+    float exposure = 0.0f;  ///< [EV] pixels are multiplied by 2^exposure
+    ToneCurve curve = ToneCurve::filmic;
+    TexelType type = TexelType::unorm8;  ///< of the result: unorm8 or unorm16
+    /// What is seen where the image covers nothing; none: the result has alpha.
+    std::optional<SrgbColor> background{};
+};
+
+/// Tone-mapped, sRGB-encoded pixels. `coverage`, in [0, 1], is the alpha of each pixel, by which
+/// its colour has been multiplied; empty: all are opaque. Colours are divided by it before they are
+/// tone-mapped. The result has three channels, composed over the background in display-linear
+/// light, or four: straight alpha. Throws `Error` (usage) when `coverage` has not one value a
+/// pixel, or the type is another.
+[[nodiscard]] BDPT_EXPORT TexelImage to_display(const Image& image, std::span<const float> coverage,
+                                                const DisplayOptions& options);
+
+}  // namespace bdpt::io

@@ -1,0 +1,99 @@
+#include <bdpt/io/display.h>
+
+#include <bdpt/error.h>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <vector>
+
+#include "output/srgb.h"
+
+namespace bdpt::io {
+namespace {
+
+/// Appends codes in [0, 1] to the bytes of an image.
+class CodeWriter {
+public:
+    explicit CodeWriter(TexelImage& image) : image_(image) {}
+
+    void add(float code)
+    {
+        if (image_.type == TexelType::unorm8) {
+            image_.bytes.push_back(static_cast<std::uint8_t>(255.0f * code + 0.5f));
+            return;
+        }
+        const auto value = static_cast<std::uint16_t>(65535.0f * code + 0.5f);
+        std::uint8_t bytes[sizeof value];
+        std::memcpy(bytes, &value, sizeof value);
+        image_.bytes.insert(image_.bytes.end(), bytes, bytes + sizeof value);
+    }
+    void add_color(Rgb linear)
+    {
+        for (int channel = 0; channel < 3; ++channel) {
+            add(srgb_code(linear[channel]));
+        }
+    }
+
+private:
+    TexelImage& image_;
+};
+
+void check(const Image& image, std::span<const float> coverage, TexelType type)
+{
+    if (!coverage.empty() && coverage.size() != image.pixels.size()) {
+        throw Error(ErrorCode::usage, fmt::format("an image of {} pixels with {} values of alpha",
+                                                  image.pixels.size(), coverage.size()));
+    }
+    if (type != TexelType::unorm8 && type != TexelType::unorm16) {
+        throw Error(ErrorCode::usage, "images for screens have integers of 8 or 16 bits");
+    }
+}
+
+}  // namespace
+
+TexelImage to_display(const Image& image, std::span<const float> coverage,
+                      const DisplayOptions& options)
+{
+    check(image, coverage, options.type);
+    const double gain = std::exp2(double{options.exposure});
+    // The pixel on a screen, if `alpha` of it is covered.
+    const auto shown = [&](Rgb pixel, float alpha) {
+        constexpr double brightest = 1e30;  // white at any exposure, and a float
+        for (int channel = 0; channel < 3; ++channel) {
+            const double value = double{pixel[channel]} * gain / double{alpha};
+            pixel[channel] = static_cast<float>(std::min(value, brightest));
+        }
+        return apply(options.curve, pixel);
+    };
+    const bool opaque = coverage.empty();
+    const bool has_alpha = !opaque && !options.background;
+    Rgb background(0.0f);
+    for (std::size_t channel = 0; channel < 3 && options.background; ++channel) {
+        background[static_cast<int>(channel)] =
+            srgb_linear(static_cast<float>((*options.background)[channel]) / 255.0f);
+    }
+    TexelImage result{.width = image.width,
+                      .height = image.height,
+                      .bytes = {},
+                      .channels = has_alpha ? 4 : 3,
+                      .type = options.type};
+    result.bytes.reserve(image.pixels.size() * static_cast<std::size_t>(result.channels) *
+                         size_of(options.type));
+    CodeWriter codes(result);
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        const float alpha = opaque ? 1.0f : coverage[i] > 0.0f ? std::min(coverage[i], 1.0f) : 0.0f;
+        const Rgb color = alpha > 0.0f ? shown(image.pixels[i], alpha) : Rgb(0.0f);
+        if (has_alpha) {
+            codes.add_color(color);
+            codes.add(alpha);
+        } else {
+            codes.add_color(opaque ? color : alpha * color + (1.0f - alpha) * background);
+        }
+    }
+    return result;
+}
+
+}  // namespace bdpt::io

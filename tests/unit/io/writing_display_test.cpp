@@ -1,0 +1,154 @@
+#include <bdpt/error.h>
+#include <bdpt/io/display.h>
+#include <bdpt/io/png.h>
+#include <bdpt/io/tone_map.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "image_files.h"
+#include "scratch_folder.h"
+
+namespace bdpt::io {
+namespace {
+
+using test::ScratchFolder;
+
+/// The values of an image of 16 bits.
+std::vector<std::uint16_t> words(const TexelImage& image)
+{
+    std::vector<std::uint16_t> result(image.bytes.size() / 2);
+    std::memcpy(result.data(), image.bytes.data(), image.bytes.size());
+    return result;
+}
+
+/// A pixel that is covered, one that is half covered, and one that is not.
+const Image image{3, 1, {Rgb(0.4f, 0.2f, 0.1f), Rgb(0.2f, 0.1f, 0.05f), Rgb(0.0f)}};
+const std::vector<float> coverage{1.0f, 0.5f, 0.0f};
+constexpr DisplayOptions plain{.curve = ToneCurve::none};
+
+TEST_CASE("alpha is straight: a half covered pixel has the colour of a covered one")
+{
+    const TexelImage shown = to_display(image, coverage, plain);
+    REQUIRE(shown.channels == 4);
+    REQUIRE(shown.bytes.size() == 12);
+    const std::uint8_t r = encode_srgb(0.4f);
+    const std::uint8_t g = encode_srgb(0.2f);
+    const std::uint8_t b = encode_srgb(0.1f);
+    CHECK(shown.bytes == std::vector<std::uint8_t>{r, g, b, 255, r, g, b, 128, 0, 0, 0, 0});
+}
+
+TEST_CASE("a background is exactly its colour where nothing covers it")
+{
+    for (const TexelType type : {TexelType::unorm8, TexelType::unorm16}) {
+        for (int code = 0; code < 256; ++code) {
+            const auto value = static_cast<std::uint8_t>(code);
+            DisplayOptions options = plain;
+            options.curve = ToneCurve::agx;
+            options.type = type;
+            options.background = SrgbColor{value, 255, 0};
+            const TexelImage shown = to_display(image, coverage, options);
+            REQUIRE(shown.channels == 3);
+            CAPTURE(code);
+            if (type == TexelType::unorm8) {
+                CHECK(shown.bytes[6] == value);
+                CHECK(shown.bytes[7] == 255);
+                CHECK(shown.bytes[8] == 0);
+            } else {
+                CHECK(words(shown)[6] == 257 * code);
+                CHECK(words(shown)[7] == 65535);
+                CHECK(words(shown)[8] == 0);
+            }
+        }
+    }
+}
+
+TEST_CASE("images are composed over a background in light")
+{
+    DisplayOptions options = plain;
+    options.background = SrgbColor{255, 255, 255};
+    const TexelImage shown = to_display(image, coverage, options);
+    CHECK(shown.bytes[0] == encode_srgb(0.4f));
+    CHECK(shown.bytes[3] == encode_srgb(0.5f * 0.4f + 0.5f));
+    CHECK(shown.bytes[5] == encode_srgb(0.5f * 0.1f + 0.5f));
+}
+
+TEST_CASE("colours are tone-mapped as if they covered all of a pixel")
+{
+    DisplayOptions options{.exposure = 2.0f, .curve = ToneCurve::pbr_neutral};
+    const TexelImage shown = to_display(image, coverage, options);
+    CHECK(shown.bytes[4] == encode_srgb(pbr_neutral({1.6f, 0.8f, 0.4f}).r));
+    CHECK(shown.bytes[5] == encode_srgb(pbr_neutral({1.6f, 0.8f, 0.4f}).g));
+}
+
+TEST_CASE("16 bits tell apart what 8 bits do not")
+{
+    const Image close{2, 1, {Rgb(0.5f), Rgb(0.5001f)}};
+    DisplayOptions options = plain;
+    CHECK(to_display(close, {}, options).bytes[0] == to_display(close, {}, options).bytes[3]);
+    options.type = TexelType::unorm16;
+    const TexelImage shown = to_display(close, {}, options);
+    CHECK(shown.channels == 3);
+    // sRGB of 0.5 is 0.735356983, of 0.5001 0.735423706.
+    CHECK(words(shown)[0] == 48192);
+    CHECK(words(shown)[3] == 48196);
+}
+
+TEST_CASE("PNG files hold alpha and 16 bits")
+{
+    const ScratchFolder folder;
+    for (const TexelType type : {TexelType::unorm8, TexelType::unorm16}) {
+        for (const bool opaque : {true, false}) {
+            DisplayOptions options = plain;
+            options.type = type;
+            const TexelImage shown =
+                to_display(image, opaque ? std::vector<float>() : coverage, options);
+            write_png(folder / "a.png", shown, {.metadata = {}, .curve = ToneCurve::none});
+            test::PngFile file = test::read_png(folder / "a.png");
+            CHECK(file.width == 3);
+            CHECK(file.height == 1);
+            CHECK(file.channels == (opaque ? 3 : 4));
+            CHECK(file.bits == (type == TexelType::unorm8 ? 8 : 16));
+            CHECK(file.has_srgb_chunk);
+            CHECK(file.text["bdpt.toneMap"] == "none");
+            const std::vector<std::uint16_t> expected =
+                type == TexelType::unorm16
+                    ? words(shown)
+                    : std::vector<std::uint16_t>(shown.bytes.begin(), shown.bytes.end());
+            CHECK(file.values == expected);
+        }
+    }
+}
+
+TEST_CASE("images that no PNG file can hold are refused")
+{
+    const ScratchFolder folder;
+    const auto refuses = [&](const TexelImage& bad) {
+        try {
+            write_png(folder / "a.png", bad, {});
+        } catch (const Error& error) {
+            return error.code() == ErrorCode::usage;
+        }
+        return false;
+    };
+    const std::vector<std::uint8_t> bytes(16);
+    CHECK(refuses({1, 1, bytes, 4, TexelType::float32}));
+    CHECK(refuses({1, 1, bytes, 8, TexelType::unorm16}));
+    CHECK(refuses({1, 1, bytes, 0, TexelType::unorm8}));
+    CHECK(refuses({2, 2, bytes, 3, TexelType::unorm8}));
+    CHECK(refuses({2, 2, bytes, 4, TexelType::unorm16}));
+    CHECK_FALSE(refuses({2, 2, bytes, 4, TexelType::unorm8}));
+    CHECK_FALSE(refuses({4, 4, bytes, 1, TexelType::unorm8}));
+    CHECK_THROWS_AS(to_display(image, std::vector<float>(2), plain), Error);
+    DisplayOptions halves = plain;
+    halves.type = TexelType::half;
+    CHECK_THROWS_AS(to_display(image, {}, halves), Error);
+}
+
+}  // namespace
+}  // namespace bdpt::io

@@ -63,14 +63,16 @@ PathShares::SecondMoments PathShares::second_moments(const Candidate& candidate)
     const PerGroup ratio = ratios(candidate);
     const auto all = static_cast<double>(sum(ratio));
     if (all == 0.0) {
-        return {.camera = std::numeric_limits<double>::infinity()};
+        return {.own = std::numeric_limits<double>::infinity()};
     }
     const auto part = [&](Group group) {
         const float r = ratio[group];
         return static_cast<double>((squares_ ? r * r * r : r) * moments_[group]);
     };
     const double scale = static_cast<double>(mean_) * static_cast<double>(mean_) / (all * all);
-    return {.camera = scale * (part(own) + part(connections)), .splats = scale * part(splats)};
+    return {.own = scale * part(own),
+            .splats = scale * part(splats),
+            .connections = scale * part(connections)};
 }
 
 }  // namespace bdpt

@@ -34,8 +34,9 @@ public:
     /// finds, so that rare finds of one are seen by another [Grittmann et al. 2022,
     /// "Efficiency-Aware Multiple Importance Sampling for Bidirectional Rendering Algorithms"].
     struct SecondMoments {
-        double camera = 0.0;  ///< t >= 2; infinite if the candidate cannot make the path
-        double splats = 0.0;  ///< t <= 1
+        double own = 0.0;          ///< s <= 1; infinite if the candidate cannot make the path
+        double splats = 0.0;       ///< t <= 1
+        double connections = 0.0;  ///< s, t >= 2
     };
     [[nodiscard]] SecondMoments second_moments(const Candidate& candidate) const;
 

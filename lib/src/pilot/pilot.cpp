@@ -60,7 +60,8 @@ PerCandidate<double> errors_of(const PilotGrid& grid, std::span<const PilotRow> 
 /// not pay for a much dearer one.
 PerCandidate<double> with_unseen(PerCandidate<double> errors)
 {
-    constexpr double share = 0.1;  // of the error of one light path of its own for each camera path
+    constexpr double share =
+        0.05;  // of the error of one light path of its own for each camera path
     const auto one = std::find_if(candidates.begin(), candidates.end(), [](const Candidate& c) {
         return c.light_paths == 1.0 && c.connections == 1.0;
     });

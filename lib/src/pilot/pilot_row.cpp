@@ -11,11 +11,18 @@ namespace {
 constexpr int n = PilotRow::samples_of_cell;
 
 /// The part of the variance of independent samples that Sobol points leave, as measured in the
-/// project's scenes with 32 samples: nothing of what is seen directly, little of direct light, most
+/// project's scenes with 32 samples: nothing of what is seen directly, little of direct light, half
 /// of the rest; splats gain nothing.
-double left_by_sobol(int edges)
+struct LeftBySobol {
+    double own = 0.0;        // s <= 1
+    double connected = 0.0;  // s, t >= 2, and products of different paths
+};
+
+constexpr LeftBySobol left_by_sobol(int edges)
 {
-    return edges <= 1 ? 0.0 : edges == 2 ? 0.25 : 0.7;
+    return edges <= 1   ? LeftBySobol{}
+           : edges == 2 ? LeftBySobol{.own = 0.25, .connected = 0.25}
+                        : LeftBySobol{.own = 0.6, .connected = 0.4};
 }
 
 using Samples = std::array<SampleMoments, n>;
@@ -41,7 +48,8 @@ double variance_of_sums(const Samples& samples, std::size_t candidate)
 double remaining_variance(const PathShares& shares, const Candidate& candidate)
 {
     const PathShares::SecondMoments moments = shares.second_moments(candidate);
-    return left_by_sobol(shares.edges()) * moments.camera + moments.splats;
+    const LeftBySobol left = left_by_sobol(shares.edges());
+    return left.own * moments.own + left.connected * moments.connections + moments.splats;
 }
 
 void PilotRow::render(const Integrator& integrator, const PilotGrid& grid, Heuristic heuristic,
@@ -83,8 +91,9 @@ PilotCell PilotRow::render_cell(const Integrator& integrator, const PilotGrid& g
         stats_ += integrator.render_tile(pixel, {.begin = index, .end = index + 1}, films);
     }
     for (std::size_t k = 0; k < candidates.size(); ++k) {
-        cell.variances[k] += left_by_sobol(direct_edges) * variance_of_sums(direct, k) +
-                             left_by_sobol(direct_edges + 1) * variance_of_sums(indirect, k);
+        cell.variances[k] +=
+            left_by_sobol(direct_edges).connected * variance_of_sums(direct, k) +
+            left_by_sobol(direct_edges + 1).connected * variance_of_sums(indirect, k);
     }
     return cell;
 }

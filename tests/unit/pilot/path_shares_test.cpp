@@ -74,8 +74,9 @@ TEST_CASE("second moments of a path are those of all strategies, whichever found
                 // f over the density of all strategies of the pilot together.
                 const double mean =
                     3.0 * static_cast<double>(shares[static_cast<std::size_t>(found)]);
-                double camera = 0.0;
+                double own = 0.0;
                 double splats = 0.0;
+                double connections = 0.0;
                 for (int s = 0; s <= vertices; ++s) {
                     const double taken = ratio(candidate, s) *
                                          static_cast<double>(shares[static_cast<std::size_t>(s)]);
@@ -83,11 +84,13 @@ TEST_CASE("second moments of a path are those of all strategies, whichever found
                         continue;
                     }
                     const double weight = weight_of(candidate, s, heuristic);
-                    (vertices - s <= 1 ? splats : camera) += mean * mean * weight * weight / taken;
+                    double& moment = s <= 1 ? own : vertices - s <= 1 ? splats : connections;
+                    moment += mean * mean * weight * weight / taken;
                 }
                 const auto moments =
                     PathShares(path_of(found), heuristic).second_moments(candidate);
-                CHECK(moments.camera == Approx(camera).epsilon(1e-5));
+                CHECK(moments.own == Approx(own).epsilon(1e-5));
+                CHECK(moments.connections == Approx(connections).epsilon(1e-5));
                 CHECK(moments.splats == Approx(splats).epsilon(1e-5));
             }
         }
@@ -104,9 +107,10 @@ TEST_CASE("a path that only light paths make counts against having none", "[pilo
                                 .weight = 1.0f,
                                 .shares = only_splats};
     const PathShares found(path, Heuristic::power);
-    CHECK(std::isinf(found.second_moments({.light_paths = 0.0, .connections = 0.0}).camera));
+    CHECK(std::isinf(found.second_moments({.light_paths = 0.0, .connections = 0.0}).own));
     const auto few = found.second_moments({.light_paths = 0.5, .connections = 0.25});
-    CHECK(few.camera == 0.0);
+    CHECK(few.own == 0.0);
+    CHECK(few.connections == 0.0);
     // A quarter of the pilot's light paths: four times the second moment.
     CHECK(few.splats == Approx(4.0));
     CHECK(found.camera_mean() == 0.0);

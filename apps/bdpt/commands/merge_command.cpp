@@ -2,6 +2,7 @@
 
 #include <bdpt/error.h>
 #include <bdpt/io/part_file.h>
+#include <bdpt/noise.h>
 #include <bdpt/part/render_part.h>
 #include <bdpt/version.h>
 #include <fmt/core.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -21,6 +23,7 @@
 #include "report/image_files.h"
 #include "report/part_collection.h"
 #include "report/part_command.h"
+#include "report/stats_file.h"
 #include "terminal/console.h"
 #include "terminal/interrupt.h"
 
@@ -71,6 +74,7 @@ std::string settings_of(const std::string& text, std::int64_t samples)
     }
     settings["spp"] = samples;
     settings.erase("time_limit_seconds");
+    settings.erase("noise_goal");
     return settings.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
@@ -101,6 +105,34 @@ void write_outputs(const MergeArguments& arguments, const RenderPart& part, io::
         {.exr = {arguments.channel_type, std::move(notes.metadata), arguments.storage, placement},
          .layers = part.aovs.develop(part.film),
          .exposure = arguments.exposure});
+}
+
+/// The noise of the whole, and which samples it lacks for what was asked for, if anything was.
+ordered_json judge_noise(const MergeArguments& arguments, const RenderPart& sum,
+                         const PartInfo& part, Console& console)
+{
+    const double noise = noise_of(sum.film);
+    ordered_json fields{{"noise", noise_json(noise)}};
+    if (!arguments.noise) {
+        return fields;
+    }
+    if (noise <= *arguments.noise) {
+        console.note(fmt::format("the noise is {}: not above {}", noise_text(noise),
+                                 noise_text(*arguments.noise)));
+        fields["missing_for_noise"] = "";
+        return fields;
+    }
+    const std::int64_t samples = samples_for_noise(noise, sum.samples.count(), *arguments.noise);
+    const SampleSet more = sum.samples.missing(SampleSet({.begin = 0, .end = samples}));
+    std::string text = fmt::format("the noise is {}: for {} the samples {} are missing",
+                                   noise_text(noise), noise_text(*arguments.noise), more.text());
+    for (const std::string& command :
+         commands_for(part.notes.command, more, part.file.parent_path())) {
+        text += "; to render them: " + command;
+    }
+    console.note(text);
+    fields["missing_for_noise"] = more.text();
+    return fields;
 }
 
 }  // namespace
@@ -144,10 +176,12 @@ int run_merge(const MergeArguments& arguments)
                                  output.string(), sum.samples.count(), parts.size(),
                                  sum.cpu_seconds));
     }
-    console.event("done", {{"samples", sum.samples.count()},
-                           {"missing", missing.text()},
-                           {"cpu_seconds", sum.cpu_seconds},
-                           {"outputs", std::move(outputs)}});
+    ordered_json fields{{"samples", sum.samples.count()},
+                        {"missing", missing.text()},
+                        {"cpu_seconds", sum.cpu_seconds},
+                        {"outputs", std::move(outputs)}};
+    fields.update(judge_noise(arguments, sum, parts.front(), console));
+    console.event("done", fields);
     return 0;
 }
 

@@ -3,11 +3,14 @@
 #include <bdpt/error.h>
 #include <bdpt/eval/bench/option_names.h>
 #include <bdpt/io/tone_map.h>
+#include <bdpt/noise.h>
 #include <bdpt/render.h>
 #include <bdpt/version.h>
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <exception>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -55,6 +58,21 @@ void announce(Console& console, const RenderArguments& arguments, const Prepared
                              stage.camera.name));
 }
 
+/// `goal` counted from what there was `before` [samples per pixel], as far as it can be told.
+Goal goal_from_now(Goal goal, const Progress& progress, std::int64_t before)
+{
+    if (goal.samples) {
+        goal.samples = progress.samples_total;  // fewer when the render goes on
+    }
+    if (goal.noise && progress.noise) {
+        const std::int64_t needed =
+            samples_for_noise(*progress.noise, progress.noise_samples, *goal.noise) - before;
+        goal.samples =
+            std::min(goal.samples.value_or(needed), std::max(needed, progress.samples_done));
+    }
+    return goal;
+}
+
 PartResult render_stage(const RenderArguments& arguments, const PreparedScene& stage,
                         const io::PartNotes& notes, Console& console, Interrupt& interrupt,
                         std::optional<PartKeeper>& keeper)
@@ -65,13 +83,7 @@ PartResult render_stage(const RenderArguments& arguments, const PreparedScene& s
     control.stop = interrupt.stop_token();
     control.time_limit = arguments.goal.seconds;
     control.profiling = arguments.profiling;
-    control.on_progress = [&](const Progress& progress) {
-        Goal goal = arguments.goal;
-        if (goal.samples) {
-            goal.samples = progress.samples_total;  // fewer when the render goes on
-        }
-        console.progress(progress, goal);
-    };
+    control.noise_goal = arguments.goal.noise.value_or(0.0);
     if (keeper) {
         part = keeper->start(identity(stage.scene, stage.camera, options), notes);
         control.on_part = [&](const RenderPart& now) {
@@ -81,6 +93,9 @@ PartResult render_stage(const RenderArguments& arguments, const PreparedScene& s
             }
         };
     }
+    control.on_progress = [&, before = part.samples.count()](const Progress& progress) {
+        console.progress(progress, goal_from_now(arguments.goal, progress, before));
+    };
     PartResult result = render_part(stage.scene, stage.camera, options, std::move(part), control);
     console.end_progress();
     return result;
@@ -122,7 +137,9 @@ io::ImageMetadata metadata_of(const RenderArguments& arguments, const PreparedSc
 io::PartNotes part_notes(const RenderArguments& arguments, io::ImageMetadata metadata,
                          const std::vector<std::string>& words)
 {
-    return {.goal = arguments.goal.samples ? SampleSet(arguments.samples) : SampleSet(),
+    // Who stops at a level of noise misses nothing then.
+    const bool known = arguments.goal.samples && !arguments.goal.noise;
+    return {.goal = known ? SampleSet(arguments.samples) : SampleSet(),
             .metadata = std::move(metadata),
             .command = render_words(words)};
 }
@@ -189,6 +206,15 @@ void report_done(Console& console, const RenderArguments& arguments, const Rende
     ordered_json fields{{"samples", result.film.sample_count()},
                         {"seconds", result.seconds},
                         {"outputs", std::move(outputs)}};
+    const double noise = noise_of(result.film);
+    fields["noise"] = noise_json(noise);
+    if (const std::optional<double> goal = arguments.goal.noise; goal && noise > *goal) {
+        const std::int64_t samples = samples_for_noise(noise, result.film.sample_count(), *goal);
+        console.note(
+            fmt::format("the noise is {}, more than {} (--noise): about {} samples per "
+                        "pixel would do",
+                        noise_text(noise), noise_text(*goal), samples));
+    }
     fields["exposure"] = images.exposure ? ordered_json(*images.exposure) : ordered_json();
     fields["stopped_by"] = signal ? ordered_json(signal_name(*signal)) : ordered_json();
     console.event("done", fields);

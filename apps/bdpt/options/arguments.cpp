@@ -94,6 +94,15 @@ std::optional<std::uint64_t> parse_bytes(std::string_view text)
     return static_cast<std::uint64_t>(*count * unit);
 }
 
+std::optional<double> parse_share(std::string_view text)
+{
+    const bool percent = text.ends_with('%');
+    text.remove_suffix(percent ? 1 : 0);
+    const auto number = parse_number<double>(text);
+    const double share = number ? *number / (percent ? 100.0 : 1.0) : 0.0;
+    return share > 0.0 && share <= 1.0 ? std::optional(share) : std::nullopt;
+}
+
 std::optional<Vec3> parse_vec3(std::string_view text)
 {
     Vec3 result(0.0f);

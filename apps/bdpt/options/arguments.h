@@ -27,6 +27,9 @@ struct Size {
 /// "1500000", "800K", "500M" or "2.5G", as bytes, by powers of 1024; at least 1 and below 2^63.
 [[nodiscard]] std::optional<std::uint64_t> parse_bytes(std::string_view text);
 
+/// "2%" or "0.02"; above 0 and at most 1.
+[[nodiscard]] std::optional<double> parse_share(std::string_view text);
+
 /// "x,y,z", all finite.
 [[nodiscard]] std::optional<Vec3> parse_vec3(std::string_view text);
 

@@ -152,6 +152,12 @@ void add_merge_options(CLI::App& command, MergeWords& words)
         ->type_name("N")
         ->group(group);
     command
+        .add_option("--noise", words.noise,
+                    "Say how many more samples would bring the noise down to this, like 2%, and "
+                    "what renders them")
+        ->type_name("N%")
+        ->group(group);
+    command
         .add_option("--exposure", words.exposure,
                     "Exposure of .png: pixels times 2^EV. Default: automatic")
         ->type_name("EV")
@@ -182,6 +188,7 @@ MergeArguments understand(const MergeWords& words)
     result.parts.assign(words.parts.begin(), words.parts.end());
     result.outputs.assign(words.outputs.begin(), words.outputs.end());
     result.samples = words.samples;
+    result.noise = to_noise(words.noise);
     result.incomplete = words.partial ? Incomplete::write : Incomplete::refuse;
     result.exposure = to_exposure(words.exposure);
     result.channel_type =

@@ -55,6 +55,7 @@ struct MergeWords {
     std::optional<std::string> plan;
     std::optional<std::int64_t> samples;
     std::string wait;  // "" not at all, or a time
+    std::optional<std::string> noise;
     bool partial = false;
     std::optional<double> exposure;  // [EV]
     bool half = false;
@@ -73,6 +74,7 @@ struct MergeArguments {
     std::optional<std::filesystem::path> plan;  ///< whose parts they are
     std::optional<double> wait;                 ///< [s] for parts to come; may be infinite
     std::optional<std::int64_t> samples;        ///< per pixel, that the render was to have
+    std::optional<double> noise;                ///< as noise_of(), that it was to have
     Incomplete incomplete = Incomplete::refuse;
     std::optional<float> exposure;  ///< [EV]
     io::ExrChannelType channel_type = io::ExrChannelType::single_float;

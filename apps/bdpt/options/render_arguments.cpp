@@ -54,13 +54,18 @@ Goal to_goal(const RenderWords& words)
         }
         goal.seconds = *seconds;
     }
+    goal.noise = to_noise(words.noise);
     if (const std::optional<SampleRange> range = sample_range(words.part)) {
         if (words.samples) {
             reject("--samples", *words.part.samples, "no --spp beside it");
         }
+        if (words.noise) {
+            reject("--noise", *words.noise, "no --samples beside it: a part does not decide");
+        }
         goal.samples = range->end - range->begin;
     } else if (words.samples || !words.time) {
-        goal.samples = words.samples.value_or(SampleRange{}.end);
+        constexpr std::int64_t enough = 65536;  // where noise never gets low
+        goal.samples = words.samples.value_or(words.noise ? enough : SampleRange{}.end);
     }
     return goal;
 }
@@ -121,9 +126,17 @@ void add_how(CLI::App& command, RenderWords& words)
     constexpr std::int64_t most_samples = std::int64_t{1} << 31;
     command
         .add_option("--spp", words.samples,
-                    "Samples per pixel. Default: 64, or no limit with --time")
+                    "Samples per pixel. Default: 64; 65536 with --noise; no limit with --time")
         ->check(whole_number(1, most_samples))
         ->type_name("N")
+        ->group(group);
+    command
+        .add_option("--noise", words.noise,
+                    "Stop when the noise is that low, like 2%: the relative standard error that 95 "
+                    "% of all tiles of 16 x 16 pixels are not above. Looked at after 16, 24, 32, "
+                    "48, 64, ... samples per pixel. Of --spp, --time and this what comes first "
+                    "counts")
+        ->type_name("N%")
         ->group(group);
     command
         .add_option(
@@ -211,6 +224,18 @@ std::optional<float> to_exposure(const std::optional<double>& word)
         reject("--exposure", fmt::format("{}", *word), "EV from -100 to 100");
     }
     return word ? std::optional(static_cast<float>(*word)) : std::nullopt;
+}
+
+std::optional<double> to_noise(const std::optional<std::string>& word)
+{
+    if (!word) {
+        return std::nullopt;
+    }
+    const std::optional<double> noise = parse_share(*word);
+    if (!noise) {
+        reject("--noise", *word, "a relative error above 0, like 2% or 0.02");
+    }
+    return noise;
 }
 
 void add_view_options(CLI::App& command, RenderWords& words)

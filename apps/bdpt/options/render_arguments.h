@@ -35,6 +35,7 @@ struct RenderWords {
     std::vector<std::string> outputs;
     std::optional<std::int64_t> samples;
     std::optional<std::string> time;
+    std::optional<std::string> noise;
     std::optional<std::string> size;
     TransportWords transport;
     std::string sampler = "sobol";
@@ -104,6 +105,9 @@ void add_view_options(CLI::App& command, RenderWords& words);
 
 /// The exposure [EV] of --exposure. Throws `OptionError`.
 [[nodiscard]] std::optional<float> to_exposure(const std::optional<double>& word);
+
+/// The noise of --noise. Throws `OptionError`.
+[[nodiscard]] std::optional<double> to_noise(const std::optional<std::string>& word);
 
 /// --seed and --threads.
 void add_seed_and_threads(CLI::App& command, RenderWords& words, const char* group);

@@ -87,6 +87,9 @@ ordered_json settings_of(const RenderArguments& arguments, const PreparedScene& 
     if (arguments.goal.samples) {
         settings["spp"] = *arguments.goal.samples;
     }
+    if (arguments.goal.noise) {
+        settings["noise_goal"] = *arguments.goal.noise;
+    }
     if (std::isfinite(arguments.goal.seconds)) {
         settings["time_limit_seconds"] = arguments.goal.seconds;
     }

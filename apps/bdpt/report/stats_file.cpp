@@ -2,8 +2,10 @@
 
 #include <bdpt/error.h>
 #include <bdpt/io/output_file.h>
+#include <bdpt/noise.h>
 #include <fmt/core.h>
 
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -52,6 +54,11 @@ ordered_json clamp_json(const Film& film)
 }
 
 }  // namespace
+
+ordered_json noise_json(double noise)
+{
+    return std::isfinite(noise) ? ordered_json(noise) : ordered_json();
+}
 
 void check_stats_file(const fs::path& file, std::span<const fs::path> others)
 {
@@ -109,6 +116,7 @@ ordered_json stats_json(const RenderResult& result, const TimeSplit& time)
                       {"rays", rays_json(stats.rays, time.render)},
                       {"defects", defects_json(result.film.defects())},
                       {"clamp", clamp_json(result.film)}};
+    json["noise"] = noise_json(noise_of(result.film));
     if (result.profile) {
         json["profile"] = profile_json(*result.profile);
     }

@@ -28,6 +28,9 @@ void check_stats_file(const std::filesystem::path& file,
 /// The same in a line for people.
 [[nodiscard]] std::string profile_text(const TimeProfile& profile);
 
+/// noise_of() a film; null when it is unknown.
+[[nodiscard]] nlohmann::ordered_json noise_json(double noise);
+
 /// The numbers of a render, for programs.
 [[nodiscard]] nlohmann::ordered_json stats_json(const RenderResult& result, const TimeSplit& time);
 

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -56,6 +57,22 @@ std::string samples_text(const Progress& progress, const Goal& goal)
                         : fmt::format("{} spp", progress.samples_done);
 }
 
+double samples_a_second(const Progress& progress)
+{
+    return progress.seconds > 0.0 ? static_cast<double>(progress.samples_done) / progress.seconds
+                                  : 0.0;
+}
+
+/// "3.2 spp/s", and the noise if it is known.
+std::string speed_text(const Progress& progress)
+{
+    std::string text = fmt::format("{:.3g} spp/s", samples_a_second(progress));
+    if (progress.noise && std::isfinite(*progress.noise)) {
+        text += "  noise " + noise_text(*progress.noise);
+    }
+    return text;
+}
+
 std::string bar(double fraction)
 {
     constexpr int width = 24;
@@ -67,6 +84,11 @@ std::string bar(double fraction)
 }
 
 }  // namespace
+
+std::string noise_text(double noise)
+{
+    return std::isfinite(noise) ? fmt::format("{:.2g} %", 100.0 * noise) : "unknown";
+}
 
 std::string label_text(const ImageLabel& label)
 {
@@ -172,14 +194,19 @@ void Console::progress(const Progress& progress, const Goal& goal)
     if (format_ == Format::json) {
         ordered_json fields{{"samples", progress.samples_done}};
         fields["samples_total"] = goal.samples ? ordered_json(*goal.samples) : ordered_json();
-        fields.update(
-            {{"fraction", fraction}, {"seconds", progress.seconds}, {"eta_seconds", *left}});
+        fields.update({{"fraction", fraction},
+                       {"seconds", progress.seconds},
+                       {"eta_seconds", *left},
+                       {"samples_per_second", samples_a_second(progress)}});
+        if (progress.noise && std::isfinite(*progress.noise)) {
+            fields.update({{"noise", *progress.noise}, {"noise_samples", progress.noise_samples}});
+        }
         put_event("progress", fields);
         return;
     }
-    draw_progress(fraction, fmt::format("{:3.0f}%  {}  {}  ETA {}", 100.0 * fraction,
+    draw_progress(fraction, fmt::format("{:3.0f}%  {}  {}  ETA {}  {}", 100.0 * fraction,
                                         samples_text(progress, goal), clock_time(progress.seconds),
-                                        clock_time(*left)));
+                                        clock_time(*left), speed_text(progress)));
 }
 
 void Console::task(const TaskProgress& progress)

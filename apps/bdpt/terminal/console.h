@@ -27,6 +27,7 @@ enum class Format : std::uint8_t {
 struct Goal {
     std::optional<std::int64_t> samples;  ///< per pixel
     double seconds = std::numeric_limits<double>::infinity();
+    std::optional<double> noise{};  ///< as noise_of()
 };
 
 /// How far a task of many parts is.
@@ -47,6 +48,9 @@ struct ImageLabel {
 
 /// "frame 12 (3 of 24)", "frame 12, camera front (7 of 48)"; empty when there is one image only.
 [[nodiscard]] std::string label_text(const ImageLabel& label);
+
+/// "2.3 %", or "unknown" of an infinite one.
+[[nodiscard]] std::string noise_text(double noise);
 
 /// Seconds that are left until `goal`, judged by `progress`; none when nothing is done yet.
 [[nodiscard]] std::optional<double> time_left(const Progress& progress, const Goal& goal);

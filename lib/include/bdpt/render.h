@@ -24,6 +24,9 @@ struct Progress {
     std::int64_t samples_done = 0;   ///< per pixel
     std::int64_t samples_total = 0;  ///< per pixel
     double seconds = 0.0;            ///< [s] since render() was called
+    /// noise_of() the film when it was looked at last, with `noise_samples` samples a pixel.
+    std::optional<double> noise{};
+    std::int64_t noise_samples = 0;
 };
 
 /// Is it measured where the time of samples goes?
@@ -49,6 +52,11 @@ struct RenderControl {
     Profiling profiling = Profiling::off;
     /// No pass starts that would probably end after this [s].
     double time_limit = std::numeric_limits<double>::infinity();
+    /// The render ends when noise_of() its film is not above this; 0: not for that. It looks when
+    /// it has the first 16, 24, 32, 48, ... samples of those asked for (next_noise_look), and not
+    /// in between, so that threads, stops and parts change nothing. What ends then is a little too
+    /// dark or too bright on average: by far less than the noise, as all tiles decide together.
+    double noise_goal = 0.0;
 };
 
 /// What render() gives back.
@@ -72,11 +80,11 @@ struct RenderResult {
 [[nodiscard]] BDPT_EXPORT RenderOptions chosen_options(const Scene& scene, const CameraDesc& camera,
                                                        const RenderOptions& options);
 
-/// Blocks until all samples are done, `control.stop` is requested or the time is up; at least one
-/// pass is always done. The result depends on scene, camera and options only, to the bit: not on
-/// threads, tiles or time. May be called from several threads at once, for the same scene too.
-/// Throws `Error`: usage for options out of range and for images of strategies that would take more
-/// than `strategy_memory`, invalid_input for a camera that is not usable.
+/// Blocks until all samples are done, the noise is low enough, `control.stop` is requested or the
+/// time is up; at least one pass is always done. The result depends on scene, camera and options
+/// only, to the bit: not on threads, tiles or time. May be called from several threads at once, for
+/// the same scene too. Throws `Error`: usage for options out of range and for images of strategies
+/// that would take more than `strategy_memory`, invalid_input for a camera that is not usable.
 [[nodiscard]] BDPT_EXPORT RenderResult render(const Scene& scene, const CameraDesc& camera,
                                               const RenderOptions& options,
                                               const RenderControl& control = {});
@@ -90,10 +98,11 @@ struct PartResult {
 };
 
 /// Goes on where `so_far` ends, or begins if that has no samples: renders those samples of
-/// `options` that it lacks, into its own films. If it lacks some, at least one pass is done. Parts
-/// of a render that are merged have the bits of one render() of all their samples, however they
-/// were split. `control` is told of the samples of this call. Throws what render() does, and
-/// `Error` (invalid_input) when `so_far` is of another render, saying in what it differs.
+/// `options` that it lacks, into its own films. If it lacks some, and its noise is above the goal
+/// if there is one, at least one pass is done. Parts of a render that are merged have the bits of
+/// one render() of all their samples, however they were split. `control` is told of the samples of
+/// this call. Throws what render() does, and `Error` (invalid_input) when `so_far` is of another
+/// render, saying in what it differs.
 [[nodiscard]] BDPT_EXPORT PartResult render_part(const Scene& scene, const CameraDesc& camera,
                                                  const RenderOptions& options, RenderPart so_far,
                                                  const RenderControl& control = {});

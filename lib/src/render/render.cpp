@@ -9,6 +9,7 @@
 #include "profile/time_recorder.h"
 #include "render/aov_pass.h"
 #include "render/check_options.h"
+#include "render/noise_watch.h"
 #include "render/open_camera.h"
 #include "render/strategy_images.h"
 #include "render/threads.h"
@@ -226,19 +227,26 @@ PartResult render_part(const Scene& scene, const CameraDesc& camera_desc,
     const double cpu_before = part.cpu_seconds;
     std::int64_t done = 0;
     PassSize pass_size(*integrator);
-    while (done < total) {
-        const SampleRange pass = next_pass(part.samples, wanted, pass_size.samples());
+    NoiseWatch noise(control, options.sampling.samples);
+    threads.execute([&] { noise.look(part); });
+    while (done < total && !noise.reached()) {
+        const SampleRange pass =
+            next_pass(part.samples, wanted, noise.at_most(pass_size.samples(), part));
         const double before = seconds_since(start);
         threads.execute([&] {
             render_pass({*integrator, aov_pass, control, times ? &*times : nullptr}, options, pass,
                         part);
+            noise.look(part);
         });
         done += pass.end - pass.begin;
         result.seconds = seconds_since(start);
         part.cpu_seconds = cpu_before + cpu_seconds() - cpu_start;
         if (control.on_progress) {
-            control.on_progress(
-                {.samples_done = done, .samples_total = total, .seconds = result.seconds});
+            control.on_progress({.samples_done = done,
+                                 .samples_total = total,
+                                 .seconds = result.seconds,
+                                 .noise = noise.noise(),
+                                 .noise_samples = noise.samples()});
         }
         if (control.on_part) {
             control.on_part(part);

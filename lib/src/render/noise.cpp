@@ -1,0 +1,123 @@
+#include <bdpt/noise.h>
+
+#include "math/rgb.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace bdpt {
+namespace {
+
+constexpr int tile_side = 16;            // [pixels], about
+constexpr double share_of_tiles = 0.95;  // that are not above the noise
+constexpr double dark = 0.01;            // of the image's mean luminance
+constexpr std::int64_t first_look = 16;
+constexpr std::int64_t most_samples = std::int64_t{1} << 31;
+
+/// Where the tiles of `length` pixels begin, and the end: none is much smaller than the others.
+std::vector<int> borders(int length)
+{
+    const int tiles = std::max(1, (length + tile_side / 2) / tile_side);
+    std::vector<int> result;
+    for (std::int64_t i = 0; i <= tiles; ++i) {
+        result.push_back(static_cast<int>(i * length / tiles));
+    }
+    return result;
+}
+
+struct Tile {
+    double luminance = 0.0;  // sum over its pixels
+    double variance = 0.0;   // of the mean of both halves; sum over its pixels
+    double pixels = 0.0;
+};
+
+/// The tiles between two borders of rows.
+void measure_row_of_tiles(const Image& even, const Image& odd, int top, int bottom,
+                          const std::vector<int>& columns, Tile* tiles)
+{
+    for (int y = top; y < bottom; ++y) {
+        for (std::size_t i = 0; i + 1 < columns.size(); ++i) {
+            for (int x = columns[i]; x < columns[i + 1]; ++x) {
+                const auto a = static_cast<double>(luminance(even.at(x, y)));
+                const auto b = static_cast<double>(luminance(odd.at(x, y)));
+                tiles[i].luminance += 0.5 * (a + b);
+                tiles[i].variance += 0.25 * (a - b) * (a - b);
+                tiles[i].pixels += 1.0;
+            }
+        }
+    }
+}
+
+}  // namespace
+
+double noise_of(const Film& film)
+{
+    constexpr double unknown = std::numeric_limits<double>::infinity();
+    if (film.sample_count() < 2) {
+        return unknown;
+    }
+    const Image even = film.develop_half(0);
+    const Image odd = film.develop_half(1);
+    const std::vector<int> rows = borders(film.height());
+    const std::vector<int> columns = borders(film.width());
+    const std::size_t across = columns.size() - 1;
+    std::vector<Tile> tiles((rows.size() - 1) * across);
+    tbb::parallel_for(std::size_t{0}, rows.size() - 1, [&](std::size_t i) {
+        measure_row_of_tiles(even, odd, rows[i], rows[i + 1], columns, &tiles[i * across]);
+    });
+    double mean = 0.0;
+    for (const Tile& tile : tiles) {
+        mean += tile.luminance / (static_cast<double>(film.width()) * film.height());
+    }
+    if (!(mean > 0.0)) {
+        return unknown;
+    }
+    std::vector<double> errors;
+    for (const Tile& tile : tiles) {
+        if (tile.variance > 0.0) {
+            const double error = std::sqrt(tile.variance / tile.pixels);
+            errors.push_back(error / std::max(tile.luminance / tile.pixels, dark * mean));
+        }
+    }
+    if (errors.empty()) {
+        return 0.0;
+    }
+    const auto rank =
+        static_cast<std::ptrdiff_t>(std::ceil(share_of_tiles * static_cast<double>(errors.size())));
+    const auto quantile = errors.begin() + (rank - 1);
+    std::nth_element(errors.begin(), quantile, errors.end());
+    return *quantile;
+}
+
+std::int64_t next_noise_look(std::int64_t samples)
+{
+    std::int64_t look = first_look;
+    while (look <= samples) {
+        // 2^k is followed by 3 * 2^(k - 1), and that by 2^(k + 1).
+        const bool power_of_two = (look & (look - 1)) == 0;
+        look += power_of_two ? look / 2 : look / 3;
+    }
+    return look;
+}
+
+bool is_noise_look(std::int64_t samples)
+{
+    return samples >= first_look && next_noise_look(samples - 1) == samples;
+}
+
+std::int64_t samples_for_noise(double noise, std::int64_t samples, double goal)
+{
+    const double ratio = noise / goal;
+    const double wanted = static_cast<double>(samples) * ratio * ratio;
+    if (!(wanted < static_cast<double>(most_samples))) {
+        return most_samples;
+    }
+    return next_noise_look(static_cast<std::int64_t>(std::ceil(wanted)) - 1);
+}
+
+}  // namespace bdpt

@@ -1,0 +1,117 @@
+#include <bdpt/noise.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "image_files.h"
+#include "options/arguments.h"
+#include "scene_files.h"
+#include "scratch_folder.h"
+#include "subprocess.h"
+
+namespace bdpt::test {
+namespace {
+
+using Words = std::vector<std::string>;
+
+Outcome render(const ScratchFolder& folder, const Words& more)
+{
+    Words words{"render",       write_cube(folder, "cube", {.cameras = two_cameras}).string(),
+                "--size",       "64x48",
+                "--integrator", "mis",
+                "--json"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run(words);
+}
+
+/// The last event.
+nlohmann::json done(const Outcome& outcome)
+{
+    CAPTURE(outcome.out, outcome.err);
+    REQUIRE(outcome.exit_code == 0);
+    const std::size_t line = outcome.out.rfind('\n', outcome.out.size() - 2) + 1;
+    return nlohmann::json::parse(outcome.out.substr(line));
+}
+
+TEST_CASE("a noise is a percentage or a fraction", "[noise]")
+{
+    CHECK(app::parse_share("2%") == 0.02);
+    CHECK(app::parse_share("0.02") == 0.02);
+    CHECK(app::parse_share("100%") == 1.0);
+    for (const char* word : {"", "%", "0", "0%", "-1%", "101%", "2", "2 %", "nan", "x%"}) {
+        CAPTURE(word);
+        CHECK_FALSE(app::parse_share(word));
+    }
+}
+
+TEST_CASE("option --noise ends a render at a level of noise", "[noise]")
+{
+    const ScratchFolder folder;
+    const std::string out = (folder / "out.exr").string();
+    const std::string stats_file = (folder / "stats.json").string();
+    const auto event = done(render(folder, {"--noise", "3%", "-o", out, "--stats", stats_file}));
+    const auto samples = event["samples"].get<std::int64_t>();
+    CHECK(event["noise"].get<double>() <= 0.03);
+    CHECK(is_noise_look(samples));
+    CHECK(samples < 65536);
+    const auto stats = nlohmann::json::parse(read_text(stats_file));
+    CHECK(stats["noise"] == event["noise"]);
+    CHECK(stats["settings"]["noise_goal"] == 0.03);
+    // The same, with other threads and from a part, in two runs.
+    const std::string part = (folder / "p.part.exr").string();
+    const std::string whole = std::to_string(samples);
+    done(render(folder, {"--spp", "19", "--part", part}));
+    const std::string again = (folder / "again.exr").string();
+    CHECK(done(render(folder, {"--noise", "3%", "--part", part, "-o", again, "--threads",
+                               "1"}))["samples"] == samples);
+    CHECK(read_exr(again).image.pixels == read_exr(out).image.pixels);
+    // It has what was asked for, and nothing is rendered.
+    const auto time = std::filesystem::last_write_time(part);
+    done(render(folder, {"--noise", "3%", "--part", part}));
+    CHECK(std::filesystem::last_write_time(part) == time);
+    // What comes first counts.
+    CHECK(done(render(folder, {"--noise", "3%", "--spp", "5", "-o", again}))["samples"] == 5);
+    CHECK(done(render(folder, {"--noise", "3%", "--spp", "100000", "-o", again}))["samples"] ==
+          samples);
+}
+
+TEST_CASE("merge tells which samples are missing for a level of noise", "[noise]")
+{
+    const ScratchFolder folder;
+    const std::string part = (folder / "p.part.exr").string();
+    const std::string out = (folder / "out.exr").string();
+    done(render(folder, {"--spp", "16", "--part", part}));
+    const auto event = done(run({"merge", part, "-o", out, "--noise", "0.1%", "--json"}));
+    const double noise = event["noise"].get<double>();
+    CHECK(noise > 0.001);
+    const std::int64_t needed = samples_for_noise(noise, 16, 0.001);
+    CHECK(event["missing_for_noise"] == "16:" + std::to_string(needed));
+    const Outcome told = run({"merge", part, "-o", out, "--noise", "0.1%"});
+    CHECK(told.err.find("--samples 16:" + std::to_string(needed) + " --part") != std::string::npos);
+    const auto enough = done(run({"merge", part, "-o", out, "--noise", "100%", "--json"}));
+    CHECK(enough["missing_for_noise"] == "");
+    CHECK(enough["noise"] == noise);
+}
+
+TEST_CASE("words about noise that make no sense are refused", "[noise]")
+{
+    const ScratchFolder folder;
+    const std::string out = (folder / "out.exr").string();
+    const auto refused = [&](const Words& words, const std::string& text) {
+        const Outcome outcome = render(folder, words);
+        CAPTURE(outcome.err);
+        CHECK(outcome.exit_code == 2);
+        CHECK(outcome.err.find(text) != std::string::npos);
+        CHECK_FALSE(std::filesystem::exists(out));
+    };
+    refused({"-o", out, "--noise", "2"}, "--noise \"2\"");
+    refused({"-o", out, "--noise", "-2%"}, "--noise \"-2%\"");
+    refused({"-o", out, "--noise", "2%", "--samples", "0:64"}, "--noise \"2%\"");
+}
+
+}  // namespace
+}  // namespace bdpt::test

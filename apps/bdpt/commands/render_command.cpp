@@ -1,5 +1,6 @@
 #include "commands/render_command.h"
 
+#include <bdpt/framing.h>
 #include <bdpt/io/image_cache.h>
 #include <fmt/core.h>
 
@@ -68,7 +69,7 @@ Viewpoint viewpoint_of(const PreparedScene& stage, const Viewpoint& first,
         const Bounds& bounds = stage.scene.bounds();
         const Vec3 center =
             orbit_center(result.camera, image.view.look_at, 0.5f * (bounds.min + bounds.max));
-        result.camera = orbited(std::move(result.camera), center, *view.turn);
+        result.camera = orbited(std::move(result.camera), center, static_cast<float>(*view.turn));
     }
     return result;
 }

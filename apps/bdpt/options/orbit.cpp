@@ -3,9 +3,7 @@
 #include <bdpt/error.h>
 #include <fmt/core.h>
 
-#include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/mat4x4.hpp>
 
 namespace bdpt::app {
 
@@ -24,25 +22,6 @@ Vec3 orbit_center(const CameraDesc& camera, const std::optional<Vec3>& look_at, 
                                 camera.name));
     }
     return eye + distance * forward;
-}
-
-CameraDesc orbited(CameraDesc camera, Vec3 center, double angle)
-{
-    if (angle == 0.0) {
-        return camera;
-    }
-    const glm::dvec3 c(center);
-    const double cosine = std::cos(angle);
-    const double sine = std::sin(angle);
-    glm::dmat4 turn(1.0);
-    turn[0] = {cosine, 0.0, -sine, 0.0};
-    turn[2] = {sine, 0.0, cosine, 0.0};
-    turn[3] = glm::dvec4(c - glm::dvec3(turn * glm::dvec4(c, 0.0)), 1.0);
-    camera.world_from_camera = Mat4(turn * glm::dmat4(camera.world_from_camera));
-    for (Mat4& pose : camera.motion) {
-        pose = Mat4(turn * glm::dmat4(pose));
-    }
-    return camera;
 }
 
 }  // namespace bdpt::app

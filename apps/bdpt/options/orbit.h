@@ -12,8 +12,4 @@ namespace bdpt::app {
 [[nodiscard]] Vec3 orbit_center(const CameraDesc& camera, const std::optional<Vec3>& look_at,
                                 Vec3 middle);
 
-/// `camera` after it went `angle` [rad] around the vertical axis through `center`,
-/// counter-clockwise as seen from above, with all its motion.
-[[nodiscard]] CameraDesc orbited(CameraDesc camera, Vec3 center, double angle);
-
 }  // namespace bdpt::app

@@ -87,4 +87,24 @@ TEST_CASE("an empty scene still has a view", "[framing]")
     CHECK(glm::length(forward(view)) == Approx(1.0f));
 }
 
+TEST_CASE("a camera that goes around stays level, at its distance, and moves as it did",
+          "[framing]")
+{
+    CameraDesc camera;
+    camera.world_from_camera[3] = {1.0f, 2.0f, 5.0f, 1.0f};
+    camera.motion = {camera.world_from_camera};
+    camera.motion[0][3] = {1.0f, 2.0f, 6.0f, 1.0f};
+    const Vec3 center(1.0f, 0.5f, 0.0f);
+    const auto near = [](const Vec4& a, const Vec4& b) { return glm::distance(a, b) < 1e-5f; };
+    constexpr float quarter = 1.5707964f;
+    const CameraDesc side = orbited(camera, center, quarter);
+    CHECK(near(side.world_from_camera[3], {6.0f, 2.0f, 0.0f, 1.0f}));
+    CHECK(near(side.world_from_camera[2], {1.0f, 0.0f, 0.0f, 0.0f}));  // it looks to -x
+    CHECK(near(side.world_from_camera[1], {0.0f, 1.0f, 0.0f, 0.0f}));
+    CHECK(near(side.motion.at(0)[3], {7.0f, 2.0f, 0.0f, 1.0f}));
+    CHECK(orbited(camera, center, 0.0f).world_from_camera == camera.world_from_camera);
+    const CameraDesc back = orbited(orbited(side, center, quarter), center, 2.0f * quarter);
+    CHECK(near(back.world_from_camera[3], camera.world_from_camera[3]));
+}
+
 }  // namespace bdpt

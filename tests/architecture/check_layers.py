@@ -21,7 +21,7 @@ MAX_LINES = 400
 AREAS = ("lib", "apps", "tests", "benchmarks")
 
 # Area of the tree (the longest prefix counts) -> third-party and system headers that it may include.
-POSIX = r"(sys/|dlfcn\.h|fcntl\.h|signal\.h|unistd\.h|termios\.h)"
+POSIX = r"(sys/|dlfcn\.h|fcntl\.h|netdb\.h|netinet/in\.h|poll\.h|signal\.h|unistd\.h|termios\.h)"
 INTRINSICS = r"[a-z]mmintrin\.h"
 FILE_LIBRARIES = r"(OpenEXR/|Imath/|Imf|Imath|Iex|tiny_gltf\.h|nlohmann/|fmt/|png\.h|zlib\.h)"
 ALLOWED = {

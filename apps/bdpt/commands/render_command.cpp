@@ -16,6 +16,7 @@
 #include "commands/render_view.h"
 #include "options/orbit.h"
 #include "options/output_files.h"
+#include "report/display.h"
 #include "report/part_keeper.h"
 #include "report/render_files.h"
 #include "stage/render_preparation.h"
@@ -103,6 +104,10 @@ int run_render(const RenderArguments& typed, const std::vector<std::string>& wor
     for (const SequenceView& view : views) {
         static_cast<void>(check_files(arguments_of(asked, view)));
     }
+    std::optional<Display> display;
+    if (asked.display) {
+        display.emplace(*asked.display, console);
+    }
     std::optional<double> time = asked.scene.time;
     std::optional<Viewpoint> first;
     for (const SequenceView& view : views) {
@@ -132,7 +137,8 @@ int run_render(const RenderArguments& typed, const std::vector<std::string>& wor
         Viewpoint seen = viewpoint_of(*stage, *first, image);
         stage->camera = std::move(seen.camera);
         stage->size = seen.size;
-        render_view(image, *stage, keeper, {console, interrupt, words_of(words, view)});
+        render_view(image, *stage, keeper,
+                    {console, interrupt, display ? &*display : nullptr, words_of(words, view)});
         stage->load_seconds = 0.0;
         stage->build_seconds = 0.0;
     }

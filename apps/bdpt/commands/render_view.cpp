@@ -58,6 +58,14 @@ void announce(Console& console, const RenderArguments& arguments, const Prepared
                              stage.camera.name));
 }
 
+/// What the image is called in a viewer: its file, else that of its part.
+std::string name_in_viewer(const RenderArguments& arguments)
+{
+    const std::filesystem::path& file =
+        arguments.outputs.empty() ? arguments.part->file : arguments.outputs.front();
+    return one_line(file.filename().string());
+}
+
 /// `goal` counted from what there was `before` [samples per pixel], as far as it can be told.
 Goal goal_from_now(Goal goal, const Progress& progress, std::int64_t before)
 {
@@ -74,9 +82,10 @@ Goal goal_from_now(Goal goal, const Progress& progress, std::int64_t before)
 }
 
 PartResult render_stage(const RenderArguments& arguments, const PreparedScene& stage,
-                        const io::PartNotes& notes, Console& console, Interrupt& interrupt,
+                        const io::PartNotes& notes, const RenderSession& session,
                         std::optional<PartKeeper>& keeper)
 {
+    Interrupt& interrupt = session.interrupt;
     const RenderOptions& options = arguments.options;
     RenderPart part;
     RenderControl control;
@@ -86,18 +95,27 @@ PartResult render_stage(const RenderArguments& arguments, const PreparedScene& s
     control.noise_goal = arguments.goal.noise.value_or(0.0);
     if (keeper) {
         part = keeper->start(identity(stage.scene, stage.camera, options), notes);
-        control.on_part = [&](const RenderPart& now) {
-            const bool asked = interrupt.take_checkpoint_request();
-            if (!interrupt.signal()) {  // else it is written in a moment
-                keeper->after_pass(now, asked ? Checkpoint::now : Checkpoint::when_due);
-            }
-        };
     }
+    if (session.display != nullptr) {
+        session.display->begin_image(name_in_viewer(arguments));
+    }
+    control.on_part = [&](const RenderPart& now) {
+        if (keeper && !interrupt.signal()) {  // else it is written in a moment
+            const bool asked = interrupt.take_checkpoint_request();
+            keeper->after_pass(now, asked ? Checkpoint::now : Checkpoint::when_due);
+        }
+        if (session.display != nullptr) {
+            session.display->after_pass(now.film);
+        }
+    };
     control.on_progress = [&, before = part.samples.count()](const Progress& progress) {
-        console.progress(progress, goal_from_now(arguments.goal, progress, before));
+        session.console.progress(progress, goal_from_now(arguments.goal, progress, before));
     };
     PartResult result = render_part(stage.scene, stage.camera, options, std::move(part), control);
-    console.end_progress();
+    session.console.end_progress();
+    if (session.display != nullptr) {
+        session.display->finish(result.part.film);
+    }
     return result;
 }
 
@@ -257,7 +275,7 @@ void render_view(const RenderArguments& asked, const PreparedScene& stage,
     }
     const io::ImageMetadata metadata = metadata_of(arguments, stage, settings);
     PartResult done = render_stage(arguments, stage, part_notes(arguments, metadata, session.words),
-                                   console, interrupt, keeper);
+                                   session, keeper);
     const std::exception_ptr part_failure = finish_part(keeper, done.part);
     const double cpu_seconds = done.part.cpu_seconds;
     const std::string samples = done.part.samples.text();

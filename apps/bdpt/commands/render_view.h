@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "options/render_arguments.h"
+#include "report/display.h"
 #include "report/part_keeper.h"
 #include "stage/prepared_scene.h"
 #include "terminal/console.h"
@@ -16,6 +17,7 @@ namespace bdpt::app {
 struct RenderSession {
     Console& console;
     Interrupt& interrupt;
+    Display* display;                ///< null: nobody watches
     std::vector<std::string> words;  ///< of a command that renders this image
 };
 

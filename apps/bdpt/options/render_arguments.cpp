@@ -212,6 +212,12 @@ void add_process_options(CLI::App& command, RenderWords& words)
         ->group(group);
     add_strategy_options(command, words.strategies);
     add_part_options(command, words.part, group);
+    command
+        .add_option("--display", words.display,
+                    "Show the render while it runs in the image viewer tev, which listens there. "
+                    "Default port: 14158")
+        ->type_name("HOST[:PORT]")
+        ->group(group);
 }
 
 }  // namespace
@@ -349,6 +355,12 @@ RenderArguments understand(const RenderWords& words)
     result.stats = words.stats;
     result.profiling = words.profile ? Profiling::on : Profiling::off;
     result.strategies = strategy_files(words.strategies, result.options);
+    if (words.display) {
+        result.display = parse_address(*words.display);
+        if (!result.display) {
+            reject("--display", *words.display, "HOST or HOST:PORT, like localhost:14158");
+        }
+    }
     result.format = words.json ? Format::json : Format::text;
     result.verbosity = words.quiet ? Verbosity::quiet : Verbosity::normal;
     return result;

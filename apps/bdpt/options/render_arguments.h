@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "options/arguments.h"
+#include "options/display_arguments.h"
 #include "options/film_arguments.h"
 #include "options/lens_arguments.h"
 #include "options/part_arguments.h"
@@ -60,6 +61,7 @@ struct RenderWords {
     std::string seed = "0";
     bool half = false;
     bool single = false;
+    std::optional<std::string> display;
     bool quiet = false;
     bool json = false;
 };
@@ -89,6 +91,7 @@ struct RenderArguments {
     SampleRange samples;                          ///< of each pixel
     std::optional<Sequence> sequence;             ///< if there are several images
     std::optional<SequenceView> sequence_view{};  ///< which of them this is
+    std::optional<DisplayAddress> display;        ///< of the viewer that shows the render
     Format format = Format::text;
     Verbosity verbosity = Verbosity::normal;
 };

@@ -48,6 +48,15 @@ enum class SamplerKind : std::uint8_t {
     independent,  ///< every number by itself
 };
 
+/// What camera rays see that leave the scene without meeting a surface.
+enum class Background : std::uint8_t {
+    environment,
+    /// Nothing: paths of one edge from the lens to an environment are left out, whatever finds
+    /// them. It lights all the same, and is seen in mirrors and through glass. With `Aov::alpha`
+    /// the image is premultiplied by alpha, for composing over something else.
+    none,
+};
+
 /// How next-event estimation samples the light of an environment.
 enum class EnvironmentSampling : std::uint8_t {
     plain,  ///< by luminance
@@ -111,6 +120,7 @@ struct TransportOptions {
     /// throughput asks for, however small; 1: no roulette.
     float rr_survival = 0.0f;
     Heuristic heuristic = Heuristic::power;
+    Background background = Background::environment;
 };
 
 /// What only bdpt, lt and vcm look at: their subpaths and strategies; `automatic` chooses

@@ -46,7 +46,8 @@ inline constexpr auto fields<TransportOptions> =
                Field{"shortest path", &TransportOptions::min_depth},
                Field{"start of Russian roulette", &TransportOptions::rr_start},
                Field{"least survival of Russian roulette", &TransportOptions::rr_survival},
-               Field{"heuristic", &TransportOptions::heuristic});
+               Field{"heuristic", &TransportOptions::heuristic},
+               Field{"background", &TransportOptions::background});
 /// Fields of `BidirectionalOptions`, with names.
 template <>
 inline constexpr auto fields<BidirectionalOptions> = all_fields(

@@ -227,6 +227,8 @@ TEST_CASE("another scene, camera or option is refused by name", "[part]")
     option("option: crop (none, not 0,0,19,13)",
            [](RenderOptions& o) { o.film.crop = PixelRect{.x0 = 0, .y0 = 0, .x1 = 19, .y1 = 13}; });
     option("option: filter", [](RenderOptions& o) { o.film.filter.kind = FilterKind::tent; });
+    option("option: background",
+           [](RenderOptions& o) { o.transport.background = Background::none; });
     option("option: layers", [](RenderOptions& o) { o.film.aovs = {Aov::albedo}; });
     option("option: connections (none, not 3)",
            [](RenderOptions& o) { o.bidirectional.connections = 3.0; });

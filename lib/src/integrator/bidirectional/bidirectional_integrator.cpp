@@ -187,6 +187,12 @@ RenderStats BidirectionalIntegrator::do_part(std::int64_t chunk, SampleRange sam
     return scratch.stats;
 }
 
+bool BidirectionalIntegrator::is_background(const PathVertex& x0) const
+{
+    return options_.transport.background == Background::none && x0.kind == VertexKind::infinite &&
+           x0.light == world_.lights().environment();
+}
+
 void BidirectionalIntegrator::trace_light_path(SampleContext& sample, Scratch& scratch) const
 {
     sample.enter(Phase::walk);
@@ -206,7 +212,7 @@ void BidirectionalIntegrator::join_camera_path(SampleContext& sample, Scratch& s
 {
     for (int t = 2; t <= scratch.camera_path.size(); ++t) {
         const auto camera = scratch.camera_path.first(t);
-        if (strategies_.uses(0, t)) {
+        if (strategies_.uses(0, t) && !(t == 2 && is_background(camera.back()))) {
             if (const auto found = hit_light(sample, camera, *scratch.weigher)) {
                 scratch.sink.add(sample, {.s = 0, .t = t}, *found, strategies_.count(0, t));
                 sample.enter(Phase::connect);
@@ -237,7 +243,8 @@ void BidirectionalIntegrator::join_light_path(SampleContext& sample, Scratch& sc
     }
     for (const LensCrossing& crossing : path.crossings()) {
         const int s = crossing.light_vertices + 1;
-        if (s > options_.transport.max_depth + 1 || !strategies_.uses(s, 0)) {
+        if (s > options_.transport.max_depth + 1 || !strategies_.uses(s, 0) ||
+            (s == 2 && is_background(path.first(1).back()))) {
             continue;
         }
         if (const auto splat = hit_lens(sample, path, crossing, *scratch.weigher)) {

@@ -36,6 +36,8 @@ private:
     [[nodiscard]] Scratch make_scratch(const Films& films) const;
     void trace_light_path(SampleContext& sample, Scratch& scratch) const;
     void add_sample(int x, int y, std::int64_t index, PhaseClock* clock, Scratch& scratch) const;
+    /// Is a path of one edge to `x0` left out?
+    [[nodiscard]] bool is_background(const PathVertex& x0) const;
     /// s <= 1: what the camera path brings by itself.
     void join_camera_path(SampleContext& sample, Scratch& scratch) const;
     /// t <= 1: what the light path brings to any pixel.

@@ -85,7 +85,10 @@ void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, Contribution
         const SegmentKey segment = sample.segment(0, depth);
         const auto hit = world_.first_hit(ray.origin, ray.direction, segment);
         if (!hit) {
-            if (const auto id = world_.lights().environment()) {
+            const auto id = world_.lights().environment();
+            const bool visible =
+                depth > 1 || options_.transport.background == Background::environment;
+            if (id && visible) {
                 const PhaseScope scope(sample.clock, Phase::weigh);
                 const auto& light = std::get<EnvironmentLight>(world_.lights()[*id].model());
                 const Rgb open = medium_transmittance(ray.origin, {}, ray.direction,

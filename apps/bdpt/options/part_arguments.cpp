@@ -14,7 +14,7 @@
 namespace bdpt::app {
 namespace {
 
-constexpr const char* no_end = "forever";
+constexpr const char* no_end = "true";  // what the parser takes --wait without a time for
 
 constexpr const char* footer = R"(Examples:
   bdpt merge job/*.part.exr -o out.exr -o out.png
@@ -136,7 +136,7 @@ void add_merge_options(CLI::App& command, MergeWords& words)
         ->type_name("FILE")
         ->group("Parts");
     command
-        .add_flag("--wait{forever}", words.wait,
+        .add_flag("--wait", words.wait,
                   "Wait for parts that are not there or not complete, until there are all samples; "
                   "as --wait=90s, 30m or 2h no longer than that")
         ->group("Parts");

@@ -124,19 +124,9 @@ void add_how(CLI::App& command, RenderWords& words)
 {
     const auto group = "How to render";
     constexpr std::int64_t most_samples = std::int64_t{1} << 31;
-    command
-        .add_option("--spp", words.samples,
-                    "Samples per pixel. Default: 64; 65536 with --noise; no limit with --time")
+    command.add_option("--spp", words.samples, "Samples per pixel. Default: 64")
         ->check(whole_number(1, most_samples))
         ->type_name("N")
-        ->group(group);
-    command
-        .add_option("--noise", words.noise,
-                    "Stop when the noise is that low, like 2%: the relative standard error that 95 "
-                    "% of all tiles of 16 x 16 pixels are not above. Looked at after 16, 24, 32, "
-                    "48, 64, ... samples per pixel. Of --spp, --time and this what comes first "
-                    "counts")
-        ->type_name("N%")
         ->group(group);
     command
         .add_option(
@@ -167,8 +157,8 @@ void add_image_output(CLI::App& command, RenderWords& words)
     const auto group = "Output";
     command
         .add_option("-o,--output", words.outputs,
-                    "Required, but with --part: .exr (linear radiance) or .png (tone-mapped); may "
-                    "be repeated")
+                    "An image, .exr (linear radiance) or .png (tone-mapped); may be repeated. "
+                    "Required without --part")
         ->allow_extra_args(false)
         ->type_name("FILE")
         ->group(group);
@@ -197,8 +187,19 @@ void add_image_output(CLI::App& command, RenderWords& words)
 void add_process_options(CLI::App& command, RenderWords& words)
 {
     const auto group = "Output";
-    command.add_option("--time", words.time, "Time to render for, like 90s, 2m or 1.5h")
+    command
+        .add_option("--time", words.time,
+                    "Time to render for, like 90s, 2m or 1.5h; without --spp no other limit")
         ->type_name("TIME")
+        ->group("How to render");
+    command
+        .add_option(
+            "--noise", words.noise,
+            "Stop when the noise is that low, like 2%: the relative standard error that 95 "
+            "% of all tiles of 16 x 16 pixels are not above. Looked at after 16, 24, 32, "
+            "48, 64, ... samples per pixel. Of --spp (with this: 65536, if not given), --time "
+            "and this what comes first counts")
+        ->type_name("N%")
         ->group("How to render");
     command
         .add_option("--stats", words.stats,

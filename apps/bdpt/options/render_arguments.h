@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "options/arguments.h"
-#include "options/display_arguments.h"
+#include "options/viewer_address.h"
 #include "options/film_arguments.h"
 #include "options/lens_arguments.h"
 #include "options/part_arguments.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "options/display_arguments.h"
+#include "options/viewer_address.h"
 
 namespace bdpt::app {
 

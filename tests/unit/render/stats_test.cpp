@@ -63,7 +63,7 @@ TEST_CASE("roulette compares camera paths with what the first surface leaves", "
         const double rays =
             static_cast<double>(stats.rays.camera) / static_cast<double>(stats.paths.camera);
         INFO("integrator " << static_cast<int>(kind));
-        CHECK(rays == Catch::Approx(2.0 + a + a * a).epsilon(0.01));
+        CHECK(rays == Approx(2.0 + a + a * a).epsilon(0.01));
     }
 }
 

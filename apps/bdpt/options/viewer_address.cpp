@@ -1,4 +1,4 @@
-#include "options/display_arguments.h"
+#include "options/viewer_address.h"
 
 #include <algorithm>
 #include <string_view>

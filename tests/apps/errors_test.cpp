@@ -103,6 +103,18 @@ TEST_CASE("wrong usage gives exit code 2 and names the option")
     rejects({"--fov", "180"}, "--fov \"180\"");
     rejects({"--fov", "nan"}, "--fov");
     rejects({"--exposure", "nan"}, "--exposure");
+    rejects({"--tone-map", "aces"}, "--tone-map");
+    rejects({"--background", "red"}, "--background \"red\"");
+    rejects({"--background", "#12345"}, "--background \"#12345\"");
+    rejects({"--background", "#12345g"}, "--background");
+    rejects({"--background", "#1234567"}, "--background");
+    rejects({"--background", "# 12345"}, "--background");
+    rejects({"--background", "#-12345"}, "--background");
+    rejects({"--png-bits", "12"}, "--png-bits");
+    rejects({"--env-rotation", "nan"}, "--env-rotation");
+    rejects({"--env-rotation", "361"}, "--env-rotation \"361\"");
+    rejects({"--env-intensity", "-1"}, "--env-intensity \"-1\"");
+    rejects({"--env-intensity", "inf"}, "--env-intensity");
     rejects({"--look-at", "1,2"}, "--look-at \"1,2\"");
     rejects({"--from", "1,2,x"}, "--from \"1,2,x\"");
     rejects({"--from", "1,2,nan"}, "--from");

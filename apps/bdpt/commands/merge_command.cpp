@@ -65,25 +65,51 @@ std::string message_of_missing(const PartCollection& collection, const MergeArgu
     return collection.parts.empty() ? text : text + "; --partial writes what there is";
 }
 
-/// The settings that the parts have, with the number of samples of all.
-std::string settings_of(const std::string& text, std::int64_t samples)
+/// The settings that the parts have, with the number of samples of all and what is put behind.
+std::string settings_of(const std::string& text, std::int64_t samples,
+                        const std::optional<Backdrop>& backdrop)
 {
     ordered_json settings = ordered_json::parse(text, nullptr, false);
     if (!settings.is_object()) {
         return text;
     }
     settings["spp"] = samples;
+    if (backdrop) {
+        settings["background"] = backdrop_text(*backdrop);
+    }
     settings.erase("time_limit_seconds");
     settings.erase("noise_goal");
     return settings.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
-void write_outputs(const MergeArguments& arguments, const RenderPart& part, io::PartNotes notes)
+/// Parts without the environment behind them get the backdrop that was asked for when they were
+/// rendered, or another one now.
+DisplayArguments with_backdrop_of(const io::ImageMetadata& metadata, DisplayArguments display)
+{
+    const ordered_json settings = ordered_json::parse(metadata.settings, nullptr, false);
+    std::optional<Backdrop> own;
+    if (settings.is_object() && settings.contains("background") &&
+        settings["background"].is_string()) {
+        own = parse_backdrop(settings["background"].get<std::string>());
+    }
+    if (display.backdrop && !own) {
+        throw Error(ErrorCode::invalid_input,
+                    fmt::format("--background \"{}\": the parts show the environment; render them "
+                                "with --background, too",
+                                backdrop_text(*display.backdrop)));
+    }
+    display.backdrop = display.backdrop ? display.backdrop : own;
+    return display;
+}
+
+void write_outputs(const MergeArguments& arguments, const DisplayArguments& display,
+                   const RenderPart& part, io::PartNotes notes)
 {
     notes.metadata.samples_per_pixel = part.samples.count();
     notes.metadata.render_seconds = part.cpu_seconds;
     notes.metadata.created = std::chrono::system_clock::now();
-    notes.metadata.settings = settings_of(notes.metadata.settings, part.samples.count());
+    notes.metadata.settings =
+        settings_of(notes.metadata.settings, part.samples.count(), display.backdrop);
     std::vector<fs::path> images;
     for (const fs::path& output : arguments.outputs) {
         if (is_part_name(output)) {
@@ -104,7 +130,7 @@ void write_outputs(const MergeArguments& arguments, const RenderPart& part, io::
         images, part.film.develop(),
         {.exr = {arguments.channel_type, std::move(notes.metadata), arguments.storage, placement},
          .layers = part.aovs.develop(part.film),
-         .exposure = arguments.exposure});
+         .display = display});
 }
 
 /// The noise of the whole, and which samples it lacks for what was asked for, if anything was.
@@ -158,13 +184,15 @@ int run_merge(const MergeArguments& arguments)
                                                       : message_of_missing(collection, arguments));
         return merge_incomplete;
     }
+    const DisplayArguments display =
+        with_backdrop_of(parts.front().notes.metadata, arguments.display);
     RenderPart sum;
     for (const PartInfo& part : parts) {
         io::merge_part(sum, part);
     }
     io::PartNotes notes = parts.front().notes;
     notes.goal = collection.goal;
-    write_outputs(arguments, sum, std::move(notes));
+    write_outputs(arguments, display, sum, std::move(notes));
 
     if (!missing.empty()) {
         console.warning(fmt::format("samples are missing: {}", missing.text()));

@@ -88,7 +88,7 @@ int run_render(const RenderArguments& typed, const std::vector<std::string>& wor
             console.note("stopping after the pass in flight; interrupt again to end at once");
         },
         asked.part ? UserSignal::checkpoint : UserSignal::default_action);
-    if (asked.sequence && asked.sequence->frames && !asked.exposure &&
+    if (asked.sequence && asked.sequence->frames && !asked.display.exposure &&
         std::any_of(asked.outputs.begin(), asked.outputs.end(),
                     [](const auto& output) { return has_extension(output, ".png"); })) {
         console.warning(
@@ -105,8 +105,8 @@ int run_render(const RenderArguments& typed, const std::vector<std::string>& wor
         static_cast<void>(check_files(arguments_of(asked, view)));
     }
     std::optional<Display> display;
-    if (asked.display) {
-        display.emplace(*asked.display, console);
+    if (asked.viewer) {
+        display.emplace(*asked.viewer, console);
     }
     std::optional<double> time = asked.scene.time;
     std::optional<Viewpoint> first;

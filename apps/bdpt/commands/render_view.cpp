@@ -179,7 +179,7 @@ ImageFileOptions image_file_options(const RenderArguments& arguments, const Prep
     }
     return {.exr = {arguments.channel_type, std::move(metadata), arguments.storage, placement},
             .layers = std::move(layers),
-            .exposure = arguments.exposure};
+            .display = arguments.display};
 }
 
 ordered_json head_of_stats(const RenderArguments& arguments, const ordered_json& settings,
@@ -293,7 +293,7 @@ void render_view(const RenderArguments& asked, const PreparedScene& stage,
     const WrittenImages images = write_image_files(arguments.outputs, image, options);
     if (arguments.strategies) {
         write_strategy_files(*arguments.strategies, image, result.strategies, options.exr,
-                             arguments.exposure.value_or(io::automatic_exposure(image)));
+                             arguments.display.exposure.value_or(io::automatic_exposure(image)));
     }
     const std::chrono::duration<double> writing = std::chrono::steady_clock::now() - writing_start;
     if (images.clamped_pixels > 0) {

@@ -157,11 +157,7 @@ void add_merge_options(CLI::App& command, MergeWords& words)
                     "what renders them")
         ->type_name("N%")
         ->group(group);
-    command
-        .add_option("--exposure", words.exposure,
-                    "Exposure of .png: pixels times 2^EV. Default: automatic")
-        ->type_name("EV")
-        ->group(group);
+    add_display_options(command, words.display, group);
     command.add_flag("--half", words.half, "Store .exr as 16-bit floats")->group(group);
     command
         .add_flag("--tiled", words.tiled, "Store .exr in tiles, for programs that read parts of it")
@@ -190,7 +186,7 @@ MergeArguments understand(const MergeWords& words)
     result.samples = words.samples;
     result.noise = to_noise(words.noise);
     result.incomplete = words.partial ? Incomplete::write : Incomplete::refuse;
-    result.exposure = to_exposure(words.exposure);
+    result.display = understand(words.display);
     result.channel_type =
         words.half ? io::ExrChannelType::half_float : io::ExrChannelType::single_float;
     result.storage = words.tiled ? io::ExrStorage::tiles : io::ExrStorage::scanlines;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "options/display_arguments.h"
 #include "terminal/console.h"
 
 namespace CLI {
@@ -57,7 +58,7 @@ struct MergeWords {
     std::string wait;  // "" not at all, or a time
     std::optional<std::string> noise;
     bool partial = false;
-    std::optional<double> exposure;  // [EV]
+    DisplayWords display;
     bool half = false;
     bool tiled = false;
     bool quiet = false;
@@ -76,7 +77,7 @@ struct MergeArguments {
     std::optional<std::int64_t> samples;        ///< per pixel, that the render was to have
     std::optional<double> noise;                ///< as noise_of(), that it was to have
     Incomplete incomplete = Incomplete::refuse;
-    std::optional<float> exposure;  ///< [EV]
+    DisplayArguments display;
     io::ExrChannelType channel_type = io::ExrChannelType::single_float;
     io::ExrStorage storage = io::ExrStorage::scanlines;
     Format format = Format::text;

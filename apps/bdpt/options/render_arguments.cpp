@@ -19,6 +19,7 @@ constexpr const char* footer = R"(Examples:
   bdpt render scene.gltf -o out.exr
   bdpt render scene.glb -o out.exr -o out.png --spp 256 --size 1920x1080
   bdpt render room.glb -o out.exr --time 90s --camera "Camera 2"
+  bdpt render chair.glb -o out.png --background transparent --tone-map pbr-neutral
   bdpt render walk.glb -o out.png --animation run --frame-time 0.25
   bdpt render hall.glb -o out.exr --spp 4096 --part out.part.exr
   bdpt render walk.glb -o walk.####.exr --frames 1:48 --fps 24
@@ -162,11 +163,7 @@ void add_image_output(CLI::App& command, RenderWords& words)
         ->allow_extra_args(false)
         ->type_name("FILE")
         ->group(group);
-    command
-        .add_option("--exposure", words.exposure,
-                    "Exposure of .png: pixels times 2^EV. Default: automatic")
-        ->type_name("EV")
-        ->group(group);
+    add_display_options(command, words.display, group);
     CLI::Option* half =
         command.add_flag("--half", words.half, "Store .exr as 16-bit floats")->group(group);
     command.add_flag("--float", words.single, "Store .exr as 32-bit floats (default)")
@@ -214,7 +211,7 @@ void add_process_options(CLI::App& command, RenderWords& words)
     add_strategy_options(command, words.strategies);
     add_part_options(command, words.part, group);
     command
-        .add_option("--display", words.display,
+        .add_option("--display", words.viewer,
                     "Show the render while it runs in the image viewer tev, which listens there. "
                     "Default port: 14158")
         ->type_name("HOST[:PORT]")
@@ -222,16 +219,6 @@ void add_process_options(CLI::App& command, RenderWords& words)
 }
 
 }  // namespace
-
-std::optional<float> to_exposure(const std::optional<double>& word)
-{
-    // 2^100 is far beyond any ratio of a scene to a screen.
-    constexpr double most = 100.0;
-    if (word && !(std::abs(*word) <= most)) {
-        reject("--exposure", fmt::format("{}", *word), "EV from -100 to 100");
-    }
-    return word ? std::optional(static_cast<float>(*word)) : std::nullopt;
-}
 
 std::optional<double> to_noise(const std::optional<std::string>& word)
 {
@@ -269,6 +256,7 @@ void add_view_options(CLI::App& command, RenderWords& words)
                     "that scenes without light get). Replaces that of the file")
         ->type_name("FILE|none|default")
         ->group(group);
+    add_environment_options(command, words.environment_change, group);
     command
         .add_option("--texture-filter", words.texture_filter,
                     "Texture filter: bilinear (default) or mip (mip maps: faster for large "
@@ -349,17 +337,22 @@ RenderArguments understand(const RenderWords& words)
     result.environment = words.environment;
     result.texture_filter =
         words.texture_filter == "mip" ? TextureFilter::mip_mapped : TextureFilter::bilinear;
-    result.exposure = to_exposure(words.exposure);
+    result.environment_change = understand(words.environment_change);
+    result.display = understand(words.display);
+    if (result.display.backdrop) {
+        result.options.transport.background = Background::none;
+        result.options.film.aovs.insert(Aov::alpha);
+    }
     result.channel_type =
         words.half ? io::ExrChannelType::half_float : io::ExrChannelType::single_float;
     result.storage = words.tiled ? io::ExrStorage::tiles : io::ExrStorage::scanlines;
     result.stats = words.stats;
     result.profiling = words.profile ? Profiling::on : Profiling::off;
     result.strategies = strategy_files(words.strategies, result.options);
-    if (words.display) {
-        result.display = parse_address(*words.display);
-        if (!result.display) {
-            reject("--display", *words.display, "HOST or HOST:PORT, like localhost:14158");
+    if (words.viewer) {
+        result.viewer = parse_address(*words.viewer);
+        if (!result.viewer) {
+            reject("--display", *words.viewer, "HOST or HOST:PORT, like localhost:14158");
         }
     }
     result.format = words.json ? Format::json : Format::text;

@@ -13,7 +13,8 @@
 #include <vector>
 
 #include "options/arguments.h"
-#include "options/viewer_address.h"
+#include "options/display_arguments.h"
+#include "options/environment_arguments.h"
 #include "options/film_arguments.h"
 #include "options/lens_arguments.h"
 #include "options/part_arguments.h"
@@ -22,6 +23,7 @@
 #include "options/strategy_arguments.h"
 #include "options/transport_arguments.h"
 #include "options/view.h"
+#include "options/viewer_address.h"
 #include "terminal/console.h"
 
 namespace CLI {
@@ -48,7 +50,8 @@ struct RenderWords {
     SceneWords scene;
     std::optional<std::string> environment;
     std::string texture_filter = "bilinear";
-    std::optional<double> exposure;  // [EV]
+    EnvironmentWords environment_change;
+    DisplayWords display;
     int threads = 0;
     std::string isa = "native";
     FilmWords film;
@@ -61,7 +64,7 @@ struct RenderWords {
     std::string seed = "0";
     bool half = false;
     bool single = false;
-    std::optional<std::string> display;
+    std::optional<std::string> viewer;
     bool quiet = false;
     bool json = false;
 };
@@ -81,7 +84,8 @@ struct RenderArguments {
     std::optional<std::uint64_t> max_memory;  ///< [bytes] for scene and film
     std::optional<std::string> environment;   ///< file, "none" or "default"
     TextureFilter texture_filter = TextureFilter::bilinear;
-    std::optional<float> exposure;  ///< [EV]
+    EnvironmentChange environment_change;  ///< of whichever environment it is
+    DisplayArguments display;
     io::ExrChannelType channel_type = io::ExrChannelType::single_float;
     io::ExrStorage storage = io::ExrStorage::scanlines;
     std::optional<std::filesystem::path> stats;  ///< where numbers about the render go
@@ -91,7 +95,7 @@ struct RenderArguments {
     SampleRange samples;                          ///< of each pixel
     std::optional<Sequence> sequence;             ///< if there are several images
     std::optional<SequenceView> sequence_view{};  ///< which of them this is
-    std::optional<DisplayAddress> display;        ///< of the viewer that shows the render
+    std::optional<DisplayAddress> viewer;         ///< of the viewer that shows the render
     Format format = Format::text;
     Verbosity verbosity = Verbosity::normal;
 };
@@ -105,9 +109,6 @@ void add_plannable_options(CLI::App& command, RenderWords& words);
 
 /// Of those, what is rendered and through which lens: for other commands, too.
 void add_view_options(CLI::App& command, RenderWords& words);
-
-/// The exposure [EV] of --exposure. Throws `OptionError`.
-[[nodiscard]] std::optional<float> to_exposure(const std::optional<double>& word);
 
 /// The noise of --noise. Throws `OptionError`.
 [[nodiscard]] std::optional<double> to_noise(const std::optional<std::string>& word);

@@ -1,7 +1,10 @@
 #include "report/image_files.h"
 
+#include <bdpt/io/display.h>
 #include <bdpt/io/png.h>
 #include <bdpt/io/tone_map.h>
+
+#include <algorithm>
 
 #include "options/output_files.h"
 
@@ -9,9 +12,25 @@ namespace bdpt::app {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// Alpha; empty if no layer has it.
+std::span<const float> coverage_of(std::span<const Layer> layers)
+{
+    const auto found = std::find_if(layers.begin(), layers.end(), [](const Layer& layer) {
+        return layer.name.empty() && layer.channels == "A";
+    });
+    return found != layers.end() ? std::span(found->values) : std::span<const float>();
+}
+
+}  // namespace
+
 WrittenImages write_image_files(std::span<const fs::path> outputs, const Image& image,
                                 const ImageFileOptions& options)
 {
+    const DisplayArguments& display = options.display;
+    const auto background = display.backdrop ? display.backdrop->color : std::nullopt;
+    const auto coverage = display.backdrop ? coverage_of(options.layers) : std::span<const float>();
     WrittenImages report;
     for (const fs::path& output : outputs) {
         if (has_extension(output, ".exr")) {
@@ -20,10 +39,17 @@ WrittenImages write_image_files(std::span<const fs::path> outputs, const Image& 
             continue;
         }
         if (!report.exposure) {
-            report.exposure = options.exposure.value_or(io::automatic_exposure(image));
+            report.exposure = display.exposure.value_or(io::automatic_exposure(image));
         }
-        io::write_png(output, io::tone_map(image, *report.exposure),
-                      {.exposure = *report.exposure, .metadata = options.exr.metadata});
+        io::write_png(output,
+                      io::to_display(image, coverage,
+                                     {.exposure = *report.exposure,
+                                      .curve = display.curve,
+                                      .type = display.type,
+                                      .background = background}),
+                      {.exposure = *report.exposure,
+                       .metadata = options.exr.metadata,
+                       .curve = display.curve});
     }
     return report;
 }

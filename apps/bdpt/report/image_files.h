@@ -10,12 +10,14 @@
 #include <span>
 #include <vector>
 
+#include "options/display_arguments.h"
+
 namespace bdpt::app {
 
 struct ImageFileOptions {
     io::ExrOptions exr;
-    std::vector<Layer> layers;      ///< of EXR files, beside the image
-    std::optional<float> exposure;  ///< [EV] of PNG files; none: automatic
+    std::vector<Layer> layers;  ///< of EXR files, beside the image
+    DisplayArguments display;   ///< of PNG files
 };
 
 struct WrittenImages {
@@ -23,7 +25,8 @@ struct WrittenImages {
     std::optional<float> exposure;   ///< [EV] of the PNG files, if there were any
 };
 
-/// Writes all `outputs`, each as its extension says. Throws `Error` (output).
+/// Writes all `outputs`, each as its extension says. A PNG file with a backdrop needs the layer
+/// with alpha. Throws `Error` (output).
 WrittenImages write_image_files(std::span<const std::filesystem::path> outputs, const Image& image,
                                 const ImageFileOptions& options);
 

@@ -48,6 +48,15 @@ ordered_json settings_of(const RenderArguments& arguments, const PreparedScene& 
     settings["isa"] = isa_name(stage.scene.isa());
     settings.update(view_json(stage.camera));
     settings["environment"] = stage.environment_name;
+    if (arguments.environment_change.rotation != 0.0) {
+        settings["environment_rotation_degrees"] = arguments.environment_change.rotation;
+    }
+    if (arguments.environment_change.intensity != 1.0f) {
+        settings["environment_intensity"] = arguments.environment_change.intensity;
+    }
+    if (arguments.display.backdrop) {
+        settings["background"] = backdrop_text(*arguments.display.backdrop);
+    }
     if (arguments.texture_filter == TextureFilter::mip_mapped) {
         settings["texture_filter"] = "mip";
     }

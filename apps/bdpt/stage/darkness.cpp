@@ -60,7 +60,7 @@ std::optional<std::string> warning_of_darkness(const RenderArguments& arguments,
     if (!stage.only_emitters || arguments.environment) {
         return std::nullopt;
     }
-    const double dark = dark_share(stage, arguments.options, arguments.exposure);
+    const double dark = dark_share(stage, arguments.options, arguments.display.exposure);
     if (dark < nearly_all) {
         return std::nullopt;
     }

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "options/view.h"
+#include "stage/environment_change.h"
 
 namespace bdpt::app {
 namespace {
@@ -32,6 +33,25 @@ struct LitScene {
 bool is_environment(const LightDesc& light)
 {
     return std::holds_alternative<EnvironmentLightDesc>(light);
+}
+
+/// Does to the environment of the scene what was asked for.
+void change_environment(LitScene& lit, const RenderArguments& arguments)
+{
+    const EnvironmentChange& change = arguments.environment_change;
+    if (change == EnvironmentChange{}) {
+        return;
+    }
+    if (lit.sky == Sky::none) {
+        lit.warnings.push_back(
+            fmt::format("{}: no environment: --env-rotation and --env-intensity do nothing",
+                        arguments.file.string()));
+    }
+    for (LightDesc& light : lit.desc.lights) {
+        if (auto* environment = std::get_if<EnvironmentLightDesc>(&light)) {
+            *environment = changed(std::move(*environment), change);
+        }
+    }
 }
 
 /// Adds the environment that was asked for or, where all is dark, the default one. What is asked
@@ -72,6 +92,7 @@ LitScene add_environment(SceneDesc desc, const RenderArguments& arguments)
         lit.desc.lights.push_back(default_environment());
         lit.added = 1;
     }
+    change_environment(lit, arguments);
     return lit;
 }
 

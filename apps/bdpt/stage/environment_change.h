@@ -1,0 +1,13 @@
+#pragma once
+
+#include <bdpt/light_desc.h>
+
+#include "options/environment_arguments.h"
+
+namespace bdpt::app {
+
+/// `light`, turned and made brighter or darker.
+[[nodiscard]] EnvironmentLightDesc changed(EnvironmentLightDesc light,
+                                           const EnvironmentChange& change);
+
+}  // namespace bdpt::app

@@ -19,8 +19,14 @@ struct FramedView {
 /// inside if it is a room. Deterministic. `aspect` is width over height, above 0.
 [[nodiscard]] BDPT_EXPORT FramedView frame_scene(const Scene& scene, float aspect);
 
-/// `camera` after it went `angle` [rad] around the vertical axis through `center`, counter-clockwise
-/// as seen from above, with all its motion: a view of a turntable. The same bits on all machines.
+/// `camera` after it went `angle` [rad] around the vertical axis through `center`,
+/// counter-clockwise as seen from above, with all its motion: a view of a turntable. The same bits
+/// on all machines.
 [[nodiscard]] BDPT_EXPORT CameraDesc orbited(CameraDesc camera, Vec3 center, float angle);
+
+/// `environment` turned by `angle` [rad] around the vertical axis, counter-clockwise as seen from
+/// above. The same bits on all machines.
+[[nodiscard]] BDPT_EXPORT EnvironmentLightDesc turned(EnvironmentLightDesc environment,
+                                                      float angle);
 
 }  // namespace bdpt

@@ -6,6 +6,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 
 #include <algorithm>
@@ -168,6 +169,15 @@ Vec3 lamp_in(const World& world, const std::vector<VisibilityProbe>& room)
     return best;
 }
 
+/// Counter-clockwise as seen from above.
+glm::dmat3 turn_about_y(float angle)
+{
+    const SinCos exact = sin_cos(angle);
+    const auto sine = static_cast<double>(exact.sin);
+    const auto cosine = static_cast<double>(exact.cos);
+    return {{cosine, 0.0, -sine}, {0.0, 1.0, 0.0}, {sine, 0.0, cosine}};
+}
+
 }  // namespace
 
 FramedView frame_scene(const Scene& scene, float aspect)
@@ -206,19 +216,21 @@ CameraDesc orbited(CameraDesc camera, Vec3 center, float angle)
     if (angle == 0.0f) {
         return camera;
     }
-    const SinCos exact = sin_cos(angle);
-    const auto sine = static_cast<double>(exact.sin);
-    const auto cosine = static_cast<double>(exact.cos);
+    glm::dmat4 turn(turn_about_y(angle));
     const glm::dvec3 c(center);
-    glm::dmat4 turn(1.0);
-    turn[0] = {cosine, 0.0, -sine, 0.0};
-    turn[2] = {sine, 0.0, cosine, 0.0};
     turn[3] = glm::dvec4(c - glm::dvec3(turn * glm::dvec4(c, 0.0)), 1.0);
     camera.world_from_camera = Mat4(turn * glm::dmat4(camera.world_from_camera));
     for (Mat4& pose : camera.motion) {
         pose = Mat4(turn * glm::dmat4(pose));
     }
     return camera;
+}
+
+EnvironmentLightDesc turned(EnvironmentLightDesc environment, float angle)
+{
+    environment.world_from_environment =
+        Mat3(turn_about_y(angle) * glm::dmat3(environment.world_from_environment));
+    return environment;
 }
 
 }  // namespace bdpt

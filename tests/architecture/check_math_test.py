@@ -9,6 +9,8 @@ import check_math
 
 SOUND = {
     "lib/a/camera_matrices.cpp.o": "                 U tanf\n",
+    "lib/a/display.cpp.o": "                 U exp2\n",
+    "lib/a/tone_curve.cpp.o": "                 U log2f\n",
     "lib/a/tone_map.cpp.o": "                 U powf\n                 U exp2\n",
     "lib/b/film.cpp.o": "                 U ldexp@GLIBC_2.2.5\n                 U sqrtf\n                 U floor\n"
                         "                 U _ZSt3sinSt7complexIfE\n                 U exponent\n                 w logger\n",

@@ -1,4 +1,4 @@
-#include "options/transport_arguments.h"
+#include "options/groups/transport_arguments.h"
 
 #include <bdpt/error.h>
 

@@ -16,7 +16,7 @@
 #include <system_error>
 #include <utility>
 
-#include "options/output_files.h"
+#include "options/values/output_files.h"
 #include "report/bench_text.h"
 #include "stage/prepared_scene.h"
 #include "terminal/interrupt.h"

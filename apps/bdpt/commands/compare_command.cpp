@@ -15,7 +15,7 @@
 #include <system_error>
 #include <vector>
 
-#include "options/output_files.h"
+#include "options/values/output_files.h"
 #include "report/compare_text.h"
 
 namespace bdpt::app {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "options/scene_arguments.h"
+#include "options/groups/scene_arguments.h"
 
 namespace CLI {
 class App;

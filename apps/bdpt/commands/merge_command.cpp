@@ -18,11 +18,11 @@
 #include <utility>
 #include <vector>
 
-#include "options/output_files.h"
+#include "options/values/output_files.h"
 #include "plan/plan.h"
 #include "report/image_files.h"
-#include "report/part_collection.h"
-#include "report/part_command.h"
+#include "report/part/part_collection.h"
+#include "report/part/part_command.h"
 #include "report/stats_file.h"
 #include "terminal/console.h"
 #include "terminal/interrupt.h"

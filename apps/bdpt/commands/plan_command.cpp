@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-#include "options/output_files.h"
+#include "options/values/output_files.h"
 #include "plan/engines/engine_files.h"
 #include "plan/plan.h"
 #include "plan/plan_folder.h"

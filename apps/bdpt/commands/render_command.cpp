@@ -14,11 +14,11 @@
 #include <vector>
 
 #include "commands/render_view.h"
-#include "options/orbit.h"
-#include "options/output_files.h"
-#include "report/display.h"
-#include "report/part_keeper.h"
+#include "options/values/orbit.h"
+#include "options/values/output_files.h"
+#include "report/part/part_keeper.h"
 #include "report/render_files.h"
+#include "report/viewer/display.h"
 #include "stage/render_preparation.h"
 #include "terminal/console.h"
 #include "terminal/interrupt.h"

@@ -17,10 +17,10 @@
 #include <optional>
 #include <utility>
 
-#include "options/transport_arguments.h"
+#include "options/groups/transport_arguments.h"
 #include "report/film_report.h"
 #include "report/image_files.h"
-#include "report/part_command.h"
+#include "report/part/part_command.h"
 #include "report/render_files.h"
 #include "report/render_settings.h"
 #include "report/stats_file.h"

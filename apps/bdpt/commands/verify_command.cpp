@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "options/transport_arguments.h"
+#include "options/groups/transport_arguments.h"
 #include "report/verify_text.h"
 #include "stage/prepared_scene.h"
 #include "terminal/interrupt.h"

@@ -11,7 +11,7 @@
 #include <system_error>
 
 #include "options/arguments.h"
-#include "options/number.h"
+#include "options/values/number.h"
 
 namespace bdpt::app {
 namespace {

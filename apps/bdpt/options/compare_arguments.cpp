@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "options/arguments.h"
-#include "options/number.h"
+#include "options/values/number.h"
 
 namespace bdpt::app {
 namespace {

@@ -7,9 +7,9 @@
 #include <limits>
 
 #include "options/arguments.h"
-#include "options/number.h"
-#include "options/output_files.h"
 #include "options/render_arguments.h"
+#include "options/values/number.h"
+#include "options/values/output_files.h"
 
 namespace bdpt::app {
 namespace {

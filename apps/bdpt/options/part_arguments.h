@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "options/display_arguments.h"
+#include "options/groups/display_arguments.h"
 #include "terminal/console.h"
 
 namespace CLI {

@@ -10,7 +10,7 @@
 
 #include "options/arguments.h"
 #include "options/command_options.h"
-#include "options/number.h"
+#include "options/values/number.h"
 
 namespace bdpt::app {
 namespace {

@@ -9,8 +9,8 @@
 #include <limits>
 #include <numbers>
 
-#include "options/number.h"
-#include "options/output_files.h"
+#include "options/values/number.h"
+#include "options/values/output_files.h"
 
 namespace bdpt::app {
 namespace {

@@ -13,17 +13,17 @@
 #include <vector>
 
 #include "options/arguments.h"
-#include "options/display_arguments.h"
-#include "options/environment_arguments.h"
-#include "options/film_arguments.h"
-#include "options/lens_arguments.h"
+#include "options/groups/display_arguments.h"
+#include "options/groups/environment_arguments.h"
+#include "options/groups/film_arguments.h"
+#include "options/groups/lens_arguments.h"
+#include "options/groups/scene_arguments.h"
+#include "options/groups/sequence_arguments.h"
+#include "options/groups/strategy_arguments.h"
+#include "options/groups/transport_arguments.h"
 #include "options/part_arguments.h"
-#include "options/scene_arguments.h"
-#include "options/sequence_arguments.h"
-#include "options/strategy_arguments.h"
-#include "options/transport_arguments.h"
-#include "options/view.h"
-#include "options/viewer_address.h"
+#include "options/values/view.h"
+#include "options/values/viewer_address.h"
 #include "terminal/console.h"
 
 namespace CLI {

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "options/arguments.h"
-#include "options/number.h"
+#include "options/values/number.h"
 
 namespace bdpt::app {
 namespace {

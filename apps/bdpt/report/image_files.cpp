@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "options/output_files.h"
+#include "options/values/output_files.h"
 
 namespace bdpt::app {
 

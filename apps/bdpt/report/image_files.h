@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "options/display_arguments.h"
+#include "options/groups/display_arguments.h"
 
 namespace bdpt::app {
 

@@ -1,7 +1,7 @@
 #include "report/render_files.h"
 
 #include "options/arguments.h"
-#include "options/output_files.h"
+#include "options/values/output_files.h"
 #include "report/stats_file.h"
 #include "report/strategy_files.h"
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "options/film_arguments.h"
-#include "options/transport_arguments.h"
+#include "options/groups/film_arguments.h"
+#include "options/groups/transport_arguments.h"
 #include "report/values.h"
 
 namespace bdpt::app {

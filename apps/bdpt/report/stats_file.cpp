@@ -11,7 +11,7 @@
 #include <string>
 #include <utility>
 
-#include "options/output_files.h"
+#include "options/values/output_files.h"
 
 namespace bdpt::app {
 namespace {

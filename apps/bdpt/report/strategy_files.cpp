@@ -6,7 +6,7 @@
 #include <bdpt/io/png.h>
 #include <fmt/core.h>
 
-#include "options/output_files.h"
+#include "options/values/output_files.h"
 
 namespace bdpt::app {
 

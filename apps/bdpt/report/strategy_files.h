@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <span>
 
-#include "options/strategy_arguments.h"
+#include "options/groups/strategy_arguments.h"
 
 namespace bdpt::app {
 

@@ -2,7 +2,7 @@
 
 #include <bdpt/light_desc.h>
 
-#include "options/environment_arguments.h"
+#include "options/groups/environment_arguments.h"
 
 namespace bdpt::app {
 

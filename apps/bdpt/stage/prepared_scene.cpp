@@ -13,7 +13,7 @@
 #include <variant>
 #include <vector>
 
-#include "options/view.h"
+#include "options/values/view.h"
 #include "stage/environment_change.h"
 
 namespace bdpt::app {

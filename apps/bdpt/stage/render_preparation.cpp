@@ -11,8 +11,8 @@
 #include <string>
 #include <utility>
 
-#include "options/film_memory.h"
-#include "options/strategy_depth.h"
+#include "options/values/film_memory.h"
+#include "options/values/strategy_depth.h"
 
 namespace bdpt::app {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "options/viewer_address.h"
+#include "options/values/viewer_address.h"
 
 namespace bdpt::app {
 

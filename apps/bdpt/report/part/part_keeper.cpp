@@ -1,4 +1,4 @@
-#include "report/part_keeper.h"
+#include "report/part/part_keeper.h"
 
 #include <bdpt/error.h>
 #include <fmt/core.h>

@@ -1,4 +1,4 @@
-#include "options/environment_arguments.h"
+#include "options/groups/environment_arguments.h"
 
 #include <fmt/core.h>
 

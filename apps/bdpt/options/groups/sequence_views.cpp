@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "options/arguments.h"
-#include "options/file_pattern.h"
+#include "options/groups/sequence_arguments.h"
 #include "options/render_arguments.h"
-#include "options/sequence_arguments.h"
+#include "options/values/file_pattern.h"
 
 namespace bdpt::app {
 namespace {

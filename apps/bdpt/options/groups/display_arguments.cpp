@@ -1,4 +1,4 @@
-#include "options/display_arguments.h"
+#include "options/groups/display_arguments.h"
 
 #include <fmt/core.h>
 

@@ -1,4 +1,4 @@
-#include "options/strategy_depth.h"
+#include "options/values/strategy_depth.h"
 
 #include <bdpt/error.h>
 #include <bdpt/render.h>

@@ -1,4 +1,4 @@
-#include "report/tev_message.h"
+#include "report/viewer/tev_message.h"
 
 #include <array>
 #include <bit>

@@ -1,4 +1,4 @@
-#include "options/viewer_address.h"
+#include "options/values/viewer_address.h"
 
 #include <algorithm>
 #include <string_view>

@@ -1,4 +1,4 @@
-#include "options/transport_arguments.h"
+#include "options/groups/transport_arguments.h"
 
 #include <bdpt/eval/bench/option_names.h>
 #include <bdpt/integrators.h>
@@ -15,7 +15,7 @@
 #include <utility>
 
 #include "options/arguments.h"
-#include "options/number.h"
+#include "options/values/number.h"
 
 namespace bdpt::app {
 namespace {

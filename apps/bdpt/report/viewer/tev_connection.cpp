@@ -1,4 +1,4 @@
-#include "report/tev_connection.h"
+#include "report/viewer/tev_connection.h"
 
 #include <netdb.h>
 #include <poll.h>

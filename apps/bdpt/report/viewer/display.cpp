@@ -1,4 +1,4 @@
-#include "report/display.h"
+#include "report/viewer/display.h"
 
 #include <fmt/core.h>
 
@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "report/tev_connection.h"
-#include "report/tev_message.h"
+#include "report/viewer/tev_connection.h"
+#include "report/viewer/tev_message.h"
 
 namespace bdpt::app {
 namespace {

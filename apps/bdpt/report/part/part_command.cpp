@@ -1,4 +1,4 @@
-#include "report/part_command.h"
+#include "report/part/part_command.h"
 
 #include <fmt/core.h>
 

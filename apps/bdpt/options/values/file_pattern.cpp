@@ -1,4 +1,4 @@
-#include "options/file_pattern.h"
+#include "options/values/file_pattern.h"
 
 #include <fmt/core.h>
 

@@ -1,4 +1,4 @@
-#include "options/orbit.h"
+#include "options/values/orbit.h"
 
 #include <bdpt/error.h>
 #include <fmt/core.h>

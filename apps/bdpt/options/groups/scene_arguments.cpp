@@ -1,4 +1,4 @@
-#include "options/scene_arguments.h"
+#include "options/groups/scene_arguments.h"
 
 #include <fmt/core.h>
 

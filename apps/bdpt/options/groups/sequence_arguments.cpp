@@ -1,4 +1,4 @@
-#include "options/sequence_arguments.h"
+#include "options/groups/sequence_arguments.h"
 
 #include <fmt/core.h>
 
@@ -9,8 +9,8 @@
 #include <string_view>
 
 #include "options/arguments.h"
-#include "options/number.h"
 #include "options/render_arguments.h"
+#include "options/values/number.h"
 
 namespace bdpt::app {
 namespace {

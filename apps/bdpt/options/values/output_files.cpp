@@ -1,4 +1,4 @@
-#include "options/output_files.h"
+#include "options/values/output_files.h"
 
 #include <bdpt/error.h>
 #include <bdpt/io/output_file.h>

@@ -1,4 +1,4 @@
-#include "options/film_memory.h"
+#include "options/values/film_memory.h"
 
 #include <bdpt/exact_sum.h>
 #include <bdpt/integrators.h>

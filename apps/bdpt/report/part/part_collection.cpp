@@ -1,4 +1,4 @@
-#include "report/part_collection.h"
+#include "report/part/part_collection.h"
 
 #include <bdpt/error.h>
 #include <fmt/core.h>

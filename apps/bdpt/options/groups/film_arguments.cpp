@@ -1,4 +1,4 @@
-#include "options/film_arguments.h"
+#include "options/groups/film_arguments.h"
 
 #include <fmt/core.h>
 

@@ -1,4 +1,4 @@
-#include "options/lens_arguments.h"
+#include "options/groups/lens_arguments.h"
 
 #include <bdpt/error.h>
 #include <bdpt/render.h>

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "options/strategy_arguments.h"
+#include "options/groups/strategy_arguments.h"
 
 namespace bdpt::app {
 

@@ -1,4 +1,4 @@
-#include "options/view.h"
+#include "options/values/view.h"
 
 #include <bdpt/error.h>
 #include <fmt/core.h>

@@ -1,4 +1,4 @@
-#include "options/strategy_arguments.h"
+#include "options/groups/strategy_arguments.h"
 
 #include <bdpt/eval/bench/option_names.h>
 #include <bdpt/integrators.h>
@@ -7,8 +7,8 @@
 #include <CLI/CLI.hpp>
 
 #include "options/arguments.h"
-#include "options/number.h"
-#include "options/output_files.h"
+#include "options/values/number.h"
+#include "options/values/output_files.h"
 
 namespace bdpt::app {
 namespace {

@@ -1,4 +1,4 @@
-#include "options/number.h"
+#include "options/values/number.h"
 
 #include <fmt/core.h>
 

@@ -53,6 +53,14 @@ if(BDPT_BUILD_APPS)
   file(RELATIVE_PATH to_libdir "${CMAKE_INSTALL_FULL_BINDIR}" "${CMAKE_INSTALL_FULL_LIBDIR}")
   set_property(TARGET bdpt_app APPEND PROPERTY INSTALL_RPATH "$ORIGIN/${to_libdir}")
   install(TARGETS bdpt_app RUNTIME COMPONENT bdpt_runtime)
+  install(DIRECTORY "${BDPT_MANUAL_DIR}/man1" DESTINATION "${CMAKE_INSTALL_MANDIR}"
+          COMPONENT bdpt_runtime)
+  install(FILES "${BDPT_MANUAL_DIR}/bash/bdpt" COMPONENT bdpt_runtime
+          DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions")
+  install(FILES "${BDPT_MANUAL_DIR}/zsh/_bdpt" COMPONENT bdpt_runtime
+          DESTINATION "${CMAKE_INSTALL_DATADIR}/zsh/site-functions")
+  install(FILES "${BDPT_MANUAL_DIR}/fish/bdpt.fish" COMPONENT bdpt_runtime
+          DESTINATION "${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d")
 endif()
 
 configure_package_config_file(cmake/bdptConfig.cmake.in cmake/bdptConfig.cmake
@@ -64,4 +72,10 @@ install(FILES "${CMAKE_CURRENT_BINARY_DIR}/cmake/bdptConfig.cmake"
         DESTINATION "${package_dir}" COMPONENT bdpt_development)
 
 include(cmake/PkgConfig.cmake)
-install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT bdpt_runtime)
+install(FILES LICENSE README.md CHANGELOG.md DESTINATION "${CMAKE_INSTALL_DOCDIR}"
+        COMPONENT bdpt_runtime)
+install(FILES LICENSE RENAME copyright DESTINATION "${CMAKE_INSTALL_DOCDIR}"
+        COMPONENT bdpt_runtime)  # where Debian looks for it
+install(DIRECTORY docs DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT bdpt_runtime
+        FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.svg")
+include(cmake/DebianPackages.cmake)

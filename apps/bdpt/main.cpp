@@ -1,5 +1,4 @@
 #include <bdpt/error.h>
-#include <bdpt/version.h>
 #include <fmt/core.h>
 #include <signal.h>
 #include <tbb/task_arena.h>
@@ -15,92 +14,21 @@
 #include <vector>
 
 #include "commands/bench_command.h"
+#include "commands/command_line.h"
 #include "commands/compare_command.h"
 #include "commands/info_command.h"
 #include "commands/merge_command.h"
 #include "commands/plan_command.h"
 #include "commands/render_command.h"
 #include "commands/verify_command.h"
+#include "commands/version_command.h"
 #include "options/arguments.h"
-#include "options/bench_arguments.h"
-#include "options/command_options.h"
-#include "options/compare_arguments.h"
-#include "options/plan_arguments.h"
-#include "options/render_arguments.h"
-#include "options/verify_arguments.h"
 #include "plan/planned_words.h"
 #include "terminal/cgroup_limits.h"
 #include "terminal/console.h"
-#include "terminal/help_formatter.h"
 
 namespace bdpt::app {
 namespace {
-
-constexpr const char* footer = R"(Examples:
-  bdpt render scene.gltf -o out.exr
-  bdpt render scene.glb -o out.exr -o preview.png --spp 256
-  bdpt info scene.glb
-  bdpt plan scene.glb -o out.exr --spp 4096 --parts 64 --for slurm -d job
-  bdpt merge part-*.part.exr -o out.exr
-  bdpt compare out.exr reference.exr
-  bdpt bench scene.gltf -o bench --quick
-  bdpt verify scene.gltf
-
-"bdpt help render", or "bdpt render --help", has all options and the exit codes.)";
-
-/// The words of a command line and what they fill in.
-struct CommandLine {
-    CLI::App app{"bdpt renders glTF 2.0 scenes by bidirectional path tracing.", "bdpt"};
-    RenderWords render_words;
-    PlanWords plan_words;
-    MergeWords merge_words;
-    InfoArguments info_arguments;
-    CompareWords compare_words;
-    BenchWords bench_words;
-    VerifyWords verify_words;
-    std::string topic;  // what to help with
-    CLI::App* render = nullptr;
-    CLI::App* plan = nullptr;
-    CLI::App* merge = nullptr;
-    CLI::App* info = nullptr;
-    CLI::App* compare = nullptr;
-    CLI::App* bench = nullptr;
-    CLI::App* verify = nullptr;
-    CLI::App* help = nullptr;
-    CLI::App* version = nullptr;
-};
-
-void describe(CommandLine& line)
-{
-    line.app.set_version_flag("--version", "bdpt " BDPT_VERSION);
-    line.app.require_subcommand(1);
-    line.app.footer(footer);
-    line.app.formatter(std::make_shared<HelpFormatter>());
-    line.render = line.app.add_subcommand("render", "Render a scene to .exr and .png files");
-    add_render_options(*line.render, line.render_words);
-    line.plan = line.app.add_subcommand("plan", "Share a render among many processes or machines");
-    add_plan_options(*line.plan, line.plan_words);
-    line.merge = line.app.add_subcommand("merge", "Add parts of a render that were rendered apart");
-    add_merge_options(*line.merge, line.merge_words);
-    line.info = line.app.add_subcommand("info", "Print what a scene contains");
-    add_info_options(*line.info, line.info_arguments);
-    line.compare =
-        line.app.add_subcommand("compare", "Measure the error of images against a reference");
-    add_compare_options(*line.compare, line.compare_words);
-    line.bench =
-        line.app.add_subcommand("bench", "Compare integrators at equal time and equal samples");
-    add_bench_options(*line.bench, line.bench_words);
-    line.verify = line.app.add_subcommand(
-        "verify", "Test that all integrators and strategies agree on a scene");
-    add_verify_options(*line.verify, line.verify_words);
-    line.help = line.app.add_subcommand("help", "Print the help of a command");
-    line.help->add_option("command", line.topic, "The command. Default: all")->type_name("COMMAND");
-    line.version = line.app.add_subcommand("version", "Print the version");
-    for (CLI::App* command :
-         {line.render, line.plan, line.merge, line.info, line.compare, line.bench, line.verify}) {
-        let_the_last_count(*command);
-    }
-}
 
 /// All long names of the options of `command`.
 std::vector<std::string> option_names(const CLI::App& command)
@@ -184,7 +112,7 @@ int run_command(const CommandLine& line, const std::vector<std::string>& words)
         return run_help(line);
     }
     if (line.version->parsed()) {
-        print_report("bdpt " BDPT_VERSION "\n");
+        print_report(version_text() + "\n");
         return 0;
     }
     if (line.plan->parsed()) {
@@ -209,7 +137,6 @@ int run_command(const CommandLine& line, const std::vector<std::string>& words)
 int run(const std::vector<std::string>& given, Format format)
 {
     CommandLine line;
-    describe(line);
     std::vector<std::string> words = given;
     try {
         words = with_planned_words(given);

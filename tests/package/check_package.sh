@@ -133,12 +133,44 @@ configure_core_alone() {
   ! grep -E '\bbdpt_(io|app|command|apps_tests|io_tests)\b' <<<"$targets" || fail "more than the core"
 }
 
+# The packages for Debian, unpacked and not installed.
+make_debian_packages() {
+  if ! command -v dpkg-shlibdeps >/dev/null; then
+    echo "skipped: dpkg-dev is not installed"
+    exit 77
+  fi
+  local folder=$WORK/debian
+  rm -rf "$folder"
+  (cd "$BUILD" && cpack -G DEB -C "$CONFIG" -B "$folder")
+  local command=$folder/bdpt_${VERSION}_*.deb headers=$folder/libbdpt-dev_${VERSION}_*.deb depends
+  # The names of both end with the architecture.
+  # shellcheck disable=SC2086
+  depends=$(dpkg-deb -f $command Depends)
+  [[ $depends == *libembree*libtbb* ]] || fail "bdpt depends on: $depends"
+  # shellcheck disable=SC2086
+  depends=$(dpkg-deb -f $headers Depends)
+  [[ $depends == "bdpt (= $VERSION), libglm-dev" ]] || fail "libbdpt-dev depends on: $depends"
+  # shellcheck disable=SC2086
+  dpkg-deb -x $command "$folder/unpacked"
+  # shellcheck disable=SC2086
+  dpkg-deb -x $headers "$folder/unpacked"
+  expect_version "$folder/unpacked/usr/bin/bdpt" --version
+  local file
+  for file in share/man/man1/bdpt-render.1 share/bash-completion/completions/bdpt \
+    share/zsh/site-functions/_bdpt share/fish/vendor_completions.d/bdpt.fish \
+    share/doc/bdpt/copyright share/doc/bdpt/docs/render.md include/bdpt/render.h \
+    lib/libbdpt.so lib/cmake/bdpt/bdptConfig.cmake; do
+    [[ -s $folder/unpacked/usr/$file ]] || fail "no $file"
+  done
+}
+
 case $1 in
   install) install_and_move ;;
   command) run_command ;;
   find_package) use_find_package ;;
   pkg-config) use_pkg_config ;;
   add_subdirectory) use_add_subdirectory ;;
+  debian) make_debian_packages ;;
   core_alone) configure_core_alone ;;
   *) fail "unknown task $1" ;;
 esac

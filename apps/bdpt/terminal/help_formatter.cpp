@@ -9,21 +9,13 @@ namespace {
 constexpr std::size_t name_columns = 32;
 constexpr std::size_t text_columns = 100 - name_columns;
 
-/// The parser adds its checks to the type after a colon; what they say is in our text. A colon of
-/// our own, as in NAME[:RADIUS], is in brackets.
-std::string own_part(const std::string& type)
-{
-    int depth = 0;
-    for (std::size_t i = 0; i < type.size(); ++i) {
-        depth += type[i] == '[' ? 1 : type[i] == ']' ? -1 : 0;
-        if (type[i] == ':' && depth == 0) {
-            return type.substr(0, i);
-        }
-    }
-    return type;
-}
-
 }  // namespace
+
+std::string value_of(const CLI::Option& option)
+{
+    const std::string type = option.get_type_name();
+    return type.substr(0, type.find(":{"));
+}
 
 HelpFormatter::HelpFormatter()
 {
@@ -32,7 +24,7 @@ HelpFormatter::HelpFormatter()
 
 std::string HelpFormatter::make_option_opts(const CLI::Option* option) const
 {
-    const std::string value = own_part(option->get_type_name());
+    const std::string value = value_of(*option);
     return value.empty() ? "" : " " + value;
 }
 

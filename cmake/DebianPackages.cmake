@@ -1,0 +1,35 @@
+# cpack -G DEB, in the build folder: bdpt (the command, the libraries, man pages, completions, documents)
+# and libbdpt-dev (headers, and what CMake and pkg-config need).
+if(NOT BUILD_SHARED_LIBS OR NOT BDPT_BUILD_APPS)
+  return()
+endif()
+set(BDPT_PACKAGE_CONTACT "bdpt <root@localhost>" CACHE STRING "Maintainer of Debian packages")
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME bdpt)
+set(CPACK_PACKAGE_CONTACT "${BDPT_PACKAGE_CONTACT}")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_COMPONENTS_ALL bdpt_runtime bdpt_development)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+
+set(CPACK_DEBIAN_BDPT_RUNTIME_PACKAGE_NAME bdpt)
+set(CPACK_DEBIAN_BDPT_RUNTIME_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_BDPT_RUNTIME_DESCRIPTION
+"renderer for glTF scenes by bidirectional path tracing
+The command bdpt renders glTF 2.0 scenes to OpenEXR and PNG images, alone or
+on a farm, and compares integrators. Its libraries do the same for programs.")
+# Packages of the libraries that ours are linked to, found by dpkg-shlibdeps.
+set(CPACK_DEBIAN_BDPT_RUNTIME_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS
+    "${CMAKE_BINARY_DIR}/lib;${CMAKE_BINARY_DIR}/lib/io;${CMAKE_BINARY_DIR}/lib/eval")
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+
+set(CPACK_DEBIAN_BDPT_DEVELOPMENT_PACKAGE_NAME libbdpt-dev)
+set(CPACK_DEBIAN_BDPT_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_BDPT_DEVELOPMENT_PACKAGE_DEPENDS "bdpt (= ${PROJECT_VERSION}), libglm-dev")
+set(CPACK_DEBIAN_BDPT_DEVELOPMENT_DESCRIPTION
+"bidirectional path tracing for programs
+Headers of the libraries bdpt, bdpt_io and bdpt_eval, and their packages for
+CMake and pkg-config.")
+include(CPack)

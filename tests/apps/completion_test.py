@@ -1,0 +1,143 @@
+#!/usr/bin/env python3
+"""Completions and man pages, as shells and man readers take them: completion_test.py FOLDER SHELL.
+
+FOLDER is what bdpt_manual wrote, SHELL is bash, zsh, fish or man. Exits with 77 where that is not installed. Runs in a
+folder that has scene.glb, and in which bdpt need not be there: completions do not start it.
+"""
+
+import os
+import pathlib
+import pty
+import re
+import select
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+
+# What is typed before the tab key, and what must (or must not) be there then.
+CASES = [
+    ("bdpt ver", ["verify", "version"], ["render"]),
+    ("bdpt render --integ", ["--integrator"], ["--samples"]),
+    ("bdpt render --sampl", ["--sampler", "--samples"], ["--seed"]),
+    ("bdpt render --heuristic ", ["balance", "power", "maximum"], ["sobol"]),
+    ("bdpt plan --for ku", ["kubernetes"], ["slurm"]),
+    ("bdpt render sce", ["scene.glb"], []),
+    ("bdpt render --env no", ["none"], []),
+    ("bdpt render -o sce", ["scene.glb"], []),
+    ("bdpt bench --output fol", ["folder"], []),
+    ("bdpt help ver", ["verify"], ["render"]),
+]
+SECONDS = 20.0
+
+
+class InteractiveShell:
+    """A shell in a terminal of its own."""
+
+    def __init__(self, command, setup):
+        self.pid, self.terminal = pty.fork()
+        if self.pid == 0:
+            os.environ.update({"TERM": "dumb", "PS1": "> ", "HOME": os.getcwd()})
+            os.execvp(command[0], command)
+        # The marks are not in what the terminal echoes, only in what the shell answers.
+        os.write(self.terminal, (setup + "; echo rea''dy\n").encode())
+        assert "ready" in (shown := self.read_until("ready", SECONDS)), shown
+
+    def read_until(self, mark, seconds):
+        shown = ""
+        end = time.monotonic() + seconds
+        while time.monotonic() < end and mark not in shown:
+            if select.select([self.terminal], [], [], 0.05)[0]:
+                shown += os.read(self.terminal, 65536).decode(errors="replace")
+        return shown
+
+    def complete(self, line):
+        """What it shows when `line` and three tabs are typed."""
+        os.write(self.terminal, (line + "\t\t\t").encode())
+        shown = self.read_until("\0", 0.4)  # it leaves out lists when more has been typed
+        os.write(self.terminal, b"\x15echo do''ne\n")  # control-U
+        shown += self.read_until("done", SECONDS)
+        return re.sub(r"\x1b\[[0-9;?]*[A-Za-z]", "", shown.split("echo do")[0])
+
+    def close(self):
+        os.kill(self.pid, 9)
+        os.waitpid(self.pid, 0)
+        os.close(self.terminal)
+
+
+class Fish:
+    """fish tells what it would offer without a terminal."""
+
+    def __init__(self, file):
+        self.file = file
+
+    def complete(self, line):
+        script = f"source {self.file}; complete -C '{line}'"
+        return subprocess.run(["fish", "-c", script], capture_output=True, text=True, check=True).stdout
+
+    def close(self):
+        pass
+
+
+def start(shell, folder):
+    if shell == "bash":
+        return InteractiveShell(["bash", "--norc", "-i"],
+                                f"bind 'set enable-bracketed-paste off'; source {folder}/bash/bdpt")
+    if shell == "zsh":
+        return InteractiveShell(["zsh", "-f", "-i"], f"setopt no_beep; fpath=({folder}/zsh $fpath); "
+                                "autoload -U compinit; compinit -u -D")
+    return Fish(f"{folder}/fish/bdpt.fish")
+
+
+def check_shell(shell, folder):
+    faults = []
+    session = start(shell, folder)
+    for line, there, absent in CASES:
+        shown = session.complete(line)
+        words = set(re.findall(r"[\w.-]+", shown))
+        for word in there:
+            if word not in words:
+                faults.append(f"{shell}: {line!r} does not offer {word}: {shown!r}")
+        for word in absent:
+            if word in words:
+                faults.append(f"{shell}: {line!r} offers {word}: {shown!r}")
+    session.close()
+    return faults
+
+
+def check_pages(folder):
+    pages = sorted(pathlib.Path(folder, "man1").glob("*.1"))
+    faults = [] if len(pages) >= 8 else [f"only {len(pages)} pages"]
+    for page in pages:
+        lint = subprocess.run(["mandoc", "-T", "lint", "-W", "warning", page], capture_output=True, text=True)
+        # Pages have no date: they are made anew by every build.
+        said = [line for line in lint.stdout.splitlines() if "missing date" not in line]
+        faults += said
+    text = subprocess.run(["mandoc", "-T", "utf8", pathlib.Path(folder, "man1/bdpt-render.1")], capture_output=True,
+                          text=True, check=True).stdout
+    text = re.sub(r".\x08", "", text)
+    for expected in ("-o, --output FILE", "--integrator pt|nee|mis", "EXIT STATUS", "bdpt render scene.gltf -o out.exr",
+                     "--samples A:B"):
+        if expected not in text:
+            faults.append(f"bdpt-render.1 does not say {expected!r}")
+    return faults
+
+
+def main():
+    folder, shell = os.path.abspath(sys.argv[1]), sys.argv[2]
+    program = "mandoc" if shell == "man" else shell
+    if shutil.which(program) is None:
+        print(f"skipped: {program} is not installed")
+        return 77
+    with tempfile.TemporaryDirectory() as place:
+        os.chdir(place)
+        os.mkdir("folder")
+        pathlib.Path("scene.glb").touch()
+        faults = check_pages(folder) if shell == "man" else check_shell(shell, folder)
+    print("\n".join(faults))
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -21,6 +21,7 @@ class Cell:
     profiled: bool = False  # tell where the time goes; the image has a layer time.Y
     layer: str = None  # shown in false colours, on one scale for the sheet, in place of the image
     without_bvh: bool = False  # tell the rays per second with and without a BVH
+    metric: str = "relmse"  # whose error is told, of `bdpt compare`
 
 
 @dataclasses.dataclass(frozen=True)
@@ -127,6 +128,18 @@ def direct_indirect():
     return tuple(Cell(label, scene, part + depth(6), 64, reference=part + depth(6)) for label, part in parts.items())
 
 
+def denoised():
+    """A row for each scene: path tracing and the default integrator, as they come and denoised, at equal time. What light
+    paths splat is denoised with the rest."""
+    cells = []
+    for scene in ("lamp-box.gltf", "caustic-metal.gltf", "glass-rough.gltf"):
+        for name in ("mis", "auto"):
+            cells += [Cell(f"{name}{label}", scene, by(name) + more, seconds=2.0, reference=(), metric="flip")
+                      for label, more in (("", ()), (", denoised", ("--denoise",)))]
+        cells.append(Cell("reference", scene, (), 1024, reference=(), metric="flip"))
+    return tuple(cells)
+
+
 def profile():
     """Images with the shares of time, and below them the time of a sample in each pixel."""
     scene = "fourteen-specular.gltf"
@@ -174,6 +187,7 @@ FIGURES = {
         Cell("mis, 256 spp", "cornell-spheres-hidden.gltf", by("mis") + depth(6), 256, reference=depth(6)),
         Cell("bdpt, 16 spp", "cornell-spheres-hidden.gltf", depth(6), 16, reference=depth(6)),
         Cell("bdpt, 50 s", "cornell-spheres-hidden.gltf", depth(6), seconds=50.0, reference=depth(6)))),
+    "denoise": Figure("Denoised by Open Image Denoise, at equal time", 5, denoised()),
     "profile": Figure("Where the time of a sample goes, by phase and by pixel", 5, profile()),
     "bvh": Figure("Rays per second with and without a BVH", 3, tuple(
         Cell(f"{triangles:,} triangles", f"ball-{triangles}.glb", depth(5), 64, reference=depth(5), without_bvh=True)

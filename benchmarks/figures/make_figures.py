@@ -142,14 +142,14 @@ class Renderer:
         return {"samples": rounds * (cell.spp // rounds), "seconds": sum(report["seconds"] for report in reports),
                 "rays": total, "command": "; ".join(report["command"] for report in reports)}
 
-    def compare(self, image, reference):
+    def compare(self, image, reference, metric):
         """Error and bias of an image. The error has the noise of the reference in it."""
         done = subprocess.run([self.bdpt, "compare", str(image), str(reference), "--relative", "--json", "--metrics",
-                               "relmse"], check=True, stdout=subprocess.PIPE, text=True)
+                               f"relmse,{metric}" if metric != "relmse" else metric], check=True, stdout=subprocess.PIPE, text=True)
         report = json.loads(done.stdout)
         bias = report["bias"]["mean"]
-        return {"relmse": report["metrics"]["relmse"]["mean"], "bias": bias["value"],
-                "bias_standard_error": bias["standard_error"]}
+        errors = {name: figures["mean"] for name, figures in report["metrics"].items()}
+        return {**errors, "bias": bias["value"], "bias_standard_error": bias["standard_error"]}
 
 
 def write_numbers(name, figure, scale_name, rows, folder):
@@ -157,7 +157,7 @@ def write_numbers(name, figure, scale_name, rows, folder):
     (folder / f"{name}.json").write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
     keys = ["label", "scene", "samples", "seconds", "mean", "relmse", "bias", "bias_standard_error", "camera_rays",
             "light_rays", "shadow_rays"]
-    keys += [key for key in ("sample_nanoseconds", "triangles", "bvh_rays_per_second", "loop_rays_per_second")
+    keys += [key for key in ("flip", "sample_nanoseconds", "triangles", "bvh_rays_per_second", "loop_rays_per_second")
              if any(key in row for row in rows)]
     keys += [f"{phase}_share" for phase in rows[0].get("time_shares", ())]
     with open(folder / f"{name}.csv", "w", newline="", encoding="utf-8") as file:
@@ -180,7 +180,7 @@ def captions(row):
         percent = {phase: f"{phase} {100 * share:.0f}" for phase, share in row["time_shares"].items()}
         return [f"{row['sample_nanoseconds']:.0f} ns; " + ", ".join(percent[p] for p in ("walk", "shade")),
                 ", ".join(percent[phase] for phase in ("connect", "weigh", "splat")) + " %"]
-    error = f"relMSE {row['relmse']:.3g}, " if "relmse" in row else ""
+    error = f"FLIP {row['flip']:.3g}, " if "flip" in row else f"relMSE {row['relmse']:.3g}, " if "relmse" in row else ""
     return [f"{error}{row['samples']} spp, {row['seconds']:.2g} s"]
 
 
@@ -205,7 +205,7 @@ def make(name, renderer, scale_name, folder):
         if reference:
             file, report = reference
             exposures[cell.scene] = report["exposure"]  # that of the last is for all images of the scene
-            row.update(renderer.compare(image, file))
+            row.update(renderer.compare(image, file, cell.metric))
             row["reference"] = report["command"]
         row.pop("exposure", None)
         rows.append(row)

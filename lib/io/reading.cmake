@@ -22,6 +22,9 @@ target_sources(bdpt_io PRIVATE
   src/image/read_image.cpp
   src/image/texels.cpp
   src/image/webp_header.cpp
+  # denoising by a library that is opened at run time
+  src/denoise/denoiser.cpp
+  src/denoise/oidn_functions.cpp
   # light profiles
   src/ies/ies_file.cpp
   src/ies/ies_numbers.cpp

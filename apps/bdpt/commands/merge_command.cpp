@@ -20,6 +20,7 @@
 
 #include "options/values/output_files.h"
 #include "plan/plan.h"
+#include "report/denoised.h"
 #include "report/image_files.h"
 #include "report/part/part_collection.h"
 #include "report/part/part_command.h"
@@ -33,6 +34,8 @@ namespace {
 namespace fs = std::filesystem;
 using io::PartInfo;
 using nlohmann::ordered_json;
+
+constexpr int default_threads = 0;  // one for each processor
 
 /// Commands that render `missing`.
 std::vector<std::string> commands_for_missing(const SampleSet& missing,
@@ -103,7 +106,7 @@ DisplayArguments with_backdrop_of(const io::ImageMetadata& metadata, DisplayArgu
 }
 
 void write_outputs(const MergeArguments& arguments, const DisplayArguments& display,
-                   const RenderPart& part, io::PartNotes notes)
+                   const io::Denoiser* denoiser, const RenderPart& part, io::PartNotes notes)
 {
     notes.metadata.samples_per_pixel = part.samples.count();
     notes.metadata.render_seconds = part.cpu_seconds;
@@ -130,7 +133,9 @@ void write_outputs(const MergeArguments& arguments, const DisplayArguments& disp
         images, part.film.develop(),
         {.exr = {arguments.channel_type, std::move(notes.metadata), arguments.storage, placement},
          .layers = part.aovs.develop(part.film),
-         .display = display});
+         .display = display,
+         .denoiser = denoiser,
+         .denoised_as = arguments.denoise ? arguments.denoise->as : DenoisedAs::image});
 }
 
 /// The noise of the whole, and which samples it lacks for what was asked for, if anything was.
@@ -169,6 +174,8 @@ int run_merge(const MergeArguments& arguments)
     Console console(arguments.format, arguments.verbosity);
     // Nothing is worth finishing; but nothing half-written is left, either.
     const Interrupt interrupt(temporary_paths(arguments.outputs), [] {});
+    const std::optional<io::Denoiser> denoiser =
+        open_denoiser(arguments.denoise, arguments.outputs, default_threads);
     const PartCollection collection = collect_parts(arguments, console);
     const std::vector<PartInfo>& parts = collection.parts;
     for (const std::string& note : collection.notes) {
@@ -192,7 +199,7 @@ int run_merge(const MergeArguments& arguments)
     }
     io::PartNotes notes = parts.front().notes;
     notes.goal = collection.goal;
-    write_outputs(arguments, display, sum, std::move(notes));
+    write_outputs(arguments, display, denoiser ? &*denoiser : nullptr, sum, std::move(notes));
 
     if (!missing.empty()) {
         console.warning(fmt::format("samples are missing: {}", missing.text()));

@@ -16,6 +16,7 @@
 #include "commands/render_view.h"
 #include "options/values/orbit.h"
 #include "options/values/output_files.h"
+#include "report/denoised.h"
 #include "report/part/part_keeper.h"
 #include "report/render_files.h"
 #include "report/viewer/display.h"
@@ -108,6 +109,8 @@ int run_render(const RenderArguments& typed, const std::vector<std::string>& wor
     if (asked.viewer) {
         display.emplace(*asked.viewer, console);
     }
+    const std::optional<io::Denoiser> denoiser =
+        open_denoiser(asked.denoise, asked.outputs, asked.options.system.threads);
     std::optional<double> time = asked.scene.time;
     std::optional<Viewpoint> first;
     for (const SequenceView& view : views) {
@@ -138,7 +141,8 @@ int run_render(const RenderArguments& typed, const std::vector<std::string>& wor
         stage->camera = std::move(seen.camera);
         stage->size = seen.size;
         render_view(image, *stage, keeper,
-                    {console, interrupt, display ? &*display : nullptr, words_of(words, view)});
+                    {console, interrupt, display ? &*display : nullptr,
+                     denoiser ? &*denoiser : nullptr, words_of(words, view)});
         stage->load_seconds = 0.0;
         stage->build_seconds = 0.0;
     }

@@ -163,7 +163,8 @@ io::PartNotes part_notes(const RenderArguments& arguments, io::ImageMetadata met
 }
 
 ImageFileOptions image_file_options(const RenderArguments& arguments, const PreparedScene& stage,
-                                    const RenderResult& result, io::ImageMetadata metadata)
+                                    const RenderResult& result, io::ImageMetadata metadata,
+                                    const RenderSession& session)
 {
     metadata.samples_per_pixel = result.film.sample_count();
     metadata.render_seconds = result.seconds;
@@ -179,7 +180,9 @@ ImageFileOptions image_file_options(const RenderArguments& arguments, const Prep
     }
     return {.exr = {arguments.channel_type, std::move(metadata), arguments.storage, placement},
             .layers = std::move(layers),
-            .display = arguments.display};
+            .display = arguments.display,
+            .denoiser = session.denoiser,
+            .denoised_as = arguments.denoise ? arguments.denoise->as : DenoisedAs::image};
 }
 
 ordered_json head_of_stats(const RenderArguments& arguments, const ordered_json& settings,
@@ -289,7 +292,8 @@ void render_view(const RenderArguments& asked, const PreparedScene& stage,
     const auto writing_start = std::chrono::steady_clock::now();
     const Image image = result.film.develop();
     report_clamp(console, result.film, image);
-    const ImageFileOptions options = image_file_options(arguments, stage, result, metadata);
+    const ImageFileOptions options =
+        image_file_options(arguments, stage, result, metadata, session);
     const WrittenImages images = write_image_files(arguments.outputs, image, options);
     if (arguments.strategies) {
         write_strategy_files(*arguments.strategies, image, result.strategies, options.exr,

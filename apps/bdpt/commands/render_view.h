@@ -1,5 +1,7 @@
 #pragma once
 
+#include <bdpt/io/denoise.h>
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +20,7 @@ struct RenderSession {
     Console& console;
     Interrupt& interrupt;
     Display* display;                ///< null: nobody watches
+    const io::Denoiser* denoiser;    ///< null: images stay as they are
     std::vector<std::string> words;  ///< of a command that renders this image
 };
 

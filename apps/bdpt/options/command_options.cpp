@@ -31,7 +31,8 @@ std::vector<std::string> given_options(const CLI::App& command, std::string_view
         }
         const bool is_flag = option->get_items_expected_max() == 0;
         const std::string name = "--" + option->get_lnames().front();
-        result.push_back(is_flag ? name : name + "=" + option->results().back());
+        const std::string value = option->results().back();
+        result.push_back(is_flag && value == "true" ? name : name + "=" + value);
     }
     return result;
 }

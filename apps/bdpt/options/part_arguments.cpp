@@ -158,6 +158,7 @@ void add_merge_options(CLI::App& command, MergeWords& words)
         ->type_name("N%")
         ->group(group);
     add_display_options(command, words.display, group);
+    add_denoise_options(command, words.denoise, group);
     command.add_flag("--half", words.half, "Store .exr as 16-bit floats")->group(group);
     command
         .add_flag("--tiled", words.tiled, "Store .exr in tiles, for programs that read parts of it")
@@ -187,6 +188,7 @@ MergeArguments understand(const MergeWords& words)
     result.noise = to_noise(words.noise);
     result.incomplete = words.partial ? Incomplete::write : Incomplete::refuse;
     result.display = understand(words.display);
+    result.denoise = understand(words.denoise);
     result.channel_type =
         words.half ? io::ExrChannelType::half_float : io::ExrChannelType::single_float;
     result.storage = words.tiled ? io::ExrStorage::tiles : io::ExrStorage::scanlines;

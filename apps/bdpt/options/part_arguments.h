@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "options/groups/denoise_arguments.h"
 #include "options/groups/display_arguments.h"
 #include "terminal/console.h"
 
@@ -59,6 +60,7 @@ struct MergeWords {
     std::optional<std::string> noise;
     bool partial = false;
     DisplayWords display;
+    DenoiseWords denoise;
     bool half = false;
     bool tiled = false;
     bool quiet = false;
@@ -78,6 +80,7 @@ struct MergeArguments {
     std::optional<double> noise;                ///< as noise_of(), that it was to have
     Incomplete incomplete = Incomplete::refuse;
     DisplayArguments display;
+    std::optional<DenoiseArguments> denoise;  ///< if images are to be denoised
     io::ExrChannelType channel_type = io::ExrChannelType::single_float;
     io::ExrStorage storage = io::ExrStorage::scanlines;
     Format format = Format::text;

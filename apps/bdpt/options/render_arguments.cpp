@@ -164,6 +164,7 @@ void add_image_output(CLI::App& command, RenderWords& words)
         ->type_name("FILE")
         ->group(group);
     add_display_options(command, words.display, group);
+    add_denoise_options(command, words.denoise, group);
     CLI::Option* half =
         command.add_flag("--half", words.half, "Store .exr as 16-bit floats")->group(group);
     command.add_flag("--float", words.single, "Store .exr as 32-bit floats (default)")
@@ -342,6 +343,11 @@ RenderArguments understand(const RenderWords& words)
     if (result.display.backdrop) {
         result.options.transport.background = Background::none;
         result.options.film.aovs.insert(Aov::alpha);
+    }
+    result.denoise = understand(words.denoise);
+    if (result.denoise) {
+        result.options.film.aovs.insert(Aov::albedo);
+        result.options.film.aovs.insert(Aov::normal);
     }
     result.channel_type =
         words.half ? io::ExrChannelType::half_float : io::ExrChannelType::single_float;

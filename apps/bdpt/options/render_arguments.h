@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "options/arguments.h"
+#include "options/groups/denoise_arguments.h"
 #include "options/groups/display_arguments.h"
 #include "options/groups/environment_arguments.h"
 #include "options/groups/film_arguments.h"
@@ -52,6 +53,7 @@ struct RenderWords {
     std::string texture_filter = "bilinear";
     EnvironmentWords environment_change;
     DisplayWords display;
+    DenoiseWords denoise;
     int threads = 0;
     std::string isa = "native";
     FilmWords film;
@@ -86,6 +88,7 @@ struct RenderArguments {
     TextureFilter texture_filter = TextureFilter::bilinear;
     EnvironmentChange environment_change;  ///< of whichever environment it is
     DisplayArguments display;
+    std::optional<DenoiseArguments> denoise;  ///< if images are to be denoised
     io::ExrChannelType channel_type = io::ExrChannelType::single_float;
     io::ExrStorage storage = io::ExrStorage::scanlines;
     std::optional<std::filesystem::path> stats;  ///< where numbers about the render go

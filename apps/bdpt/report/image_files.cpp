@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "options/values/output_files.h"
+#include "report/denoised.h"
 
 namespace bdpt::app {
 
@@ -23,10 +24,8 @@ std::span<const float> coverage_of(std::span<const Layer> layers)
     return found != layers.end() ? std::span(found->values) : std::span<const float>();
 }
 
-}  // namespace
-
-WrittenImages write_image_files(std::span<const fs::path> outputs, const Image& image,
-                                const ImageFileOptions& options)
+WrittenImages write_as_they_are(std::span<const fs::path> outputs, const Image& exr_image,
+                                const Image& image, const ImageFileOptions& options)
 {
     const DisplayArguments& display = options.display;
     const auto background = display.backdrop ? display.backdrop->color : std::nullopt;
@@ -35,7 +34,7 @@ WrittenImages write_image_files(std::span<const fs::path> outputs, const Image& 
     for (const fs::path& output : outputs) {
         if (has_extension(output, ".exr")) {
             report.clamped_pixels =
-                io::write_exr(output, image, options.layers, options.exr).clamped_pixels;
+                io::write_exr(output, exr_image, options.layers, options.exr).clamped_pixels;
             continue;
         }
         if (!report.exposure) {
@@ -52,6 +51,20 @@ WrittenImages write_image_files(std::span<const fs::path> outputs, const Image& 
                        .curve = display.curve});
     }
     return report;
+}
+
+}  // namespace
+
+WrittenImages write_image_files(std::span<const fs::path> outputs, const Image& image,
+                                ImageFileOptions options)
+{
+    if (options.denoiser == nullptr || outputs.empty()) {
+        return write_as_they_are(outputs, image, image, options);
+    }
+    const Image clean = denoised(*options.denoiser, image, options.layers);
+    const bool clean_first = options.denoised_as == DenoisedAs::image;
+    options.layers.push_back(clean_first ? layer_of(image, "noisy") : layer_of(clean, "denoised"));
+    return write_as_they_are(outputs, clean_first ? clean : image, clean, options);
 }
 
 }  // namespace bdpt::app

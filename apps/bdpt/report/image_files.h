@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bdpt/image.h>
+#include <bdpt/io/denoise.h>
 #include <bdpt/io/exr.h>
 #include <bdpt/layer.h>
 
@@ -10,14 +11,17 @@
 #include <span>
 #include <vector>
 
+#include "options/groups/denoise_arguments.h"
 #include "options/groups/display_arguments.h"
 
 namespace bdpt::app {
 
 struct ImageFileOptions {
     io::ExrOptions exr;
-    std::vector<Layer> layers;  ///< of EXR files, beside the image
-    DisplayArguments display;   ///< of PNG files
+    std::vector<Layer> layers;               ///< of EXR files, beside the image
+    DisplayArguments display;                ///< of PNG files
+    const io::Denoiser* denoiser = nullptr;  ///< null: images stay as they are
+    DenoisedAs denoised_as = DenoisedAs::image;
 };
 
 struct WrittenImages {
@@ -25,9 +29,10 @@ struct WrittenImages {
     std::optional<float> exposure;   ///< [EV] of the PNG files, if there were any
 };
 
-/// Writes all `outputs`, each as its extension says. A PNG file with a backdrop needs the layer
-/// with alpha. Throws `Error` (output).
+/// Writes all `outputs`, each as its extension says; with a denoiser PNG files are denoised, and
+/// EXR files have both images. A PNG file with a backdrop needs the layer with alpha. Throws
+/// `Error` (output).
 WrittenImages write_image_files(std::span<const std::filesystem::path> outputs, const Image& image,
-                                const ImageFileOptions& options);
+                                ImageFileOptions options);
 
 }  // namespace bdpt::app

@@ -1,0 +1,70 @@
+#include "denoise/oidn_functions.h"
+
+#include <bdpt/error.h>
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+namespace bdpt::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* library_name = "libOpenImageDenoise.so.2";
+
+std::string file_to_open(const std::optional<fs::path>& library)
+{
+    if (!library) {
+        return library_name;
+    }
+    std::error_code error;
+    const fs::path file = fs::is_directory(*library, error) ? *library / library_name : *library;
+    // A name without a slash would be looked for in the folders of the system.
+    return fs::absolute(file, error).string();
+}
+
+template <typename Function>
+void find(void* module, const std::string& file, const char* name, Function*& function)
+{
+    void* const address = dlsym(module, name);
+    if (address == nullptr) {
+        throw Error(ErrorCode::unsupported,
+                    fmt::format("{} is not Open Image Denoise 2: it has no {}", file, name));
+    }
+    function = reinterpret_cast<Function*>(address);
+}
+
+}  // namespace
+
+OidnFunctions open_oidn(const std::optional<fs::path>& library)
+{
+    const std::string file = file_to_open(library);
+    // It stays: its threads may outlive all that we know of.
+    void* const module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+    if (module == nullptr) {
+        throw Error(
+            ErrorCode::unsupported,
+            fmt::format("there is no denoiser: {}. Open Image Denoise 2 is at "
+                        "https://www.openimagedenoise.org, and in the Python package pyoidn",
+                        dlerror()));
+    }
+    OidnFunctions functions{};
+    find(module, file, "oidnNewDevice", functions.oidnNewDevice);
+    find(module, file, "oidnSetDeviceInt", functions.oidnSetDeviceInt);
+    find(module, file, "oidnGetDeviceInt", functions.oidnGetDeviceInt);
+    find(module, file, "oidnCommitDevice", functions.oidnCommitDevice);
+    find(module, file, "oidnGetDeviceError", functions.oidnGetDeviceError);
+    find(module, file, "oidnReleaseDevice", functions.oidnReleaseDevice);
+    find(module, file, "oidnNewFilter", functions.oidnNewFilter);
+    find(module, file, "oidnSetSharedFilterImage", functions.oidnSetSharedFilterImage);
+    find(module, file, "oidnSetFilterBool", functions.oidnSetFilterBool);
+    find(module, file, "oidnCommitFilter", functions.oidnCommitFilter);
+    find(module, file, "oidnExecuteFilter", functions.oidnExecuteFilter);
+    find(module, file, "oidnReleaseFilter", functions.oidnReleaseFilter);
+    return functions;
+}
+
+}  // namespace bdpt::io

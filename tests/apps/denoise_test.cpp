@@ -1,0 +1,142 @@
+// bdpt render --denoise and bdpt merge --denoise, with a library that counts
+// (tests/support/fake_oidn.cpp): images become 2 * image + albedo + 1 + normal + 2.
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "image_files.h"
+#include "scene_files.h"
+#include "scratch_folder.h"
+#include "subprocess.h"
+
+namespace bdpt::test {
+namespace {
+
+using Words = std::vector<std::string>;
+using ExrChannels = std::map<std::string, std::vector<float>>;
+
+ExrChannels read_channels(const std::string& file)
+{
+    ExrChannels result;
+    const Imf::InputFile exr(file.c_str());
+    const Imf::ChannelList& channels = exr.header().channels();
+    for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
+        result[channel.name()] = read_exr_channel(file, channel.name());
+    }
+    return result;
+}
+
+class DenoiseFolder {
+public:
+    DenoiseFolder() : scene_(write_cube(folder_, "cube", {.cameras = two_cameras}).string()) {}
+    std::string path(const std::string& name) const { return (folder_ / name).string(); }
+    bool has(const std::string& name) const { return std::filesystem::exists(folder_ / name); }
+    Outcome render(const Words& more,
+                   const std::map<std::string, std::string>& environment = {}) const
+    {
+        Words words{"render", scene_, "--size", "8x4", "--spp", "4", "--quiet"};
+        words.insert(words.end(), more.begin(), more.end());
+        return run({.arguments = words, .environment = environment});
+    }
+
+private:
+    ScratchFolder folder_;
+    std::string scene_;
+};
+
+/// Is the image in `clean` what the library makes of the one in `noisy`?
+void check_denoised(const ExrChannels& clean, const std::string& prefix, const ExrChannels& noisy)
+{
+    for (const auto& [color, axis] :
+         {std::pair("R", "X"), std::pair("G", "Y"), std::pair("B", "Z")}) {
+        const auto& image = noisy.at(color);
+        const auto& albedo = clean.at(std::string("albedo.") + color);
+        const auto& normal = clean.at(std::string("normal.") + axis);
+        const auto& result = clean.at(prefix + color);
+        REQUIRE(result.size() == image.size());
+        for (std::size_t i = 0; i < result.size(); ++i) {
+            CHECK(result[i] == Approx(2.0f * image[i] + albedo[i] + normal[i] + 3.0f));
+        }
+    }
+}
+
+}  // namespace
+
+TEST_CASE("with --denoise the noisy image is a layer")
+{
+    const DenoiseFolder folder;
+    CHECK(folder.render({"-o", folder.path("plain.exr")}).exit_code == 0);
+    const ExrChannels plain = read_channels(folder.path("plain.exr"));
+    CHECK(plain.count("noisy.R") == 0);
+    const Outcome outcome = folder.render(
+        {"-o", folder.path("clean.exr"), "--denoise", "--denoiser-library", BDPT_FAKE_OIDN});
+    REQUIRE(outcome.exit_code == 0);
+    const ExrChannels clean = read_channels(folder.path("clean.exr"));
+    CHECK(clean.at("noisy.G") == plain.at("G"));
+    check_denoised(clean, "", plain);
+}
+
+TEST_CASE("with --denoise=layer the denoised image is a layer")
+{
+    const DenoiseFolder folder;
+    const Outcome outcome = folder.render(
+        {"-o", folder.path("both.exr"), "--denoise=layer", "--denoiser-library", BDPT_FAKE_OIDN});
+    REQUIRE(outcome.exit_code == 0);
+    const ExrChannels both = read_channels(folder.path("both.exr"));
+    CHECK(both.count("noisy.R") == 0);
+    check_denoised(both, "denoised.", both);
+}
+
+TEST_CASE("parts are denoised when they are merged")
+{
+    const DenoiseFolder folder;
+    const auto part = [&](const char* samples, const char* name) {
+        return run({"render", folder.path("cube.gltf"), "--size", "8x4", "--quiet", "--samples",
+                    samples, "--denoise", "--part", folder.path(name)})
+            .exit_code;
+    };
+    // No image, no denoiser.
+    REQUIRE(part("0:2", "a.part.exr") == 0);
+    REQUIRE(part("2:4", "b.part.exr") == 0);
+    REQUIRE(folder
+                .render({"-o", folder.path("whole.exr"), "--denoise", "--denoiser-library",
+                         BDPT_FAKE_OIDN})
+                .exit_code == 0);
+    REQUIRE(run({"merge", folder.path("b.part.exr"), folder.path("a.part.exr"), "-o",
+                 folder.path("merged.exr"), "--denoise", "--denoiser-library", BDPT_FAKE_OIDN,
+                 "--quiet"})
+                .exit_code == 0);
+    CHECK(read_channels(folder.path("merged.exr")) == read_channels(folder.path("whole.exr")));
+}
+
+TEST_CASE("without a denoiser nothing is rendered")
+{
+    const DenoiseFolder folder;
+    const Outcome absent = folder.render(
+        {"-o", folder.path("a.exr"), "--denoise", "--denoiser-library", folder.path("none.so")});
+    CHECK(absent.exit_code == 5);
+    CHECK(absent.err.find("none.so") != std::string::npos);
+    CHECK_FALSE(folder.has("a.exr"));
+    const Outcome alone =
+        folder.render({"-o", folder.path("a.exr"), "--denoiser-library", BDPT_FAKE_OIDN});
+    CHECK(alone.exit_code == 2);
+    const Outcome word = folder.render({"-o", folder.path("a.exr"), "--denoise=much"});
+    CHECK(word.exit_code == 2);
+    CHECK(word.err.find("much") != std::string::npos);
+}
+
+TEST_CASE("a denoiser that fails is an error with its message")
+{
+    const DenoiseFolder folder;
+    const Outcome outcome = folder.render(
+        {"-o", folder.path("a.exr"), "--denoise", "--denoiser-library", BDPT_FAKE_OIDN},
+        {{"BDPT_FAKE_OIDN", "fail"}});
+    CHECK(outcome.exit_code == 1);
+    CHECK(outcome.err.find("it was asked to fail") != std::string::npos);
+    CHECK_FALSE(folder.has("a.exr"));
+}
+
+}  // namespace bdpt::test

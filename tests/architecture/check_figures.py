@@ -12,17 +12,28 @@ sys.dont_write_bytecode = True
 
 
 def options_of(help_text):
-    """Option -> its values where the help lists them (a|b|c), else None."""
+    """Option -> its values where the help lists them (a|b|c), "" for flags, else None."""
     found = re.findall(r"^  (?:-\w,)?(--[\w-]+)(?: ([^\s]+))?", help_text, flags=re.M)
-    return {name: set(values.split("|")) if "|" in values else None for name, values in found}
+    return {name: set(values.split("|")) if "|" in values else None if values else "" for name, values in found}
+
+
+def pairs_of(words, known):
+    """The options in a list of words, each with its value, which is "" for flags and None where it lacks."""
+    pairs, rest = [], list(words)
+    while rest:
+        name = rest.pop(0)
+        flag = known.get(name) == ""
+        pairs.append((name, "" if flag else rest.pop(0) if rest else None))
+    return pairs
 
 
 def option_errors(words, known):
-    """What is wrong with a list of options, each of which has a value."""
-    if len(words) % 2:
+    """What is wrong with a list of options and values."""
+    pairs = pairs_of(words, known)
+    if any(value is None for _, value in pairs):
         return [f"an option lacks its value: {' '.join(words)}"]
     errors = []
-    for name, value in zip(words[::2], words[1::2]):
+    for name, value in pairs:
         if name not in known:
             errors.append(f"bdpt render has no option {name}")
         elif known[name] and value not in known[name]:
@@ -31,7 +42,7 @@ def option_errors(words, known):
             errors.append(f"not a list of strategies: {value}")
         elif re.fullmatch(r"--(max-.*|light-paths)", name) and not value.isdigit():
             errors.append(f"{name} takes a number, not {value}")
-    names = words[::2]
+    names = [name for name, _ in pairs]
     return errors + [f"{name} is given twice" for name in sorted(set(names)) if names.count(name) > 1]
 
 

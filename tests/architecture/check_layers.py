@@ -40,6 +40,7 @@ ALLOWED = {
     "lib/eval/include": [],
     "lib/eval/src": [r"glm/", r"nlohmann/", r"(oneapi/)?tbb/", r"zlib\.h"],
     "apps": [r"glm/", r"CLI/", r"nlohmann/", r"fmt/", POSIX],
+    "apps/python": [r"glm/", r"CLI/", r"nlohmann/", r"fmt/", r"nanobind/"],
     "apps/bdpt/main.cpp": [r"CLI/", r"fmt/", r"(oneapi/)?tbb/", POSIX],
     "tests": [r"glm/", r"catch2/", r"embree[34]/", r"(oneapi/)?tbb/", FILE_LIBRARIES, POSIX, r"pthread\.h",
               INTRINSICS],

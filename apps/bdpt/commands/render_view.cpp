@@ -133,25 +133,6 @@ std::exception_ptr finish_part(std::optional<PartKeeper>& keeper, const RenderPa
     return nullptr;
 }
 
-io::ImageMetadata metadata_of(const RenderArguments& arguments, const PreparedScene& stage,
-                              const ordered_json& settings)
-{
-    io::ImageMetadata metadata;
-    metadata.version = BDPT_VERSION;
-    metadata.scene = one_line(arguments.file.string());
-    metadata.settings = settings.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
-    metadata.integrator = eval::to_string(arguments.options.integrator);
-    metadata.seed = arguments.options.sampling.seed;
-    metadata.camera = stage.camera;
-    metadata.created = std::chrono::system_clock::now();
-    if (arguments.sequence_view && arguments.sequence_view->frame) {
-        metadata.frame = io::FrameNumber{.number = *arguments.sequence_view->frame,
-                                         .per_second = arguments.sequence_view->fps};
-    }
-    metadata.xmp = stage.xmp;
-    return metadata;
-}
-
 io::PartNotes part_notes(const RenderArguments& arguments, io::ImageMetadata metadata,
                          const std::vector<std::string>& words)
 {

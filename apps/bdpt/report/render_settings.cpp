@@ -1,5 +1,9 @@
 #include "report/render_settings.h"
 
+#include <bdpt/eval/bench/option_names.h>
+#include <bdpt/version.h>
+
+#include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -8,6 +12,7 @@
 #include "options/groups/film_arguments.h"
 #include "options/groups/transport_arguments.h"
 #include "report/values.h"
+#include "terminal/text.h"
 
 namespace bdpt::app {
 namespace {
@@ -103,6 +108,25 @@ ordered_json settings_of(const RenderArguments& arguments, const PreparedScene& 
         settings["time_limit_seconds"] = arguments.goal.seconds;
     }
     return settings;
+}
+
+io::ImageMetadata metadata_of(const RenderArguments& arguments, const PreparedScene& stage,
+                              const ordered_json& settings)
+{
+    io::ImageMetadata metadata;
+    metadata.version = BDPT_VERSION;
+    metadata.scene = one_line(arguments.file.string());
+    metadata.settings = settings.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+    metadata.integrator = eval::to_string(arguments.options.integrator);
+    metadata.seed = arguments.options.sampling.seed;
+    metadata.camera = stage.camera;
+    metadata.created = std::chrono::system_clock::now();
+    if (arguments.sequence_view && arguments.sequence_view->frame) {
+        metadata.frame = io::FrameNumber{.number = *arguments.sequence_view->frame,
+                                         .per_second = arguments.sequence_view->fps};
+    }
+    metadata.xmp = stage.xmp;
+    return metadata;
 }
 
 }  // namespace bdpt::app

@@ -131,12 +131,20 @@ BuiltScene build(LitScene& lit, const RenderArguments& arguments, float aspect,
     return {Scene(std::move(lit.desc), arguments.isa), framed};
 }
 
-CameraDesc frame(const BuiltScene& built, float aspect)
+CameraDesc named_auto(CameraDesc camera)
 {
-    CameraDesc camera =
-        built.framed ? built.framed->camera : frame_scene(built.scene, aspect).camera;
     camera.name = "auto";
     return camera;
+}
+
+CameraDesc framed(const Scene& scene, float aspect)
+{
+    return named_auto(frame_scene(scene, aspect).camera);
+}
+
+CameraDesc frame(const BuiltScene& built, float aspect)
+{
+    return built.framed ? named_auto(built.framed->camera) : framed(built.scene, aspect);
 }
 
 Vec3 center(const Bounds& bounds)
@@ -224,6 +232,18 @@ Viewpoint viewpoint(const PreparedScene& stage, std::size_t index, const RenderA
     CameraDesc camera = apply(arguments.view, stage.cameras.at(index), std::nullopt);
     camera.name = camera_names(stage).at(index);
     const Size size = arguments.size.value_or(default_size(camera.aspect_ratio));
+    return {.camera = with_lens(arguments.lens, std::move(camera), stage.scene), .size = size};
+}
+
+Viewpoint viewpoint(const PreparedScene& stage, const RenderArguments& arguments)
+{
+    const std::optional<CameraDesc> from_file = camera_in_file(stage.cameras, arguments);
+    const Size size =
+        arguments.size.value_or(default_size(from_file ? from_file->aspect_ratio : std::nullopt));
+    const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
+    CameraDesc camera = from_file ? apply(arguments.view, *from_file, std::nullopt)
+                                  : apply(arguments.view, framed(stage.scene, aspect),
+                                          center(stage.scene.bounds()));
     return {.camera = with_lens(arguments.lens, std::move(camera), stage.scene), .size = size};
 }
 

@@ -44,6 +44,10 @@ struct Viewpoint {
 [[nodiscard]] Viewpoint viewpoint(const PreparedScene& stage, std::size_t index,
                                   const RenderArguments& arguments);
 
+/// What the camera that `arguments` choose sees of the scene; it may be framed for another size
+/// than before. Throws `Error`.
+[[nodiscard]] Viewpoint viewpoint(const PreparedScene& stage, const RenderArguments& arguments);
+
 /// The names of the cameras, or their indices if they have none.
 [[nodiscard]] std::vector<std::string> camera_names(const PreparedScene& stage);
 

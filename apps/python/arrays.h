@@ -1,0 +1,66 @@
+#pragma once
+
+#include <bdpt/image.h>
+#include <bdpt/layer.h>
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace bdpt::python {
+
+namespace nb = nanobind;
+
+/// An array of NumPy that owns its values.
+using FloatArray = nb::ndarray<nb::numpy, float>;
+/// What NumPy can make of an argument: floats in a row.
+template <typename... Shape>
+using FloatInput = nb::ndarray<const float, nb::c_contig, nb::device::cpu, Shape...>;
+using ImageInput = FloatInput<nb::shape<-1, -1, 3>>;
+
+/// `values`, given away, as an array of that shape: nothing is copied.
+template <typename Value>
+[[nodiscard]] FloatArray to_array(std::vector<Value> values,
+                                  std::initializer_list<std::size_t> shape)
+{
+    auto* kept = new std::vector<Value>(std::move(values));
+    const nb::capsule owner(
+        kept, [](void* pointer) noexcept { delete static_cast<std::vector<Value>*>(pointer); });
+    return FloatArray(kept->data(), shape, owner);
+}
+
+[[nodiscard]] inline FloatArray to_array(Image image)
+{
+    const auto height = static_cast<std::size_t>(image.height);
+    const auto width = static_cast<std::size_t>(image.width);
+    return to_array(std::move(image.pixels), {height, width, 3});
+}
+
+[[nodiscard]] inline FloatArray to_array(Layer layer)
+{
+    const auto height = static_cast<std::size_t>(layer.height);
+    const auto width = static_cast<std::size_t>(layer.width);
+    const std::size_t channels = layer.channels.size();
+    return to_array(std::move(layer.values), {height, width, channels});
+}
+
+[[nodiscard]] inline Image to_image(const ImageInput& array)
+{
+    const auto* pixels = reinterpret_cast<const Rgb*>(array.data());
+    return {static_cast<int>(array.shape(1)), static_cast<int>(array.shape(0)),
+            std::vector<Rgb>(pixels, pixels + array.shape(0) * array.shape(1))};
+}
+
+/// Rows of `Value::length()` numbers.
+template <typename Value, typename Array>
+[[nodiscard]] std::vector<Value> to_vectors(const Array& array)
+{
+    const auto* rows = reinterpret_cast<const Value*>(array.data());
+    return std::vector<Value>(rows, rows + array.shape(0));
+}
+
+}  // namespace bdpt::python

@@ -1,0 +1,43 @@
+#include <bdpt/error.h>
+#include <bdpt/version.h>
+#include <nanobind/nanobind.h>
+
+#include <exception>
+
+#include "python_scene.h"
+
+namespace {
+
+namespace nb = nanobind;
+
+nb::object* error_type = nullptr;  // lives as long as the module
+
+/// bdpt::Error as bdpt.Error, whose `code` is the exit code of the command.
+void translate(const std::exception_ptr& exception, void* /*payload*/)
+{
+    try {
+        std::rethrow_exception(exception);
+    } catch (const bdpt::Error& error) {
+        nb::object raised = (*error_type)(error.what());
+        raised.attr("code") = static_cast<int>(error.code());
+        PyErr_SetObject(error_type->ptr(), raised.ptr());
+    }
+}
+
+}  // namespace
+
+NB_MODULE(_bdpt, module)
+{
+    module.doc() = "Bidirectional path tracing.";
+    module.attr("__version__") = BDPT_VERSION;
+    error_type = new nb::object(nb::steal(PyErr_NewExceptionWithDoc(
+        "bdpt.Error",
+        "Bad input, or a failing library; `code` is the exit code that the command would have.",
+        PyExc_RuntimeError, nullptr)));
+    module.attr("Error") = *error_type;
+    nb::register_exception_translator(translate);
+    bdpt::python::bind_scene(module);
+    bdpt::python::bind_parts_of_scenes(module);
+    bdpt::python::bind_render(module);
+    bdpt::python::bind_compare(module);
+}

@@ -1,0 +1,14 @@
+"""Bidirectional path tracing: glTF scenes, or arrays, to images.
+
+    import bdpt
+    scene = bdpt.load("scene.glb", env="sky.exr")
+    render = bdpt.render(scene, spp=64, size=(640, 480))
+    render.image            # NumPy array of float32, (height, width, 3)
+    render.save("out.exr")
+"""
+
+from ._bdpt import (Camera, DirectionalLight, EnvironmentLight, Error, Material, Mesh, PointLight, Render, Scene,
+                    SpotLight, __version__, compare, load, read_part, render)
+
+__all__ = ["Camera", "DirectionalLight", "EnvironmentLight", "Error", "Material", "Mesh", "PointLight", "Render", "Scene",
+           "SpotLight", "compare", "load", "read_part", "render"]

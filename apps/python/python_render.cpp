@@ -1,0 +1,222 @@
+#include <bdpt/error.h>
+#include <bdpt/io/part_file.h>
+#include <bdpt/noise.h>
+#include <bdpt/part/render_part.h>
+#include <bdpt/render.h>
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/map.h>
+#include <nanobind/stl/string.h>
+
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+
+#include "arrays.h"
+#include "options/part_arguments.h"
+#include "options/values/output_files.h"
+#include "python_scene.h"
+#include "report/denoised.h"
+#include "report/image_files.h"
+#include "report/render_settings.h"
+
+namespace bdpt::python {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a render brought so far.
+struct Render {
+    RenderPart part;
+    io::PartNotes notes;
+    std::optional<app::Backdrop> backdrop{};
+    double seconds = 0.0;
+};
+
+/// What one call renders.
+struct Task {
+    app::RenderArguments arguments;
+    CameraDesc camera;
+    io::ImageMetadata metadata;
+};
+
+/// The scene stays as it was: another size is that of one call.
+Task prepare(PythonScene& scene, const nb::kwargs& options)
+{
+    Words words = scene.words;
+    const Words more = words_of(options, Call::render);
+    words.insert(words.end(), more.begin(), more.end());
+    Task task{.arguments = understand_render(words), .camera = scene.stage.camera, .metadata = {}};
+    app::RenderArguments& arguments = task.arguments;
+    arguments.file = scene.file;
+    const app::Size size = arguments.size.value_or(scene.stage.size);
+    const bool resized =
+        size.width != scene.stage.size.width || size.height != scene.stage.size.height;
+    if (resized && !scene.file.empty()) {
+        task.camera = viewpoint(scene.stage, arguments).camera;
+    }
+    arguments.options.film.width = size.width;
+    arguments.options.film.height = size.height;
+    arguments.options.sampling.samples = arguments.samples;
+    const app::Size own_size = std::exchange(scene.stage.size, size);
+    CameraDesc own_camera = std::exchange(scene.stage.camera, task.camera);
+    task.metadata = metadata_of(arguments, scene.stage, settings_of(arguments, scene.stage));
+    scene.stage.size = own_size;
+    scene.stage.camera = std::move(own_camera);
+    return task;
+}
+
+/// Between passes: Ctrl-C, and whoever wants to know how far it is.
+void tell(const Progress& progress, const nb::object& listener)
+{
+    const nb::gil_scoped_acquire lock;
+    if (PyErr_CheckSignals() != 0) {
+        throw nb::python_error();
+    }
+    if (!listener.is_none()) {
+        listener(progress.samples_done, progress.samples_total, progress.seconds);
+    }
+}
+
+Render render_scene(PythonScene& scene, const nb::object& progress, const nb::kwargs& options)
+{
+    Task task = prepare(scene, options);
+    const app::RenderArguments& arguments = task.arguments;
+    Render result{
+        .part = {},
+        .notes = {.goal = SampleSet(arguments.samples), .metadata = std::move(task.metadata)},
+        .backdrop = arguments.display.backdrop};
+    RenderControl control;
+    control.time_limit = arguments.goal.seconds;
+    control.noise_goal = arguments.goal.noise.value_or(0.0);
+    control.on_progress = [&progress](const Progress& done) { tell(done, progress); };
+    const nb::gil_scoped_release unlocked;
+    PartResult done = render_part(scene.stage.scene, task.camera, arguments.options, {}, control);
+    result.part = std::move(done.part);
+    result.seconds = done.seconds;
+    return result;
+}
+
+std::map<std::string, FloatArray> layers_of(const Render& render)
+{
+    std::map<std::string, FloatArray> arrays;
+    for (Layer& layer : render.part.aovs.develop(render.part.film)) {
+        const std::string name = layer.name.empty() ? "alpha" : layer.name;
+        arrays.emplace(name, to_array(std::move(layer)));
+    }
+    return arrays;
+}
+
+void save(const Render& render, const fs::path& file, const nb::kwargs& options)
+{
+    SaveArguments asked = understand_save(words_of(options, Call::save));
+    io::PartNotes notes = render.notes;
+    notes.metadata.samples_per_pixel = render.part.samples.count();
+    notes.metadata.render_seconds = render.seconds;
+    notes.metadata.created = std::chrono::system_clock::now();
+    if (app::is_part_name(file)) {
+        io::write_part(file, render.part, notes, io::OldPart::replace);
+        return;
+    }
+    const std::vector<fs::path> files{file};
+    app::check_outputs(files, {});
+    if (!asked.display.backdrop) {
+        asked.display.backdrop = render.backdrop;
+    } else if (!render.backdrop) {
+        throw Error(ErrorCode::usage, "background: render() needs it, too");
+    }
+    const FilmLayout& layout = render.part.film.layout();
+    const auto denoiser = app::open_denoiser(asked.denoise, files, 0);
+    app::write_image_files(
+        files, render.part.film.develop(),
+        {.exr = {.type =
+                     asked.half ? io::ExrChannelType::half_float : io::ExrChannelType::single_float,
+                 .metadata = notes.metadata,
+                 .storage = asked.tiled ? io::ExrStorage::tiles : io::ExrStorage::scanlines,
+                 .placement = io::ExrPlacement{.x = layout.region.x0,
+                                               .y = layout.region.y0,
+                                               .full_width = layout.width,
+                                               .full_height = layout.height}},
+         .layers = render.part.aovs.develop(render.part.film),
+         .display = asked.display,
+         .denoiser = denoiser ? &*denoiser : nullptr,
+         .denoised_as = asked.denoise ? asked.denoise->as : app::DenoisedAs::image});
+}
+
+Render read_part(const fs::path& file)
+{
+    const io::PartInfo info = io::read_part_info(file);
+    Render render{.part = {}, .notes = info.notes};
+    io::merge_part(render.part, info);
+    const nlohmann::json settings =
+        nlohmann::json::parse(info.notes.metadata.settings, nullptr, false);
+    if (settings.is_object() && settings.contains("background")) {
+        render.backdrop = app::parse_backdrop(settings["background"].get<std::string>());
+    }
+    return render;
+}
+
+}  // namespace
+
+void bind_render(nb::module_& module)
+{
+    nb::class_<Render>(module, "Render",
+                       "What a render brought: sums of samples, which add up exactly.")
+        .def_prop_ro(
+            "image", [](const Render& render) { return to_array(render.part.film.develop()); },
+            nb::rv_policy::reference,
+            "Linear radiance [nit], Rec. 709: an array of float32 (height, width, 3), row 0 at the "
+            "top.")
+        .def_prop_ro("layers", &layers_of, nb::rv_policy::reference,
+                     "Layers of aov=..., by name: arrays of float32 (height, width, channels).")
+        .def_prop_ro(
+            "samples", [](const Render& render) { return render.part.samples.text(); },
+            "Which samples of each pixel it has, like '0:64'.")
+        .def_prop_ro(
+            "spp", [](const Render& render) { return render.part.samples.count(); },
+            "How many samples of each pixel it has.")
+        .def_prop_ro(
+            "noise", [](const Render& render) { return noise_of(render.part.film); },
+            "Relative standard error that 95 % of all tiles of 16 x 16 pixels are not above.")
+        .def_prop_ro(
+            "settings", [](const Render& render) { return render.notes.metadata.settings; },
+            "All options of the render, as JSON.")
+        .def(
+            "__iadd__",
+            [](Render& render, const Render& other) -> Render& {
+                const nb::gil_scoped_release unlocked;
+                merge(render.part, other.part);
+                render.seconds += other.seconds;
+                return render;
+            },
+            nb::arg("other"), nb::rv_policy::reference,
+            "Adds other samples of the same render, to the bit as if one render had made all.")
+        .def(
+            "save", &save, nb::arg("file"), nb::arg("options"),
+            ("Writes an image, .exr (linear radiance and layers) or .png (tone-mapped), or a part, "
+             ".part.exr, that bdpt merge and bdpt render --part understand.\n\nOptions:\n" +
+             option_list(Call::save))
+                .c_str())
+        .def("__repr__", [](const Render& render) {
+            const FilmLayout& layout = render.part.film.layout();
+            return nb::str("<bdpt.Render {}x{}, samples {}>")
+                .format(layout.width, layout.height, render.part.samples.text());
+        });
+    module.def(
+        "render", &render_scene, nb::arg("scene"), nb::kw_only(),
+        nb::arg("progress").none() = nb::none(), nb::arg("options"),
+        ("Renders the scene. Options are those of bdpt render, with the same defaults: the image "
+         "is "
+         "that of the command, to the bit. progress(done, total, seconds) is called between "
+         "passes; "
+         "what it raises, or Ctrl-C, ends the render. Other Python threads run meanwhile.\n\n"
+         "Options:\n" +
+         option_list(Call::render))
+            .c_str());
+    module.def("read_part", &read_part, nb::arg("file"),
+               "Reads a part: what save('x.part.exr') or bdpt render --part wrote.");
+}
+
+}  // namespace bdpt::python

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+#include <string>
+
+#include "stage/prepared_scene.h"
+#include "words.h"
+
+namespace bdpt::python {
+
+/// A scene that is ready to render, and the options that it was loaded with.
+struct PythonScene {
+    app::PreparedScene stage;
+    std::string file;  ///< empty: it was made of arrays
+    Words words;
+};
+
+/// load() and `Scene`.
+void bind_scene(nanobind::module_& module);
+
+/// Meshes, materials, lights and cameras of arrays.
+void bind_parts_of_scenes(nanobind::module_& module);
+
+/// render(), `Render` and what belongs to it.
+void bind_render(nanobind::module_& module);
+
+/// compare().
+void bind_compare(nanobind::module_& module);
+
+}  // namespace bdpt::python

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+#include <string>
+#include <vector>
+
+#include "options/groups/denoise_arguments.h"
+#include "options/groups/display_arguments.h"
+#include "options/render_arguments.h"
+
+namespace bdpt::python {
+
+/// Keyword arguments are the options of the command: size=(640, 480) is "--size=640x480",
+/// look_at=(0, 1, 0) is "--look-at=0,1,0", from_=... is "--from=...", True is a flag.
+using Words = std::vector<std::string>;
+
+/// Which call an option belongs to.
+enum class Call { load, render, save };
+
+/// The words for `options`. Throws `Error` (usage) for options that do not belong to `call`, saying
+/// where they belong.
+[[nodiscard]] Words words_of(const nanobind::kwargs& options, Call call);
+
+/// What `words` of load() and render() mean, by the parser of the command.
+[[nodiscard]] app::RenderArguments understand_render(const Words& words);
+
+/// How a file is written.
+struct SaveArguments {
+    app::DisplayArguments display;
+    std::optional<app::DenoiseArguments> denoise;
+    bool half = false;
+    bool tiled = false;
+};
+
+[[nodiscard]] SaveArguments understand_save(const Words& words);
+
+/// The options of `call`, each with what it does: for docstrings.
+[[nodiscard]] std::string option_list(Call call);
+
+}  // namespace bdpt::python

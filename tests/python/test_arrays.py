@@ -1,0 +1,69 @@
+"""Scenes made of arrays."""
+
+import bdpt
+import numpy as np
+import pytest
+
+SQUARE = np.array([[-1, 0, -1], [1, 0, -1], [1, 0, 1], [-1, 0, 1]], np.float32)
+TRIANGLES = np.array([[0, 2, 1], [0, 3, 2]], np.uint32)
+UVS = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], np.float32)
+FROM_ABOVE = bdpt.Camera(from_=(0, 3, 0.001), look_at=(0, 0, 0), fov=20)
+WHITE_SKY = bdpt.EnvironmentLight(np.ones((1, 1, 3), np.float32))
+
+
+def floor(**more):
+    material = {"metallic": 0.0, "specular": 0.0, **more}
+    return bdpt.Mesh(SQUARE, TRIANGLES, uvs=UVS, material=bdpt.Material(**material))
+
+
+def test_a_lambertian_floor_under_a_white_sky_has_its_albedo():
+    scene = bdpt.Scene([floor(base_color=(0.25, 0.5, 0.75))], [WHITE_SKY], FROM_ABOVE, (8, 8))
+    image = bdpt.render(scene, spp=64).image
+    assert image.mean(axis=(0, 1)) == pytest.approx([0.25, 0.5, 0.75], rel=0.02)
+
+
+def test_a_point_light_shines_by_its_distance():
+    scene = bdpt.Scene([floor(base_color=(1, 1, 1))], [bdpt.PointLight(position=(0, 2, 0), intensity=(3, 3, 3))], FROM_ABOVE,
+                       (9, 9))
+    assert bdpt.render(scene, spp=4, integrator="mis", max_depth=2).image[4, 4] == pytest.approx(3 / 4 / np.pi, rel=0.01)
+
+
+def test_textures_lie_as_texture_coordinates_say():
+    texels = np.zeros((2, 2, 3), np.uint8)
+    texels[0, 1] = 255  # top right: u = 0.75, v = 0.25, which is x = 0.5, z = -0.5
+    scene = bdpt.Scene([floor(base_color_texture=texels)], [WHITE_SKY],
+                       bdpt.Camera(from_=(0.5, 3, -0.499), look_at=(0.5, 0, -0.5), fov=2), (4, 4))
+    assert bdpt.render(scene, spp=8).image.mean() > 0.9
+
+
+def test_one_mesh_stands_in_many_places():
+    places = np.stack([np.eye(4, dtype=np.float32) for _ in range(3)])
+    places[:, 0, 3] = (0, 5, 10)  # rows, as NumPy has matrices
+    mesh = bdpt.Mesh(SQUARE, TRIANGLES, transforms=places, material=bdpt.Material(unlit=True, base_color=(1, 1, 1)))
+    scene = bdpt.Scene([mesh], camera=bdpt.Camera(from_=(10, 3, 0.001), look_at=(10, 0, 0), fov=10), size=(4, 4))
+    assert scene.triangles == 6
+    assert bdpt.render(scene, spp=1).image.mean() == pytest.approx(1.0)
+
+
+def test_without_a_camera_all_is_framed():
+    scene = bdpt.Scene([floor()], [WHITE_SKY], size=(16, 8))
+    assert bdpt.render(scene, spp=1).image.shape == (8, 16, 3)
+
+
+@pytest.mark.parametrize("make, words", [
+    (lambda: bdpt.Scene([bdpt.Mesh(SQUARE, TRIANGLES + 2)]), "triangle"),
+    (lambda: bdpt.Scene([floor(roughness=2.0)]), "roughness"),
+    (lambda: bdpt.Scene([floor()], size=(0, 4)), "0 x 4"),
+    (lambda: bdpt.Material(base_color_texture=np.zeros((2, 2, 3), np.int64)), "uint8"),
+    (lambda: bdpt.Material(base_color=(1, 1)), "three or four"),
+])
+def test_bad_arrays_are_errors(make, words):
+    with pytest.raises(bdpt.Error, match=words):
+        make()
+
+
+def test_unknown_attributes_and_shapes_are_python_errors():
+    with pytest.raises(AttributeError):
+        bdpt.Material(shininess=3)
+    with pytest.raises(TypeError):
+        bdpt.Mesh(SQUARE[:, :2], TRIANGLES)

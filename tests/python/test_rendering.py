@@ -1,0 +1,145 @@
+"""Renders from Python: the bits of the command, parts that add up, progress and interrupts."""
+
+import pathlib
+import subprocess
+import sys
+import threading
+
+import bdpt
+import numpy as np
+import pytest
+
+SCENES = pathlib.Path(__file__).resolve().parents[2] / "scenes"
+SMALL = {"size": (24, 16), "integrator": "bdpt"}
+
+
+def test_an_image_is_an_array_of_floats(cornell_box):
+    render = bdpt.render(cornell_box, spp=2, **SMALL)
+    assert render.image.shape == (16, 24, 3) and render.image.dtype == np.float32
+    assert render.image.mean() > 0.01 and render.spp == 2 and render.samples == "0:2"
+    assert not render.image.flags.owndata  # the renderer's own memory
+
+
+@pytest.mark.parametrize("options, words", [
+    ({"spp": 4}, ["--spp", "4"]),
+    ({"spp": 2, "integrator": "mis", "seed": 7, "max_depth": 3},
+     ["--spp", "2", "--integrator", "mis", "--seed", "7", "--max-depth", "3"]),
+    ({"spp": 2, "crop": (2, 3, 20, 12), "aov": ["albedo", "depth"]},
+     ["--spp", "2", "--crop", "2,3,20,12", "--aov", "albedo,depth"]),
+])
+def test_images_are_those_of_the_command_to_the_bit(command, cornell_box, tmp_path, options, words):
+    parts = {name: tmp_path / f"{name}.part.exr" for name in ("ours", "its")}
+    bdpt.render(cornell_box, size=(24, 16), **options).save(parts["ours"])
+    command("render", SCENES / "cornell-box.gltf", "--size", "24x16", *words, "--part", parts["its"], "--quiet")
+    ours, its = (bdpt.read_part(part) for part in parts.values())
+    assert np.array_equal(ours.image, its.image) and ours.image.any()
+    assert all(np.array_equal(ours.layers[name], its.layers[name]) for name in its.layers)
+    ours_twice = bdpt.read_part(parts["ours"])
+    with pytest.raises(bdpt.Error, match="sample"):
+        ours_twice += its  # the same render, so it has these samples already
+
+
+def test_a_scene_without_a_camera_is_framed_as_by_the_command(command, tmp_path):
+    file = SCENES / "cornell-box.gltf"
+    scene = bdpt.load(file, camera="auto", env="default")
+    part, its = tmp_path / "a.part.exr", tmp_path / "b.part.exr"
+    bdpt.render(scene, spp=1, size=(30, 10)).save(part)
+    command("render", file, "--camera", "auto", "--env", "default", "--spp", "1", "--size", "30x10", "--part", its, "-q")
+    assert np.array_equal(bdpt.read_part(part).image, bdpt.read_part(its).image)
+
+
+def test_the_size_of_one_render_is_not_that_of_the_next(cornell_box):
+    bdpt.render(cornell_box, spp=1, size=(4, 4))
+    assert cornell_box.size == (720, 720)
+
+
+def test_parts_add_up_to_the_whole(cornell_box):
+    whole = bdpt.render(cornell_box, spp=4, **SMALL)
+    parts = bdpt.render(cornell_box, samples="3:4", **SMALL)
+    parts += bdpt.render(cornell_box, samples="0:3", **SMALL)
+    assert np.array_equal(parts.image, whole.image) and parts.samples == "0:4"
+
+
+def test_parts_of_other_renders_are_refused(cornell_box):
+    render = bdpt.render(cornell_box, samples="0:2", **SMALL)
+    with pytest.raises(bdpt.Error, match="seed") as raised:
+        render += bdpt.render(cornell_box, samples="2:4", seed=3, **SMALL)
+    assert raised.value.code == 4
+
+
+def test_progress_is_told_and_may_end_the_render(cornell_box):
+    told = []
+    bdpt.render(cornell_box, spp=8, progress=lambda done, total, seconds: told.append((done, total)), **SMALL)
+    assert told[-1] == (8, 8) and told == sorted(told)
+
+    def enough(done, total, seconds):
+        raise KeyError("enough")
+
+    with pytest.raises(KeyError, match="enough"):
+        bdpt.render(cornell_box, spp=8, progress=enough, **SMALL)
+
+
+def test_other_threads_run_while_it_renders(cornell_box):
+    """One pass, so that nothing but the render itself could let them run."""
+    done, counts = threading.Event(), [0]
+
+    def count():
+        while not done.is_set():
+            counts[0] += 1
+
+    counter = threading.Thread(target=count)
+    counter.start()
+    before = counts[0]
+    bdpt.render(cornell_box, spp=1, size=(256, 256))
+    after = counts[0]
+    done.set()
+    counter.join()
+    assert after - before > 1000
+
+
+def test_control_c_ends_a_render():
+    script = ("import bdpt, os, signal, threading\n"
+              f"scene = bdpt.load({str(SCENES / 'cornell-box.gltf')!r})\n"
+              "told = lambda done, total, seconds: os.kill(os.getpid(), signal.SIGINT)\n"
+              "try:\n"
+              "    bdpt.render(scene, spp=1000000, size=(64, 64), progress=told)\n"
+              "except KeyboardInterrupt:\n"
+              "    print('stopped')\n")
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=120)
+    assert done.stdout == "stopped\n", done.stderr
+
+
+@pytest.mark.parametrize("call, code, words", [
+    (lambda scene: bdpt.load("absent.glb"), 3, "absent.glb"),
+    (lambda scene: bdpt.load("absent.glb", spp=3), 2, "render"),
+    (lambda scene: bdpt.render(scene, env="none"), 2, "load"),
+    (lambda scene: bdpt.render(scene, intregator="mis"), 2, "did you mean integrator"),
+    (lambda scene: bdpt.render(scene, spp=-1), 2, "-1"),
+    (lambda scene: bdpt.render(scene, spp=1, size=(2, 2)).save("out.bmp"), 2, "out.bmp"),
+    (lambda scene: bdpt.render(scene, spp=1, size=(2, 2)).save("absent/out.exr"), 6, "absent"),
+    (lambda scene: bdpt.read_part("absent.part.exr"), 3, "absent.part.exr"),
+])
+def test_bad_input_is_one_error_with_its_code(cornell_box, call, code, words):
+    with pytest.raises(bdpt.Error, match=words) as raised:
+        call(cornell_box)
+    assert raised.value.code == code and "\n" not in str(raised.value)
+
+
+def test_images_are_saved_as_the_command_saves_them(command, cornell_box, tmp_path):
+    render = bdpt.render(cornell_box, spp=1, background="transparent", **SMALL)
+    render.save(tmp_path / "ours.png", tone_map="pbr-neutral", exposure=0, png_bits=16)
+    command("render", SCENES / "cornell-box.gltf", "--spp", "1", "--size", "24x16", "--integrator", "bdpt", "--background",
+            "transparent", "--tone-map", "pbr-neutral", "--exposure", "0", "--png-bits", "16", "-o", tmp_path / "its.png", "-q")
+    difference = subprocess.run(["idiff", "-a", "-fail", "0", tmp_path / "ours.png", tmp_path / "its.png"],
+                                capture_output=True, text=True)
+    assert difference.returncode == 0, difference.stdout
+
+
+def test_errors_of_images():
+    black, white = (np.full((4, 5, 3), value, np.float32) for value in (0, 1))
+    errors = bdpt.compare(black, white, metrics=["mse", "relmse"])
+    assert errors["mse"] == pytest.approx(1.0) and errors["relmse"] == pytest.approx(1.0 / 1.01)
+    with pytest.raises(bdpt.Error, match="5 x 4"):
+        bdpt.compare(black, white[:3])
+    with pytest.raises(bdpt.Error, match="ssim"):
+        bdpt.compare(black, white, metrics=["ssim"])

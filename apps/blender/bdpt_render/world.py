@@ -1,0 +1,70 @@
+"""The world of a scene as the environment of bdpt."""
+
+import math
+import pathlib
+import struct
+
+import bpy
+
+
+def environment_words(world, folder):
+    """Options of bdpt render, and what is lost."""
+    if world is None:
+        return ["--env", "none"], []
+    if not world.use_nodes:
+        return constant(world.color, 1.0, folder), []
+    output = next((node for node in world.node_tree.nodes if node.type == "OUTPUT_WORLD" and node.is_active_output), None)
+    links = output.inputs["Surface"].links if output else ()
+    if not links:
+        return ["--env", "none"], []
+    background = links[0].from_node
+    if background.type != "BACKGROUND":
+        return ["--env", "none"], [f"the world is black: bdpt does not know its node {background.name}"]
+    color, strength = background.inputs["Color"], background.inputs["Strength"]
+    if strength.links:
+        return ["--env", "none"], ["the world is black: its strength is not a number"]
+    if not color.links:
+        return constant(color.default_value[:3], strength.default_value, folder), []
+    texture = color.links[0].from_node
+    if texture.type != "TEX_ENVIRONMENT" or texture.image is None or texture.projection != "EQUIRECTANGULAR":
+        return ["--env", "none"], [f"the world is black: its colour is no equirectangular image ({texture.name})"]
+    file = saved(texture.image, folder)
+    # The middle of the image is seen along +x, that of ours along -z. A Mapping node turns the other way, as it turns what
+    # is looked up.
+    turn = -90.0 - math.degrees(rotation_of(texture))
+    return ["--env", str(file), "--env-intensity", f"{strength.default_value:.9g}", "--env-rotation", f"{turn:.9g}"], []
+
+
+def rotation_of(texture):
+    """[rad] about the vertical axis, of a Mapping node before the texture."""
+    links = texture.inputs["Vector"].links
+    mapping = links[0].from_node if links else None
+    return mapping.inputs["Rotation"].default_value[2] if mapping and mapping.type == "MAPPING" else 0.0
+
+
+def saved(image, folder):
+    """Its file; images that are packed into the .blend file are written first."""
+    file = pathlib.Path(bpy.path.abspath(image.filepath_from_user()))
+    if file.is_file() and file.suffix.lower() in (".exr", ".hdr"):
+        return file
+    file = pathlib.Path(folder, "world.exr")
+    copy = image.copy()
+    copy.file_format = "OPEN_EXR"
+    copy.filepath_raw = str(file)
+    copy.save()
+    bpy.data.images.remove(copy)
+    return file
+
+
+def constant(color, strength, folder):
+    """One pixel in the format of Radiance: one exponent for three mantissas of 8 bits."""
+    radiance = [strength * channel for channel in color]
+    greatest = max(radiance)
+    if greatest <= 0.0:
+        return ["--env", "none"]
+    # The image has the colour, the option its strength, exactly.
+    relative = [channel / greatest for channel in radiance]
+    mantissas = bytes(min(255, round(255 * channel)) for channel in relative)
+    file = pathlib.Path(folder, "world.hdr")
+    file.write_bytes(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n" + mantissas + struct.pack("B", 128))
+    return ["--env", str(file), "--env-intensity", f"{greatest * 256.0 / 255.0:.9g}"]

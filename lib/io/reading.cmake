@@ -43,6 +43,7 @@ target_sources(bdpt_io PRIVATE
   src/gltf/document/accessor.cpp
   src/gltf/document/extensions.cpp
   src/gltf/document/facts.cpp
+  src/gltf/document/file_contents.cpp
   src/gltf/document/model.cpp
   src/gltf/document/prepass.cpp
   src/gltf/document/selection.cpp

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Fails when a planned render that make runs, of which tasks are killed at random, is not the image of one render:
-plan_make_test.py COMMAND SCENE."""
+"""Fails when a planned render that make runs, of which tasks are killed at random, is not the image of one render, or
+planned frames are not those of one render: plan_make_test.py COMMAND SCENE."""
 
 import json
 import os
@@ -57,6 +57,21 @@ def make_and_kill(job):
     return killed
 
 
+def frames_by_make(folder, scene):
+    """Errors of an animation that make renders in tasks of less than a frame."""
+    words = [scene, "--size", "48x27", "--spp", "16", "--env", "none", "--frames", "1:3", "--fps", "8"]
+    job = folder / "frames"
+    bdpt("plan", *words, "-o", folder / "planned.#.exr", "--parts", "5", "--for", "make", "-d", job)
+    subprocess.run(["make", "-C", job, "-j2", "-k", f"BDPT={COMMAND}", "THREADS=1"], check=True, capture_output=True)
+    bdpt("render", *words, "-o", folder / "whole.#.exr")
+    pairs = [(folder / f"planned.{frame}.exr", folder / f"whole.{frame}.exr") for frame in (1, 2, 3)]
+    return [f"{planned.name} is not {whole.name}" for planned, whole in pairs if mse(planned, whole) != 0]
+
+
+def mse(image, reference):
+    return json.loads(bdpt("compare", image, reference, "--json"))["metrics"]["mse"]["mean"]
+
+
 def main():
     seed = random.randrange(1 << 32)
     print(f"seed {seed}")
@@ -71,11 +86,11 @@ def main():
         again = subprocess.run(["make", "-C", job, "-j4", "-k", f"BDPT={COMMAND}", "THREADS=1"], capture_output=True,
                                text=True, check=False)
         bdpt("render", *WORDS, "-o", folder / "whole.exr")
-        difference = json.loads(bdpt("compare", folder / "out.exr", folder / "whole.exr", "--json"))
         errors = [] if again.returncode == 0 else [f"make after all the killing: {again.returncode} {again.stderr}"]
         errors += [] if killed >= LEAST_KILLED and parts else ["too few renders were killed to tell anything"]
-        mse = difference["metrics"]["mse"]["mean"]
-        errors += [] if mse == 0 else [f"the image is another one: mean square error {mse}"]
+        error = mse(folder / "out.exr", folder / "whole.exr")
+        errors += [] if error == 0 else [f"the image is another one: mean square error {error}"]
+        errors += frames_by_make(folder, pathlib.Path(SCENE).with_name("motion.gltf"))
         print("\n".join(errors) or "the pixels are those of one render")
         sys.exit(bool(errors))
 

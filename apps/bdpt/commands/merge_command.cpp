@@ -4,7 +4,6 @@
 #include <bdpt/io/part_file.h>
 #include <bdpt/noise.h>
 #include <bdpt/part/render_part.h>
-#include <bdpt/version.h>
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -14,19 +13,21 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "options/arguments.h"
 #include "options/values/output_files.h"
 #include "plan/plan.h"
-#include "report/denoised.h"
-#include "report/image_files.h"
+#include "report/part/merged_files.h"
 #include "report/part/part_collection.h"
 #include "report/part/part_command.h"
 #include "report/stats_file.h"
 #include "terminal/console.h"
 #include "terminal/interrupt.h"
+#include "terminal/text.h"
 
 namespace bdpt::app {
 namespace {
@@ -35,107 +36,60 @@ namespace fs = std::filesystem;
 using io::PartInfo;
 using nlohmann::ordered_json;
 
-constexpr int default_threads = 0;  // one for each processor
-
-/// Commands that render `missing`.
-std::vector<std::string> commands_for_missing(const SampleSet& missing,
-                                              const PartCollection& collection,
-                                              const MergeArguments& arguments)
-{
-    if (arguments.plan) {
-        return commands_for(read_plan(*arguments.plan), *arguments.plan, missing);
-    }
-    const PartInfo& part = collection.parts.front();
-    return commands_for(part.notes.command, missing, part.file.parent_path());
-}
-
-std::string message_of_missing(const PartCollection& collection, const MergeArguments& arguments)
+/// Commands that render what is missing, as far as a message has room for them.
+std::string commands_text(const std::vector<std::string>& commands)
 {
     constexpr std::size_t most_shown = 3;
-    const SampleSet missing = collection.missing();
-    std::string text = fmt::format("samples are missing: {}", missing.text());
-    if (arguments.plan) {
-        text += fmt::format(" (tasks {} of {})", tasks_text(read_plan(*arguments.plan), missing),
-                            arguments.plan->string());
-    }
-    const std::vector<std::string> commands = commands_for_missing(missing, collection, arguments);
+    std::string text;
     for (std::size_t i = 0; i < std::min(commands.size(), most_shown); ++i) {
         text += (i == 0 ? "; to render them: " : " && ") + commands[i];
     }
     if (commands.size() > most_shown) {
         text += fmt::format(" && ... ({} more)", commands.size() - most_shown);
     }
-    return collection.parts.empty() ? text : text + "; --partial writes what there is";
+    return text;
 }
 
-/// The settings that the parts have, with the number of samples of all and what is put behind.
-std::string settings_of(const std::string& text, std::int64_t samples,
-                        const std::optional<Backdrop>& backdrop)
+std::string message_of_missing(const PartCollection& collection)
 {
-    ordered_json settings = ordered_json::parse(text, nullptr, false);
-    if (!settings.is_object()) {
-        return text;
-    }
-    settings["spp"] = samples;
-    if (backdrop) {
-        settings["background"] = backdrop_text(*backdrop);
-    }
-    settings.erase("time_limit_seconds");
-    settings.erase("noise_goal");
-    return settings.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+    const PartInfo& part = collection.parts.front();
+    const SampleSet missing = collection.missing();
+    return fmt::format(
+        "samples are missing: {}{}; --partial writes what there is", missing.text(),
+        commands_text(commands_for(part.notes.command, missing, part.file.parent_path())));
 }
 
-/// Parts without the environment behind them get the backdrop that was asked for when they were
-/// rendered, or another one now.
-DisplayArguments with_backdrop_of(const io::ImageMetadata& metadata, DisplayArguments display)
-{
-    const ordered_json settings = ordered_json::parse(metadata.settings, nullptr, false);
-    std::optional<Backdrop> own;
-    if (settings.is_object() && settings.contains("background") &&
-        settings["background"].is_string()) {
-        own = parse_backdrop(settings["background"].get<std::string>());
-    }
-    if (display.backdrop && !own) {
-        throw Error(ErrorCode::invalid_input,
-                    fmt::format("--background \"{}\": the parts show the environment; render them "
-                                "with --background, too",
-                                backdrop_text(*display.backdrop)));
-    }
-    display.backdrop = display.backdrop ? display.backdrop : own;
-    return display;
-}
+/// What has become of one image.
+struct MergedImage {
+    std::size_t image = 0;  ///< of the plan
+    SampleSet missing;
+    bool has_parts = false;
+    bool written = false;
+    std::string message{};  ///< why not
+};
 
-void write_outputs(const MergeArguments& arguments, const DisplayArguments& display,
-                   const io::Denoiser* denoiser, const RenderPart& part, io::PartNotes notes)
+std::string message_of_missing(const MergeArguments& asked, const Plan& plan,
+                               const std::vector<MergedImage>& unwritten)
 {
-    notes.metadata.samples_per_pixel = part.samples.count();
-    notes.metadata.render_seconds = part.cpu_seconds;
-    notes.metadata.created = std::chrono::system_clock::now();
-    notes.metadata.settings =
-        settings_of(notes.metadata.settings, part.samples.count(), display.backdrop);
-    std::vector<fs::path> images;
-    for (const fs::path& output : arguments.outputs) {
-        if (is_part_name(output)) {
-            io::write_part(output, part, notes, io::OldPart::replace);
-        } else {
-            images.push_back(output);
+    std::vector<std::size_t> images;
+    bool has_parts = false;
+    for (const MergedImage& image : unwritten) {
+        images.push_back(image.image);
+        has_parts = has_parts || image.has_parts;
+    }
+    std::vector<std::size_t> tasks;
+    for (std::size_t task = 0; task < plan.tasks.size(); ++task) {
+        if (std::any_of(unwritten.begin(), unwritten.end(), [&](const MergedImage& image) {
+                return renders(plan.tasks[task], image.image, image.missing);
+            })) {
+            tasks.push_back(task);
         }
     }
-    if (images.empty()) {
-        return;
-    }
-    const FilmLayout& layout = part.film.layout();
-    const io::ExrPlacement placement{.x = layout.region.x0,
-                                     .y = layout.region.y0,
-                                     .full_width = layout.width,
-                                     .full_height = layout.height};
-    write_image_files(
-        images, part.film.develop(),
-        {.exr = {arguments.channel_type, std::move(notes.metadata), arguments.storage, placement},
-         .layers = part.aovs.develop(part.film),
-         .display = display,
-         .denoiser = denoiser,
-         .denoised_as = arguments.denoise ? arguments.denoise->as : DenoisedAs::image});
+    return fmt::format(
+        "samples are missing: {} (tasks {} of {}){}{}",
+        is_sequence(plan) ? images_text(plan, images) : unwritten.front().missing.text(),
+        numbers_text(tasks), asked.plan->string(), commands_text(commands_for(*asked.plan, tasks)),
+        has_parts ? "; --partial writes what there is" : "");
 }
 
 /// The noise of the whole, and which samples it lacks for what was asked for, if anything was.
@@ -166,41 +120,59 @@ ordered_json judge_noise(const MergeArguments& arguments, const RenderPart& sum,
     return fields;
 }
 
-}  // namespace
-
-int run_merge(const MergeArguments& arguments)
+/// What tells the files of images apart.
+const char* places_of(const PlanImage& image)
 {
-    check_outputs(arguments.outputs, arguments.parts);
-    Console console(arguments.format, arguments.verbosity);
-    // Nothing is worth finishing; but nothing half-written is left, either.
-    const Interrupt interrupt(temporary_paths(arguments.outputs), [] {});
-    const std::optional<io::Denoiser> denoiser =
-        open_denoiser(arguments.denoise, arguments.outputs, default_threads);
-    const PartCollection collection = collect_parts(arguments, console);
+    if (image.frame && image.camera) {
+        return "#### and {camera}";
+    }
+    return image.frame ? "####" : "{camera}";
+}
+
+/// `asked`, for each image that there is to be. Throws `Error` (usage) for names of files that have
+/// no place for what tells images apart.
+std::vector<MergeArguments> images_of(const MergeArguments& asked, const std::optional<Plan>& plan)
+{
+    if (!plan || !is_sequence(*plan)) {
+        return {asked};
+    }
+    std::vector<MergeArguments> result;
+    std::set<fs::path> files;
+    for (std::size_t i = 0; i < plan->images.size(); ++i) {
+        MergeArguments image = asked;
+        image.image = i;
+        image.parts = parts_of(*plan, i);
+        for (fs::path& part : image.parts) {
+            part = resolved(part, *asked.plan);
+        }
+        for (fs::path& output : image.outputs) {
+            const fs::path pattern = std::exchange(output, file_of(output, plan->images[i]));
+            if (!files.insert(output).second) {
+                throw OptionError(fmt::format("{}: expected {} in the name, as the plan has {}",
+                                              pattern.string(), places_of(plan->images[i]),
+                                              counted(plan->images.size(), "image")));
+            }
+        }
+        result.push_back(std::move(image));
+    }
+    return result;
+}
+
+/// Adds the parts up, and writes the image.
+void merge(const MergeArguments& arguments, const PartCollection& collection, Console& console)
+{
     const std::vector<PartInfo>& parts = collection.parts;
-    for (const std::string& note : collection.notes) {
-        console.note(note);
-    }
-    for (const std::string& fault : collection.faults) {
-        console.warning(fault);
-    }
-    const SampleSet missing = collection.missing();
-    if (parts.empty() || (!missing.empty() && arguments.incomplete == Incomplete::refuse)) {
-        report_error(arguments.format, merge_incomplete,
-                     parts.empty() && !arguments.plan ? "none of the parts is there"
-                                                      : message_of_missing(collection, arguments));
-        return merge_incomplete;
-    }
     const DisplayArguments display =
-        with_backdrop_of(parts.front().notes.metadata, arguments.display);
+        display_of_parts(parts.front().notes.metadata, arguments.display);
     RenderPart sum;
     for (const PartInfo& part : parts) {
         io::merge_part(sum, part);
     }
     io::PartNotes notes = parts.front().notes;
     notes.goal = collection.goal;
-    write_outputs(arguments, display, denoiser ? &*denoiser : nullptr, sum, std::move(notes));
+    write_merged_files(arguments, display, sum, std::move(notes));
 
+    const SampleSet missing = collection.missing();
     if (!missing.empty()) {
         console.warning(fmt::format("samples are missing: {}", missing.text()));
     }
@@ -217,7 +189,93 @@ int run_merge(const MergeArguments& arguments)
                         {"outputs", std::move(outputs)}};
     fields.update(judge_noise(arguments, sum, parts.front(), console));
     console.event("done", fields);
-    return 0;
+}
+
+/// What is left of the time that all images may be waited for together.
+class Patience {
+public:
+    explicit Patience(std::optional<double> seconds) : seconds_(seconds) {}
+
+    /// [s]
+    [[nodiscard]] std::optional<double> left() const
+    {
+        const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
+        return seconds_ ? std::optional(std::max(*seconds_ - passed.count(), 0.0)) : std::nullopt;
+    }
+
+private:
+    std::optional<double> seconds_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// Collects the parts of one image and, if there are enough, merges them.
+MergedImage merge_image(const MergeArguments& arguments, const std::optional<Plan>& plan,
+                        Console& console)
+{
+    if (plan) {
+        console.begin_image(label_of(*plan, arguments.image));
+    }
+    const PartCollection collection = collect_parts(arguments, plan, console);
+    for (const std::string& note : collection.notes) {
+        console.note(note);
+    }
+    for (const std::string& fault : collection.faults) {
+        console.warning(fault);
+    }
+    MergedImage result{.image = arguments.image,
+                       .missing = collection.missing(),
+                       .has_parts = !collection.parts.empty()};
+    if (!result.has_parts) {
+        result.message = "none of the parts is there";
+    } else if (!result.missing.empty() && arguments.incomplete == Incomplete::refuse) {
+        result.message = message_of_missing(collection);
+    } else {
+        merge(arguments, collection, console);
+        result.written = true;
+    }
+    return result;
+}
+
+/// The exit code, and what has to be said of images that were not written.
+int conclude(const MergeArguments& asked, const std::optional<Plan>& plan,
+             std::vector<MergedImage> images, Console& console)
+{
+    const std::size_t all = images.size();
+    std::erase_if(images, [](const MergedImage& image) { return image.written; });
+    if (images.empty()) {
+        return 0;
+    }
+    const std::string message =
+        plan ? message_of_missing(asked, *plan, images) : images.front().message;
+    if (asked.incomplete == Incomplete::write && images.size() < all) {
+        console.warning(message);
+        return 0;
+    }
+    report_error(asked.format, merge_incomplete, message);
+    return merge_incomplete;
+}
+
+}  // namespace
+
+int run_merge(const MergeArguments& asked)
+{
+    const std::optional<Plan> plan =
+        asked.plan ? std::optional(read_plan(*asked.plan)) : std::nullopt;
+    const std::vector<MergeArguments> images = images_of(asked, plan);
+    for (const MergeArguments& image : images) {
+        check_outputs(image.outputs, image.parts);
+    }
+    Console console(asked.format, asked.verbosity);
+    // Nothing is worth finishing; but nothing half-written is left, either.
+    Interrupt interrupt({}, [] {});
+    const Patience patience(asked.wait);
+    std::vector<MergedImage> merged;
+    for (MergeArguments image : images) {
+        interrupt.set_temporaries(temporary_paths(image.outputs));
+        image.wait = patience.left();
+        merged.push_back(merge_image(image, plan, console));
+    }
+    return conclude(asked, plan, std::move(merged), console);
 }
 
 }  // namespace bdpt::app

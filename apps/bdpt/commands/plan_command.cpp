@@ -14,17 +14,21 @@
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "options/arguments.h"
 #include "options/values/output_files.h"
 #include "plan/engines/engine_files.h"
 #include "plan/plan.h"
 #include "plan/plan_folder.h"
+#include "plan/plan_split.h"
+#include "plan/planned_identity.h"
 #include "plan/planned_words.h"
-#include "plan/sample_split.h"
 #include "stage/render_preparation.h"
+#include "stage/sequence_viewpoint.h"
 #include "terminal/console.h"
 #include "terminal/text.h"
 
@@ -58,7 +62,20 @@ std::vector<std::string> chosen_words(const RenderOptions& options, Isa isa)
     return words;
 }
 
-/// The identity that tasks will find, by what their words say.
+/// The words of `asked` with what is chosen for its first image, and the identity of that.
+struct FirstImage {
+    RenderArguments arguments;
+    Identity identity;
+};
+
+FirstImage first_image(const RenderArguments& asked, const SequenceView& view,
+                       const PreparedScene& stage, Console& console)
+{
+    const RenderArguments chosen = with_choice(arguments_of(asked, view), stage, console);
+    return {chosen, identity(stage.scene, stage.camera, chosen.options)};
+}
+
+/// The identity that tasks will find for the first image, by what their words say.
 Identity identity_of_tasks(const Plan& plan, const fs::path& file, const PreparedScene& stage,
                            Console& console)
 {
@@ -69,13 +86,13 @@ Identity identity_of_tasks(const Plan& plan, const fs::path& file, const Prepare
     shared.push_back("--part=" + plan.tasks.front().part.string());
     std::reverse(shared.begin(), shared.end());  // the parser takes words from the end
     command.parse(std::move(shared));
-    return identity(stage.scene, stage.camera,
-                    with_choice(understand(words), stage, console).options);
+    const RenderArguments asked = understand(words);
+    return first_image(asked, views_of(asked, cameras_of(plan)).front(), stage, console).identity;
 }
 
 /// Number of tasks that take about as long as they may.
-std::int64_t measured_parts(const PlanArguments& arguments, RenderOptions options,
-                            const PreparedScene& stage, Console& console)
+std::int64_t measured_tasks(const PlanArguments& arguments, RenderOptions options,
+                            std::size_t images, const PreparedScene& stage, Console& console)
 {
     constexpr std::int64_t most_samples = 64;
     constexpr double most_seconds = 10.0;
@@ -92,18 +109,35 @@ std::int64_t measured_parts(const PlanArguments& arguments, RenderOptions option
         fmt::format("a sample of all pixels takes {:.3g} s here, and a task {:.1f} s to "
                     "start",
                     seconds, start));
-    return parts_of_time(samples, arguments.minutes * minute, seconds, start);
+    return tasks_of_time(images, samples, arguments.minutes * minute, seconds, start);
 }
 
-std::vector<PlanTask> tasks_of(SampleRange samples, std::int64_t parts)
+/// Number of tasks. Throws `OptionError` for more than there is to be rendered.
+std::int64_t number_of_tasks(const PlanArguments& arguments, const RenderOptions& options,
+                             std::size_t images, const PreparedScene& stage, Console& console)
 {
-    std::vector<PlanTask> tasks;
-    const std::size_t digits = std::to_string(parts - 1).size();
-    for (const SampleRange& range : split_samples(samples, parts)) {
-        tasks.push_back(
-            {.samples = range, .part = fmt::format("task-{:0{}}.part.exr", tasks.size(), digits)});
+    if (!arguments.parts) {
+        return measured_tasks(arguments, options, images, stage, console);
     }
-    return tasks;
+    const SampleRange samples = options.sampling.samples;
+    const std::int64_t most = static_cast<std::int64_t>(images) * (samples.end - samples.begin);
+    if (*arguments.parts > most) {
+        reject("--parts", fmt::format("{}", *arguments.parts),
+               fmt::format("at most one for each of the {} samples{}", most,
+                           images > 1 ? fmt::format(" of {} images", images) : ""));
+    }
+    return *arguments.parts;
+}
+
+PlanImage image_of(const RenderArguments& asked, const SequenceView& view)
+{
+    PlanImage image;
+    if (asked.sequence) {
+        image.frame = view.frame;
+        image.camera = view.camera ? std::optional(view.camera_name) : std::nullopt;
+        image.seed = arguments_of(asked, view).options.sampling.seed;
+    }
+    return image;
 }
 
 void check_files(const PlanArguments& arguments)
@@ -116,7 +150,7 @@ void check_files(const PlanArguments& arguments)
     check_plan_folder(arguments.folder);
 }
 
-/// All of the plan but its tasks and engine.
+/// All of the plan but its images, tasks and engine.
 Plan plan_of(const PlanArguments& arguments, const fs::path& folder, const RenderOptions& chosen,
              Isa isa)
 {
@@ -133,13 +167,47 @@ Plan plan_of(const PlanArguments& arguments, const fs::path& folder, const Rende
     std::erase_if(plan.render_options, [](const std::string& word) {
         return word.starts_with("--isa=") || word == "--integrator=auto";
     });
-    const bool open = asked.options.integrator == IntegratorKind::automatic;
+    // Images of a sequence choose for themselves, as they do without a plan.
+    const bool pinned =
+        asked.options.integrator == IntegratorKind::automatic && !asked.sequence.has_value();
     for (const std::string& word : chosen_words(chosen, isa)) {
-        if (open || word.starts_with("--isa=")) {
+        if (pinned || word.starts_with("--isa=")) {
             plan.render_options.push_back(word);
         }
     }
     return plan;
+}
+
+/// The scene of the first image, seen as it is there.
+PreparedScene load_first_image(const RenderArguments& asked, Console& console)
+{
+    RenderArguments one = asked;
+    if (one.sequence) {
+        one.sequence->cameras = SequenceCameras::one;
+    }
+    const SequenceView frame = views_of(one, {}).front();
+    PreparedScene stage = prepare_within_memory(arguments_of(one, frame), console);
+    console.end_progress();
+    const SequenceView view = views_of(asked, camera_names(stage)).front();
+    Viewpoint seen =
+        sequence_viewpoint(stage, {stage.camera, stage.size}, arguments_of(asked, view));
+    stage.camera = std::move(seen.camera);
+    stage.size = seen.size;
+    return stage;
+}
+
+/// " of 4 images" of those that a task renders, if there are several in all.
+std::string images_of_tasks(const Plan& plan)
+{
+    if (plan.images.size() == 1) {
+        return "";
+    }
+    const auto [least, most] =
+        std::minmax_element(plan.tasks.begin(), plan.tasks.end(),
+                            [](const auto& a, const auto& b) { return a.images < b.images; });
+    return least->images == most->images
+               ? fmt::format(" of {}", counted(most->images, "image"))
+               : fmt::format(" of {} to {}", least->images, counted(most->images, "image"));
 }
 
 void report_plan(Console& console, const PlanArguments& arguments, const Plan& plan)
@@ -152,36 +220,57 @@ void report_plan(Console& console, const PlanArguments& arguments, const Plan& p
     const std::string samples = size(*least) == size(*most)
                                     ? fmt::format("{}", size(*most))
                                     : fmt::format("{} to {}", size(*least), size(*most));
-    console.note(fmt::format("wrote {}: {} of {} samples; {}", file.string(),
-                             counted(plan.tasks.size(), "task"), samples,
+    console.note(fmt::format("wrote {}: {} of {} samples{}; {}", file.string(),
+                             counted(plan.tasks.size(), "task"), samples, images_of_tasks(plan),
                              start_command(arguments.engine, arguments.folder)));
     console.event("done", {{"plan", file.string()}, {"tasks", plan.tasks.size()}});
+}
+
+/// Fills in what the plan knows of the identity of its images: of one it is the whole. Throws
+/// `Error` (internal) when the plan's words would make another image.
+void identify(Plan& plan, const fs::path& file, const FirstImage& first,
+              const RenderArguments& asked, const PreparedScene& stage, Console& console)
+{
+    const Identity of_tasks = identity_of_tasks(plan, file, stage, console);
+    if (const auto what = difference(first.identity, of_tasks)) {
+        throw Error(ErrorCode::internal,
+                    fmt::format("{}: the words of the plan give another render: {}",
+                                asked.file.string(), *what));
+    }
+    plan.identity = asked.sequence ? common_identity(of_tasks, asked) : of_tasks;
+    if (asked.sequence) {
+        plan.files = identity_of_files(asked);
+    }
 }
 
 }  // namespace
 
 int run_plan(const PlanArguments& arguments)
 {
+    const RenderArguments& asked = arguments.render;
+    check_patterns(asked);
     check_files(arguments);
-    Console console(arguments.render.format, arguments.render.verbosity);
+    Console console(asked.format, asked.verbosity);
     const fs::path folder =
         fs::weakly_canonical(fs::absolute(arguments.folder / "plan.json")).parent_path();
-    const PreparedScene stage = prepare_within_memory(arguments.render, console);
-    console.end_progress();
+    if (const std::optional<std::string> warning = warning_of_flicker(asked)) {
+        console.warning(*warning);
+    }
+    const PreparedScene stage = load_first_image(asked, console);
     for (const std::string& warning : stage.warnings) {
         console.warning(warning);
     }
-    const RenderOptions chosen = with_choice(arguments.render, stage, console).options;
-    Plan plan = plan_of(arguments, folder, chosen, stage.scene.isa());
-    plan.tasks = tasks_of(
-        chosen.sampling.samples,
-        arguments.parts ? *arguments.parts : measured_parts(arguments, chosen, stage, console));
-    plan.identity = identity_of_tasks(plan, folder / "plan.json", stage, console);
-    if (const auto what = difference(identity(stage.scene, stage.camera, chosen), plan.identity)) {
-        throw Error(ErrorCode::internal,
-                    fmt::format("{}: the words of the plan give another render: {}",
-                                arguments.render.file.string(), *what));
+    const std::vector<SequenceView> views = views_of(asked, camera_names(stage));
+    const FirstImage first = first_image(asked, views.front(), stage, console);
+    const RenderOptions& options = first.arguments.options;
+    Plan plan = plan_of(arguments, folder, options, stage.scene.isa());
+    plan.images.clear();
+    for (const SequenceView& view : views) {
+        plan.images.push_back(image_of(asked, view));
     }
+    plan.tasks = split_plan(plan, options.sampling.samples,
+                            number_of_tasks(arguments, options, views.size(), stage, console));
+    identify(plan, folder / "plan.json", first, asked, stage, console);
     const std::vector<EngineFile> files = engine_files(arguments.engine, plan, folder);
     for (const EngineFile& file : files) {
         plan.engine_files.emplace_back(file.name);

@@ -1,10 +1,11 @@
 #include "commands/render_command.h"
 
-#include <bdpt/framing.h>
+#include <bdpt/error.h>
 #include <bdpt/io/image_cache.h>
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -14,13 +15,16 @@
 #include <vector>
 
 #include "commands/render_view.h"
-#include "options/values/orbit.h"
 #include "options/values/output_files.h"
+#include "plan/plan.h"
+#include "plan/planned_identity.h"
+#include "plan/planned_words.h"
 #include "report/denoised.h"
 #include "report/part/part_keeper.h"
 #include "report/render_files.h"
 #include "report/viewer/display.h"
 #include "stage/render_preparation.h"
+#include "stage/sequence_viewpoint.h"
 #include "terminal/console.h"
 #include "terminal/interrupt.h"
 
@@ -57,23 +61,48 @@ PreparedScene load(const RenderArguments& arguments, Console& console)
     return stage;
 }
 
-/// The camera of `image`, which goes around if that is asked for. `first` is the one that the scene
-/// was loaded with.
-Viewpoint viewpoint_of(const PreparedScene& stage, const Viewpoint& first,
-                       const RenderArguments& image)
+/// The images that the process makes.
+struct Assignment {
+    std::vector<SequenceView> views;
+    std::optional<Plan> plan{};   ///< of several images, of which these are some
+    std::size_t first_image = 0;  ///< of it
+};
+
+/// Those of one task of a plan of several images; none if there is no such plan.
+std::optional<Assignment> planned_assignment(const RenderArguments& asked)
 {
-    if (!image.sequence_view) {
-        return first;
+    if (!asked.part || !asked.part->plan) {
+        return std::nullopt;
     }
-    const SequenceView& view = *image.sequence_view;
-    Viewpoint result = view.camera ? viewpoint(stage, *view.camera, image) : first;
-    if (view.turn) {
-        const Bounds& bounds = stage.scene.bounds();
-        const Vec3 center =
-            orbit_center(result.camera, image.view.look_at, 0.5f * (bounds.min + bounds.max));
-        result.camera = orbited(std::move(result.camera), center, static_cast<float>(*view.turn));
+    Plan plan = read_plan(*asked.part->plan);
+    if (!is_sequence(plan)) {
+        return std::nullopt;
     }
+    const PlanTask& task = task_of(plan, *asked.part->plan, asked.part->task);
+    std::vector<SequenceView> views = views_of(asked, cameras_of(plan));
+    if (views.size() != plan.images.size()) {
+        throw Error(ErrorCode::invalid_input,
+                    fmt::format("{}: is no plan of bdpt plan: it has {} images, and its words {}",
+                                asked.part->plan->string(), plan.images.size(), views.size()));
+    }
+    const auto begin = views.begin() + static_cast<std::ptrdiff_t>(task.first_image);
+    Assignment result{.views = {begin, begin + static_cast<std::ptrdiff_t>(task.images)},
+                      .first_image = task.first_image};
+    for (std::size_t i = 0; i < task.images; ++i) {
+        result.views[i].index = i;
+        result.views[i].count = task.images;
+    }
+    result.plan = std::move(plan);
     return result;
+}
+
+/// Throws `Error` (invalid_input) when files are not what they were when the plan was made.
+void check_files_of_plan(const RenderArguments& asked, const Plan& plan)
+{
+    if (const auto what = difference(identity_of_files(asked), plan.files)) {
+        throw Error(ErrorCode::invalid_input, fmt::format("{}: is the plan of another render: {}",
+                                                          asked.part->plan->string(), *what));
+    }
 }
 
 }  // namespace
@@ -89,19 +118,19 @@ int run_render(const RenderArguments& typed, const std::vector<std::string>& wor
             console.note("stopping after the pass in flight; interrupt again to end at once");
         },
         asked.part ? UserSignal::checkpoint : UserSignal::default_action);
-    if (asked.sequence && asked.sequence->frames && !asked.display.exposure &&
-        std::any_of(asked.outputs.begin(), asked.outputs.end(),
-                    [](const auto& output) { return has_extension(output, ".png"); })) {
-        console.warning(
-            "each .png file has an exposure of its own, so that frames may flicker; "
-            "--exposure EV gives all the same");
+    if (const std::optional<std::string> warning = warning_of_flicker(asked)) {
+        console.warning(*warning);
     }
     std::optional<PreparedScene> stage;
-    if (asked.sequence && asked.sequence->cameras == SequenceCameras::all) {
+    std::optional<Assignment> assignment = planned_assignment(asked);
+    if (!assignment && asked.sequence && asked.sequence->cameras == SequenceCameras::all) {
         stage = load(asked, console);
     }
-    const std::vector<SequenceView> views =
-        views_of(asked, stage ? camera_names(*stage) : std::vector<std::string>());
+    if (!assignment) {
+        assignment =
+            Assignment{views_of(asked, stage ? camera_names(*stage) : std::vector<std::string>())};
+    }
+    const std::vector<SequenceView>& views = assignment->views;
     for (const SequenceView& view : views) {
         static_cast<void>(check_files(arguments_of(asked, view)));
     }
@@ -117,16 +146,20 @@ int run_render(const RenderArguments& typed, const std::vector<std::string>& wor
         if (interrupt.signal()) {
             break;
         }
-        const RenderArguments image = arguments_of(asked, view);
+        RenderArguments image = arguments_of(asked, view);
         console.begin_image(label_of(image));
         interrupt.set_temporaries(temporary_paths(check_files(image)));
         std::optional<PartKeeper> keeper;
         if (image.part) {
+            image.part->image = assignment->first_image + view.index;
             keeper.emplace(*image.part, console);
             if (keeper->is_complete(image.samples) && image.outputs.empty()) {
                 report_complete(console, image);
                 continue;
             }
+        }
+        if (!stage && assignment->plan) {
+            check_files_of_plan(asked, *assignment->plan);
         }
         if (!stage || time != image.scene.time) {
             stage.reset();  // first, or there would be two in memory
@@ -137,7 +170,7 @@ int run_render(const RenderArguments& typed, const std::vector<std::string>& wor
         if (!first) {
             first = Viewpoint{.camera = stage->camera, .size = stage->size};
         }
-        Viewpoint seen = viewpoint_of(*stage, *first, image);
+        Viewpoint seen = sequence_viewpoint(*stage, *first, image);
         stage->camera = std::move(seen.camera);
         stage->size = seen.size;
         render_view(image, *stage, keeper,

@@ -94,7 +94,8 @@ std::optional<PartChoice> part_choice(const PartWords& words)
     }
     return PartChoice{.file = *words.file,
                       .existing = words.restart ? ExistingPart::restart : ExistingPart::go_on,
-                      .plan = words.plan};
+                      .plan = words.plan,
+                      .task = words.task.value_or("")};
 }
 
 std::optional<SampleRange> sample_range(const PartWords& words)

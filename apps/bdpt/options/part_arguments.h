@@ -3,6 +3,7 @@
 #include <bdpt/io/exr.h>
 #include <bdpt/render_options.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -36,6 +37,8 @@ struct PartChoice {
     std::filesystem::path file;
     ExistingPart existing = ExistingPart::go_on;
     std::optional<std::filesystem::path> plan{};  ///< that the render must be one of
+    std::string task{};                           ///< of it: its number, or where that is
+    std::size_t image = 0;                        ///< of the plan
 };
 
 /// Describes --part, --restart, --plan and --task to the parser.
@@ -75,6 +78,7 @@ struct MergeArguments {
     std::vector<std::filesystem::path> parts;
     std::vector<std::filesystem::path> outputs;
     std::optional<std::filesystem::path> plan;  ///< whose parts they are
+    std::size_t image = 0;                      ///< of the plan
     std::optional<double> wait;                 ///< [s] for parts to come; may be infinite
     std::optional<std::int64_t> samples;        ///< per pixel, that the render was to have
     std::optional<double> noise;                ///< as noise_of(), that it was to have

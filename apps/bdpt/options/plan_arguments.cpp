@@ -18,6 +18,7 @@ namespace {
 constexpr const char* footer = R"(Examples:
   bdpt plan scene.glb -o out.exr --spp 4096 --parts 64 --for slurm -d job
   bdpt plan scene.glb -o out.exr --spp 4096 --minutes 20 --for make -d job
+  bdpt plan walk.glb -o out.####.exr --frames 1:48 --fps 24 --parts 12 --for make -d job
   make -C job -j4 -k
 
 The folder of -d gets plan.json and the files of the engine that starts the tasks; their first lines
@@ -70,7 +71,7 @@ std::vector<std::string> without(std::vector<std::string> words,
 std::vector<std::string> render_options(const CLI::App& command)
 {
     std::vector<std::string> words;
-    for (const char* group : {"How to render", "Film", "What to render"}) {
+    for (const char* group : {"How to render", "Film", "What to render", sequence_group}) {
         for (const std::string& word : given_options(command, group)) {
             words.push_back(word);
         }
@@ -83,15 +84,10 @@ bool names_no_file(const std::optional<std::string>& environment)
     return environment == "none" || environment == "default";
 }
 
-void check_parts(const PlanWords& words, const RenderArguments& render)
+void check_parts(const PlanWords& words)
 {
     if (words.parts.has_value() == words.minutes.has_value()) {
         throw OptionError("--parts: expected either it or --minutes");
-    }
-    const std::int64_t samples = render.samples.end - render.samples.begin;
-    if (words.parts && *words.parts > samples) {
-        reject("--parts", fmt::format("{}", *words.parts),
-               fmt::format("at most one for each of the {} samples", samples));
     }
     // AWS Batch has no arrays of one task, and none of more than 10,000.
     constexpr std::int64_t longest_array = 10'000;
@@ -108,8 +104,10 @@ void add_plan_options(CLI::App& command, PlanWords& words)
     words.command = &command;
     const auto group = "Plan";
     command
-        .add_option("--parts", words.parts,
-                    "Number of tasks; each makes a part of the samples of all pixels")
+        .add_option(
+            "--parts", words.parts,
+            "Number of tasks in all. Each makes a part of the samples of all pixels; of fewer "
+            "tasks than frames each makes some frames")
         ->check(whole_number(1, most_parts))
         ->type_name("N")
         ->group(group);
@@ -137,6 +135,7 @@ void add_plan_options(CLI::App& command, PlanWords& words)
                   "Replace the plan that is there, and remove the parts that its tasks have made")
         ->group(group);
     add_plannable_options(command, words.render);
+    add_sequence_options(command, words.render.sequence);
     command.footer(footer);
 }
 
@@ -147,7 +146,7 @@ PlanArguments understand(const PlanWords& words)
     if (words.render.outputs.empty()) {
         throw OptionError("--output is required");
     }
-    check_parts(words, result.render);
+    check_parts(words);
     if (words.minutes && !(*words.minutes > 0.0)) {
         reject("--minutes", fmt::format("{}", *words.minutes), "a number above 0");
     }

@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <exception>
 #include <fstream>
 #include <iterator>
@@ -13,13 +14,16 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "options/values/file_pattern.h"
+#include "terminal/text.h"
+
 namespace bdpt::app {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-constexpr int format = 1;
+constexpr int format = 2;
 
 std::vector<std::string> texts_of(const std::vector<fs::path>& paths)
 {
@@ -36,13 +40,85 @@ std::vector<fs::path> read_paths(const ordered_json& json)
     return {texts.begin(), texts.end()};
 }
 
-PlanTask read_task(const ordered_json& json)
+SampleRange read_range(const ordered_json& json, const char* what)
 {
-    const auto samples = SampleSet::parse(json.at("samples").get<std::string>());
-    if (!samples || samples->ranges().size() != 1) {
-        throw std::runtime_error("the samples of a task are no range");
+    const auto set = SampleSet::parse(json.get<std::string>());
+    if (!set || set->ranges().size() != 1) {
+        throw std::runtime_error(fmt::format("the {} of a task are no range", what));
     }
-    return {.samples = samples->ranges().front(), .part = json.at("part").get<std::string>()};
+    return set->ranges().front();
+}
+
+PlanTask read_task(const ordered_json& json, std::size_t images)
+{
+    const SampleRange range = read_range(json.at("images"), "images");
+    const auto first = static_cast<std::size_t>(range.begin);
+    const auto end = static_cast<std::size_t>(range.end);
+    if (end > images) {
+        throw std::runtime_error(
+            fmt::format("a task has the images {}:{}, but there are {}", first, end, images));
+    }
+    return {.first_image = first,
+            .images = end - first,
+            .samples = read_range(json.at("samples"), "samples"),
+            .part = json.at("part").get<std::string>()};
+}
+
+PlanImage read_image(const ordered_json& json)
+{
+    PlanImage image;
+    if (json.contains("frame")) {
+        image.frame = json["frame"].get<int>();
+    }
+    if (json.contains("camera")) {
+        image.camera = json["camera"].get<std::string>();
+    }
+    if (json.contains("seed")) {
+        image.seed = json["seed"].get<std::uint64_t>();
+    }
+    return image;
+}
+
+ordered_json to_json(const PlanImage& image)
+{
+    ordered_json json = ordered_json::object();
+    if (image.frame) {
+        json["frame"] = *image.frame;
+    }
+    if (image.camera) {
+        json["camera"] = *image.camera;
+    }
+    if (image.seed) {
+        json["seed"] = *image.seed;
+    }
+    return json;
+}
+
+ordered_json to_json(const PlanTask& task)
+{
+    const SampleRange images{.begin = static_cast<std::int64_t>(task.first_image),
+                             .end = static_cast<std::int64_t>(task.first_image + task.images)};
+    return {{"images", SampleSet(images).text()},
+            {"samples", SampleSet(task.samples).text()},
+            {"part", task.part.string()}};
+}
+
+Identity read_identity(const ordered_json& json)
+{
+    Identity identity;
+    for (const auto& [name, value] : json.items()) {
+        identity.components.push_back({.name = name, .value = value.get<std::string>()});
+    }
+    return identity;
+}
+
+ordered_json to_json(const Identity& identity)
+{
+    ordered_json json = ordered_json::object();
+    for (const auto& [name, value] : identity.components) {
+        json[name] = value;
+    }
+    return json;
 }
 
 Plan read(const ordered_json& json)
@@ -59,16 +135,48 @@ Plan read(const ordered_json& json)
     plan.merge_options = json.at("merge").get<std::vector<std::string>>();
     plan.outputs = read_paths(json.at("outputs"));
     plan.engine_files = read_paths(json.at("engine_files"));
+    plan.images.clear();
+    for (const ordered_json& image : json.at("images")) {
+        plan.images.push_back(read_image(image));
+    }
     for (const ordered_json& task : json.at("tasks")) {
-        plan.tasks.push_back(read_task(task));
+        plan.tasks.push_back(read_task(task, plan.images.size()));
     }
     if (plan.tasks.empty()) {
         throw std::runtime_error("no tasks");
     }
-    for (const auto& [name, value] : json.at("identity").items()) {
-        plan.identity.components.push_back({.name = name, .value = value.get<std::string>()});
-    }
+    plan.identity = read_identity(json.at("identity"));
+    plan.files = read_identity(json.at("files"));
     return plan;
+}
+
+/// Numbers that follow each other.
+struct Run {
+    std::size_t first = 0;
+    std::size_t last = 0;
+};
+
+std::vector<Run> runs_of(const std::vector<std::size_t>& numbers)
+{
+    std::vector<Run> runs;
+    for (const std::size_t number : numbers) {
+        if (!runs.empty() && runs.back().last + 1 == number) {
+            runs.back().last = number;
+        } else {
+            runs.push_back({.first = number, .last = number});
+        }
+    }
+    return runs;
+}
+
+/// "frame 3", "camera left", "frame 3 of camera left"
+std::string image_text(const PlanImage& image)
+{
+    const std::string camera = image.camera ? "camera " + one_line(*image.camera) : "";
+    if (!image.frame) {
+        return camera;
+    }
+    return fmt::format("frame {}{}{}", *image.frame, camera.empty() ? "" : " of ", camera);
 }
 
 std::string text_of(const fs::path& file)
@@ -94,24 +202,85 @@ SampleSet samples_of(const Plan& plan)
     return result;
 }
 
-std::string tasks_text(const Plan& plan, const SampleSet& samples)
+bool is_sequence(const Plan& plan)
+{
+    return plan.images.front().seed.has_value();
+}
+
+std::vector<std::string> cameras_of(const Plan& plan)
+{
+    std::vector<std::string> cameras;
+    for (const PlanImage& image : plan.images) {
+        if (image.camera && image.frame == plan.images.front().frame) {
+            cameras.push_back(*image.camera);
+        }
+    }
+    return cameras;
+}
+
+fs::path file_of(const fs::path& pattern, const PlanImage& image)
+{
+    const fs::path file = image.frame ? with_number(pattern, *image.frame) : pattern;
+    return image.camera ? with_camera(file, *image.camera) : file;
+}
+
+std::vector<fs::path> parts_of(const Plan& plan, std::size_t image)
+{
+    std::vector<fs::path> parts;
+    for (const PlanTask& task : plan.tasks) {
+        if (renders(task, image, SampleSet(task.samples))) {
+            parts.push_back(file_of(task.part, plan.images[image]));
+        }
+    }
+    return parts;
+}
+
+std::vector<fs::path> parts_of(const Plan& plan)
+{
+    std::vector<fs::path> parts;
+    for (const PlanTask& task : plan.tasks) {
+        for (std::size_t i = 0; i < task.images; ++i) {
+            parts.push_back(file_of(task.part, plan.images[task.first_image + i]));
+        }
+    }
+    return parts;
+}
+
+bool renders(const PlanTask& task, std::size_t image, const SampleSet& samples)
+{
+    return image >= task.first_image && image - task.first_image < task.images &&
+           !samples.overlap(SampleSet(task.samples)).empty();
+}
+
+ImageLabel label_of(const Plan& plan, std::size_t image)
+{
+    return {.frame = plan.images[image].frame,
+            .camera = plan.images[image].camera,
+            .index = image,
+            .count = plan.images.size()};
+}
+
+std::string images_text(const Plan& plan, const std::vector<std::size_t>& images)
+{
+    constexpr std::size_t most_runs = 8;
+    const std::vector<Run> runs = runs_of(images);
+    std::string text;
+    for (std::size_t i = 0; i < std::min(runs.size(), most_runs); ++i) {
+        text += (text.empty() ? "" : ", ") + image_text(plan.images[runs[i].first]);
+        if (runs[i].first != runs[i].last) {
+            text += " to " + image_text(plan.images[runs[i].last]);
+        }
+    }
+    return runs.size() > most_runs ? text + ", ..." : text;
+}
+
+std::string numbers_text(const std::vector<std::size_t>& numbers)
 {
     std::string result;
-    const auto wanted = [&](std::size_t task) {
-        return task < plan.tasks.size() &&
-               !samples.overlap(SampleSet(plan.tasks[task].samples)).empty();
-    };
-    for (std::size_t first = 0; first < plan.tasks.size(); ++first) {
-        if (!wanted(first)) {
-            continue;
-        }
-        std::size_t last = first;
-        while (wanted(last + 1)) {
-            ++last;
-        }
+    for (const Run& run : runs_of(numbers)) {
         result += result.empty() ? "" : ",";
-        result += first == last ? fmt::format("{}", first) : fmt::format("{}-{}", first, last);
-        first = last;
+        result += run.first == run.last ? fmt::format("{}", run.first)
+                                        : fmt::format("{}-{}", run.first, run.last);
     }
     return result;
 }
@@ -126,17 +295,18 @@ std::string to_text(const Plan& plan)
                       {"merge", plan.merge_options},
                       {"outputs", texts_of(plan.outputs)},
                       {"engine_files", texts_of(plan.engine_files)},
+                      {"images", ordered_json::array()},
                       {"tasks", ordered_json::array()},
-                      {"identity", ordered_json::object()}};
+                      {"files", to_json(plan.files)},
+                      {"identity", to_json(plan.identity)}};
     if (plan.environment) {
         json["environment"] = plan.environment->string();
     }
-    for (const PlanTask& task : plan.tasks) {
-        json["tasks"].push_back(
-            {{"samples", SampleSet(task.samples).text()}, {"part", task.part.string()}});
+    for (const PlanImage& image : plan.images) {
+        json["images"].push_back(to_json(image));
     }
-    for (const auto& [name, value] : plan.identity.components) {
-        json["identity"][name] = value;
+    for (const PlanTask& task : plan.tasks) {
+        json["tasks"].push_back(to_json(task));
     }
     try {
         return json.dump(2) + "\n";

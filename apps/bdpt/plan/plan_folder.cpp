@@ -47,8 +47,8 @@ void remove_plan(const fs::path& file)
     if (!plan) {
         return;
     }
-    for (const PlanTask& task : plan->tasks) {
-        fs::remove(resolved(task.part, file), ignored);
+    for (const fs::path& part : parts_of(*plan)) {
+        fs::remove(resolved(part, file), ignored);
     }
     for (const fs::path& engine_file : plan->engine_files) {
         fs::remove(resolved(engine_file, file), ignored);

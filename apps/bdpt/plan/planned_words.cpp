@@ -67,24 +67,6 @@ void check_render_words(const Words& words)
     }
 }
 
-const PlanTask& task_of(const Plan& plan, const fs::path& file, std::string number)
-{
-    constexpr std::string_view variable = "env:";
-    if (number.starts_with(variable)) {
-        const char* value = std::getenv(number.c_str() + variable.size());
-        if (value == nullptr) {
-            reject("--task", number, "an environment variable that is set");
-        }
-        number = value;
-    }
-    const std::optional<std::size_t> index = parse_index(number);
-    if (!index || *index >= plan.tasks.size()) {
-        reject("--task", number,
-               fmt::format("a task of {}, 0 to {}", file.string(), plan.tasks.size() - 1));
-    }
-    return plan.tasks[*index];
-}
-
 bool names_output(const std::string& word)
 {
     const bool short_options = word.size() > 1 && word[0] == '-' && word[1] != '-';
@@ -116,8 +98,8 @@ Words render_words(const Words& words, const Plan& plan, const fs::path& file)
 Words merge_words(const Words& words, const Plan& plan, const fs::path& file)
 {
     Words result(words.begin(), words.begin() + 2);
-    for (const PlanTask& task : plan.tasks) {
-        result.push_back(resolved(task.part, file).string());
+    for (const fs::path& part : parts_of(plan)) {
+        result.push_back(resolved(part, file).string());
     }
     append(result, plan.merge_options);
     if (std::none_of(words.begin() + 2, words.end(), names_output)) {
@@ -141,6 +123,24 @@ std::vector<std::string> with_planned_words(std::vector<std::string> words)
     }
     const Plan plan = read_plan(*file);
     return render ? render_words(words, plan, *file) : merge_words(words, plan, *file);
+}
+
+const PlanTask& task_of(const Plan& plan, const std::filesystem::path& file, std::string number)
+{
+    constexpr std::string_view variable = "env:";
+    if (number.starts_with(variable)) {
+        const char* value = std::getenv(number.c_str() + variable.size());
+        if (value == nullptr) {
+            reject("--task", number, "an environment variable that is set");
+        }
+        number = value;
+    }
+    const std::optional<std::size_t> index = parse_index(number);
+    if (!index || *index >= plan.tasks.size()) {
+        reject("--task", number,
+               fmt::format("a task of {}, 0 to {}", file.string(), plan.tasks.size() - 1));
+    }
+    return plan.tasks[*index];
 }
 
 std::vector<std::string> shared_words(const Plan& plan, const fs::path& file)

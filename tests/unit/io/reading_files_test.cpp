@@ -3,11 +3,15 @@
 #include "file/uri.h"
 #include "gltf_fixture.h"
 
+#include <bdpt/io/file_contents.h>
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <new>
+#include <string>
+#include <vector>
 
 using namespace bdpt;
 using namespace bdpt::io;
@@ -205,4 +209,60 @@ TEST_CASE("percent signs that encode nothing stay")
     CHECK(percent_decode("100%.png") == "100%.png");
     CHECK(percent_decode("%4") == "%4");
     CHECK(percent_decode("%zz%41%") == "%zzA%");
+}
+
+TEST_CASE("what is in the files of a scene is told by name, used or not")
+{
+    const TempFolder folder;
+    nlohmann::json json = GltfFixture::triangle().json;
+    json["buffers"] = {{{"byteLength", 42}, {"uri", "b%20c.bin"}},
+                       {{"byteLength", 1}, {"uri", "data:;base64,AAAA"}}};
+    json["images"] = {
+        {{"uri", "unused.png"}}, {{"uri", "absent.png"}}, {{"uri", "../outside.png"}}};
+    json["extensions"]["EXT_lights_ies"]["lights"] = {{{"uri", "lamp.ies"}}};
+    const std::map<std::string, std::string> texts{{"scene.gltf", json.dump()},
+                                                   {"b c.bin", triangle_bytes()},
+                                                   {"unused.png", "x"},
+                                                   {"lamp.ies", "y"}};
+    for (const auto& [name, text] : texts) {
+        folder.write(name, text);
+    }
+    const auto file = folder.path() / "scene.gltf";
+    const std::vector<FileContent> before = gltf_file_contents(file);
+    std::vector<std::string> names;
+    for (const FileContent& content : before) {
+        names.push_back(content.name);
+        const bool readable = content.name != "absent.png" && content.name != "../outside.png";
+        CHECK(content.hash.has_value() == readable);
+    }
+    CHECK(names == std::vector<std::string>{"scene.gltf", "../outside.png", "absent.png",
+                                            "b%20c.bin", "lamp.ies", "unused.png"});
+    CHECK(before[0].hash == hash_of_file(file));
+    CHECK(before[4].hash == hash_of_file(folder.path() / "lamp.ies"));
+    for (const auto& [name, text] : texts) {
+        CAPTURE(name);
+        folder.write(name, text + " ");
+        CHECK(gltf_file_contents(file) != before);
+        folder.write(name, text);
+        CHECK(gltf_file_contents(file) == before);
+    }
+    const auto glb = folder.write("scene.glb", GltfFixture::triangle().glb());
+    CHECK(gltf_file_contents(glb).size() == 1);
+}
+
+TEST_CASE("the contents of what is no scene are refused by its name")
+{
+    const TempFolder folder;
+    const auto message = [](const std::filesystem::path& file) -> std::string {
+        try {
+            static_cast<void>(gltf_file_contents(file));
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "";
+    };
+    CHECK(contains(message(folder.path() / "none.gltf"), "none.gltf: no such file"));
+    CHECK(contains(message(folder.write("text.gltf", "text")), "text.gltf: "));
+    CHECK_THROWS_AS(hash_of_file(folder.path() / "none"), Error);
+    CHECK_THROWS_AS(hash_of_file(folder.write("long", "1234"), {.file_bytes = 3}), Error);
 }

@@ -86,7 +86,7 @@ std::optional<double> parse_rate(const std::string& text)
 
 void add_sequence_options(CLI::App& command, SequenceWords& words)
 {
-    const auto group = "Several images (their files have #### or {camera} in their names)";
+    const auto group = sequence_group;
     command
         .add_option("--frames", words.frames,
                     "Render the frames A to B, B included, or every S-th of them: frame 12 with 24 "

@@ -15,6 +15,10 @@ namespace bdpt::app {
 struct RenderArguments;
 struct RenderWords;
 
+/// How the help calls the options of several images.
+inline constexpr const char* sequence_group =
+    "Several images (their files have #### or {camera} in their names)";
+
 /// What the words after `bdpt render` say about several images, as they were given.
 struct SequenceWords {
     std::optional<std::string> frames;
@@ -76,6 +80,9 @@ void add_sequence_options(CLI::App& command, SequenceWords& words);
 
 /// Throws `OptionError` when the names of files have no place for what tells the images apart.
 void check_patterns(const RenderArguments& arguments);
+
+/// For frames of which each .png file would have an exposure of its own.
+[[nodiscard]] std::optional<std::string> warning_of_flicker(const RenderArguments& arguments);
 
 /// All images that `arguments` ask for; those of a frame next to each other. `cameras` are the
 /// names of those that the scene has; needed for all of them only. Throws `Error` (invalid_input)

@@ -1,6 +1,7 @@
 #include <bdpt/error.h>
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <numbers>
@@ -9,6 +10,7 @@
 #include "options/groups/sequence_arguments.h"
 #include "options/render_arguments.h"
 #include "options/values/file_pattern.h"
+#include "options/values/output_files.h"
 
 namespace bdpt::app {
 namespace {
@@ -80,6 +82,19 @@ void check_patterns(const RenderArguments& arguments)
                                           file.string()));
         }
     }
+}
+
+std::optional<std::string> warning_of_flicker(const RenderArguments& arguments)
+{
+    const bool writes_png =
+        std::any_of(arguments.outputs.begin(), arguments.outputs.end(),
+                    [](const fs::path& output) { return has_extension(output, ".png"); });
+    if (!arguments.sequence || !arguments.sequence->frames || arguments.display.exposure ||
+        !writes_png) {
+        return std::nullopt;
+    }
+    return "each .png file has an exposure of its own, so that frames may flicker; --exposure EV "
+           "gives all the same";
 }
 
 std::vector<SequenceView> views_of(const RenderArguments& arguments,

@@ -9,7 +9,7 @@
 #include <thread>
 #include <utility>
 
-#include "plan/plan.h"
+#include "plan/planned_identity.h"
 
 namespace bdpt::app {
 namespace {
@@ -19,18 +19,24 @@ using io::PartInfo;
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
-/// What all parts must be of.
-struct Render {
-    fs::path file;  ///< that says so
-    Identity identity;
-};
-
-void check_same_render(const Render& render, const PartInfo& part)
+/// Throws when `part` is of another render than `plan` or `first`.
+void check_same_render(const PartInfo& part, const MergeArguments& arguments,
+                       const std::optional<Plan>& plan, const PartInfo* first)
 {
-    if (const auto what = difference(render.identity, part.identity)) {
-        throw Error(ErrorCode::invalid_input,
-                    fmt::format("{}: is of another render than {}: {}", part.file.string(),
-                                render.file.string(), *what));
+    const auto refuse = [&part](const fs::path& file, const std::string& what) {
+        throw Error(ErrorCode::invalid_input, fmt::format("{}: is of another render than {}: {}",
+                                                          part.file.string(), file.string(), what));
+    };
+    if (plan) {
+        const PlannedIdentity planned = planned_identity(*plan, arguments.image);
+        if (const auto what = difference(part.identity, planned)) {
+            refuse(*arguments.plan, *what);
+        }
+    }
+    if (first != nullptr) {
+        if (const auto what = difference(first->identity, part.identity)) {
+            refuse(first->file, *what);
+        }
     }
 }
 
@@ -41,10 +47,6 @@ struct ReadParts {
 
 ReadParts read_parts(const MergeArguments& arguments, const std::optional<Plan>& plan)
 {
-    std::optional<Render> render;
-    if (plan) {
-        render = Render{.file = *arguments.plan, .identity = plan->identity};
-    }
     ReadParts result;
     for (const fs::path& file : arguments.parts) {
         std::error_code ignored;
@@ -52,11 +54,7 @@ ReadParts read_parts(const MergeArguments& arguments, const std::optional<Plan>&
             continue;
         }
         try {
-            PartInfo part = io::read_part_info(file);
-            if (!render) {
-                render = Render{.file = file, .identity = part.identity};
-            }
-            result.parts.push_back(std::move(part));
+            result.parts.push_back(io::read_part_info(file));
         } catch (const Error& error) {
             const bool may_change =
                 error.code() == ErrorCode::not_found || error.code() == ErrorCode::invalid_input;
@@ -66,7 +64,9 @@ ReadParts read_parts(const MergeArguments& arguments, const std::optional<Plan>&
             result.faults.emplace_back(error.what());
             continue;
         }
-        check_same_render(*render, result.parts.back());
+        const PartInfo& part = result.parts.back();
+        check_same_render(part, arguments, plan,
+                          result.parts.size() > 1 ? &result.parts.front() : nullptr);
     }
     return result;
 }
@@ -144,13 +144,12 @@ void show_waiting(Console& console, const PartCollection& collection, Seconds pa
 
 }  // namespace
 
-PartCollection collect_parts(const MergeArguments& arguments, Console& console)
+PartCollection collect_parts(const MergeArguments& arguments, const std::optional<Plan>& plan,
+                             Console& console)
 {
     // Looking is reading all there is: it takes a tenth of the time at most.
     constexpr Seconds least_pause{1.0};
     constexpr double pause_of_looks = 10.0;
-    const std::optional<Plan> plan =
-        arguments.plan ? std::optional(read_plan(*arguments.plan)) : std::nullopt;
     const Clock::time_point start = Clock::now();
     for (;;) {
         const Clock::time_point look = Clock::now();

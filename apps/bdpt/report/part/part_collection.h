@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "options/part_arguments.h"
+#include "plan/plan.h"
 #include "terminal/console.h"
 
 namespace bdpt::app {
@@ -25,11 +26,13 @@ struct PartCollection {
     [[nodiscard]] SampleSet missing() const { return samples.missing(goal); }
 };
 
-/// The parts of `arguments`, which may be waited for until all samples of the goal are there or the
-/// time is over. Whether they are is decided by what is in the files alone. Files of a plan may be
-/// absent; when they are waited for, all may be, and may be unreadable for a while. Throws `Error`:
-/// what `read_part_info` does, and invalid_input for parts of different renders, or of another than
-/// the plan's, and for parts that overlap without one being in the other.
-[[nodiscard]] PartCollection collect_parts(const MergeArguments& arguments, Console& console);
+/// The parts of `arguments`, all of one image of `plan` if there is one, which may be waited for
+/// until all samples of the goal are there or the time is over. Whether they are is decided by what
+/// is in the files alone. Files of a plan may be absent; when they are waited for, all may be, and
+/// may be unreadable for a while. Throws `Error`: what `read_part_info` does, and invalid_input for
+/// parts of different renders, or of another than the plan's, and for parts that overlap without
+/// one being in the other.
+[[nodiscard]] PartCollection collect_parts(const MergeArguments& arguments,
+                                           const std::optional<Plan>& plan, Console& console);
 
 }  // namespace bdpt::app

@@ -60,15 +60,13 @@ std::vector<std::string> commands_for(const std::vector<std::string>& words,
     return result;
 }
 
-std::vector<std::string> commands_for(const Plan& plan, const std::filesystem::path& file,
-                                      const SampleSet& samples)
+std::vector<std::string> commands_for(const std::filesystem::path& file,
+                                      const std::vector<std::size_t>& tasks)
 {
     std::vector<std::string> result;
-    for (std::size_t i = 0; i < plan.tasks.size(); ++i) {
-        if (!samples.overlap(SampleSet(plan.tasks[i].samples)).empty()) {
-            result.push_back(fmt::format("bdpt render --plan {} --task {}",
-                                         shell_word(one_line(file.string())), i));
-        }
+    for (const std::size_t task : tasks) {
+        result.push_back(fmt::format("bdpt render --plan {} --task {}",
+                                     shell_word(one_line(file.string())), task));
     }
     return result;
 }

@@ -2,11 +2,10 @@
 
 #include <bdpt/part/sample_set.h>
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
-
-#include "plan/plan.h"
 
 namespace bdpt::app {
 
@@ -20,10 +19,8 @@ namespace bdpt::app {
                                                     const SampleSet& samples,
                                                     const std::filesystem::path& folder);
 
-/// Commands, for a shell, of those tasks of `plan`, which is in `file`, that render some of
-/// `samples`.
-[[nodiscard]] std::vector<std::string> commands_for(const Plan& plan,
-                                                    const std::filesystem::path& file,
-                                                    const SampleSet& samples);
+/// Commands, for a shell, that render `tasks` of the plan in `file`.
+[[nodiscard]] std::vector<std::string> commands_for(const std::filesystem::path& file,
+                                                    const std::vector<std::size_t>& tasks);
 
 }  // namespace bdpt::app

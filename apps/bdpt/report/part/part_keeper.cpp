@@ -30,7 +30,7 @@ PartKeeper::PartKeeper(PartChoice choice, Console& console)
       interval_(least_interval)
 {
     if (choice_.plan) {
-        planned_ = read_plan(*choice_.plan).identity;
+        planned_ = planned_identity(read_plan(*choice_.plan), choice_.image);
     }
     std::error_code ignored;
     const bool exists = std::filesystem::exists(choice_.file, ignored);
@@ -49,7 +49,7 @@ PartKeeper::PartKeeper(PartChoice choice, Console& console)
 
 bool PartKeeper::is_complete(SampleRange samples) const
 {
-    return planned_ && there_ && there_->identity == *planned_ &&
+    return planned_ && there_ && !difference(there_->identity, *planned_) &&
            there_->samples.contains(SampleSet(samples));
 }
 

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "options/part_arguments.h"
+#include "plan/planned_identity.h"
 #include "terminal/console.h"
 
 namespace bdpt::app {
@@ -42,7 +43,7 @@ private:
 
     PartChoice choice_;
     Console& console_;
-    std::optional<Identity> planned_;
+    std::optional<PlannedIdentity> planned_;
     std::optional<io::PartInfo> there_;
     io::PartNotes notes_;
     io::OldPart old_;

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <bdpt/render_options.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "plan/plan.h"
+
+namespace bdpt::app {
+
+/// `count` tasks that render `samples` of all images of `plan`, image by image: where there are
+/// fewer tasks than images, a task takes several that follow each other; else the samples of each
+/// image are split. `count` is in [1, images * samples].
+[[nodiscard]] std::vector<PlanTask> split_plan(const Plan& plan, SampleRange samples,
+                                               std::int64_t count);
+
+/// Number of tasks for `images` images that take about `seconds` each. A sample of one takes
+/// `seconds_per_sample`, and an image `seconds_to_start`.
+[[nodiscard]] std::int64_t tasks_of_time(std::size_t images, SampleRange samples, double seconds,
+                                         double seconds_per_sample, double seconds_to_start);
+
+}  // namespace bdpt::app

@@ -1,0 +1,88 @@
+#include <bdpt/io/file_contents.h>
+
+#include "file/json.h"
+#include "file/load_context.h"
+#include "file/named_errors.h"
+#include "file/read_file.h"
+#include "file/uri.h"
+#include "gltf/checks/glb.h"
+
+#include <bdpt/error.h>
+
+#include <set>
+
+namespace bdpt::io {
+namespace {
+
+ContentHash hash_of(ByteView bytes)
+{
+    ContentHasher hasher;
+    hasher.add(bytes.data(), bytes.size());
+    return hasher.hash();
+}
+
+/// Adds the files that the elements of the list at `pointer` name.
+void add_uris(std::set<std::string>& uris, const Json& document, const char* pointer)
+{
+    const Json::json_pointer place(pointer);
+    if (!document.contains(place) || !document[place].is_array()) {
+        return;
+    }
+    for (const Json& element : document[place]) {
+        if (!element.is_object() || !element.contains("uri") || !element["uri"].is_string()) {
+            continue;
+        }
+        const auto& uri = element["uri"].get_ref<const std::string&>();
+        if (!is_data_uri(uri)) {
+            uris.insert(uri);
+        }
+    }
+}
+
+std::set<std::string> uris_of(ByteView file, LoadContext& context)
+{
+    ByteView text = file;
+    if (is_glb(file)) {
+        const GlbChunks::Range json = find_glb_chunks(file, context).json;
+        text = text.subspan(json.offset, json.size);
+    }
+    const Json document = parse_json(text, context.limits);
+    std::set<std::string> uris;
+    for (const char* list : {"/buffers", "/images", "/extensions/EXT_lights_ies/lights"}) {
+        add_uris(uris, document, list);
+    }
+    return uris;
+}
+
+/// None for what the loader will refuse or do without.
+std::optional<ContentHash> hash_if_readable(const std::string& uri, const LoadContext& context)
+{
+    try {
+        return hash_of(read_file(resolve_uri(context.folder, uri), context.limits.file_bytes));
+    } catch (const Error&) {
+        return std::nullopt;
+    }
+}
+
+}  // namespace
+
+ContentHash hash_of_file(const std::filesystem::path& file, const ReadLimits& limits)
+{
+    return with_named_errors(file, [&] { return hash_of(read_file(file, limits.file_bytes)); });
+}
+
+std::vector<FileContent> gltf_file_contents(const std::filesystem::path& file,
+                                            const ReadLimits& limits)
+{
+    return with_named_errors(file, [&] {
+        LoadContext context{.folder = file.parent_path(), .limits = limits};
+        const Bytes bytes = read_file(file, limits.file_bytes);
+        std::vector<FileContent> result{{.name = file.filename().string(), .hash = hash_of(bytes)}};
+        for (const std::string& uri : uris_of(bytes, context)) {
+            result.push_back({.name = uri, .hash = hash_if_readable(uri, context)});
+        }
+        return result;
+    });
+}
+
+}  // namespace bdpt::io

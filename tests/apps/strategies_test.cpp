@@ -194,6 +194,111 @@ TEST_CASE("wrong words for images of strategies are refused before anything is r
             "40000x40000");
 }
 
+/// `words` of `bdpt render` for a part of a room, without numbers of samples.
+Words part_words(const Room& room, const Words& more)
+{
+    Words words{"render", room.scene(), "--size", "16x8",         "--max-depth",
+                "3",      "--env",      "none",   "--integrator", "bdpt"};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+void check_success(const Outcome& outcome)
+{
+    CAPTURE(outcome.out, outcome.err);
+    CHECK(outcome.exit_code == 0);
+}
+
+void check_same_strategies(const std::string& file, const std::string& expected)
+{
+    const std::set<std::string> names = channels(read_exr(expected));
+    CHECK(channels(read_exr(file)) == names);
+    CHECK(names.contains("s01t02.unweighted.G"));
+    for (const std::string& name : names) {
+        CAPTURE(name);
+        CHECK(read_exr_channel(file, name.c_str()) == read_exr_channel(expected, name.c_str()));
+    }
+    const auto sheet = [](std::string path) { return path.replace(path.size() - 3, 3, "png"); };
+    CHECK(read_png(sheet(file)).rgb == read_png(sheet(expected)).rgb);
+}
+
+TEST_CASE("merge writes the images of strategies that parts have")
+{
+    const Room room;
+    const std::string whole = room.path("whole.exr");
+    check_success(run(part_words(room, {"--spp", "4", "--strategies", whole, "-o",
+                                        room.path("image.exr"), "--strategy-depth", "2"})));
+    // Kept in the part alone, and written for the part, too: the parts are of one render.
+    const std::string a = room.path("a.part.exr");
+    const std::string b = room.path("b.part.exr");
+    check_success(
+        run(part_words(room, {"--samples", "0:3", "--part", a, "--strategy-depth", "2"})));
+    CHECK(room.folder().names().size() == 6);
+    check_success(run(part_words(room, {"--samples", "3:4", "--part", b, "--strategy-depth", "2",
+                                        "--strategies", room.path("own.exr")})));
+    const std::string merged = room.path("merged.exr");
+    check_success(run({"merge", b, a, "-o", room.path("m.exr"), "--strategies", merged}));
+    check_same_strategies(merged, whole);
+    CHECK(read_exr(merged).image.pixels == read_exr(room.path("image.exr")).image.pixels);
+    CHECK(read_exr(merged).integer("bdpt.spp") == 4);
+
+    // The command for what is missing makes such a part.
+    const Outcome missing = run({"merge", b, "-o", room.path("x.exr")});
+    CHECK(missing.exit_code == 12);
+    CHECK(missing.err.find(" --strategy-depth=2 --samples 0:3 --part ") != std::string::npos);
+    CHECK(missing.err.find("own.exr") == std::string::npos);
+}
+
+TEST_CASE("merge refuses to write images of strategies that are not there, or not to be written")
+{
+    const Room room;
+    const std::string part = room.path("a.part.exr");
+    check_success(run(part_words(room, {"--spp", "1", "--part", part})));
+    const auto refused = [&](const std::string& file, int code, const std::string& text) {
+        const Outcome outcome =
+            run({"merge", part, "-o", room.path("m.exr"), "--strategies", file});
+        CAPTURE(outcome.err);
+        CHECK(outcome.exit_code == code);
+        CHECK(outcome.err.find(text) != std::string::npos);
+        CHECK_FALSE(room.folder().names().contains("m.exr"));
+    };
+    refused(room.path("all.exr"), 4, "a.part.exr has no images of strategies");
+    refused(room.path("all.png"), 2, "expected a file that is named .exr");
+    refused(part, 2, "it is an input or another output");
+    refused(room.path("none/all.exr"), 6, "none/all.exr");
+    const Outcome outcome = run(part_words(room, {"--spp", "1", "--part", room.path("b.part.exr"),
+                                                  "--strategy-depth", "2", "--integrator", "mis"}));
+    CHECK(outcome.exit_code == 2);
+    CHECK(outcome.err.find("--strategy-depth \"2\": expected --integrator bdpt or lt with it") !=
+          std::string::npos);
+}
+
+TEST_CASE("images of strategies are planned, for frames too")
+{
+    const Room room;
+    const bool many = GENERATE(false, true);
+    const auto name = [&](const char* one, const char* pattern) {
+        return room.path(many ? pattern : one);
+    };
+    const Words turn = many ? Words{"--orbit", "2", "--strategy-depth", "2"} : Words{};
+    Words plan = part_words(
+        room, {"--spp", "2", "--parts", "2", "--for", "make", "-d", room.path("job"), "-o",
+               name("p.exr", "p.#.exr"), "--strategies", name("ps.exr", "ps.#.exr")});
+    plan.front() = "plan";
+    plan.insert(plan.end(), turn.begin(), turn.end());
+    check_success(run(plan));
+    const std::string file = room.path("job/plan.json");
+    for (const char* task : {"0", "1"}) {
+        check_success(run({"render", "--plan", file, "--task", task}));
+    }
+    check_success(run({"merge", "--plan", file}));
+    Words whole = part_words(room, {"--spp", "2", "-o", name("w.exr", "w.#.exr"), "--strategies",
+                                    name("ws.exr", "ws.#.exr")});
+    whole.insert(whole.end(), turn.begin(), turn.end());
+    check_success(run(whole));
+    check_same_strategies(name("ps.exr", "ps.2.exr"), name("ws.exr", "ws.2.exr"));
+}
+
 TEST_CASE("what cannot be written leaves nothing of the images of strategies")
 {
     const Room room;

@@ -145,13 +145,17 @@ std::vector<MergeArguments> images_of(const MergeArguments& asked, const std::op
         for (fs::path& part : image.parts) {
             part = resolved(part, *asked.plan);
         }
-        for (fs::path& output : image.outputs) {
-            const fs::path pattern = std::exchange(output, file_of(output, plan->images[i]));
-            if (!files.insert(output).second) {
+        const auto place = [&](fs::path& file) {
+            const fs::path pattern = std::exchange(file, file_of(file, plan->images[i]));
+            if (!files.insert(file).second) {
                 throw OptionError(fmt::format("{}: expected {} in the name, as the plan has {}",
                                               pattern.string(), places_of(plan->images[i]),
                                               counted(plan->images.size(), "image")));
             }
+        };
+        std::for_each(image.outputs.begin(), image.outputs.end(), place);
+        if (image.strategies) {
+            place(*image.strategies);
         }
         result.push_back(std::move(image));
     }
@@ -162,6 +166,7 @@ std::vector<MergeArguments> images_of(const MergeArguments& asked, const std::op
 void merge(const MergeArguments& arguments, const PartCollection& collection, Console& console)
 {
     const std::vector<PartInfo>& parts = collection.parts;
+    check_strategies(arguments, parts.front());
     const DisplayArguments display =
         display_of_parts(parts.front().notes.metadata, arguments.display);
     RenderPart sum;
@@ -177,7 +182,7 @@ void merge(const MergeArguments& arguments, const PartCollection& collection, Co
         console.warning(fmt::format("samples are missing: {}", missing.text()));
     }
     ordered_json outputs = ordered_json::array();
-    for (const fs::path& output : arguments.outputs) {
+    for (const fs::path& output : merged_files(arguments)) {
         outputs.push_back(output.string());
         console.note(fmt::format("wrote {}: {} spp of {} parts, {:.1f} s of CPU time",
                                  output.string(), sum.samples.count(), parts.size(),
@@ -263,7 +268,7 @@ int run_merge(const MergeArguments& asked)
         asked.plan ? std::optional(read_plan(*asked.plan)) : std::nullopt;
     const std::vector<MergeArguments> images = images_of(asked, plan);
     for (const MergeArguments& image : images) {
-        check_outputs(image.outputs, image.parts);
+        check_merged_files(image);
     }
     Console console(asked.format, asked.verbosity);
     // Nothing is worth finishing; but nothing half-written is left, either.
@@ -271,7 +276,7 @@ int run_merge(const MergeArguments& asked)
     const Patience patience(asked.wait);
     std::vector<MergedImage> merged;
     for (MergeArguments image : images) {
-        interrupt.set_temporaries(temporary_paths(image.outputs));
+        interrupt.set_temporaries(temporary_paths(merged_files(image)));
         image.wait = patience.left();
         merged.push_back(merge_image(image, plan, console));
     }

@@ -27,6 +27,7 @@
 #include "plan/plan_split.h"
 #include "plan/planned_identity.h"
 #include "plan/planned_words.h"
+#include "report/strategy_files.h"
 #include "stage/render_preparation.h"
 #include "stage/sequence_viewpoint.h"
 #include "terminal/console.h"
@@ -147,6 +148,11 @@ void check_files(const PlanArguments& arguments)
         inputs.emplace_back(*arguments.render.environment);
     }
     check_outputs(arguments.render.outputs, inputs);
+    if (arguments.render.strategies) {
+        inputs.insert(inputs.end(), arguments.render.outputs.begin(),
+                      arguments.render.outputs.end());
+        check_strategy_files(*arguments.render.strategies, inputs);
+    }
     check_plan_folder(arguments.folder);
 }
 
@@ -163,6 +169,11 @@ Plan plan_of(const PlanArguments& arguments, const fs::path& folder, const Rende
     }
     for (const fs::path& output : asked.outputs) {
         plan.outputs.push_back(planned_path(output, folder));
+    }
+    if (asked.strategies) {
+        plan.strategies = planned_path(asked.strategies->layers, folder);
+        plan.render_options.push_back(
+            fmt::format("--strategy-depth={}", chosen.bidirectional.strategy_depth));
     }
     std::erase_if(plan.render_options, [](const std::string& word) {
         return word.starts_with("--isa=") || word == "--integrator=auto";

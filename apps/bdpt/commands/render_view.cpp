@@ -138,9 +138,14 @@ io::PartNotes part_notes(const RenderArguments& arguments, io::ImageMetadata met
 {
     // Who stops at a level of noise misses nothing then.
     const bool known = arguments.goal.samples && !arguments.goal.noise;
+    std::vector<std::string> command = render_words(words);
+    if (arguments.strategies) {
+        command.push_back(
+            fmt::format("--strategy-depth={}", arguments.options.bidirectional.strategy_depth));
+    }
     return {.goal = known ? SampleSet(arguments.samples) : SampleSet(),
             .metadata = std::move(metadata),
-            .command = render_words(words)};
+            .command = command};
 }
 
 ImageFileOptions image_file_options(const RenderArguments& arguments, const PreparedScene& stage,
@@ -276,7 +281,7 @@ void render_view(const RenderArguments& asked, const PreparedScene& stage,
     const ImageFileOptions options =
         image_file_options(arguments, stage, result, metadata, session);
     const WrittenImages images = write_image_files(arguments.outputs, image, options);
-    if (arguments.strategies) {
+    if (arguments.strategies && !arguments.strategies->both().empty()) {
         write_strategy_files(*arguments.strategies, image, result.strategies, options.exr,
                              arguments.display.exposure.value_or(io::automatic_exposure(image)));
     }

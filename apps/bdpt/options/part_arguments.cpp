@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "options/arguments.h"
+#include "options/groups/strategy_arguments.h"
 #include "options/render_arguments.h"
 #include "options/values/number.h"
 #include "options/values/output_files.h"
@@ -158,6 +159,10 @@ void add_merge_options(CLI::App& command, MergeWords& words)
                     "what renders them")
         ->type_name("N%")
         ->group(group);
+    add_strategy_file_option(
+        command, words.strategies,
+        "Write the images of strategies that the parts have, and their contact "
+        "sheet, as bdpt render --strategies does");
     add_display_options(command, words.display, group);
     add_denoise_options(command, words.denoise, group);
     command.add_flag("--half", words.half, "Store .exr as 16-bit floats")->group(group);
@@ -185,6 +190,9 @@ MergeArguments understand(const MergeWords& words)
     result.plan = words.plan;
     result.parts.assign(words.parts.begin(), words.parts.end());
     result.outputs.assign(words.outputs.begin(), words.outputs.end());
+    if (words.strategies) {
+        result.strategies = strategy_files(*words.strategies).layers;
+    }
     result.samples = words.samples;
     result.noise = to_noise(words.noise);
     result.incomplete = words.partial ? Incomplete::write : Incomplete::refuse;

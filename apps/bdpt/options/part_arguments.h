@@ -62,6 +62,7 @@ struct MergeWords {
     std::string wait;  // "" not at all, or a time
     std::optional<std::string> noise;
     bool partial = false;
+    std::optional<std::string> strategies;
     DisplayWords display;
     DenoiseWords denoise;
     bool half = false;
@@ -77,11 +78,12 @@ enum class Incomplete : std::uint8_t { refuse, write };
 struct MergeArguments {
     std::vector<std::filesystem::path> parts;
     std::vector<std::filesystem::path> outputs;
-    std::optional<std::filesystem::path> plan;  ///< whose parts they are
-    std::size_t image = 0;                      ///< of the plan
-    std::optional<double> wait;                 ///< [s] for parts to come; may be infinite
-    std::optional<std::int64_t> samples;        ///< per pixel, that the render was to have
-    std::optional<double> noise;                ///< as noise_of(), that it was to have
+    std::optional<std::filesystem::path> strategies;  ///< .exr for the images of strategies
+    std::optional<std::filesystem::path> plan;        ///< whose parts they are
+    std::size_t image = 0;                            ///< of the plan
+    std::optional<double> wait;                       ///< [s] for parts to come; may be infinite
+    std::optional<std::int64_t> samples;              ///< per pixel, that the render was to have
+    std::optional<double> noise;                      ///< as noise_of(), that it was to have
     Incomplete incomplete = Incomplete::refuse;
     DisplayArguments display;
     std::optional<DenoiseArguments> denoise;  ///< if images are to be denoised

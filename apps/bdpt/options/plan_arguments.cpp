@@ -136,6 +136,7 @@ void add_plan_options(CLI::App& command, PlanWords& words)
         ->group(group);
     add_plannable_options(command, words.render);
     add_sequence_options(command, words.render.sequence);
+    add_strategy_options(command, words.render.strategies);
     command.footer(footer);
 }
 
@@ -154,8 +155,9 @@ PlanArguments understand(const PlanWords& words)
     if (names_no_file(words.render.environment)) {
         result.render_options.push_back("--env=" + *words.render.environment);
     }
-    result.merge_options = without(given_options(*words.command, "Output"),
-                                   {"--output", "--quiet", "--json", "--float"});
+    result.merge_options =
+        without(given_options(*words.command, "Output"),
+                {"--output", "--quiet", "--json", "--float", "--strategies", "--strategy-depth"});
     result.parts = words.parts;
     result.minutes = words.minutes.value_or(0.0);
     result.engine = to_engine(words.engine);

@@ -354,7 +354,7 @@ RenderArguments understand(const RenderWords& words)
     result.storage = words.tiled ? io::ExrStorage::tiles : io::ExrStorage::scanlines;
     result.stats = words.stats;
     result.profiling = words.profile ? Profiling::on : Profiling::off;
-    result.strategies = strategy_files(words.strategies, result.options);
+    result.strategies = strategy_files(words.strategies, result.options, words.part);
     if (words.viewer) {
         result.viewer = parse_address(*words.viewer);
         if (!result.viewer) {

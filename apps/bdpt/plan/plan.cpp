@@ -134,6 +134,9 @@ Plan read(const ordered_json& json)
     plan.render_options = json.at("render").get<std::vector<std::string>>();
     plan.merge_options = json.at("merge").get<std::vector<std::string>>();
     plan.outputs = read_paths(json.at("outputs"));
+    if (!json.at("strategies").is_null()) {
+        plan.strategies = json.at("strategies").get<std::string>();
+    }
     plan.engine_files = read_paths(json.at("engine_files"));
     plan.images.clear();
     for (const ordered_json& image : json.at("images")) {
@@ -294,6 +297,7 @@ std::string to_text(const Plan& plan)
                       {"render", plan.render_options},
                       {"merge", plan.merge_options},
                       {"outputs", texts_of(plan.outputs)},
+                      {"strategies", ordered_json()},
                       {"engine_files", texts_of(plan.engine_files)},
                       {"images", ordered_json::array()},
                       {"tasks", ordered_json::array()},
@@ -301,6 +305,9 @@ std::string to_text(const Plan& plan)
                       {"identity", to_json(plan.identity)}};
     if (plan.environment) {
         json["environment"] = plan.environment->string();
+    }
+    if (plan.strategies) {
+        json["strategies"] = plan.strategies->string();
     }
     for (const PlanImage& image : plan.images) {
         json["images"].push_back(to_json(image));

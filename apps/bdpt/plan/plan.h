@@ -40,7 +40,8 @@ struct Plan {
     std::vector<std::string> render_options{};     ///< further words of bdpt render, alike for all
     std::vector<std::string> merge_options{};      ///< words of bdpt merge
     std::vector<std::filesystem::path> outputs{};  ///< with #### and {camera} for several
-    std::vector<PlanImage> images{PlanImage{}};    ///< in the order of `bdpt render`
+    std::optional<std::filesystem::path> strategies{};  ///< .exr for the images of strategies
+    std::vector<PlanImage> images{PlanImage{}};         ///< in the order of `bdpt render`
     std::vector<PlanTask> tasks{};
     std::vector<std::filesystem::path> engine_files{};  ///< what starts the tasks
     Identity identity{};  ///< that each task must find; of several images what they have in common

@@ -106,6 +106,9 @@ Words merge_words(const Words& words, const Plan& plan, const fs::path& file)
         for (const fs::path& output : plan.outputs) {
             result.push_back("--output=" + resolved(output, file).string());
         }
+        if (plan.strategies) {
+            result.push_back("--strategies=" + resolved(*plan.strategies, file).string());
+        }
     }
     append(result, {words.begin() + 2, words.end()});
     return result;

@@ -22,7 +22,8 @@ std::vector<fs::path> files_of(const RenderArguments& arguments)
 {
     std::vector<fs::path> files = arguments.outputs;
     if (arguments.strategies) {
-        files.push_back(arguments.strategies->layers);
+        const std::vector<fs::path> more = arguments.strategies->both();
+        files.insert(files.end(), more.begin(), more.end());
     }
     if (arguments.part) {
         files.push_back(arguments.part->file);

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "options/part_arguments.h"
+
 namespace CLI {
 class App;
 }
@@ -22,19 +24,29 @@ struct StrategyWords {
     std::optional<int> depth;  // [edges]
 };
 
-/// Where images of strategies go.
+/// Where images of strategies go: into files, or only into the part that is rendered.
 struct StrategyFiles {
-    std::filesystem::path layers;  ///< .exr
+    std::filesystem::path layers;  ///< .exr; empty: no files
     std::filesystem::path sheet;   ///< .png of the same stem
-    std::optional<int> depth;      ///< longest paths [edges], if the user chose
+    std::optional<int> depth{};    ///< longest paths [edges], if the user chose
 
-    [[nodiscard]] std::vector<std::filesystem::path> both() const { return {layers, sheet}; }
+    /// None, if there are no files.
+    [[nodiscard]] std::vector<std::filesystem::path> both() const;
 };
 
 void add_strategy_options(CLI::App& command, StrategyWords& words);
 
-/// None when no images are asked for. Throws `Error` (usage) that names the option and the value.
+/// Describes --strategies alone.
+void add_strategy_file_option(CLI::App& command, std::optional<std::string>& file,
+                              const char* description);
+
+/// The files that `file`, the value of --strategies, names. Throws `OptionError`.
+[[nodiscard]] StrategyFiles strategy_files(const std::string& file);
+
+/// None when no images are asked for: by a file, or a depth for those in a part. `part` says
+/// whether there is one. Throws `Error` (usage) that names the option and the value.
 [[nodiscard]] std::optional<StrategyFiles> strategy_files(const StrategyWords& words,
-                                                          const RenderOptions& options);
+                                                          const RenderOptions& options,
+                                                          const PartWords& part);
 
 }  // namespace bdpt::app

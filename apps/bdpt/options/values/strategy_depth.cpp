@@ -10,6 +10,13 @@
 namespace bdpt::app {
 namespace {
 
+/// How the user asked for images of strategies.
+std::string option_of(const StrategyFiles& files)
+{
+    return files.layers.empty() ? "--strategy-depth"
+                                : fmt::format("--strategies \"{}\"", files.layers.string());
+}
+
 double gigabytes(std::uint64_t bytes)
 {
     return static_cast<double>(bytes) * 1e-9;
@@ -42,18 +49,17 @@ StrategyDepth strategy_depth(const StrategyFiles& files, RenderOptions options,
     const std::uint64_t bytes = bytes_up_to(wanted, options, camera);
     if (bytes == 0) {
         throw Error(ErrorCode::usage,
-                    fmt::format("--strategies \"{}\": no strategy that is used makes paths of up "
-                                "to {} edges (--strategy-depth)",
-                                files.layers.string(), wanted));
+                    fmt::format("{}: no strategy that is used makes paths of up to {} edges "
+                                "(--strategy-depth)",
+                                option_of(files), wanted));
     }
     const int depth = affordable_depth(wanted, options, camera);
     if (depth == wanted) {
         return {.edges = wanted, .warning = {}};
     }
     const std::string figures = fmt::format(
-        "--strategies \"{}\": images of paths of up to {} edges take {:.1f} GB, more than the "
-        "limit of {:.1f} GB",
-        files.layers.string(), wanted, gigabytes(bytes),
+        "{}: images of paths of up to {} edges take {:.1f} GB, more than the limit of {:.1f} GB",
+        option_of(files), wanted, gigabytes(bytes),
         gigabytes(options.bidirectional.strategy_memory));
     const bool any = depth > 0 && bytes_up_to(depth, options, camera) > 0;
     if (files.depth || !any) {

@@ -1,8 +1,10 @@
 #include "report/part/merged_files.h"
 
 #include <bdpt/error.h>
+#include <bdpt/io/tone_map.h>
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -12,7 +14,10 @@
 #include <utility>
 #include <vector>
 
+#include "options/groups/strategy_arguments.h"
+#include "options/values/output_files.h"
 #include "report/image_files.h"
+#include "report/strategy_files.h"
 
 namespace bdpt::app {
 namespace {
@@ -57,6 +62,42 @@ DisplayArguments display_of_parts(const io::ImageMetadata& metadata, DisplayArgu
     return display;
 }
 
+void check_merged_files(const MergeArguments& arguments)
+{
+    check_outputs(arguments.outputs, arguments.parts);
+    if (arguments.strategies) {
+        std::vector<fs::path> others = arguments.outputs;
+        others.insert(others.end(), arguments.parts.begin(), arguments.parts.end());
+        check_strategy_files(strategy_files(arguments.strategies->string()), others);
+    }
+}
+
+void check_strategies(const MergeArguments& arguments, const io::PartInfo& part)
+{
+    const auto& components = part.identity.components;
+    const bool has_images =
+        std::any_of(components.begin(), components.end(), [](const IdentityComponent& component) {
+            return component.name == "option: longest path with images of strategies" &&
+                   component.value != "0";
+        });
+    if (arguments.strategies && !has_images) {
+        throw Error(ErrorCode::invalid_input,
+                    fmt::format("--strategies \"{}\": {} has no images of strategies; render the "
+                                "parts with --strategy-depth",
+                                arguments.strategies->string(), part.file.string()));
+    }
+}
+
+std::vector<fs::path> merged_files(const MergeArguments& arguments)
+{
+    std::vector<fs::path> files = arguments.outputs;
+    if (arguments.strategies) {
+        const std::vector<fs::path> more = strategy_files(arguments.strategies->string()).both();
+        files.insert(files.end(), more.begin(), more.end());
+    }
+    return files;
+}
+
 void write_merged_files(const MergeArguments& arguments, const DisplayArguments& display,
                         const RenderPart& part, io::PartNotes notes)
 {
@@ -73,7 +114,7 @@ void write_merged_files(const MergeArguments& arguments, const DisplayArguments&
             images.push_back(output);
         }
     }
-    if (images.empty()) {
+    if (images.empty() && !arguments.strategies) {
         return;
     }
     const FilmLayout& layout = part.film.layout();
@@ -81,11 +122,16 @@ void write_merged_files(const MergeArguments& arguments, const DisplayArguments&
                                      .y = layout.region.y0,
                                      .full_width = layout.width,
                                      .full_height = layout.height};
-    write_image_files(
-        images, part.film.develop(),
-        {.exr = {arguments.channel_type, std::move(notes.metadata), arguments.storage, placement},
-         .layers = part.aovs.develop(part.film),
-         .display = display});
+    const Image image = part.film.develop();
+    const ImageFileOptions options{
+        .exr = {arguments.channel_type, std::move(notes.metadata), arguments.storage, placement},
+        .layers = part.aovs.develop(part.film),
+        .display = display};
+    write_image_files(images, image, options);
+    if (arguments.strategies) {
+        write_strategy_files(strategy_files(arguments.strategies->string()), image, part.strategies,
+                             options.exr, display.exposure.value_or(io::automatic_exposure(image)));
+    }
 }
 
 }  // namespace bdpt::app

@@ -4,6 +4,9 @@
 #include <bdpt/io/part_file.h>
 #include <bdpt/part/render_part.h>
 
+#include <filesystem>
+#include <vector>
+
 #include "options/groups/display_arguments.h"
 #include "options/part_arguments.h"
 
@@ -15,7 +18,16 @@ namespace bdpt::app {
 [[nodiscard]] DisplayArguments display_of_parts(const io::ImageMetadata& metadata,
                                                 DisplayArguments asked);
 
-/// Writes `part` to the outputs of `arguments`, images as `display` says. Throws `Error` (output).
+/// Refuses files that could not be written: what `check_outputs` and `check_strategy_files` do.
+void check_merged_files(const MergeArguments& arguments);
+
+/// Throws `Error` (invalid_input) when `part` has no images of strategies, and those are asked for.
+void check_strategies(const MergeArguments& arguments, const io::PartInfo& part);
+
+/// All files that are written.
+[[nodiscard]] std::vector<std::filesystem::path> merged_files(const MergeArguments& arguments);
+
+/// Writes `part` to the files of `arguments`, images as `display` says. Throws `Error` (output).
 void write_merged_files(const MergeArguments& arguments, const DisplayArguments& display,
                         const RenderPart& part, io::PartNotes notes);
 

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""Writes the seeds of the fuzzers: make_seeds.py FOLDER. Needs oiiotool for JPEG and WebP; all else is made here.
+"""Writes the seeds of the fuzzers: make_seeds.py FOLDER [BDPT]. Needs oiiotool for JPEG and WebP, and BDPT for parts of
+renders; all else is made here.
 
 FOLDER/scene holds scenes that use what the loader has code for; those of tests/data/compressed go with them.
 FOLDER/image holds an image of each format.
+FOLDER/part holds parts of renders, and what they say in JSON.
 """
 
 import base64
@@ -221,6 +223,25 @@ def plain():
         "extensionsUsed": ["KHR_mesh_quantization"], "extensionsRequired": ["KHR_mesh_quantization"]}).encode()
 
 
+def parts(command):
+    """Parts of renders of a few pixels, and their JSON."""
+    scene = "scenes/cornell-box.gltf"  # as it will be read in the part
+    project = pathlib.Path(__file__).resolve().parents[2]
+    kinds = {"bdpt": ["--integrator", "bdpt"], "layers": ["--integrator", "mis", "--aov", "albedo,depth,variance,alpha", "--crop", "1,0,3,2"],
+             "strategies": ["--integrator", "lt", "--strategy-depth", "2", "--clamp", "5"]}
+    files = {}
+    with tempfile.TemporaryDirectory() as scratch:
+        for name, words in kinds.items():
+            file = pathlib.Path(scratch) / f"{name}.part.exr"
+            subprocess.run([pathlib.Path(command).resolve(), "render", scene, "--size", "4x3", "--samples", "3:5", "--part",
+                            file, "--quiet", *words], check=True, cwd=project)
+            files[file.name] = file.read_bytes()
+            begin = files[file.name].index(b'{"format"')
+            size, = struct.unpack("<I", files[file.name][begin - 4:begin])
+            files[f"{name}.json"] = files[file.name][begin:begin + size]
+    return files
+
+
 def main():
     folder = pathlib.Path(sys.argv[1])
     images = {"grey.png": png(3, 3, 0), "rgb.png": png(5, 2, 2), "rgba.png": png(4, 4), "halves.exr": exr(4, 2),
@@ -238,7 +259,10 @@ def main():
                        check=True)
         images["tiles.exr"] = made.read_bytes()
     scenes = {"rig.glb": rig(), "stage.glb": stage(), "lamps.glb": lamps(), "fan.gltf": plain()}
-    for name, files in {"image": images, "scene": scenes}.items():
+    seeds = {"image": images, "scene": scenes}
+    if len(sys.argv) > 2:
+        seeds["part"] = parts(sys.argv[2])
+    for name, files in seeds.items():
         (folder / name).mkdir(parents=True, exist_ok=True)
         for file, data in files.items():
             (folder / name / file).write_bytes(data)

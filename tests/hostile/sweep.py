@@ -4,8 +4,8 @@
     sweep.py COMMAND SCENE [FOLDER...] [--assets NAME] [--mutants N] [--seed N] [--timeout S] [--memory GB]
              [--every N] [--jobs N] [--trace] [--json FILE] [--keep FOLDER]
 
-Each scene goes through `bdpt info` and `bdpt render`, each environment lights SCENE, which must be sound; any other
-image becomes a texture. Besides the files of the folders: mutants of those that are sound (N of each small one), and
+Each scene goes through `bdpt info` and `bdpt render`, each part of a render (.part.exr) through `bdpt merge`, and is gone on
+with; each environment lights SCENE, which must be sound; any other image becomes a texture. Besides the files of the folders: mutants of those that are sound (N of each small one), and
 scenes that try to read files outside of their folders. Where the Khronos validator's report lies beside a file, the
 verdict is held against it, also for a twin of the file that shows all its meshes.
 
@@ -35,6 +35,7 @@ SANITIZER = re.compile(r"(AddressSanitizer|runtime error|LeakSanitizer|Undefined
 REFUSAL_TOLD = re.compile(r"^rendering   would fail with exit code (\d+): (?!no triangles)(.*)$", re.MULTILINE)
 REFUSALS = {3: "not found", 4: "invalid", 5: "unsupported"}
 SCENES, ENVIRONMENTS = (".gltf", ".glb"), (".exr", ".hdr")
+PART = ".part.exr"
 TEXTURES = (".png", ".jpg", ".jpeg", ".webp", ".ktx2", ".dds", ".bmp", ".gif")
 LARGEST_ORIGIN = 300_000  # [bytes], of a file that mutants are made of
 
@@ -82,6 +83,11 @@ class Runner:
         """The calls that a file is tried with."""
         small = ["-o", str(image), "--size", "8x8", "--spp", "1", "--max-depth", "4", "--threads", "1"]
         suffix = case.file.suffix.lower()
+        if case.file.name.endswith(PART):
+            part = folder / ("copy" + PART)
+            shutil.copy(case.file, part)
+            return [["merge", str(case.file), "-o", str(image), "--partial"],
+                    ["render", str(self.options.scene), "--part", str(part), "--size", "8x8", "--spp", "1"]]
         if suffix in SCENES:
             moved = ["--frame-time", "0.4", "--animation", "all"]
             return [["info", str(case.file)], ["render", str(case.file), *small, *moved]]
@@ -101,7 +107,7 @@ class Runner:
             for words in self.words(case, image, folder):
                 code, text, files = self.call(words, folder)
                 opened |= files
-                outcome, fault = judge(code, text, image if words[0] == "render" else None)
+                outcome, fault = judge(code, text, image if str(image) in words else None)
                 outcomes.append(outcome)
                 faults += [f"{words[0]}: {fault}"] if fault else []
             if case.expected == "refuse" and outcomes[0] != "refused" and outcomes[-1] != "refused":
@@ -181,7 +187,7 @@ def mutant_cases(folders, scratch, count, seed, every):
                 if sibling.is_file() and sibling != file and sibling.stat().st_size < 4 << 20:
                     shutil.copy(sibling, place)
             for i in range(count):
-                mutant = place / f"{file.stem}-{seed}-{i}{file.suffix}"
+                mutant = place / f"{seed}-{i}-{file.name}"
                 mutant.write_bytes(mutants.mutate(file.read_bytes(), f"{file.name} {seed} {i}"))
                 yield Case(mutant.name, "mutants", mutant)
 

@@ -20,6 +20,7 @@
 #include "python_scene.h"
 #include "report/denoised.h"
 #include "report/image_files.h"
+#include "report/part/merged_files.h"
 #include "report/render_settings.h"
 
 namespace bdpt::python {
@@ -150,11 +151,7 @@ Render read_part(const fs::path& file)
     const io::PartInfo info = io::read_part_info(file);
     Render render{.part = {}, .notes = info.notes};
     io::merge_part(render.part, info);
-    const nlohmann::json settings =
-        nlohmann::json::parse(info.notes.metadata.settings, nullptr, false);
-    if (settings.is_object() && settings.contains("background")) {
-        render.backdrop = app::parse_backdrop(settings["background"].get<std::string>());
-    }
+    render.backdrop = app::display_of_parts(info.notes.metadata, {}).backdrop;
     return render;
 }
 

@@ -21,6 +21,7 @@
 #include "options/arguments.h"
 #include "options/values/output_files.h"
 #include "plan/plan.h"
+#include "report/denoised.h"
 #include "report/part/merged_files.h"
 #include "report/part/part_collection.h"
 #include "report/part/part_command.h"
@@ -162,9 +163,18 @@ std::vector<MergeArguments> images_of(const MergeArguments& asked, const std::op
     return result;
 }
 
+/// What the images of a command have in common.
+struct MergeSession {
+    const std::optional<Plan>& plan;
+    const io::Denoiser* denoiser;  ///< null: images stay as they are
+    Console& console;
+};
+
 /// Adds the parts up, and writes the image.
-void merge(const MergeArguments& arguments, const PartCollection& collection, Console& console)
+void merge(const MergeArguments& arguments, const PartCollection& collection,
+           const MergeSession& session)
 {
+    Console& console = session.console;
     const std::vector<PartInfo>& parts = collection.parts;
     check_strategies(arguments, parts.front());
     const DisplayArguments display =
@@ -175,7 +185,7 @@ void merge(const MergeArguments& arguments, const PartCollection& collection, Co
     }
     io::PartNotes notes = parts.front().notes;
     notes.goal = collection.goal;
-    write_merged_files(arguments, display, sum, std::move(notes));
+    write_merged_files(arguments, display, session.denoiser, sum, std::move(notes));
 
     const SampleSet missing = collection.missing();
     if (!missing.empty()) {
@@ -214,13 +224,13 @@ private:
 };
 
 /// Collects the parts of one image and, if there are enough, merges them.
-MergedImage merge_image(const MergeArguments& arguments, const std::optional<Plan>& plan,
-                        Console& console)
+MergedImage merge_image(const MergeArguments& arguments, const MergeSession& session)
 {
-    if (plan) {
-        console.begin_image(label_of(*plan, arguments.image));
+    Console& console = session.console;
+    if (session.plan) {
+        console.begin_image(label_of(*session.plan, arguments.image));
     }
-    const PartCollection collection = collect_parts(arguments, plan, console);
+    const PartCollection collection = collect_parts(arguments, session.plan, console);
     for (const std::string& note : collection.notes) {
         console.note(note);
     }
@@ -235,7 +245,7 @@ MergedImage merge_image(const MergeArguments& arguments, const std::optional<Pla
     } else if (!result.missing.empty() && arguments.incomplete == Incomplete::refuse) {
         result.message = message_of_missing(collection);
     } else {
-        merge(arguments, collection, console);
+        merge(arguments, collection, session);
         result.written = true;
     }
     return result;
@@ -273,12 +283,16 @@ int run_merge(const MergeArguments& asked)
     Console console(asked.format, asked.verbosity);
     // Nothing is worth finishing; but nothing half-written is left, either.
     Interrupt interrupt({}, [] {});
+    constexpr int all_processors = 0;
+    const std::optional<io::Denoiser> denoiser =
+        open_denoiser(asked.denoise, asked.outputs, all_processors);
+    const MergeSession session{plan, denoiser ? &*denoiser : nullptr, console};
     const Patience patience(asked.wait);
     std::vector<MergedImage> merged;
     for (MergeArguments image : images) {
         interrupt.set_temporaries(temporary_paths(merged_files(image)));
         image.wait = patience.left();
-        merged.push_back(merge_image(image, plan, console));
+        merged.push_back(merge_image(image, session));
     }
     return conclude(asked, plan, std::move(merged), console);
 }

@@ -99,7 +99,7 @@ std::vector<fs::path> merged_files(const MergeArguments& arguments)
 }
 
 void write_merged_files(const MergeArguments& arguments, const DisplayArguments& display,
-                        const RenderPart& part, io::PartNotes notes)
+                        const io::Denoiser* denoiser, const RenderPart& part, io::PartNotes notes)
 {
     notes.metadata.samples_per_pixel = part.samples.count();
     notes.metadata.render_seconds = part.cpu_seconds;
@@ -126,7 +126,9 @@ void write_merged_files(const MergeArguments& arguments, const DisplayArguments&
     const ImageFileOptions options{
         .exr = {arguments.channel_type, std::move(notes.metadata), arguments.storage, placement},
         .layers = part.aovs.develop(part.film),
-        .display = display};
+        .display = display,
+        .denoiser = denoiser,
+        .denoised_as = arguments.denoise ? arguments.denoise->as : DenoisedAs::image};
     write_image_files(images, image, options);
     if (arguments.strategies) {
         write_strategy_files(strategy_files(arguments.strategies->string()), image, part.strategies,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bdpt/io/denoise.h>
 #include <bdpt/io/image_metadata.h>
 #include <bdpt/io/part_file.h>
 #include <bdpt/part/render_part.h>
@@ -27,8 +28,9 @@ void check_strategies(const MergeArguments& arguments, const io::PartInfo& part)
 /// All files that are written.
 [[nodiscard]] std::vector<std::filesystem::path> merged_files(const MergeArguments& arguments);
 
-/// Writes `part` to the files of `arguments`, images as `display` says. Throws `Error` (output).
+/// Writes `part` to the files of `arguments`, images as `display` says, denoised if there is a
+/// denoiser. Throws `Error` (output).
 void write_merged_files(const MergeArguments& arguments, const DisplayArguments& display,
-                        const RenderPart& part, io::PartNotes notes);
+                        const io::Denoiser* denoiser, const RenderPart& part, io::PartNotes notes);
 
 }  // namespace bdpt::app

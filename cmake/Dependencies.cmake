@@ -23,6 +23,9 @@ set(BDPT_HAS_MESHOPT OFF)
 if(BDPT_BUILD_IO)
   find_package(OpenEXR CONFIG REQUIRED)
   find_package(Imath CONFIG REQUIRED)
+  find_package(JPEG REQUIRED)  # of libjpeg-turbo or another one with its interface
+  list(APPEND CMAKE_MODULE_PATH "${CMAKE_CURRENT_LIST_DIR}")
+  find_package(WebP REQUIRED MODULE)  # FindWebP.cmake
   find_package(nlohmann_json CONFIG REQUIRED)
   find_package(fmt CONFIG REQUIRED)
 

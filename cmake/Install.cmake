@@ -71,6 +71,10 @@ install(FILES "${CMAKE_CURRENT_BINARY_DIR}/cmake/bdptConfig.cmake"
               "${CMAKE_CURRENT_BINARY_DIR}/cmake/bdptConfigVersion.cmake"
         DESTINATION "${package_dir}" COMPONENT bdpt_development)
 
+if(BDPT_BUILD_IO AND NOT BUILD_SHARED_LIBS)
+  install(FILES cmake/FindWebP.cmake DESTINATION "${package_dir}" COMPONENT bdpt_development)
+endif()
+
 include(cmake/PkgConfig.cmake)
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION "${CMAKE_INSTALL_DOCDIR}"
         COMPONENT bdpt_runtime)

@@ -17,11 +17,13 @@ target_sources(bdpt_io PRIVATE
   src/image/exr_reader.cpp
   src/image/hdr_reader.cpp
   src/image/image_cache.cpp
+  src/image/image_size.cpp
+  src/image/jpeg_image.cpp
   src/image/oiio_library.cpp
   src/image/png_image.cpp
   src/image/read_image.cpp
   src/image/texels.cpp
-  src/image/webp_header.cpp
+  src/image/webp_image.cpp
   # denoising by a library that is opened at run time
   src/denoise/denoiser.cpp
   src/denoise/oidn_functions.cpp
@@ -99,7 +101,7 @@ else()
 endif()
 target_include_directories(bdpt_io SYSTEM PRIVATE ${BDPT_TINYGLTF_INCLUDE_DIR})
 target_link_libraries(bdpt_io PRIVATE
-  OpenEXR::OpenEXR Imath::Imath TBB::tbb $<BUILD_INTERFACE:nlohmann_json::nlohmann_json> fmt::fmt
+  OpenEXR::OpenEXR Imath::Imath JPEG::JPEG WebP::webp WebP::webpdemux TBB::tbb $<BUILD_INTERFACE:nlohmann_json::nlohmann_json> fmt::fmt
   ${CMAKE_DL_LIBS})
 
 # tinygltf gets checked JSON and buffers from memory; it opens no files and decodes no images.
@@ -109,7 +111,8 @@ target_compile_definitions(bdpt_io PRIVATE
 # The implementation's warnings are not ours to mend.
 set_source_files_properties(src/gltf/document/tinygltf.cpp PROPERTIES COMPILE_OPTIONS "-w")
 
-# OpenImageIO lives in a module that is loaded with the first image (src/image/oiio_library.h).
+# OpenImageIO lives in a module that is loaded with the first Radiance HDR image
+# (src/image/oiio_library.h).
 add_library(bdpt_oiio MODULE src/oiio_module/oiio_module.cpp)
 bdpt_compile_options(bdpt_oiio)
 target_include_directories(bdpt_oiio PRIVATE src)

@@ -23,7 +23,7 @@ AREAS = ("lib", "apps", "tests", "benchmarks")
 # Area of the tree (the longest prefix counts) -> third-party and system headers that it may include.
 POSIX = r"(sys/|dlfcn\.h|fcntl\.h|netdb\.h|netinet/in\.h|poll\.h|signal\.h|unistd\.h|termios\.h)"
 INTRINSICS = r"[a-z]mmintrin\.h"
-FILE_LIBRARIES = r"(OpenEXR/|Imath/|Imf|Imath|Iex|tiny_gltf\.h|nlohmann/|fmt/|png\.h|zlib\.h)"
+FILE_LIBRARIES = r"(OpenEXR/|Imath/|Imf|Imath|Iex|tiny_gltf\.h|nlohmann/|fmt/|png\.h|jpeglib\.h|webp/|zlib\.h)"
 ALLOWED = {
     "lib/include": [r"glm/"],
     "lib/src": [r"glm/"],

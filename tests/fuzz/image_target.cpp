@@ -32,7 +32,7 @@ void decode(ByteView bytes)
         const Image image = read_hdr(bytes, fuzz::small_limits);
         return check_size(image.width, image.height, image.pixels.size());
     }
-    const TexelImage image = decode_texels(bytes, fuzz::small_limits);
+    const TexelImage image = decode_texels(bytes, fuzz::small_limits).image;
     fuzz::promise(image.channels >= 1 && image.channels <= 4, "textures have 1 to 4 channels");
     const std::size_t texel = static_cast<std::size_t>(image.channels) * size_of(image.type);
     fuzz::promise(image.bytes.size() % texel == 0, "textures have whole texels");

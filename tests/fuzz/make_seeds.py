@@ -248,10 +248,12 @@ def main():
                 "flat.hdr": hdr(4, 2)}
     with tempfile.TemporaryDirectory() as scratch:
         source = pathlib.Path(scratch) / "source.png"
-        source.write_bytes(png(8, 8, 2))
-        for name in ("small.jpg", "small.webp"):
+        for name, kind, how in (("small.jpg", 2, ()), ("small.webp", 2, ()),
+                                ("progressive.jpg", 2, ("--attrib", "jpeg:progressive", "1")),
+                                ("lossless.webp", 6, ("--compression", "lossless"))):
+            source.write_bytes(png(8, 8, kind))
             made = pathlib.Path(scratch) / name
-            subprocess.run(["oiiotool", source, "--nosoftwareattrib", "-o", made], check=True)
+            subprocess.run(["oiiotool", source, "--nosoftwareattrib", *how, "-o", made], check=True)
             images[name] = made.read_bytes()
         source.write_bytes(exr(16, 16))
         made = pathlib.Path(scratch) / "tiles.exr"

@@ -106,7 +106,7 @@ use_pkg_config() {
 # files, the command and the tests must not even be looked for.
 use_add_subdirectory() {
   local unneeded=() package
-  for package in OpenImageIO OpenEXR Imath PNG nlohmann_json fmt CLI11 Catch2 Python3 benchmark; do
+  for package in OpenImageIO OpenEXR Imath PNG JPEG WebP nlohmann_json fmt CLI11 Catch2 Python3 benchmark; do
     unneeded+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON")
   done
   build_consumer "$WORK/add_subdirectory" -DBDPT_SOURCE="$SOURCE" -DCMAKE_BUILD_TYPE= \
@@ -118,7 +118,7 @@ use_add_subdirectory() {
 # libraries of the rest.
 configure_core_alone() {
   local unneeded=() package
-  for package in OpenImageIO OpenEXR Imath PNG nlohmann_json fmt CLI11 benchmark; do
+  for package in OpenImageIO OpenEXR Imath PNG JPEG WebP nlohmann_json fmt CLI11 benchmark; do
     unneeded+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON")
   done
   local folder=$WORK/core_alone

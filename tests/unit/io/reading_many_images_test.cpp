@@ -1,11 +1,8 @@
 #include "catch.hpp"
 #include "gltf_fixture.h"
-#include "image/webp_header.h"
 #include "image_fixture.h"
 
 #include <bdpt/scene_desc.h>
-
-#include <stdexcept>
 
 using namespace bdpt;
 using namespace bdpt::io;
@@ -196,29 +193,6 @@ TEST_CASE("loading tells of each image, one at a time, and what the callback thr
     options.on_progress = [&](const LoadProgress&) { ++calls; };
     static_cast<void>(GltfFixture::triangle().load(options));
     CHECK(calls == 0);
-}
-
-TEST_CASE("the size of a WebP image is in its header")
-{
-    const auto size = [](const std::string& file) {
-        const Bytes bytes(file.begin(), file.end());
-        const EncodedImageSize found = webp_size(bytes);
-        return std::pair(found.width, found.height);
-    };
-    CHECK(size(red_webp()) == std::pair(2, 2));
-    const std::string riff = "RIFF" + std::string(4, '\0') + "WEBP";
-    const std::string lossy = riff + "VP8 " + raw({0, 0, 0, 0, 0, 0, 0, 0x9d, 0x01, 0x2a}) +
-                              raw({0x34, 0x92, 0x21, 0x03, 0, 0, 0, 0});  // scaled by 2 bits
-    CHECK(size(lossy) == std::pair(0x1234, 0x321));
-    const std::string lossless =
-        riff + "VP8L" + raw({0, 0, 0, 0, 0x2f, 0xff, 0x3f, 0x01, 0x00, 0, 0, 0, 0, 0});
-    CHECK(size(lossless) == std::pair(16384, 5));
-    const std::string extended =
-        riff + "VP8X" + raw({10, 0, 0, 0, 0x10, 0, 0, 0, 0xff, 0x01, 0, 2, 0, 0});
-    CHECK(size(extended) == std::pair(512, 3));
-    CHECK_THROWS_AS(size(extended.substr(0, 29)), std::runtime_error);
-    CHECK_THROWS_AS(size(riff + "VP8L" + std::string(14, '\0')), std::runtime_error);
-    CHECK_THROWS_AS(size(riff + "ALPH" + std::string(14, '\0')), std::runtime_error);
 }
 
 TEST_CASE("a WebP image is refused by its header, before it is decoded")

@@ -2,7 +2,7 @@
 
 #include "image/exr_channels.h"
 #include "image/exr_header.h"
-#include "image/oiio_library.h"
+#include "image/image_size.h"
 
 #include <bdpt/error.h>
 

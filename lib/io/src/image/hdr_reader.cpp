@@ -1,5 +1,6 @@
 #include "image/hdr_reader.h"
 
+#include "image/image_size.h"
 #include "image/oiio_library.h"
 
 #include <bdpt/error.h>

@@ -2,9 +2,10 @@
 
 #include <cstddef>
 
-// What the module bdpt_oiio offers. It is opened when the first image is decoded and not before:
-// OpenImageIO with all its dependencies would cost every start of the program 0.3 s and 130 MB.
-// Plain C types, no exceptions. Errors are a message in `message`, which ends with a zero byte.
+// What the module bdpt_oiio offers. It is opened when the first Radiance HDR image is decoded and
+// not before: OpenImageIO with all its dependencies would cost every start of the program 0.3 s and
+// 130 MB. Plain C types, no exceptions. Errors are a message in `message`, which ends with a zero
+// byte.
 extern "C" {
 
 struct BdptImage;  // an open image
@@ -13,11 +14,10 @@ struct BdptImageHeader {
     int width;
     int height;
     int channels;
-    int value_bytes;  // of the integers that values are stored as; 0: they are not integers
 };
 
 /// Changes when anything in this file does.
-constexpr int bdpt_oiio_interface_version = 2;
+constexpr int bdpt_oiio_interface_version = 3;
 int bdpt_oiio_version();
 
 /// Opens an image in memory, which must stay there until it is closed. `format` is a name of
@@ -27,12 +27,7 @@ BdptImage* bdpt_oiio_open(const char* format, const unsigned char* bytes, std::s
                           BdptImageHeader* header, char* message, std::size_t message_size);
 
 /// Reads all pixels, width * height * channels values, top row first, as they are stored: no colour
-/// conversion, alpha not multiplied in. Integers are scaled to the full range of the target.
-/// Returns 0 on failure.
-int bdpt_oiio_read_bytes(BdptImage* image, unsigned char* pixels, char* message,
-                         std::size_t message_size);
-int bdpt_oiio_read_words(BdptImage* image, unsigned short* pixels, char* message,
-                         std::size_t message_size);
+/// conversion. Integers become 0 to 1. Returns 0 on failure.
 int bdpt_oiio_read_floats(BdptImage* image, float* pixels, char* message, std::size_t message_size);
 
 void bdpt_oiio_close(BdptImage* image);

@@ -1,7 +1,5 @@
 #include "image/oiio_library.h"
 
-#include "file/read_file.h"
-
 #include <bdpt/error.h>
 
 #include <dlfcn.h>
@@ -64,8 +62,9 @@ void* load_module()
         }
         return module;
     }
-    throw Error(ErrorCode::internal,
-                fmt::format("images cannot be read: no {} (tried {})", module_name, tried));
+    throw Error(
+        ErrorCode::internal,
+        fmt::format("Radiance HDR images cannot be read: no {} (tried {})", module_name, tried));
 }
 
 template <typename Function>
@@ -80,15 +79,6 @@ Function find_function(void* module, const char* name)
 
 using Message = std::array<char, 512>;
 
-template <typename Read, typename Value>
-void read_by(Read* read, BdptImage* image, Value* values)
-{
-    Message message{};
-    if (read(image, values, message.data(), message.size()) == 0) {
-        throw std::runtime_error(message.data());
-    }
-}
-
 }  // namespace
 
 OiioLibrary::OiioLibrary()
@@ -101,10 +91,6 @@ OiioLibrary::OiioLibrary()
                                 version(), bdpt_oiio_interface_version));
     }
     functions_.open = find_function<decltype(&bdpt_oiio_open)>(module, "bdpt_oiio_open");
-    functions_.read_bytes =
-        find_function<decltype(&bdpt_oiio_read_bytes)>(module, "bdpt_oiio_read_bytes");
-    functions_.read_words =
-        find_function<decltype(&bdpt_oiio_read_words)>(module, "bdpt_oiio_read_words");
     functions_.read_floats =
         find_function<decltype(&bdpt_oiio_read_floats)>(module, "bdpt_oiio_read_floats");
     functions_.close = find_function<decltype(&bdpt_oiio_close)>(module, "bdpt_oiio_close");
@@ -136,43 +122,11 @@ std::size_t OiioImage::value_count() const
            static_cast<std::size_t>(header_.channels);
 }
 
-void OiioImage::read(std::uint8_t* values) const
-{
-    read_by(functions_.read_bytes, image_.get(), values);
-}
-
-void OiioImage::read(std::uint16_t* values) const
-{
-    read_by(functions_.read_words, image_.get(), values);
-}
-
 void OiioImage::read(float* values) const
 {
-    read_by(functions_.read_floats, image_.get(), values);
-}
-
-void check_image_size(int width, int height, std::uint64_t bytes_per_pixel, std::uint64_t encoded,
-                      const ReadLimits& limits)
-{
-    // Small images of one colour are packed a thousandfold in good faith.
-    constexpr std::uint64_t harmless = std::uint64_t{64} << 20;
-    if (width > limits.image_side || height > limits.image_side) {
-        throw Error(ErrorCode::invalid_input,
-                    fmt::format("image of {} x {} pixels, but the limit is {} a side", width,
-                                height, limits.image_side));
-    }
-    const std::uint64_t decoded =
-        static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * bytes_per_pixel;
-    if (decoded > limits.image_bytes) {
-        throw Error(ErrorCode::invalid_input,
-                    fmt::format("image of {} x {} pixels needs {}, but the limit is {}", width,
-                                height, human_bytes(static_cast<long double>(decoded)),
-                                human_bytes(static_cast<long double>(limits.image_bytes))));
-    }
-    if (decoded > harmless && decoded / limits.compression_ratio > encoded) {
-        throw Error(ErrorCode::invalid_input,
-                    fmt::format("image of {} x {} pixels in {} bytes: more than {} times packed",
-                                width, height, encoded, limits.compression_ratio));
+    Message message{};
+    if (functions_.read_floats(image_.get(), values, message.data(), message.size()) == 0) {
+        throw std::runtime_error(message.data());
     }
 }
 

@@ -3,10 +3,7 @@
 #include "file/bytes.h"
 #include "image/oiio_interface.h"
 
-#include <bdpt/io/read_limits.h>
-
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 
 namespace bdpt::io {
@@ -19,18 +16,14 @@ public:
     /// Values of all pixels.
     [[nodiscard]] std::size_t value_count() const;
 
-    /// Reads all pixels as they are stored, top row first, into room for `value_count()` values.
-    /// Throws std::runtime_error when they cannot be decoded.
-    void read(std::uint8_t* values) const;
-    void read(std::uint16_t* values) const;
+    /// Reads all pixels as they are stored, top row first, into room for `value_count()` values;
+    /// integers become 0 to 1. Throws std::runtime_error when they cannot be decoded.
     void read(float* values) const;
 
 private:
     friend class OiioLibrary;
     struct Functions {
         decltype(&bdpt_oiio_open) open = nullptr;
-        decltype(&bdpt_oiio_read_bytes) read_bytes = nullptr;
-        decltype(&bdpt_oiio_read_words) read_words = nullptr;
         decltype(&bdpt_oiio_read_floats) read_floats = nullptr;
         decltype(&bdpt_oiio_close) close = nullptr;
     };
@@ -56,10 +49,5 @@ public:
 private:
     OiioImage::Functions functions_;
 };
-
-/// Refuses images beyond the limits. `encoded` is the size of the file, `decoded` that of the
-/// pixels [bytes]. Throws `Error` (invalid_input).
-void check_image_size(int width, int height, std::uint64_t bytes_per_pixel, std::uint64_t encoded,
-                      const ReadLimits& limits);
 
 }  // namespace bdpt::io

@@ -8,8 +8,7 @@
 
 namespace bdpt::io {
 
-/// A PNG file in memory whose header has been read. By libpng itself: OpenImageIO 2.4 leaves the
-/// report of errors to libpng, which prints them.
+/// A PNG file in memory whose header has been read. By libpng.
 class PngImage {
 public:
     /// `bytes` must stay as long as the image. Throws std::runtime_error when the header is

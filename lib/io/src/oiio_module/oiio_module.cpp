@@ -32,48 +32,6 @@ struct BdptImage {
     std::unique_ptr<OIIO::ImageInput> input;
 };
 
-namespace {
-
-/// Some readers (WebP's of OpenImageIO 2.4) give colours that are multiplied by alpha, whatever
-/// they are asked for.
-void divide_by_alpha(const OIIO::ImageSpec& spec, unsigned char* pixels)
-{
-    if (spec.alpha_channel < 0 || spec.get_int_attribute("oiio:UnassociatedAlpha") == 1) {
-        return;
-    }
-    const auto channels = static_cast<std::size_t>(spec.nchannels);
-    const auto alpha_channel = static_cast<std::size_t>(spec.alpha_channel);
-    for (std::size_t i = 0; i < spec.image_pixels(); ++i, pixels += channels) {
-        const unsigned alpha = pixels[alpha_channel];
-        for (std::size_t c = 0; c < channels && alpha > 0; ++c) {
-            if (c != alpha_channel) {
-                pixels[c] = static_cast<unsigned char>(
-                    std::min(255U, (pixels[c] * 255U + alpha / 2U) / alpha));
-            }
-        }
-    }
-}
-
-template <typename T>
-int read_pixels(BdptImage* image, OIIO::TypeDesc type, T* pixels, char* message,
-                std::size_t message_size)
-{
-    try {
-        const int channels = image->input->spec().nchannels;
-        if (image->input->read_image(0, 0, 0, channels, type, pixels)) {
-            return 1;
-        }
-        report(image->input->geterror(), message, message_size);
-    } catch (const std::exception& error) {
-        report(error.what(), message, message_size);
-    } catch (...) {
-        report("unknown exception", message, message_size);
-    }
-    return 0;
-}
-
-}  // namespace
-
 extern "C" {
 
 __attribute__((visibility("default"))) int bdpt_oiio_version()
@@ -108,9 +66,7 @@ __attribute__((visibility("default"))) BdptImage* bdpt_oiio_open(
             report("neither volumes nor deep images are read", message, message_size);
             return nullptr;
         }
-        const bool integers = !spec.format.is_floating_point();
-        *header = {spec.width, spec.height, spec.nchannels,
-                   integers ? static_cast<int>(spec.format.basesize()) : 0};
+        *header = {spec.width, spec.height, spec.nchannels};
         return image.release();
     } catch (const std::exception& error) {
         report(error.what(), message, message_size);
@@ -120,31 +76,22 @@ __attribute__((visibility("default"))) BdptImage* bdpt_oiio_open(
     return nullptr;
 }
 
-__attribute__((visibility("default"))) int bdpt_oiio_read_bytes(BdptImage* image,
-                                                                unsigned char* pixels,
-                                                                char* message,
-                                                                std::size_t message_size)
-{
-    const int done = read_pixels(image, OIIO::TypeDesc::UINT8, pixels, message, message_size);
-    if (done == 1) {
-        divide_by_alpha(image->input->spec(), pixels);
-    }
-    return done;
-}
-
-__attribute__((visibility("default"))) int bdpt_oiio_read_words(BdptImage* image,
-                                                                unsigned short* pixels,
-                                                                char* message,
-                                                                std::size_t message_size)
-{
-    return read_pixels(image, OIIO::TypeDesc::UINT16, pixels, message, message_size);
-}
-
 __attribute__((visibility("default"))) int bdpt_oiio_read_floats(BdptImage* image, float* pixels,
                                                                  char* message,
                                                                  std::size_t message_size)
 {
-    return read_pixels(image, OIIO::TypeDesc::FLOAT, pixels, message, message_size);
+    try {
+        const int channels = image->input->spec().nchannels;
+        if (image->input->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, pixels)) {
+            return 1;
+        }
+        report(image->input->geterror(), message, message_size);
+    } catch (const std::exception& error) {
+        report(error.what(), message, message_size);
+    } catch (...) {
+        report("unknown exception", message, message_size);
+    }
+    return 0;
 }
 
 __attribute__((visibility("default"))) void bdpt_oiio_close(BdptImage* image)

@@ -91,7 +91,7 @@ Image decode_rgbd(const TexelImage& texels, const std::string& place, LoadContex
     return image;
 }
 
-TexelImage read_face(const tinygltf::Model& model, std::size_t image, const LoadContext& context)
+DecodedImage read_face(const tinygltf::Model& model, std::size_t image, const LoadContext& context)
 {
     const tinygltf::Image& source = model.images[image];
     try {
@@ -134,7 +134,11 @@ CubeMap read_cube(const tinygltf::Model& model, const std::vector<std::size_t>& 
             continue;
         }
         try {
-            const TexelImage texels = read_face(model, images[side], context);
+            const auto [texels, damage] = read_face(model, images[side], context);
+            if (!damage.empty()) {
+                context.warn("an image of the environment is damaged; what can be decoded counts",
+                             face_place + ": " + damage);
+            }
             Image& face = cube.faces[side];
             bytes += texel_count(texels) * sizeof(Rgb);
             if (bytes > context.limits.texture_bytes) {

@@ -47,7 +47,7 @@ struct ImageTable::Job {
     ByteView bytes{};
     std::optional<EncodedImage> encoded{};
     std::optional<ContentHash> hash{};  // of the bytes, if images are kept
-    TexelImage image{};
+    DecodedImage decoded{};
     std::exception_ptr failure{};
     bool fatal = false;  // does it end more than this image?
 
@@ -75,7 +75,7 @@ struct ImageTable::Job {
 
 /// Reads the bytes and the header. What an image takes is counted even if it turns out to be
 /// broken, so that the verdict does not depend on the order in which images are decoded.
-void ImageTable::open(const OiioLibrary& library, Job& job)
+void ImageTable::open(Job& job)
 {
     const tinygltf::Image& source = model_.images[job.index];
     if (source.bufferView >= 0) {
@@ -92,10 +92,10 @@ void ImageTable::open(const OiioLibrary& library, Job& job)
         job.bytes = job.own_bytes;
     }
     if (take_kept(job)) {
-        spend(job.image.bytes.size());
+        spend(job.decoded.image.bytes.size());
         return;
     }
-    job.encoded.emplace(library, job.bytes, context_.limits);
+    job.encoded.emplace(job.bytes, context_.limits);
     spend(job.encoded->decoded_bytes());
 }
 
@@ -109,7 +109,7 @@ bool ImageTable::take_kept(Job& job) const
     hasher.add(job.bytes.data(), job.bytes.size());
     job.hash = hasher.hash();
     if (const TexelImage* const kept = context_.images->find(*job.hash)) {
-        job.image = *kept;
+        job.decoded.image = *kept;
         return true;
     }
     return false;
@@ -136,7 +136,7 @@ void ImageTable::finish(std::deque<Job>& batch, const std::function<void()>& tel
             for (std::size_t i = range.begin(); i < range.end(); ++i) {
                 Job& job = batch[i];
                 if (!job.failure && job.encoded) {
-                    job.attempt([&job] { job.image = std::move(*job.encoded).decode(); });
+                    job.attempt([&job] { job.decoded = std::move(*job.encoded).decode(); });
                 }
                 job.encoded.reset();
                 job.own_bytes = {};
@@ -158,11 +158,15 @@ void ImageTable::add(Job& job)
         if (job.failure) {
             std::rethrow_exception(job.failure);
         }
-        if (job.hash) {
-            context_.images->keep(*job.hash, job.image);
+        const std::string& damage = job.decoded.damage;
+        if (!damage.empty()) {
+            context_.warn("the image is damaged; the texture has what can be decoded of it",
+                          place + ": " + damage);
+        } else if (job.hash) {  // Whoever loads a damaged image again is told again.
+            context_.images->keep(*job.hash, job.decoded.image);
         }
         id = static_cast<ImageId>(images_.size());
-        images_.push_back(std::move(job.image));
+        images_.push_back(std::move(job.decoded.image));
     } catch (const Error& error) {
         throw Error(error.code(), place + ": " + error.what());
     } catch (const std::runtime_error& error) {
@@ -177,7 +181,6 @@ void ImageTable::decode(const std::vector<std::size_t>& indices,
     if (indices.empty()) {
         return;
     }
-    const OiioLibrary library;
     LoadProgress progress{.images_done = 0, .images_total = indices.size()};
     std::mutex mutex;
     const auto tell = [&] {
@@ -193,7 +196,7 @@ void ImageTable::decode(const std::vector<std::size_t>& indices,
     std::uint64_t batch_memory = 0;
     for (const std::size_t index : indices) {
         Job job{.index = index};
-        job.attempt([&] { open(library, job); });
+        job.attempt([&] { open(job); });
         if (!batch.empty() && job.memory() > context_.limits.image_bytes - batch_memory) {
             finish(batch, tell);
             batch_memory = 0;

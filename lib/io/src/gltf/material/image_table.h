@@ -40,7 +40,7 @@ private:
     struct Job;
     [[nodiscard]] bool take_kept(Job& job) const;
     void spend(std::uint64_t bytes);
-    void open(const OiioLibrary& library, Job& job);
+    void open(Job& job);
     void finish(std::deque<Job>& batch, const std::function<void()>& tell);
     void add(Job& job);
 

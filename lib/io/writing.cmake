@@ -15,5 +15,6 @@ target_sources(bdpt_io PRIVATE
   src/part/part_reader.cpp
   src/part/part_seal.cpp
   src/part/part_writer.cpp
+  src/part/rates_file.cpp
 )
 target_link_libraries(bdpt_io PRIVATE OpenEXR::OpenEXR Imath::Imath PNG::PNG fmt::fmt)

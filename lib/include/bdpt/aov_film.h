@@ -25,19 +25,29 @@ struct PrimaryHit {
     float depth = 0.0f;   ///< along the camera's axis [m]
 };
 
+/// Do all pixels take equally many samples?
+enum class PixelCounts : std::uint8_t {
+    equal,  ///< as many as `Film::sample_count`
+    own,    ///< sampleCount has those that `AovFilm::count_samples` was told
+};
+
 /// Sums of what camera rays met; exact and without order like those of `Film`.
 class BDPT_EXPORT AovFilm {
 public:
     AovFilm() = default;
-    AovFilm(const PixelRect& region, AovSet aovs);
+    AovFilm(const PixelRect& region, AovSet aovs, PixelCounts counts = PixelCounts::equal);
 
     [[nodiscard]] const PixelRect& region() const { return region_; }
     [[nodiscard]] AovSet aovs() const { return aovs_; }
+    [[nodiscard]] PixelCounts counts() const { return pixel_counts_; }
     /// Is there anything to add?
     [[nodiscard]] bool needs_hits() const { return !hits_.empty(); }
+    [[nodiscard]] bool needs_counts() const { return !counts_.empty(); }
 
     /// Adds a ray of pixel (x, y) in the region. Safe from any thread, one thread a pixel.
     void add(int x, int y, const PrimaryHit& hit) noexcept;
+    /// States that `count` samples of pixel (x, y) in the region are in the image; likewise.
+    void count_samples(int x, int y, std::int64_t count) noexcept;
 
     /// Adds the rays of other samples. Throws `Error` (usage) when regions or AOVs differ.
     void merge(const AovFilm& other);
@@ -47,7 +57,7 @@ public:
     /// is another.
     [[nodiscard]] std::vector<Layer> develop(const Film& film) const;
 
-    // For files, as those of `Film`: "albedo.R", ..., and "hits" of every pixel.
+    // For files, as those of `Film`: "albedo.R", ..., "hits" and "counts" of every pixel.
     [[nodiscard]] std::vector<std::string> plane_names() const;
     void read_row(std::size_t plane, int row, std::span<ExactSum::Words> words) const;
     void add_row(std::size_t plane, int row, std::span<const ExactSum::Words> words);
@@ -64,17 +74,20 @@ private:
         std::vector<Sum3> AovFilm::*color = nullptr;
         std::size_t channel = 0;
         std::vector<ExactSum> AovFilm::*single = nullptr;
+        std::vector<std::uint64_t> AovFilm::*count = nullptr;
     };
     [[nodiscard]] std::vector<Plane> planes() const;
 
     PixelRect region_;
     AovSet aovs_;
+    PixelCounts pixel_counts_ = PixelCounts::equal;
     // One element a pixel if it is asked for, else empty.
     std::vector<Sum3> albedo_;
     std::vector<Sum3> normal_;
     std::vector<Sum3> position_;
     std::vector<ExactSum> depth_;
     std::vector<std::uint64_t> hits_;
+    std::vector<std::uint64_t> counts_;
 };
 
 }  // namespace bdpt

@@ -79,11 +79,15 @@ public:
     [[nodiscard]] std::int64_t sample_count() const { return counts_[0] + counts_[1]; }
 
     /// Adds one camera sample of pixel (x, y), which is in the region. Each pixel belongs to one
-    /// thread at a time.
-    void add_sample(int x, int y, std::int64_t sample_index, Rgb radiance) noexcept;
+    /// thread at a time. It is clamped as it is, and then counts `scale` times: more or less than
+    /// once, if pixels take different numbers of samples.
+    void add_sample(int x, int y, std::int64_t sample_index, Rgb radiance,
+                    float scale = 1.0f) noexcept;
     /// Adds what a light path of sample `sample_index` brings to `raster` [pixels, origin at the
-    /// top left]; outside of the region it is ignored. Safe from any thread.
-    void add_splat(Vec2 raster, std::int64_t sample_index, Rgb radiance) noexcept;
+    /// top left]; outside of the region it is ignored. Clamped and scaled likewise. Safe from any
+    /// thread.
+    void add_splat(Vec2 raster, std::int64_t sample_index, Rgb radiance,
+                   float scale = 1.0f) noexcept;
     /// Fetches what such a splat will change from memory, to be there when it comes.
     void prefetch_splat(Vec2 raster, std::int64_t sample_index) const noexcept;
     /// States that the samples [begin, end) of every pixel have been added.
@@ -97,6 +101,9 @@ public:
     [[nodiscard]] Image develop() const;
     /// The estimate from one half of the samples (0: even indices, 1: odd ones).
     [[nodiscard]] Image develop_half(int half) const;
+    /// The same as `develop()` of camera samples alone, without what was splatted. Only of what
+    /// this film was given one by one: in files both are one sum.
+    [[nodiscard]] Image develop_camera() const;
     /// Estimate of the variance of `develop()` [nit^2], splats included, from the difference of the
     /// halves: unbiased but with one degree of freedom a pixel, so very noisy in a single one.
     /// Infinite when a half is empty.
@@ -138,8 +145,9 @@ private:
     [[nodiscard]] ExactSum::Words sum(std::size_t half, std::size_t pixel,
                                       std::size_t channel) const noexcept;
     [[nodiscard]] Image develop(std::span<const std::size_t> halves) const;
-    [[nodiscard]] Rgb clamp(Rgb value, int y) noexcept;
-    [[nodiscard]] bool accept(Rgb& value, int x, int y, std::int64_t sample_index) noexcept;
+    [[nodiscard]] Rgb clamp(Rgb value, int y, float scale) noexcept;
+    [[nodiscard]] bool accept(Rgb& value, int x, int y, std::int64_t sample_index,
+                              float scale) noexcept;
     [[nodiscard]] bool holds(Vec2 raster) const noexcept;
     [[nodiscard]] std::size_t index(int x, int y) const;
 

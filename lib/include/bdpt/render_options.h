@@ -7,10 +7,13 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <vector>
 
 namespace bdpt {
+
+class SampleRates;
 
 /// Which light transport algorithm renders.
 enum class IntegratorKind : std::uint8_t {
@@ -98,13 +101,17 @@ struct FilmOptions {
 };
 
 /// Which random numbers, how many, and how next-event estimation spends them. Ranges: samples
-/// within [0, 2^32 - 1] and not empty.
+/// within [0, 2^32 - 1] and not empty; with rates within [0, 2^30] and from a multiple of
+/// SampleRates::group to another.
 struct SamplingOptions {
-    SampleRange samples{};  ///< per pixel
+    SampleRange samples{};  ///< per pixel; in the mean, if there are rates
     std::uint64_t seed = 0;
     SamplerKind sampler = SamplerKind::sobol;
     EnvironmentSampling environment = EnvironmentSampling::compensated;
     LightSampling lights = LightSampling::automatic;
+    /// How many samples each pixel takes in a round, which a sample index then is; of the size of
+    /// the whole image. Null: one. Not for lt and vcm.
+    std::shared_ptr<const SampleRates> rates{};
 };
 
 /// Which paths are measured, and how strategies share them. Ranges: max_depth [1, 4096], min_depth

@@ -39,7 +39,8 @@ void merge_sums(std::vector<std::array<ExactSum, 3>>& to,
 
 }  // namespace
 
-AovFilm::AovFilm(const PixelRect& region, AovSet aovs) : region_(region), aovs_(aovs)
+AovFilm::AovFilm(const PixelRect& region, AovSet aovs, PixelCounts counts)
+    : region_(region), aovs_(aovs), pixel_counts_(counts)
 {
     const std::size_t pixels =
         static_cast<std::size_t>(region.width()) * static_cast<std::size_t>(region.height());
@@ -50,6 +51,7 @@ AovFilm::AovFilm(const PixelRect& region, AovSet aovs) : region_(region), aovs_(
     depth_.resize(room(Aov::depth));
     hits_.resize(std::max({room(Aov::albedo), room(Aov::normal), room(Aov::position),
                            room(Aov::depth), room(Aov::alpha)}));
+    counts_.resize(counts == PixelCounts::own ? room(Aov::sample_count) : 0);
 }
 
 void AovFilm::add(int x, int y, const PrimaryHit& hit) noexcept
@@ -74,9 +76,17 @@ void AovFilm::add(int x, int y, const PrimaryHit& hit) noexcept
     }
 }
 
+void AovFilm::count_samples(int x, int y, std::int64_t count) noexcept
+{
+    const std::size_t i =
+        static_cast<std::size_t>(y - region_.y0) * static_cast<std::size_t>(region_.width()) +
+        static_cast<std::size_t>(x - region_.x0);
+    counts_[i] += static_cast<std::uint64_t>(count);
+}
+
 void AovFilm::merge(const AovFilm& other)
 {
-    if (region_ != other.region_ || aovs_ != other.aovs_) {
+    if (region_ != other.region_ || aovs_ != other.aovs_ || pixel_counts_ != other.pixel_counts_) {
         throw Error(ErrorCode::usage, "AOVs to merge differ in their region or in what they hold");
     }
     merge_sums(albedo_, other.albedo_);
@@ -87,6 +97,9 @@ void AovFilm::merge(const AovFilm& other)
     }
     for (std::size_t i = 0; i < hits_.size(); ++i) {
         hits_[i] += other.hits_[i];
+    }
+    for (std::size_t i = 0; i < counts_.size(); ++i) {
+        counts_[i] += other.counts_[i];
     }
 }
 
@@ -107,7 +120,10 @@ std::vector<AovFilm::Plane> AovFilm::planes() const
         result.push_back({.name = "depth.Z", .single = &AovFilm::depth_});
     }
     if (!hits_.empty()) {
-        result.push_back({.name = "hits"});
+        result.push_back({.name = "hits", .count = &AovFilm::hits_});
+    }
+    if (!counts_.empty()) {
+        result.push_back({.name = "counts", .count = &AovFilm::counts_});
     }
     return result;
 }
@@ -127,9 +143,10 @@ void AovFilm::read_row(std::size_t plane, int row, std::span<ExactSum::Words> wo
     const std::size_t first =
         static_cast<std::size_t>(row) * static_cast<std::size_t>(region_.width());
     for (std::size_t x = 0; x < words.size(); ++x) {
-        words[x] = which.color    ? (this->*which.color)[first + x][which.channel].words()
-                   : which.single ? (this->*which.single)[first + x].words()
-                                  : ExactSum::Words{.low = hits_[first + x], .high = 0};
+        words[x] = which.color ? (this->*which.color)[first + x][which.channel].words()
+                   : which.single
+                       ? (this->*which.single)[first + x].words()
+                       : ExactSum::Words{.low = (this->*which.count)[first + x], .high = 0};
     }
 }
 
@@ -144,7 +161,7 @@ void AovFilm::add_row(std::size_t plane, int row, std::span<const ExactSum::Word
         } else if (which.single) {
             (this->*which.single)[first + x].add(words[x]);
         } else {
-            hits_[first + x] += words[x].low;
+            (this->*which.count)[first + x] += words[x].low;
         }
     }
 }
@@ -190,7 +207,9 @@ std::vector<Layer> AovFilm::develop(const Film& film) const
           [&](Index i, Index) { return over_hits(depth_[i].value(), i, infinity); });
     layer(Aov::position, "position", "XYZ",
           [&](Index i, Index c) { return over_hits(position_[i][c].value(), i, 0.0); });
-    layer(Aov::sample_count, "sampleCount", "Y", [&](Index, Index) { return samples; });
+    layer(Aov::sample_count, "sampleCount", "Y", [&](Index i, Index) {
+        return counts_.empty() ? samples : static_cast<double>(counts_[i]);
+    });
     const Image variance = aovs_.contains(Aov::variance) ? film.variance() : Image{};
     layer(Aov::variance, "variance", "RGB",
           [&](Index i, Index c) { return variance.pixels[i][static_cast<int>(c)]; });

@@ -1,6 +1,8 @@
 #include <bdpt/error.h>
 #include <bdpt/film.h>
 
+#include <glm/common.hpp>
+
 #include <algorithm>
 #include <limits>
 #include <string>
@@ -91,7 +93,7 @@ std::size_t Film::index(int x, int y) const
            static_cast<std::size_t>(x - region().x0);
 }
 
-bool Film::accept(Rgb& value, int x, int y, std::int64_t sample_index) noexcept
+bool Film::accept(Rgb& value, int x, int y, std::int64_t sample_index, float scale) noexcept
 {
     bool saturated = false;
     for (int c = 0; c < 3; ++c) {
@@ -111,12 +113,13 @@ bool Film::accept(Rgb& value, int x, int y, std::int64_t sample_index) noexcept
     if (saturated) {
         saturated_.fetch_add(1, std::memory_order_relaxed);
     }
-    value = clamp(value, y);
+    // Scaled after it was clamped, or pixels with few samples would lose less than others.
+    value = glm::min(scale * clamp(value, y, scale), Rgb(ExactSum::max_value));
     return true;
 }
 
 /// `value`, within the limit and with its hue.
-Rgb Film::clamp(Rgb value, int y) noexcept
+Rgb Film::clamp(Rgb value, int y, float scale) noexcept
 {
     const float greatest = std::max({value.r, value.g, value.b});
     if (!(greatest > layout_.clamp)) {
@@ -124,14 +127,14 @@ Rgb Film::clamp(Rgb value, int y) noexcept
     }
     const Rgb clamped = value * (layout_.clamp / greatest);
     RowLoss& loss = losses_[static_cast<std::size_t>(y - region().y0)];
-    loss.light.add(value - clamped);
+    loss.light.add(glm::min(scale * (value - clamped), Rgb(ExactSum::max_value)));
     loss.contributions.add(1.0f);
     return clamped;
 }
 
-void Film::add_sample(int x, int y, std::int64_t sample_index, Rgb radiance) noexcept
+void Film::add_sample(int x, int y, std::int64_t sample_index, Rgb radiance, float scale) noexcept
 {
-    if (accept(radiance, x, y, sample_index)) {
+    if (accept(radiance, x, y, sample_index, scale)) {
         samples_[half_of(sample_index)][index(x, y)].add_alone(radiance);
     }
 }
@@ -156,14 +159,14 @@ void Film::prefetch_splat(Vec2 raster, std::int64_t sample_index) const noexcept
     __builtin_prefetch(&pixel.rgb.back(), for_writing);
 }
 
-void Film::add_splat(Vec2 raster, std::int64_t sample_index, Rgb radiance) noexcept
+void Film::add_splat(Vec2 raster, std::int64_t sample_index, Rgb radiance, float scale) noexcept
 {
     if (!holds(raster)) {
         return;
     }
     const int x = static_cast<int>(raster.x);
     const int y = static_cast<int>(raster.y);
-    if (accept(radiance, x, y, sample_index)) {
+    if (accept(radiance, x, y, sample_index, scale)) {
         splats_[half_of(sample_index)][index(x, y)].add(radiance);
     }
 }
@@ -241,6 +244,20 @@ Image Film::develop() const
 Image Film::develop_half(int half) const
 {
     return develop(std::array<std::size_t, 1>{static_cast<std::size_t>(half)});
+}
+
+Image Film::develop_camera() const
+{
+    Image image{width(), height(), std::vector<Rgb>(samples_[0].size(), Rgb(0.0f))};
+    const auto count = static_cast<double>(sample_count());
+    for (std::size_t i = 0; i < image.pixels.size() && count > 0.0; ++i) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            ExactSum::Words total = samples_[0][i].rgb[c].words();
+            total += samples_[1][i].rgb[c].words();
+            image.pixels[i][static_cast<int>(c)] = static_cast<float>(total.value() / count);
+        }
+    }
+    return image;
 }
 
 Image Film::variance() const

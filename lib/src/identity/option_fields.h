@@ -4,6 +4,7 @@
 #include <bdpt/filter_options.h>
 #include <bdpt/pixel_rect.h>
 #include <bdpt/render_options.h>
+#include <bdpt/sample_rates.h>
 
 namespace bdpt {
 
@@ -34,11 +35,11 @@ inline constexpr auto fields<FilmOptions> = all_fields(Field{"width", &FilmOptio
                                                        Field{"clamp", &FilmOptions::clamp});
 /// Fields of `SamplingOptions`, with names.
 template <>
-inline constexpr auto fields<SamplingOptions> =
-    all_fields(Field{"samples", &SamplingOptions::samples}, Field{"seed", &SamplingOptions::seed},
-               Field{"sampler", &SamplingOptions::sampler},
-               Field{"environment sampling", &SamplingOptions::environment},
-               Field{"light sampling", &SamplingOptions::lights});
+inline constexpr auto fields<SamplingOptions> = all_fields(
+    Field{"samples", &SamplingOptions::samples}, Field{"seed", &SamplingOptions::seed},
+    Field{"sampler", &SamplingOptions::sampler},
+    Field{"environment sampling", &SamplingOptions::environment},
+    Field{"light sampling", &SamplingOptions::lights}, Field{"rates", &SamplingOptions::rates});
 /// Fields of `TransportOptions`, with names.
 template <>
 inline constexpr auto fields<TransportOptions> =

@@ -22,11 +22,12 @@ ContributionSink::ContributionSink(const Films& films, const PixelFilter& filter
     splats_.reserve(most_splats);
 }
 
-void ContributionSink::begin_sample(int x, int y, std::int64_t index)
+void ContributionSink::begin_sample(int x, int y, const ScheduledSample& sample)
 {
     x_ = x;
     y_ = y;
-    index_ = index;
+    index_ = sample.index;
+    scale_ = sample.scale;
     light_path_ = 0;
     center_ = Vec2(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
     radiance_ = Rgb(0.0f);
@@ -40,7 +41,8 @@ void ContributionSink::add(const SampleContext& sample, Strategy strategy,
     radiance_ += weighted;
     if (!films_.strategies.empty() || films_.on_path) [[unlikely]] {
         sample.enter(Phase::splat);
-        report(strategy, center_, weighted, unweighted / count, found.weight);
+        report(strategy, center_, scale_.camera * weighted, scale_.camera / count * unweighted,
+               found.weight);
     }
 }
 
@@ -60,8 +62,8 @@ void ContributionSink::splat(SampleContext& sample, Strategy strategy, const Spl
     }
     splats_.push_back({.raster = target.raster, .radiance = weighted});
     if (!films_.strategies.empty() || films_.on_path) [[unlikely]] {
-        report(strategy, target.raster, weighted, target.weight / count * unweighted,
-               splat.contribution.weight);
+        report(strategy, target.raster, scale_.splat * weighted,
+               scale_.splat * target.weight / count * unweighted, splat.contribution.weight);
     }
 }
 
@@ -88,10 +90,10 @@ void ContributionSink::end_sample()
 {
     if (films_.film != nullptr) {
         if (holds_pixel()) {
-            films_.film->add_sample(x_, y_, index_, radiance_);
+            films_.film->add_sample(x_, y_, index_, radiance_, scale_.camera);
         }
         for (const PendingSplat& splat : splats_) {
-            films_.film->add_splat(splat.raster, index_, splat.radiance);
+            films_.film->add_splat(splat.raster, index_, splat.radiance, scale_.splat);
         }
     }
     splats_.clear();

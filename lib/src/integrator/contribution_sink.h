@@ -2,6 +2,7 @@
 
 #include "film/pixel_filter.h"
 #include "integrator/integrator.h"
+#include "integrator/sample_schedule.h"
 #include "path/connect.h"
 
 #include <cstddef>
@@ -20,9 +21,10 @@ public:
                      std::size_t most_splats);
 
     /// What comes until `end_sample` belongs to this sample of pixel (x, y).
-    void begin_sample(int x, int y, std::int64_t index);
-    /// What comes until `end_sample` are splats of a light path that belongs to no pixel.
-    void begin_light_path(std::int64_t index) { begin_sample(-1, -1, index); }
+    void begin_sample(int x, int y, const ScheduledSample& sample);
+    /// What comes until `end_sample` are splats of a light path of that round that belongs to no
+    /// pixel.
+    void begin_light_path(std::int64_t round) { begin_sample(-1, -1, {.index = round}); }
     /// Splats and contributions that come from here on belong to that light path of the sample.
     void begin_joins(int light_path) { light_path_ = light_path; }
     /// Does anyone want that pixel?
@@ -46,7 +48,7 @@ private:
     {
         return films_.film == nullptr || films_.film->region().contains(x, y);
     }
-    /// To images of strategies and to observers.
+    /// To images of strategies and to observers, scaled.
     void report(Strategy strategy, Vec2 raster, Rgb weighted, Rgb unweighted, float weight);
 
     Films films_;
@@ -56,6 +58,7 @@ private:
     int x_ = 0;
     int y_ = 0;
     std::int64_t index_ = 0;
+    SampleScale scale_{};
     int light_path_ = 0;
     Vec2 center_{0.0f};  ///< of the pixel
     Rgb radiance_{0.0f};

@@ -7,6 +7,7 @@
 #include <bdpt/error.h>
 #include <bdpt/integrators.h>
 #include <bdpt/motion.h>
+#include <bdpt/sample_rates.h>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -43,6 +44,34 @@ void check_crop(const PixelRect& crop, int width, int height)
                         std::to_string(crop.x1) + "," + std::to_string(crop.y1) +
                         " is empty or not inside of the image of " + std::to_string(width) + "x" +
                         std::to_string(height) + " pixels");
+    }
+}
+
+void check_rates(const RenderOptions& options)
+{
+    const SampleRates* rates = options.sampling.rates.get();
+    if (rates == nullptr) {
+        return;
+    }
+    if (rates->width() != options.film.width || rates->height() != options.film.height) {
+        throw Error(ErrorCode::usage, "rates of samples are those of an image of " +
+                                          std::to_string(rates->width()) + "x" +
+                                          std::to_string(rates->height()) + " pixels, not of " +
+                                          std::to_string(options.film.width) + "x" +
+                                          std::to_string(options.film.height));
+    }
+    check_takes_rates(options.integrator);
+    const SampleRange& samples = options.sampling.samples;
+    check_range("last round with rates of samples", samples.end, 1,
+                std::int64_t{1} << (32 - SampleRates::greatest_exponent));
+    for (const std::int64_t border : {samples.begin, samples.end}) {
+        if (border % SampleRates::group != 0) {
+            throw Error(
+                ErrorCode::usage,
+                "samples begin or end at " + std::to_string(border) +
+                    ", but with rates of samples (adaptive sampling) only at multiples of " +
+                    std::to_string(SampleRates::group));
+        }
     }
 }
 
@@ -152,6 +181,15 @@ void check_options(const RenderOptions& options)
     check_range("tile size", options.system.tile_size, 1, max_film_side);
     check_range("number of threads", options.system.threads, 0, max_threads);
     check_light_paths(options);
+    check_rates(options);
+}
+
+void check_takes_rates(IntegratorKind integrator)
+{
+    if (integrator == IntegratorKind::lt || integrator == IntegratorKind::vcm) {
+        throw Error(ErrorCode::usage, "rates of samples do not go with the integrator " +
+                                          std::string(info(integrator).name));
+    }
 }
 
 void check_camera(const CameraDesc& camera)

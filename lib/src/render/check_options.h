@@ -8,6 +8,10 @@ namespace bdpt {
 /// Throws `Error` (usage) naming the first option out of range and its value.
 void check_options(const RenderOptions& options);
 
+/// Throws `Error` (usage) for integrators that cannot be given rates: lt, whose pixels take no
+/// samples of their own, and vcm, whose merge radius belongs to a sample index.
+void check_takes_rates(IntegratorKind integrator);
+
 /// Throws `Error` (invalid_input) when the camera has no usable view.
 void check_camera(const CameraDesc& camera);
 

@@ -42,10 +42,10 @@ RenderOptions chosen_options(const Scene& scene, const CameraDesc& camera,
     }
     RenderOptions whole = options;
     whole.film.crop.reset();
+    whole.sampling.rates.reset();
     const MovingCamera opened = open_camera(scene.world(), camera, whole);
     Threads threads(options.system.threads);
-    threads.execute(
-        [&] { options = with_best(run_pilot(scene.world(), opened, options), options); });
+    threads.execute([&] { options = with_best(run_pilot(scene.world(), opened, whole), options); });
     return options;
 }
 

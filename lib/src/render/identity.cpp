@@ -14,6 +14,7 @@
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string_view>
 #include <type_traits>
 
@@ -85,6 +86,11 @@ void add_options(std::vector<IdentityComponent>& result, const Options& options)
         const bool is_limit = field.name.ends_with(" memory");
         if constexpr (std::is_same_v<T, SystemOptions> || std::is_same_v<T, SampleRange>) {
             return;  // changes no bit of a sample
+        } else if constexpr (std::is_same_v<T, std::shared_ptr<const SampleRates>>) {
+            if (value) {
+                result.push_back({.name = "option: " + std::string(field.name),
+                                  .value = hash_text(value->exponents())});
+            }
         } else if constexpr (HasFields<T> && !std::is_same_v<T, PixelRect>) {
             add_options(result, value);
         } else if (!is_limit) {

@@ -1,23 +1,19 @@
 #include <bdpt/error.h>
 #include <bdpt/integrators.h>
 #include <bdpt/render.h>
+#include <bdpt/sample_rates.h>
 
 #include "camera/moving_camera.h"
-#include "film/pixel_filter.h"
-#include "geometry/flush_denormals.h"
 #include "integrator/integrator.h"
 #include "profile/time_recorder.h"
 #include "render/aov_pass.h"
 #include "render/check_options.h"
 #include "render/noise_watch.h"
 #include "render/open_camera.h"
+#include "render/pass.h"
 #include "render/strategy_images.h"
 #include "render/threads.h"
 #include "scene/world.h"
-
-#include <tbb/blocked_range2d.h>
-#include <tbb/combinable.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <chrono>
@@ -37,69 +33,18 @@ double seconds_since(std::chrono::steady_clock::time_point start)
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// All that works on a tile.
-struct Work {
-    Integrator& integrator;
-    const AovPass& aov_pass;
-    const RenderControl& control;
-    TimeRecorder* times;  // if times are recorded
-};
-
-void render_pass(const Work& work, const RenderOptions& options, SampleRange samples,
-                 RenderPart& result)
-{
-    // Each pixel of the whole image has its light path, and any of them can reach a crop.
-    const PixelRect area =
-        info(options.integrator).traces_light_paths ? whole_image(options) : result.film.region();
-    const int columns = (area.width() + options.system.tile_size - 1) / options.system.tile_size;
-    const int rows = (area.height() + options.system.tile_size - 1) / options.system.tile_size;
-    tbb::combinable<RenderStats> stats_of_threads;
-    tbb::parallel_for(std::int64_t{0}, work.integrator.begin_pass(samples), [&](std::int64_t part) {
-        const FlushDenormals flush;
-        stats_of_threads.local() += work.integrator.do_part(part, samples,
-                                                            {.film = &result.film,
-                                                             .strategies = result.strategies,
-                                                             .on_path = work.control.on_path});
-    });
-    work.integrator.end_parts();
-    tbb::parallel_for(
-        tbb::blocked_range2d<int>(0, rows, 1, 0, columns, 1),
-        [&](const tbb::blocked_range2d<int>& range) {
-            const FlushDenormals flush;
-            auto times = work.times != nullptr ? std::optional(work.times->sheet()) : std::nullopt;
-            const Films films{.film = &result.film,
-                              .strategies = result.strategies,
-                              .on_path = work.control.on_path,
-                              .times = times ? &*times : nullptr};
-            for (int row = range.rows().begin(); row < range.rows().end(); ++row) {
-                for (int column = range.cols().begin(); column < range.cols().end(); ++column) {
-                    const int x = area.x0 + column * options.system.tile_size;
-                    const int y = area.y0 + row * options.system.tile_size;
-                    const Tile tile{.x_begin = x,
-                                    .x_end = std::min(x + options.system.tile_size, area.x1),
-                                    .y_begin = y,
-                                    .y_end = std::min(y + options.system.tile_size, area.y1)};
-                    RenderStats& stats = stats_of_threads.local();
-                    stats += work.integrator.render_tile(tile, samples, films);
-                    if (result.aovs.needs_hits()) {
-                        stats += work.aov_pass.render_tile(tile, samples, result.aovs);
-                    }
-                }
-            }
-        },
-        tbb::simple_partitioner{});
-    stats_of_threads.combine_each([&](const RenderStats& stats) { result.stats += stats; });
-    result.film.count_samples(samples.begin, samples.end);
-    result.strategies.count_samples(samples.end - samples.begin);
-    result.samples.add(samples);
-}
-
-/// How many samples passes have, so that one takes about `pass_seconds`.
+/// How many samples passes have, so that one takes about `pass_seconds`. With rates they are groups
+/// of rounds.
 class PassSize {
 public:
-    explicit PassSize(const Integrator& integrator)
+    PassSize(const Integrator& integrator, const RenderOptions& options)
         : most_(std::min(most_samples_in_pass, integrator.most_samples_in_pass()))
-    {}
+    {
+        if (options.sampling.rates) {
+            most_ = most_samples_in_pass;
+            samples_ = SampleRates::group;
+        }
+    }
     [[nodiscard]] std::int64_t samples() const { return samples_; }
     /// Takes note of the last pass.
     void learn(std::int64_t samples, double seconds)
@@ -137,16 +82,6 @@ double cpu_seconds()
     return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
-FilmLayout film_layout(const RenderOptions& options)
-{
-    return {.width = options.film.width,
-            .height = options.film.height,
-            .region = options.film.crop.value_or(whole_image(options)),
-            .splats = info(options.integrator).traces_light_paths ? SplatImage::present
-                                                                  : SplatImage::absent,
-            .clamp = options.film.clamp};
-}
-
 /// A part of the render without any samples.
 RenderPart empty_part(Identity identity, const RenderOptions& options, const CameraDesc& camera)
 {
@@ -154,7 +89,8 @@ RenderPart empty_part(Identity identity, const RenderOptions& options, const Cam
     return {.identity = std::move(identity),
             .samples = {},
             .film = Film(layout),
-            .aovs = AovFilm(layout.region, options.film.aovs),
+            .aovs = AovFilm(layout.region, options.film.aovs,
+                            options.sampling.rates ? PixelCounts::own : PixelCounts::equal),
             .strategies = StrategyFilm(layout.region, strategies_with_images(options, camera)),
             .stats = {}};
 }
@@ -226,7 +162,7 @@ PartResult render_part(const Scene& scene, const CameraDesc& camera_desc,
     const std::int64_t total = part.samples.missing(wanted).count();
     const double cpu_before = part.cpu_seconds;
     std::int64_t done = 0;
-    PassSize pass_size(*integrator);
+    PassSize pass_size(*integrator, options);
     NoiseWatch noise(control, options.sampling.samples);
     threads.execute([&] { noise.look(part); });
     while (done < total && !noise.reached()) {
@@ -234,8 +170,11 @@ PartResult render_part(const Scene& scene, const CameraDesc& camera_desc,
             next_pass(part.samples, wanted, noise.at_most(pass_size.samples(), part));
         const double before = seconds_since(start);
         threads.execute([&] {
-            render_pass({*integrator, aov_pass, control, times ? &*times : nullptr}, options, pass,
-                        part);
+            render_pass({.integrator = *integrator,
+                         .aov_pass = aov_pass,
+                         .on_path = control.on_path,
+                         .times = times ? &*times : nullptr},
+                        options, pass, part);
             noise.look(part);
         });
         done += pass.end - pass.begin;

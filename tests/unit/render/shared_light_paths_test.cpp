@@ -90,7 +90,7 @@ TEST_CASE("pixels take shared light paths evenly, and neighbours take different 
         int near = 0;
         for (int y = 0; y < side; ++y) {
             for (int x = 0; x < side; ++x) {
-                const auto choice = cache.choose(x, y, index);
+                const auto choice = cache.choose(x, y, {.index = index});
                 REQUIRE(choice.bundle >= 0);
                 REQUIRE(choice.bundle < counts.bundles);
                 REQUIRE(choice.count >= static_cast<int>(connections));
@@ -99,7 +99,7 @@ TEST_CASE("pixels take shared light paths evenly, and neighbours take different 
                 total += choice.count;
                 if (x > 0) {
                     const std::int64_t way =
-                        std::abs(choice.bundle - cache.choose(x - 1, y, index).bundle);
+                        std::abs(choice.bundle - cache.choose(x - 1, y, {.index = index}).bundle);
                     near += 8 * way < counts.bundles ? 1 : 0;
                 }
             }
@@ -121,7 +121,7 @@ TEST_CASE("the samples of a pixel take their share of connections", "[light-path
     for (int x = 0; x < width; ++x) {
         int total = 0;
         for (std::int64_t index = 1000; index < 1020; ++index) {
-            total += cache.choose(x, 4, index).count;
+            total += cache.choose(x, 4, {.index = index}).count;
         }
         CHECK(std::abs(total - 20.0 * connections) < 1.0);
     }

@@ -217,6 +217,7 @@ PartHeader read(const ordered_json& json)
     }
     header.layout = read_layout(json.at("film"));
     header.aovs = read_aovs(json.at("layers"));
+    header.counts = json.value("own_counts", false) ? PixelCounts::own : PixelCounts::equal;
     header.strategies = read_strategies(json.at("strategies"));
     header.totals = read_totals(json.at("totals"), header.layout);
     header.stats = read_stats(json.at("stats"));
@@ -236,6 +237,7 @@ PartHeader header_of(const RenderPart& part, const PartNotes& notes)
             .samples = part.samples,
             .layout = part.film.layout(),
             .aovs = part.aovs.aovs(),
+            .counts = part.aovs.counts(),
             .strategies = part.strategies.strategies(),
             .totals = part.film.totals(),
             .stats = part.stats,
@@ -257,6 +259,9 @@ std::string to_text(const PartHeader& header)
                       {"cpu_seconds", header.cpu_seconds},
                       {"image", to_json(header.notes.metadata)},
                       {"command", header.notes.command}};
+    if (header.counts == PixelCounts::own) {
+        json["own_counts"] = true;
+    }
     for (const auto& [name, value] : header.identity.components) {
         json["identity"][name] = value;
     }
@@ -286,7 +291,7 @@ RenderPart make_part(const PartHeader& header)
     return {.identity = header.identity,
             .samples = {},
             .film = Film(header.layout),
-            .aovs = AovFilm(header.layout.region, header.aovs),
+            .aovs = AovFilm(header.layout.region, header.aovs, header.counts),
             .strategies = StrategyFilm(header.layout.region, header.strategies),
             .stats = {}};
 }

@@ -18,6 +18,7 @@ struct PartHeader {
     SampleSet samples;
     FilmLayout layout;
     AovSet aovs;
+    PixelCounts counts = PixelCounts::equal;
     std::vector<Strategy> strategies;
     FilmTotals totals;
     RenderStats stats;

@@ -37,6 +37,7 @@ BidirectionalIntegrator::BidirectionalIntegrator(const World& world, const Movin
     : world_(world),
       camera_(camera),
       options_(options),
+      schedule_(options_),
       filter_(options.film.filter),
       strategies_(options),
       cache_(LightPathCounts(options), options)
@@ -85,23 +86,24 @@ RenderStats BidirectionalIntegrator::render_tile(const Tile& tile, SampleRange s
     Scratch scratch = make_scratch(films);
     for (int y = tile.y_begin; y < tile.y_end; ++y) {
         for (int x = tile.x_begin; x < tile.x_end; ++x) {
-            for (std::int64_t index = samples.begin; index < samples.end; ++index) {
-                SampleTimer timer(films.times, x, y, index);
-                add_sample(x, y, index, timer.clock(), scratch);
-            }
+            schedule_.for_each(x, y, samples, [&](const ScheduledSample& scheduled) {
+                SampleTimer timer(films.times, x, y, scheduled.index);
+                add_sample(x, y, scheduled, timer.clock(), scratch);
+            });
         }
     }
     return scratch.stats;
 }
 
-void BidirectionalIntegrator::add_sample(int x, int y, std::int64_t index, PhaseClock* clock,
-                                         Scratch& scratch) const
+void BidirectionalIntegrator::add_sample(int x, int y, const ScheduledSample& scheduled,
+                                         PhaseClock* clock, Scratch& scratch) const
 {
     ContributionSink& sink = scratch.sink;
+    const std::int64_t index = scheduled.index;
     SampleStart start(options_, filter_, world_, camera_, x, y, index);
     LightPathCache::Choice shared;
     if (cache_.counts().shared) {
-        shared = cache_.choose(x, y, index);
+        shared = cache_.choose(x, y, scheduled);
         start.moment = cache_.moment(shared.bundle);
     }
     const TimedCamera camera(camera_, start.moment.time);
@@ -112,7 +114,7 @@ void BidirectionalIntegrator::add_sample(int x, int y, std::int64_t index, Phase
                          .wavelength = start.moment.wavelength,
                          .rays = scratch.stats.rays,
                          .clock = clock};
-    sink.begin_sample(x, y, index);
+    sink.begin_sample(x, y, scheduled);
 
     // Own light paths of pixels outside of a crop can splat into it.
     const bool wanted = sink.holds_pixel();

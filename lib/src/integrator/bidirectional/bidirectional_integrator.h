@@ -35,7 +35,8 @@ private:
 
     [[nodiscard]] Scratch make_scratch(const Films& films) const;
     void trace_light_path(SampleContext& sample, Scratch& scratch) const;
-    void add_sample(int x, int y, std::int64_t index, PhaseClock* clock, Scratch& scratch) const;
+    void add_sample(int x, int y, const ScheduledSample& scheduled, PhaseClock* clock,
+                    Scratch& scratch) const;
     /// Is a path of one edge to `x0` left out?
     [[nodiscard]] bool is_background(const PathVertex& x0) const;
     /// s <= 1: what the camera path brings by itself.
@@ -50,6 +51,7 @@ private:
     const World& world_;
     const MovingCamera& camera_;
     RenderOptions options_;
+    SampleSchedule schedule_;
     PixelFilter filter_;
     StrategySet strategies_;
     LightPathCache cache_;  ///< empty unless light paths are shared

@@ -96,21 +96,22 @@ void LightPathCache::end_chunk(std::int64_t chunk)
     }
 }
 
-LightPathCache::Choice LightPathCache::choose(int x, int y, std::int64_t index) const
+LightPathCache::Choice LightPathCache::choose(int x, int y, const ScheduledSample& sample) const
 {
     const std::uint32_t pixel = morton(x, y);
     const std::uint64_t seed = split_mix(seed_ + golden_ratio_64);
     // The radical inverse of the pixel's number, with an Owen scramble, in 32 bits.
-    const std::uint32_t u = reverse_bits(permute_upwards(pixel, static_cast<std::uint32_t>(seed)));
+    const std::uint32_t u =
+        reverse_bits(permute_upwards(pixel, static_cast<std::uint32_t>(seed))) + sample.turn;
     const std::uint64_t place = std::uint64_t{u} * static_cast<std::uint64_t>(counts_.bundles);
     Choice choice{.bundle = static_cast<std::int64_t>(place >> 32U)};
     // What is left of the number is even over the pixels of one bundle; from one index to the next
     // the sum of all counts grows by `connections`.
     const double rest = static_cast<double>(static_cast<std::uint32_t>(place)) * 0x1p-32;
-    const double before = counts_.connections * static_cast<double>(index) + rest;
+    const double before = counts_.connections * static_cast<double>(sample.index) + rest;
     choice.count = static_cast<int>(std::floor(before + counts_.connections) - std::floor(before));
     if (choice.count < counts_.bundle) {
-        choice.first = static_cast<int>(static_cast<std::uint64_t>(index) %
+        choice.first = static_cast<int>(static_cast<std::uint64_t>(sample.index) %
                                         static_cast<std::uint64_t>(counts_.bundle));
     }
     return choice;

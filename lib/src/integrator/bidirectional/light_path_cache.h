@@ -1,5 +1,6 @@
 #pragma once
 
+#include "integrator/sample_schedule.h"
 #include "integrator/sample_start.h"
 #include "path/light_path_counts.h"
 #include "path/subpath.h"
@@ -47,10 +48,11 @@ public:
     void add_path(std::int64_t chunk, std::span<const PathVertex> path);
     void end_chunk(std::int64_t chunk);
 
-    /// What the camera path of sample `index` of pixel (x, y) is joined to: evenly spread over the
-    /// image, and far apart for neighbours; light paths of the same bundle for all samples of the
-    /// pixel, which are as well spread over the indices as a pixel's own.
-    [[nodiscard]] Choice choose(int x, int y, std::int64_t index) const;
+    /// What the camera path of `sample` of pixel (x, y) is joined to: evenly spread over the image,
+    /// and far apart for neighbours; light paths of the same bundle in all rounds of the pixel,
+    /// which are as well spread over the rounds as a pixel's own, and of different ones for its
+    /// samples within a round.
+    [[nodiscard]] Choice choose(int x, int y, const ScheduledSample& sample) const;
     /// That of its light paths, and of the camera paths that are joined to them.
     [[nodiscard]] const SampleMoment& moment(std::int64_t bundle) const
     {

@@ -27,6 +27,7 @@ PathIntegrator::PathIntegrator(const World& world, const MovingCamera& camera,
     : world_(world),
       camera_(camera),
       options_(options),
+      schedule_(options_),
       filter_(options.film.filter),
       // What light sampling leaves out is found by BSDF sampling in `mis` alone.
       next_event_sampling_{.environments = options.integrator == IntegratorKind::mis
@@ -42,26 +43,32 @@ RenderStats PathIntegrator::render_tile(const Tile& tile, SampleRange samples,
     ContributionSink sink(films, filter_, nullptr, 0);
     for (int y = tile.y_begin; y < tile.y_end; ++y) {
         for (int x = tile.x_begin; x < tile.x_end; ++x) {
-            for (std::int64_t index = samples.begin; index < samples.end; ++index) {
-                SampleTimer timer(films.times, x, y, index);
-                const SampleStart start(options_, filter_, world_, camera_, x, y, index);
-                const TimedCamera camera(camera_, start.moment.time);
-                SampleContext sample{.world = world_,
-                                     .camera = camera.get(),
-                                     .sampler = start.sampler,
-                                     .time = start.moment.time,
-                                     .wavelength = start.moment.wavelength,
-                                     .rays = stats.rays,
-                                     .clock = timer.clock()};
-                sink.begin_sample(x, y, index);
-                trace_path(sample, start.raster, sink);
-                sample.enter(Phase::splat);
-                sink.end_sample();
-                ++stats.paths.camera;
-            }
+            schedule_.for_each(x, y, samples, [&](const ScheduledSample& scheduled) {
+                add_sample(x, y, scheduled, films, sink, stats);
+            });
         }
     }
     return stats;
+}
+
+void PathIntegrator::add_sample(int x, int y, const ScheduledSample& scheduled, const Films& films,
+                                ContributionSink& sink, RenderStats& stats) const
+{
+    SampleTimer timer(films.times, x, y, scheduled.index);
+    const SampleStart start(options_, filter_, world_, camera_, x, y, scheduled.index);
+    const TimedCamera camera(camera_, start.moment.time);
+    SampleContext sample{.world = world_,
+                         .camera = camera.get(),
+                         .sampler = start.sampler,
+                         .time = start.moment.time,
+                         .wavelength = start.moment.wavelength,
+                         .rays = stats.rays,
+                         .clock = timer.clock()};
+    sink.begin_sample(x, y, scheduled);
+    trace_path(sample, start.raster, sink);
+    sample.enter(Phase::splat);
+    sink.end_sample();
+    ++stats.paths.camera;
 }
 
 void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, ContributionSink& sink) const

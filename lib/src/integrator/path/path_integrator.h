@@ -17,6 +17,8 @@ public:
 
 private:
     struct Ray;
+    void add_sample(int x, int y, const ScheduledSample& scheduled, const Films& films,
+                    ContributionSink& sink, RenderStats& stats) const;
     void trace_path(SampleContext& sample, Vec2 raster, ContributionSink& sink) const;
     /// Radiance that the ray brings from a light it hit, weighed against light sampling.
     [[nodiscard]] Rgb emission(const Ray& ray, LightId light, const LightPoint& hit,
@@ -32,6 +34,7 @@ private:
     const World& world_;
     const MovingCamera& camera_;
     RenderOptions options_;
+    SampleSchedule schedule_;
     PixelFilter filter_;
     NextEventSampling next_event_sampling_;
 };

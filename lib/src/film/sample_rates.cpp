@@ -1,0 +1,53 @@
+#include <bdpt/error.h>
+#include <bdpt/sample_rates.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace bdpt {
+namespace {
+
+/// In quarters there is nothing to round.
+double mean_of(const std::vector<std::int8_t>& exponents)
+{
+    std::int64_t quarters = 0;
+    for (const std::int8_t exponent : exponents) {
+        quarters += std::int64_t{1} << (exponent - SampleRates::least_exponent);
+    }
+    return static_cast<double>(quarters) /
+           static_cast<double>(exponents.size() << -SampleRates::least_exponent);
+}
+
+}  // namespace
+
+SampleRates::SampleRates(int width, int height, std::vector<std::int8_t> exponents)
+    : width_(width), height_(height), exponents_(std::move(exponents))
+{
+    const auto pixels = static_cast<std::size_t>(std::max(width, 0)) *
+                        static_cast<std::size_t>(std::max(height, 0));
+    if (pixels == 0 || exponents_.size() != pixels) {
+        throw Error(ErrorCode::usage,
+                    std::to_string(exponents_.size()) + " rates of samples for an image of " +
+                        std::to_string(width) + "x" + std::to_string(height) + " pixels");
+    }
+    for (const std::int8_t exponent : exponents_) {
+        if (exponent < least_exponent || exponent > greatest_exponent) {
+            throw Error(ErrorCode::usage, "a rate of samples is 2^" + std::to_string(exponent) +
+                                              ", not from 1/4 to 4");
+        }
+    }
+    mean_ = mean_of(exponents_);
+}
+
+float SampleRates::least() const
+{
+    return rate_of(*std::min_element(exponents_.begin(), exponents_.end()));
+}
+
+float SampleRates::greatest() const
+{
+    return rate_of(*std::max_element(exponents_.begin(), exponents_.end()));
+}
+
+}  // namespace bdpt

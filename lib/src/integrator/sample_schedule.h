@@ -1,0 +1,89 @@
+#pragma once
+
+#include <bdpt/render_options.h>
+#include <bdpt/sample_rates.h>
+
+#include <cstdint>
+
+namespace bdpt {
+
+/// By what contributions of a sample are multiplied before they are added up.
+struct SampleScale {
+    float camera = 1.0f;  ///< to its own pixel
+    float splat = 1.0f;   ///< of its light path to any pixel
+};
+
+/// A sample of a pixel, as the schedule has it.
+struct ScheduledSample {
+    std::int64_t index = 0;  ///< of its random numbers; even in the one half, odd in the other
+    std::int64_t round = 0;  ///< of the light paths that all pixels share
+    std::uint32_t turn = 0;  ///< spreads the samples that a pixel takes in a round [2^-32]
+    SampleScale scale{};
+};
+
+/// Which samples the pixels take in which rounds. Without rates a round is one sample. With them,
+/// pixels take the first samples of each half, in their order, so that their points stay well
+/// spread: in round k of half h = k mod 2, which is round m = k div 2 of that half, a pixel of rate
+/// 2^e takes samples m 2^e to (m + 1) 2^e - 1 of the half, if e is not negative; else sample m /
+/// 2^-e where that is whole.
+class SampleSchedule {
+public:
+    /// `options` must outlive this.
+    explicit SampleSchedule(const RenderOptions& options)
+        : rates_(options.sampling.rates.get()),
+          splat_scale_(rates_ != nullptr ? static_cast<float>(1.0 / rates_->mean()) : 1.0f)
+    {}
+
+    /// Calls `visit` with each sample of pixel (x, y) of the image in these rounds.
+    template <typename Visit>
+    void for_each(int x, int y, SampleRange rounds, const Visit& visit) const
+    {
+        if (rates_ == nullptr) {
+            for (std::int64_t k = rounds.begin; k < rounds.end; ++k) {
+                visit(ScheduledSample{.index = k, .round = k});
+            }
+            return;
+        }
+        const int e = rates_->exponent(x, y);
+        const SampleScale scale{.camera = SampleRates::rate_of(-e), .splat = splat_scale_};
+        for (std::int64_t k = rounds.begin; k < rounds.end; ++k) {
+            const std::int64_t half = k & 1;
+            const std::int64_t m = k >> 1;
+            const auto sample = [&](std::int64_t of_half, std::uint32_t turn) {
+                visit(ScheduledSample{
+                    .index = 2 * of_half + half, .round = k, .turn = turn, .scale = scale});
+            };
+            if (e <= 0) {
+                if ((m & ((std::int64_t{1} << -e) - 1)) == 0) {
+                    sample(m >> -e, 0);
+                }
+                continue;
+            }
+            for (std::uint32_t i = 0; i < 1U << e; ++i) {
+                sample((m << e) + i, i << (32 - e));
+            }
+        }
+    }
+
+    /// How many these are.
+    [[nodiscard]] std::int64_t count(int x, int y, SampleRange rounds) const
+    {
+        const int e = rates_ == nullptr ? 0 : rates_->exponent(x, y);
+        return count_before(rounds.end, e) - count_before(rounds.begin, e);
+    }
+
+private:
+    /// In the rounds [0, round) of rate 2^e.
+    [[nodiscard]] static std::int64_t count_before(std::int64_t round, int e)
+    {
+        const auto of_half = [e](std::int64_t rounds) {
+            return e < 0 ? (rounds + (std::int64_t{1} << -e) - 1) >> -e : rounds << e;
+        };
+        return of_half((round + 1) / 2) + of_half(round / 2);
+    }
+
+    const SampleRates* rates_;
+    float splat_scale_;
+};
+
+}  // namespace bdpt

@@ -1,0 +1,170 @@
+#include "rates/rate_map.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+namespace bdpt {
+namespace {
+
+// A few samples tell little of one pixel, so that variances are those of a neighbourhood; and rare
+// bright samples are missed in one neighbourhood that the next one has found, so that the greatest
+// of near ones counts. Wider ones blur the borders of small glossy parts.
+constexpr int mean_radius = 3;      // 7 x 7 pixels
+constexpr int greatest_radius = 1;  // 3 x 3 pixels
+constexpr double dark = 0.01;       // of the image's mean luminance, as in noise_of()
+/// Of the mean rate: what the pilot found without noise need not be that.
+constexpr double least_of_mean = 0.02;
+
+using Plane = std::vector<double>;
+
+struct Size {
+    int width;
+    int height;
+};
+
+/// Combines what is at most `radius` pixels away, along rows (`step` 1) or columns (`step` width).
+template <typename Combine>
+Plane along(const Plane& plane, Size size, bool rows, int radius, const Combine& combine)
+{
+    Plane result(plane.size());
+    const int length = rows ? size.width : size.height;
+    const auto step = static_cast<std::size_t>(rows ? 1 : size.width);
+    for (std::size_t i = 0; i < plane.size(); ++i) {
+        const auto width = static_cast<std::size_t>(size.width);
+        const int at = static_cast<int>(rows ? i % width : i / width);
+        const int first = std::max(0, at - radius);
+        const int last = std::min(length - 1, at + radius);
+        result[i] = combine(&plane[i - static_cast<std::size_t>(at - first) * step], step,
+                            last - first + 1);
+    }
+    return result;
+}
+
+Plane local_mean(const Plane& plane, Size size, int radius)
+{
+    const auto mean = [](const double* first, std::size_t step, int count) {
+        double sum = 0.0;
+        for (int i = 0; i < count; ++i) {
+            sum += first[static_cast<std::size_t>(i) * step];
+        }
+        return sum / count;
+    };
+    return along(along(plane, size, true, radius, mean), size, false, radius, mean);
+}
+
+Plane local_greatest(const Plane& plane, Size size, int radius)
+{
+    const auto greatest = [](const double* first, std::size_t step, int count) {
+        double result = *first;
+        for (int i = 1; i < count; ++i) {
+            result = std::max(result, first[static_cast<std::size_t>(i) * step]);
+        }
+        return result;
+    };
+    return along(along(plane, size, true, radius, greatest), size, false, radius, greatest);
+}
+
+double mean_of(const Plane& plane)
+{
+    double sum = 0.0;
+    for (const double value : plane) {
+        sum += value;
+    }
+    return sum / static_cast<double>(plane.size());
+}
+
+/// What the rates should be in proportion to.
+Plane wanted_rates(const RateEvidence& evidence)
+{
+    const Size size{.width = evidence.width, .height = evidence.height};
+    const Plane brightness = local_mean(evidence.brightness, size, mean_radius);
+    const double eps = dark * mean_of(evidence.brightness);
+    Plane relative(brightness.size(), 0.0);
+    for (std::size_t i = 0; i < relative.size(); ++i) {
+        const double scale = brightness[i] * brightness[i] + eps * eps;
+        relative[i] = scale > 0.0 ? evidence.variance[i] / scale : 0.0;
+    }
+    Plane wanted = local_greatest(local_mean(relative, size, mean_radius), size, greatest_radius);
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        wanted[i] = std::sqrt(wanted[i] / evidence.cost[i]);
+    }
+    const double least = least_of_mean * mean_of(wanted);
+    for (double& rate : wanted) {
+        rate = std::max(rate, least);
+    }
+    return wanted;
+}
+
+/// That of the power of two that is nearest to `rate`, by its logarithm.
+std::int8_t exponent_of(double rate)
+{
+    constexpr double root = 1.4142135623730951;
+    constexpr std::array borders{0.25 * root, 0.5 * root, root, 2.0 * root};
+    int exponent = SampleRates::least_exponent;
+    for (const double border : borders) {
+        exponent += rate >= border ? 1 : 0;
+    }
+    return static_cast<std::int8_t>(exponent);
+}
+
+/// Sum of the rates, if they are `scale` times what was wanted [quarters].
+std::int64_t quarters(const Plane& wanted, double scale)
+{
+    std::int64_t sum = 0;
+    for (const double rate : wanted) {
+        sum += std::int64_t{1} << (exponent_of(scale * rate) - SampleRates::least_exponent);
+    }
+    return sum;
+}
+
+/// Scales for which the mean is not above 1, and above it, as close as they get.
+std::pair<double, double> borders_of_scale(const Plane& wanted)
+{
+    constexpr double widest = 0x1p40;
+    constexpr int halvings = 60;
+    const auto most = static_cast<std::int64_t>(wanted.size()) << -SampleRates::least_exponent;
+    const double mean = mean_of(wanted);
+    double low = 1.0 / (widest * mean);
+    double high = widest / mean;
+    for (int i = 0; i < halvings; ++i) {
+        const double middle = std::sqrt(low * high);
+        (quarters(wanted, middle) <= most ? low : high) = middle;
+    }
+    return {low, high};
+}
+
+/// As good as random, and evenly spread, in [0, 1).
+double spread(std::size_t pixel)
+{
+    constexpr std::uint64_t golden_ratio = 0x9e3779b97f4a7c15U;
+    return static_cast<double>((pixel * golden_ratio) >> 11U) * 0x1p-53;
+}
+
+}  // namespace
+
+SampleRates rates_for(const RateEvidence& evidence)
+{
+    const Plane wanted = wanted_rates(evidence);
+    std::vector<std::int8_t> exponents(wanted.size(), 0);
+    if (!(mean_of(wanted) > 0.0)) {
+        return {evidence.width, evidence.height, std::move(exponents)};
+    }
+    const auto [low, high] = borders_of_scale(wanted);
+    const std::int64_t left =
+        (static_cast<std::int64_t>(wanted.size()) << -SampleRates::least_exponent) -
+        quarters(wanted, low);
+    const std::int64_t between = quarters(wanted, high) - quarters(wanted, low);
+    // Of pixels that want the same, only some can have more.
+    const double share =
+        between > 0 ? static_cast<double>(left) / static_cast<double>(between) : 0.0;
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        exponents[i] = exponent_of((spread(i) < share ? high : low) * wanted[i]);
+    }
+    return {evidence.width, evidence.height, std::move(exponents)};
+}
+
+}  // namespace bdpt

@@ -1,0 +1,124 @@
+#include "render/pass.h"
+
+#include "film/pixel_filter.h"
+#include "geometry/flush_denormals.h"
+#include "integrator/sample_schedule.h"
+#include "render/open_camera.h"
+
+#include <bdpt/integrators.h>
+
+#include <tbb/blocked_range2d.h>
+#include <tbb/combinable.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <optional>
+
+namespace bdpt {
+namespace {
+
+void count_samples(const SampleSchedule& schedule, const Tile& tile, SampleRange samples,
+                   AovFilm& film)
+{
+    for (int y = tile.y_begin; y < tile.y_end; ++y) {
+        for (int x = tile.x_begin; x < tile.x_end; ++x) {
+            if (film.region().contains(x, y)) {
+                film.count_samples(x, y, schedule.count(x, y, samples));
+            }
+        }
+    }
+}
+
+/// The samples of the tile, in all films.
+RenderStats render_tile(const Work& work, const RenderOptions& options, const Tile& tile,
+                        SampleRange samples, const Films& films, AovFilm& aovs)
+{
+    RenderStats stats = work.integrator.render_tile(tile, samples, films);
+    if (work.on_tile) {
+        work.on_tile(tile, stats);
+    }
+    if (aovs.needs_hits()) {
+        stats += work.aov_pass.render_tile(tile, samples, aovs);
+    }
+    if (aovs.needs_counts()) {
+        count_samples(SampleSchedule(options), tile, samples, aovs);
+    }
+    return stats;
+}
+
+/// What the integrator does for all tiles before them.
+void render_parts(const Work& work, SampleRange samples, RenderPart& result,
+                  tbb::combinable<RenderStats>& stats_of_threads)
+{
+    tbb::parallel_for(std::int64_t{0}, work.integrator.begin_pass(samples), [&](std::int64_t part) {
+        const FlushDenormals flush;
+        stats_of_threads.local() += work.integrator.do_part(
+            part, samples,
+            {.film = &result.film, .strategies = result.strategies, .on_path = work.on_path});
+    });
+    work.integrator.end_parts();
+}
+
+void render_at_once(const Work& work, const RenderOptions& options, SampleRange samples,
+                    RenderPart& result)
+{
+    // Each pixel of the whole image has its light path, and any of them can reach a crop.
+    const PixelRect area =
+        info(options.integrator).traces_light_paths ? whole_image(options) : result.film.region();
+    const int side = options.system.tile_size;
+    const int columns = (area.width() + side - 1) / side;
+    const int rows = (area.height() + side - 1) / side;
+    tbb::combinable<RenderStats> stats_of_threads;
+    render_parts(work, samples, result, stats_of_threads);
+    tbb::parallel_for(
+        tbb::blocked_range2d<int>(0, rows, 1, 0, columns, 1),
+        [&](const tbb::blocked_range2d<int>& range) {
+            const FlushDenormals flush;
+            auto times = work.times != nullptr ? std::optional(work.times->sheet()) : std::nullopt;
+            const Films films{.film = &result.film,
+                              .strategies = result.strategies,
+                              .on_path = work.on_path,
+                              .times = times ? &*times : nullptr};
+            for (int row = range.rows().begin(); row < range.rows().end(); ++row) {
+                for (int column = range.cols().begin(); column < range.cols().end(); ++column) {
+                    const int x = area.x0 + column * side;
+                    const int y = area.y0 + row * side;
+                    const Tile tile{.x_begin = x,
+                                    .x_end = std::min(x + side, area.x1),
+                                    .y_begin = y,
+                                    .y_end = std::min(y + side, area.y1)};
+                    stats_of_threads.local() +=
+                        render_tile(work, options, tile, samples, films, result.aovs);
+                }
+            }
+        },
+        tbb::simple_partitioner{});
+    stats_of_threads.combine_each([&](const RenderStats& stats) { result.stats += stats; });
+}
+
+}  // namespace
+
+void render_pass(const Work& work, const RenderOptions& options, SampleRange samples,
+                 RenderPart& result)
+{
+    const std::int64_t most = work.integrator.most_samples_in_pass();
+    for (SampleRange some = samples; some.begin < samples.end; some.begin = some.end) {
+        some.end = samples.end - some.begin > most ? some.begin + most : samples.end;
+        render_at_once(work, options, some, result);
+    }
+    result.film.count_samples(samples.begin, samples.end);
+    result.strategies.count_samples(samples.end - samples.begin);
+    result.samples.add(samples);
+}
+
+FilmLayout film_layout(const RenderOptions& options)
+{
+    return {.width = options.film.width,
+            .height = options.film.height,
+            .region = options.film.crop.value_or(whole_image(options)),
+            .splats = info(options.integrator).traces_light_paths ? SplatImage::present
+                                                                  : SplatImage::absent,
+            .clamp = options.film.clamp};
+}
+
+}  // namespace bdpt

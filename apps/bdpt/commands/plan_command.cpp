@@ -3,9 +3,11 @@
 #include <bdpt/error.h>
 #include <bdpt/eval/bench/option_names.h>
 #include <bdpt/integrators.h>
+#include <bdpt/io/rates_file.h>
 #include <bdpt/isa.h>
 #include <bdpt/part/identity.h>
 #include <bdpt/render.h>
+#include <bdpt/sample_rates.h>
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
@@ -77,18 +79,29 @@ FirstImage first_image(const RenderArguments& asked, const SequenceView& view,
 }
 
 /// The identity that tasks will find for the first image, by what their words say.
-Identity identity_of_tasks(const Plan& plan, const fs::path& file, const PreparedScene& stage,
-                           Console& console)
+Identity identity_of_tasks(Plan plan, const fs::path& file, const PreparedScene& stage,
+                           const RenderOptions& chosen, Console& console)
 {
     CLI::App command;
     RenderWords words;
     add_render_options(command, words);
+    plan.rates.reset();  // their file is not there yet
     std::vector<std::string> shared = shared_words(plan, file);
     shared.push_back("--part=" + plan.tasks.front().part.string());
     std::reverse(shared.begin(), shared.end());  // the parser takes words from the end
     command.parse(std::move(shared));
     const RenderArguments asked = understand(words);
-    return first_image(asked, views_of(asked, cameras_of(plan)).front(), stage, console).identity;
+    const SequenceView view = views_of(asked, cameras_of(plan)).front();
+    RenderArguments arguments = with_choice(arguments_of(asked, view), stage, console);
+    arguments.options.sampling.rates = chosen.sampling.rates;
+    arguments.options.sampling.samples = chosen.sampling.samples;
+    return identity(stage.scene, stage.camera, arguments.options);
+}
+
+/// That ranges of samples are multiples of.
+std::int64_t least_samples_of_task(const RenderOptions& options)
+{
+    return options.sampling.rates ? SampleRates::group : 1;
 }
 
 /// Number of tasks that take about as long as they may.
@@ -110,7 +123,8 @@ std::int64_t measured_tasks(const PlanArguments& arguments, RenderOptions option
         fmt::format("a sample of all pixels takes {:.3g} s here, and a task {:.1f} s to "
                     "start",
                     seconds, start));
-    return tasks_of_time(images, samples, arguments.minutes * minute, seconds, start);
+    return tasks_of_time(images, samples, arguments.minutes * minute, seconds, start,
+                         least_samples_of_task(options));
 }
 
 /// Number of tasks. Throws `OptionError` for more than there is to be rendered.
@@ -121,11 +135,14 @@ std::int64_t number_of_tasks(const PlanArguments& arguments, const RenderOptions
         return measured_tasks(arguments, options, images, stage, console);
     }
     const SampleRange samples = options.sampling.samples;
-    const std::int64_t most = static_cast<std::int64_t>(images) * (samples.end - samples.begin);
-    if (*arguments.parts > most) {
+    const std::int64_t all = static_cast<std::int64_t>(images) * (samples.end - samples.begin);
+    const std::int64_t least = least_samples_of_task(options);
+    if (*arguments.parts > all / least) {
         reject("--parts", fmt::format("{}", *arguments.parts),
-               fmt::format("at most one for each of the {} samples{}", most,
-                           images > 1 ? fmt::format(" of {} images", images) : ""));
+               fmt::format("at most one for each {}of the {} samples{}{}",
+                           least > 1 ? fmt::format("{} ", least) : "", all,
+                           images > 1 ? fmt::format(" of {} images", images) : "",
+                           least > 1 ? ", with rates" : ""));
     }
     return *arguments.parts;
 }
@@ -174,6 +191,9 @@ Plan plan_of(const PlanArguments& arguments, const fs::path& folder, const Rende
         plan.strategies = planned_path(asked.strategies->layers, folder);
         plan.render_options.push_back(
             fmt::format("--strategy-depth={}", chosen.bidirectional.strategy_depth));
+    }
+    if (chosen.sampling.rates) {
+        plan.rates = "rates.exr";
     }
     std::erase_if(plan.render_options, [](const std::string& word) {
         return word.starts_with("--isa=") || word == "--integrator=auto";
@@ -242,7 +262,8 @@ void report_plan(Console& console, const PlanArguments& arguments, const Plan& p
 void identify(Plan& plan, const fs::path& file, const FirstImage& first,
               const RenderArguments& asked, const PreparedScene& stage, Console& console)
 {
-    const Identity of_tasks = identity_of_tasks(plan, file, stage, console);
+    const Identity of_tasks =
+        identity_of_tasks(plan, file, stage, first.arguments.options, console);
     if (const auto what = difference(first.identity, of_tasks)) {
         throw Error(ErrorCode::internal,
                     fmt::format("{}: the words of the plan give another render: {}",
@@ -280,13 +301,17 @@ int run_plan(const PlanArguments& arguments)
         plan.images.push_back(image_of(asked, view));
     }
     plan.tasks = split_plan(plan, options.sampling.samples,
-                            number_of_tasks(arguments, options, views.size(), stage, console));
+                            number_of_tasks(arguments, options, views.size(), stage, console),
+                            least_samples_of_task(options));
     identify(plan, folder / "plan.json", first, asked, stage, console);
     const std::vector<EngineFile> files = engine_files(arguments.engine, plan, folder);
     for (const EngineFile& file : files) {
         plan.engine_files.emplace_back(file.name);
     }
-    write_plan(arguments.folder, plan, files, arguments.existing);
+    write_plan(
+        arguments.folder, plan, files,
+        [&](const fs::path& file) { io::write_rates(file, *options.sampling.rates, {}); },
+        arguments.existing);
     report_plan(console, arguments, plan);
     return 0;
 }

@@ -21,6 +21,7 @@
 #include "report/film_report.h"
 #include "report/image_files.h"
 #include "report/part/part_command.h"
+#include "report/rates_report.h"
 #include "report/render_files.h"
 #include "report/render_settings.h"
 #include "report/stats_file.h"
@@ -263,6 +264,9 @@ void render_view(const RenderArguments& asked, const PreparedScene& stage,
         console.warning(*warning);
     }
     const io::ImageMetadata metadata = metadata_of(arguments, stage, settings);
+    if (arguments.rates && arguments.rates->saved) {
+        save_rates(*arguments.rates->saved, *arguments.options.sampling.rates, metadata);
+    }
     PartResult done = render_stage(arguments, stage, part_notes(arguments, metadata, session.words),
                                    session, keeper);
     const std::exception_ptr part_failure = finish_part(keeper, done.part);

@@ -1,5 +1,6 @@
 #include "options/plan_arguments.h"
 
+#include <bdpt/sample_rates.h>
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -24,7 +25,8 @@ constexpr const char* footer = R"(Examples:
 The folder of -d gets plan.json and the files of the engine that starts the tasks; their first lines
 say how. A task is bdpt render --plan job/plan.json --task 3, and bdpt merge --plan job/plan.json
 makes the images. What --integrator auto chooses and the instruction set of this machine are part of
-the plan, and each task makes sure that it finds the scene that was planned. Paths that are given as
+the plan, and so is what --adaptive finds out (rates.exr); each task makes sure that it finds the
+scene that was planned. Paths that are given as
 relative ones are kept relative to the plan, for machines that have the same folders elsewhere.
 
 Exit codes: 0 done, 1 internal error, 2 wrong usage, 3 input not found, 4 invalid input,
@@ -76,7 +78,8 @@ std::vector<std::string> render_options(const CLI::App& command)
             words.push_back(word);
         }
     }
-    return without(std::move(words), {"--env", "--spp", "--samples", "--threads"});
+    return without(std::move(words),
+                   {"--env", "--rates", "--adaptive", "--spp", "--samples", "--threads"});
 }
 
 bool names_no_file(const std::optional<std::string>& environment)
@@ -88,6 +91,10 @@ void check_parts(const PlanWords& words)
 {
     if (words.parts.has_value() == words.minutes.has_value()) {
         throw OptionError("--parts: expected either it or --minutes");
+    }
+    if (render.rates && render.sequence) {
+        throw OptionError(
+            "--adaptive: a plan of several images has no rates: each would need its own");
     }
     // AWS Batch has no arrays of one task, and none of more than 10,000.
     constexpr std::int64_t longest_array = 10'000;

@@ -1,5 +1,6 @@
 #include "options/render_arguments.h"
 
+#include <bdpt/sample_rates.h>
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
@@ -22,6 +23,7 @@ constexpr const char* footer = R"(Examples:
   bdpt render chair.glb -o out.png --background transparent --tone-map pbr-neutral
   bdpt render walk.glb -o out.png --animation run --frame-time 0.25
   bdpt render hall.glb -o out.exr --spp 4096 --part out.part.exr
+  bdpt render lamp.glb -o lamp.exr --spp 1024 --adaptive
   bdpt render walk.glb -o walk.####.exr --frames 1:48 --fps 24
   bdpt render model.glb -o out.png --env sky.hdr --from 3,2,4 --look-at 0,1,0 --fov 40
 
@@ -74,9 +76,20 @@ Goal to_goal(const RenderWords& words)
 SampleRange to_samples(const RenderWords& words, const Goal& goal)
 {
     // With --time alone, more samples than anyone has time for.
-    constexpr std::int64_t no_limit = std::int64_t{1} << 31;
-    return sample_range(words.part)
-        .value_or(SampleRange{.begin = 0, .end = goal.samples.value_or(no_limit)});
+    constexpr std::int64_t no_limit = std::int64_t{1} << 30;
+    const SampleRange samples =
+        sample_range(words.part)
+            .value_or(SampleRange{.begin = 0, .end = goal.samples.value_or(no_limit)});
+    const bool adaptive = words.rates.adaptive || words.rates.file;
+    if (adaptive &&
+        (samples.begin % SampleRates::group != 0 || samples.end % SampleRates::group != 0)) {
+        const char* expected = "multiples of 8 with --adaptive and --rates";
+        if (words.part.samples) {
+            reject("--samples", *words.part.samples, expected);
+        }
+        reject("--spp", fmt::format("{}", samples.end), expected);
+    }
+    return samples;
 }
 
 std::optional<Vec3> to_point(const char* option, const std::optional<std::string>& word)
@@ -142,6 +155,7 @@ void add_how(CLI::App& command, RenderWords& words)
         ->check(CLI::IsMember({"sobol", "independent"}))
         ->type_name("sobol|independent")
         ->group(group);
+    add_rates_options(command, words.rates, group);
     add_seed_and_threads(command, words, group);
     command
         .add_option(
@@ -209,6 +223,7 @@ void add_process_options(CLI::App& command, RenderWords& words)
                   "Profile the render by phase and pixel: printed, in --stats, and as .exr layer "
                   "time.Y (microseconds per sample). Does not change the image")
         ->group(group);
+    add_save_rates_option(command, words.rates, group);
     add_strategy_options(command, words.strategies);
     add_part_options(command, words.part, group);
     command
@@ -323,6 +338,7 @@ RenderArguments understand(const RenderWords& words)
     result.options.system.threads = words.threads;
     result.isa = to_isa(words.isa);
     result.options.sampling.seed = to_seed(words.seed);
+    result.rates = rates_choice(words.rates);
     result.options = with_transport(words.transport, result.options);
     result.options = with_film(words.film, result.options);
     if (!result.options.film.aovs.empty() && !writes_exr(result.outputs) && !result.part) {

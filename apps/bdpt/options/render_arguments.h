@@ -18,6 +18,7 @@
 #include "options/groups/environment_arguments.h"
 #include "options/groups/film_arguments.h"
 #include "options/groups/lens_arguments.h"
+#include "options/groups/rates_arguments.h"
 #include "options/groups/scene_arguments.h"
 #include "options/groups/sequence_arguments.h"
 #include "options/groups/strategy_arguments.h"
@@ -42,6 +43,7 @@ struct RenderWords {
     std::optional<std::string> noise;
     std::optional<std::string> size;
     TransportWords transport;
+    RatesWords rates;
     std::string sampler = "sobol";
     std::optional<std::string> camera;
     std::optional<std::string> look_at;
@@ -96,6 +98,7 @@ struct RenderArguments {
     std::optional<StrategyFiles> strategies;      ///< where images of strategies go
     std::optional<PartChoice> part;               ///< what the render goes on with
     SampleRange samples;                          ///< of each pixel
+    std::optional<RatesChoice> rates;             ///< if pixels take different numbers of them
     std::optional<Sequence> sequence;             ///< if there are several images
     std::optional<SequenceView> sequence_view{};  ///< which of them this is
     std::optional<DisplayAddress> viewer;         ///< of the viewer that shows the render

@@ -131,6 +131,9 @@ Plan read(const ordered_json& json)
     if (!json.at("environment").is_null()) {
         plan.environment = json.at("environment").get<std::string>();
     }
+    if (json.contains("rates")) {
+        plan.rates = json.at("rates").get<std::string>();
+    }
     plan.render_options = json.at("render").get<std::vector<std::string>>();
     plan.merge_options = json.at("merge").get<std::vector<std::string>>();
     plan.outputs = read_paths(json.at("outputs"));
@@ -308,6 +311,9 @@ std::string to_text(const Plan& plan)
     }
     if (plan.strategies) {
         json["strategies"] = plan.strategies->string();
+    }
+    if (plan.rates) {
+        json["rates"] = plan.rates->string();
     }
     for (const PlanImage& image : plan.images) {
         json["images"].push_back(to_json(image));

@@ -50,6 +50,9 @@ void remove_plan(const fs::path& file)
     for (const fs::path& part : parts_of(*plan)) {
         fs::remove(resolved(part, file), ignored);
     }
+    if (plan->rates) {
+        fs::remove(resolved(*plan->rates, file), ignored);
+    }
     for (const fs::path& engine_file : plan->engine_files) {
         fs::remove(resolved(engine_file, file), ignored);
     }
@@ -71,7 +74,7 @@ void check_plan_folder(const fs::path& folder)
 }
 
 void write_plan(const fs::path& folder, const Plan& plan, const std::vector<EngineFile>& files,
-                ExistingPlan existing)
+                const std::function<void(const fs::path&)>& write_rates, ExistingPlan existing)
 {
     const fs::path file = folder / plan_name;
     std::error_code failure;
@@ -92,6 +95,9 @@ void write_plan(const fs::path& folder, const Plan& plan, const std::vector<Engi
     }
     for (const EngineFile& engine_file : files) {
         write_file(folder / engine_file.name, engine_file.text, engine_file.kind);
+    }
+    if (plan.rates) {
+        write_rates(folder / *plan.rates);
     }
     write_file(file, to_text(plan), FileKind::text);
 }

@@ -20,7 +20,8 @@ std::string part_name(const Plan& plan, std::size_t task, std::int64_t count)
 
 }  // namespace
 
-std::vector<PlanTask> split_plan(const Plan& plan, SampleRange samples, std::int64_t count)
+std::vector<PlanTask> split_plan(const Plan& plan, SampleRange samples, std::int64_t count,
+                                 std::int64_t least)
 {
     std::vector<PlanTask> tasks;
     const auto images = static_cast<std::int64_t>(plan.images.size());
@@ -35,7 +36,7 @@ std::vector<PlanTask> split_plan(const Plan& plan, SampleRange samples, std::int
     }
     for (std::int64_t image = 0; image < images && count > images; ++image) {
         const std::int64_t ranges = count / images + (image < count % images ? 1 : 0);
-        for (const SampleRange& range : split_samples(samples, ranges)) {
+        for (const SampleRange& range : split_samples(samples, ranges, least)) {
             add(image, image + 1, range);
         }
     }
@@ -43,11 +44,11 @@ std::vector<PlanTask> split_plan(const Plan& plan, SampleRange samples, std::int
 }
 
 std::int64_t tasks_of_time(std::size_t images, SampleRange samples, double seconds,
-                           double seconds_per_sample, double seconds_to_start)
+                           double seconds_per_sample, double seconds_to_start, std::int64_t least)
 {
     const auto count = static_cast<std::int64_t>(images);
     const std::int64_t parts =
-        parts_of_time(samples, seconds, seconds_per_sample, seconds_to_start);
+        parts_of_time(samples, seconds, seconds_per_sample, seconds_to_start, least);
     if (parts > 1 || count == 1) {
         return parts * count;
     }

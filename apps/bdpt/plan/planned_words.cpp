@@ -153,6 +153,9 @@ std::vector<std::string> shared_words(const Plan& plan, const fs::path& file)
     if (plan.environment) {
         result.push_back("--env=" + resolved(*plan.environment, file).string());
     }
+    if (plan.rates) {
+        result.push_back("--rates=" + resolved(*plan.rates, file).string());
+    }
     return result;
 }
 

@@ -17,11 +17,11 @@ std::int64_t divided_up(std::int64_t a, std::int64_t b)
 
 }  // namespace
 
-std::vector<SampleRange> split_samples(SampleRange samples, std::int64_t parts)
+std::vector<SampleRange> split_samples(SampleRange samples, std::int64_t parts, std::int64_t least)
 {
     std::int64_t unit = best_unit;
     const auto blocks = [&] { return divided_up(samples.end, unit) - samples.begin / unit; };
-    while (blocks() < parts) {
+    while (blocks() < parts && unit > least) {
         unit /= 2;
     }
     const std::int64_t first = samples.begin / unit;
@@ -36,11 +36,12 @@ std::vector<SampleRange> split_samples(SampleRange samples, std::int64_t parts)
 }
 
 std::int64_t parts_of_time(SampleRange samples, double seconds, double seconds_per_sample,
-                           double seconds_to_start)
+                           double seconds_to_start, std::int64_t least)
 {
     const std::int64_t total = samples.end - samples.begin;
     const double fitting = std::floor((seconds - seconds_to_start) / seconds_per_sample);
     auto count = static_cast<std::int64_t>(std::clamp(fitting, 1.0, static_cast<double>(total)));
+    count = std::clamp(count, std::min(least, total), total);
     if (count < total) {
         count = count >= best_unit
                     ? count / best_unit * best_unit

@@ -26,13 +26,22 @@ std::vector<std::filesystem::path> check_files(const RenderArguments& arguments)
     if (arguments.environment) {
         taken.emplace_back(*arguments.environment);
     }
-    check_outputs(arguments.outputs, taken);
+    if (arguments.rates && arguments.rates->file) {
+        taken.push_back(*arguments.rates->file);
+    }
+    const std::vector<std::filesystem::path> inputs = taken;
+    check_outputs(arguments.outputs, inputs);
     taken.insert(taken.end(), arguments.outputs.begin(), arguments.outputs.end());
     std::vector<std::filesystem::path> written = all_image_files(arguments);
     if (arguments.strategies) {
         check_strategy_files(*arguments.strategies, taken);
         const auto more = arguments.strategies->both();
         taken.insert(taken.end(), more.begin(), more.end());
+    }
+    if (arguments.rates && arguments.rates->saved) {
+        written.push_back(*arguments.rates->saved);
+        check_outputs(written, inputs);
+        taken.push_back(*arguments.rates->saved);
     }
     if (arguments.part) {
         check_part_file(arguments.part->file, taken);

@@ -1,6 +1,7 @@
 #include "report/render_settings.h"
 
 #include <bdpt/eval/bench/option_names.h>
+#include <bdpt/sample_rates.h>
 #include <bdpt/version.h>
 
 #include <chrono>
@@ -41,6 +42,16 @@ ordered_json view_json(const CameraDesc& camera)
     return view;
 }
 
+ordered_json rates_json(const RenderArguments& arguments)
+{
+    const SampleRates& rates = *arguments.options.sampling.rates;
+    ordered_json json{
+        {"least", rates.least()}, {"mean", rates.mean()}, {"greatest", rates.greatest()}};
+    const bool pilot = arguments.rates && !arguments.rates->file;
+    json["pilot_samples"] = pilot ? rate_pilot_samples : 0;
+    return json;
+}
+
 }  // namespace
 
 ordered_json settings_of(const RenderArguments& arguments, const PreparedScene& stage)
@@ -50,6 +61,9 @@ ordered_json settings_of(const RenderArguments& arguments, const PreparedScene& 
     settings.update(transport_json(options));
     settings["sampler"] = name_of(options.sampling.sampler);
     settings["seed"] = options.sampling.seed;
+    if (options.sampling.rates) {
+        settings["rates"] = rates_json(arguments);
+    }
     settings["isa"] = isa_name(stage.scene.isa());
     settings.update(view_json(stage.camera));
     settings["environment"] = stage.environment_name;

@@ -34,6 +34,7 @@ double dark_share(const PreparedScene& stage, RenderOptions options,
     options.film.crop.reset();
     options.film.aovs = AovSet{Aov::alpha};
     options.sampling.samples = {0, samples};
+    options.sampling.rates.reset();
     options.bidirectional.disabled.clear();
     options.bidirectional.strategy_depth = 0;
     const RenderResult result = render(stage.scene, stage.camera, options);

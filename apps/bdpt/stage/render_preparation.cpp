@@ -1,12 +1,16 @@
 #include "stage/render_preparation.h"
 
 #include <bdpt/error.h>
+#include <bdpt/io/rates_file.h>
 #include <bdpt/render.h>
+#include <bdpt/sample_rates.h>
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -82,6 +86,31 @@ RenderOptions options_for(const RenderArguments& arguments, const PreparedScene&
     return options;
 }
 
+std::shared_ptr<const SampleRates> rates_of(const RenderArguments& arguments,
+                                            const PreparedScene& stage, Console& console)
+{
+    if (!arguments.rates->file) {
+        const auto start = std::chrono::steady_clock::now();
+        auto rates = std::make_shared<const SampleRates>(
+            sample_rates(stage.scene, stage.camera, arguments.options));
+        const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
+        console.note(fmt::format(
+            "adaptive: {} to {} samples per pixel and round, {:.3f} in the mean, by a test render "
+            "of {} samples in {:.1f} s",
+            rates->least(), rates->greatest(), rates->mean(), rate_pilot_samples, passed.count()));
+        return rates;
+    }
+    const std::filesystem::path& file = *arguments.rates->file;
+    auto rates = std::make_shared<const SampleRates>(io::read_rates(file));
+    if (rates->width() != stage.size.width || rates->height() != stage.size.height) {
+        throw Error(
+            ErrorCode::invalid_input,
+            fmt::format("{}: rates of {}x{} pixels, but the image has {}x{}", file.string(),
+                        rates->width(), rates->height(), stage.size.width, stage.size.height));
+    }
+    return rates;
+}
+
 }  // namespace
 
 std::uint64_t image_cache_bytes(const RenderArguments& arguments)
@@ -120,6 +149,9 @@ RenderArguments with_choice(RenderArguments arguments, const PreparedScene& stag
 {
     arguments.options =
         chosen_options(stage.scene, stage.camera, options_for(arguments, stage, console));
+    if (arguments.rates && !arguments.options.sampling.rates) {
+        arguments.options.sampling.rates = rates_of(arguments, stage, console);
+    }
     return arguments;
 }
 

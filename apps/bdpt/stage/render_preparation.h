@@ -19,7 +19,8 @@ namespace bdpt::app {
                                                   Console& console);
 
 /// `arguments` with all their options: size, samples and limits of memory filled in, and what is
-/// left open chosen by a pilot. Throws `Error`.
+/// left open chosen by a pilot; and with rates of samples, unless they have them already, from a
+/// file or another pilot. Throws `Error`.
 [[nodiscard]] RenderArguments with_choice(RenderArguments arguments, const PreparedScene& stage,
                                           Console& console);
 

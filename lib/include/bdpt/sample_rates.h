@@ -59,7 +59,7 @@ private:
 };
 
 /// Samples a pixel that `sample_rates` renders for itself.
-inline constexpr std::int64_t rate_pilot_samples = 16;
+inline constexpr std::int64_t rate_pilot_samples = 8;
 
 /// Rates that suit the image: more where camera samples vary much for the brightness of the place,
 /// fewer where they do not. Their mean is 1 or a little less. A pilot of `rate_pilot_samples`

@@ -137,11 +137,11 @@ std::pair<double, double> borders_of_scale(const Plane& wanted)
     return {low, high};
 }
 
-/// As good as random, and evenly spread, in [0, 1).
-double spread(std::size_t pixel)
+/// Different for all pixels; those with the least ones are evenly spread.
+std::uint64_t spread(std::size_t pixel)
 {
     constexpr std::uint64_t golden_ratio = 0x9e3779b97f4a7c15U;
-    return static_cast<double>((pixel * golden_ratio) >> 11U) * 0x1p-53;
+    return pixel * golden_ratio;
 }
 
 }  // namespace
@@ -154,15 +154,25 @@ SampleRates rates_for(const RateEvidence& evidence)
         return {evidence.width, evidence.height, std::move(exponents)};
     }
     const auto [low, high] = borders_of_scale(wanted);
-    const std::int64_t left =
-        (static_cast<std::int64_t>(wanted.size()) << -SampleRates::least_exponent) -
-        quarters(wanted, low);
-    const std::int64_t between = quarters(wanted, high) - quarters(wanted, low);
-    // Of pixels that want the same, only some can have more.
-    const double share =
-        between > 0 ? static_cast<double>(left) / static_cast<double>(between) : 0.0;
+    std::vector<std::size_t> ties;
     for (std::size_t i = 0; i < wanted.size(); ++i) {
-        exponents[i] = exponent_of((spread(i) < share ? high : low) * wanted[i]);
+        exponents[i] = exponent_of(low * wanted[i]);
+        if (exponents[i] != exponent_of(high * wanted[i])) {
+            ties.push_back(i);
+        }
+    }
+    // Of pixels that want the same, only some can have more: spread over the image.
+    std::sort(ties.begin(), ties.end(),
+              [](std::size_t a, std::size_t b) { return spread(a) < spread(b); });
+    std::int64_t left = (static_cast<std::int64_t>(wanted.size()) << -SampleRates::least_exponent) -
+                        quarters(wanted, low);
+    for (const std::size_t i : ties) {
+        const std::int64_t more = std::int64_t{1} << (exponents[i] - SampleRates::least_exponent);
+        if (more > left) {
+            break;
+        }
+        left -= more;
+        ++exponents[i];
     }
     return {evidence.width, evidence.height, std::move(exponents)};
 }

@@ -31,6 +31,9 @@ std::vector<fs::path> files_of(const RenderArguments& arguments)
     if (arguments.stats) {
         files.push_back(*arguments.stats);
     }
+    if (arguments.rates && arguments.rates->saved) {
+        files.push_back(*arguments.rates->saved);
+    }
     return files;
 }
 
@@ -164,6 +167,12 @@ RenderArguments arguments_of(const RenderArguments& arguments, const SequenceVie
     }
     if (result.stats) {
         result.stats = file_of(*result.stats);
+    }
+    if (result.rates && result.rates->file) {
+        result.rates->file = file_of(*result.rates->file);
+    }
+    if (result.rates && result.rates->saved) {
+        result.rates->saved = file_of(*result.rates->saved);
     }
     if (view.time) {
         result.scene.time = view.time;

@@ -12,10 +12,10 @@
 namespace bdpt::app {
 namespace {
 
-constexpr std::array<std::string_view, 16> with_value{
-    "-o",      "--output",  "--spp",        "--samples",       "--time",       "--part",
-    "--plan",  "--task",    "--stats",      "--threads",       "--max-memory", "--cameras",
-    "--noise", "--display", "--strategies", "--strategy-depth"};
+constexpr std::array<std::string_view, 17> with_value{
+    "-o",      "--output",  "--spp",        "--samples",        "--time",       "--part",
+    "--plan",  "--task",    "--stats",      "--threads",        "--max-memory", "--cameras",
+    "--noise", "--display", "--strategies", "--strategy-depth", "--save-rates"};
 constexpr std::array<std::string_view, 5> flags{"--restart", "-q", "--quiet", "--json",
                                                 "--profile"};
 

@@ -67,9 +67,9 @@ TEST_CASE("files that hold no rates are refused by pixel and value", "[rates]")
     const ScratchFolder folder;
     const auto file = folder / "rates.exr";
     CHECK(refusal(file, ErrorCode::not_found).find(file.string()) == 0);
-    for (const float wrong : {0.0f, 0.125f, 3.0f, 8.0f, -1.0f,
-                              std::numeric_limits<float>::quiet_NaN(),
-                              std::numeric_limits<float>::infinity()}) {
+    for (const float wrong :
+         {0.0f, 0.125f, 3.0f, 8.0f, -1.0f, std::numeric_limits<float>::quiet_NaN(),
+          std::numeric_limits<float>::infinity()}) {
         write_pixel(file, Rgb(wrong));
         CHECK(refusal(file, ErrorCode::invalid_input).find("pixel (1, 1) is ") !=
               std::string::npos);
@@ -82,7 +82,8 @@ TEST_CASE("files that hold no rates are refused by pixel and value", "[rates]")
     const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
     for (const std::size_t kept : {std::size_t{0}, std::size_t{100}, bytes.size() - 20}) {
         std::ofstream(file, std::ios::binary) << bytes.substr(0, kept);
-        CHECK_FALSE(refusal(file, kept == 0 ? ErrorCode::unsupported : ErrorCode::invalid_input).empty());
+        CHECK_FALSE(
+            refusal(file, kept == 0 ? ErrorCode::unsupported : ErrorCode::invalid_input).empty());
     }
 }
 

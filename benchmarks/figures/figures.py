@@ -20,6 +20,7 @@ class Cell:
     rounds: int = 1  # how many maxima, each of images of spp / rounds samples
     profiled: bool = False  # tell where the time goes; the image has a layer time.Y
     layer: str = None  # shown in false colours, on one scale for the sheet, in place of the image
+    layer_scale: float = 1.5  # the last colour, over the layer's mean
     without_bvh: bool = False  # tell the rays per second with and without a BVH
     metric: str = "relmse"  # whose error is told, of `bdpt compare`
 
@@ -48,6 +49,19 @@ def depth(edges):
 
 def by(integrator):
     return ("--integrator", integrator)
+
+
+def adaptive():
+    """The time is that of the render proper; the test render before it takes as long as 8 samples per pixel."""
+    cells = []
+    for scene, options in (("veach-plates.gltf", by("mis")), ("nine-spheres-dof.gltf", by("mis") + depth(5))):
+        reference = options[2:]
+        more = (*options, "--adaptive", "--aov", "samples")
+        cells += [Cell("uniform", scene, options, seconds=8.0, reference=reference),
+                  Cell("adaptive", scene, more, seconds=8.0, reference=reference),
+                  Cell("samples taken", scene, more, seconds=8.0, reference=reference, layer="sampleCount.Y",
+                       layer_scale=4.0)]
+    return tuple(cells)
 
 
 def lengths_grid(splats):
@@ -188,6 +202,7 @@ FIGURES = {
         Cell("bdpt, 16 spp", "cornell-spheres-hidden.gltf", depth(6), 16, reference=depth(6)),
         Cell("bdpt, 50 s", "cornell-spheres-hidden.gltf", depth(6), seconds=50.0, reference=depth(6)))),
     "denoise": Figure("Denoised by Open Image Denoise, at equal time", 5, denoised()),
+    "adaptive": Figure("Uniform and adaptive samples at equal time, and samples per pixel", 3, adaptive()),
     "profile": Figure("Where the time of a sample goes, by phase and by pixel", 5, profile()),
     "bvh": Figure("Rays per second with and without a BVH", 3, tuple(
         Cell(f"{triangles:,} triangles", f"ball-{triangles}.glb", depth(5), 64, reference=depth(5), without_bvh=True)

@@ -200,7 +200,7 @@ def make(name, renderer, scale_name, folder):
         if cell.without_bvh:
             row.update(renderer.throughput(cell.scene))
         if cell.layer:
-            brightest = max(brightest, 1.5 * sheet.mean(image, cell.layer)[0])
+            brightest = max(brightest, cell.layer_scale * sheet.mean(image, cell.layer)[0])
         reference = renderer.reference(cell, figure.reference_spp, references)
         if reference:
             file, report = reference

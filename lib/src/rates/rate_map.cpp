@@ -16,8 +16,10 @@ namespace {
 constexpr int mean_radius = 3;      // 7 x 7 pixels
 constexpr int greatest_radius = 1;  // 3 x 3 pixels
 constexpr double dark = 0.01;       // of the image's mean luminance, as in noise_of()
-/// Of the mean rate: what the pilot found without noise need not be that.
-constexpr double least_of_mean = 0.02;
+/// Of the mean error: what each pixel has beside what the pilot has seen there. Rare bright paths
+/// are where it has not found them, too; and where they are most of the error, this makes rates
+/// even.
+constexpr double unseen_share = 0.25;
 
 using Plane = std::vector<double>;
 
@@ -89,12 +91,9 @@ Plane wanted_rates(const RateEvidence& evidence)
         relative[i] = scale > 0.0 ? evidence.variance[i] / scale : 0.0;
     }
     Plane wanted = local_greatest(local_mean(relative, size, mean_radius), size, greatest_radius);
+    const double unseen = unseen_share * mean_of(relative);
     for (std::size_t i = 0; i < wanted.size(); ++i) {
-        wanted[i] = std::sqrt(wanted[i] / evidence.cost[i]);
-    }
-    const double least = least_of_mean * mean_of(wanted);
-    for (double& rate : wanted) {
-        rate = std::max(rate, least);
+        wanted[i] = std::sqrt((wanted[i] + unseen) / evidence.cost[i]);
     }
     return wanted;
 }

@@ -1,0 +1,51 @@
+#!/usr/bin/env python3
+"""How wrong adaptive sampling is that keeps the samples it decides by: own_samples.py [--spp N] [--probability P]
+
+A pixel whose samples are bright with probability P, and black else; the truth is 1. A pilot of n samples gives it four
+times the samples if it has found light, and a quarter if it has not. Prints the expectation of the pixel, exactly: where
+the pilot's samples are kept, and where it has samples of its own, for pilots of several sizes."""
+
+import argparse
+import math
+
+
+def binomial(n, k, p):
+    return math.comb(n, k) * p**k * (1.0 - p) ** (n - k)
+
+
+def samples_after(found, spp):
+    return 4 * spp if found > 0 else spp // 4
+
+
+def expectation_with_own_samples(pilot, spp, p):
+    """Of the mean over all samples, those of the pilot among them: what it found counts for all of them."""
+    total = 0.0
+    for found in range(pilot + 1):
+        samples = max(samples_after(found, spp), pilot)
+        total += binomial(pilot, found, p) * (found / p + samples - pilot) / samples
+    return total
+
+
+def expectation_with_fresh_samples(pilot, spp, p):
+    """Whatever the pilot found, samples that know nothing of it have the mean 1."""
+    total = 0.0
+    for found in range(pilot + 1):
+        samples = samples_after(found, spp)
+        total += binomial(pilot, found, p) * sum(binomial(samples, k, p) * k / p / samples for k in range(samples + 1))
+    return total
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--spp", type=int, default=256, help="samples per pixel in the mean, a multiple of 4 (256)")
+    parser.add_argument("--probability", type=float, default=0.02, help="of a bright sample (0.02)")
+    arguments = parser.parse_args()
+    print(f"{'pilot':>6} {'own samples':>12} {'samples of its own':>19}")
+    for pilot in (2, 4, 8, 16, 32, 64):
+        own, fresh = (f(pilot, arguments.spp, arguments.probability)
+                      for f in (expectation_with_own_samples, expectation_with_fresh_samples))
+        print(f"{pilot:6} {own:12.3f} {fresh:19.3f}")
+
+
+if __name__ == "__main__":
+    main()

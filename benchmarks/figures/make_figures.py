@@ -215,7 +215,8 @@ def make(name, renderer, scale_name, folder):
         shown.append(images / f"{number:02}.png")
         if cell.layer:
             look = sheet.false_colours(cell.layer, brightest)
-            lines = [cell.label, f"black to yellow: 0 to {1000 * brightest:.0f} ns"]
+            most = f"{1000 * brightest:.0f} ns" if cell.layer == "time.Y" else f"{brightest:.0f}"
+            lines = [cell.label, f"black to yellow: 0 to {most}"]
         else:
             look = sheet.developed(exposures[cell.scene] if figure.exposure is None else figure.exposure)
             lines = [cell.label, *captions(row)]

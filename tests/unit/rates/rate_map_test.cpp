@@ -3,6 +3,7 @@
 #include "catch.hpp"
 
 #include <bdpt/error.h>
+#include <bdpt/film.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -127,6 +128,22 @@ TEST_CASE("rates are powers of two for each pixel", "[rates]")
     CHECK_THROWS_AS(SampleRates(-1, -1, {0}), Error);
     CHECK_THROWS_AS(SampleRates(1, 1, {3}), Error);
     CHECK_THROWS_AS(SampleRates(1, 1, {-3}), Error);
+}
+
+TEST_CASE("a film clamps what a sample brings, whatever it counts", "[rates]")
+{
+    Film film(FilmLayout{
+        .width = 2, .height = 1, .region = {.x0 = 0, .y0 = 0, .x1 = 2, .y1 = 1}, .clamp = 2.0f});
+    film.add_sample(0, 0, 0, Rgb(8.0f), 4.0f);
+    film.add_sample(1, 0, 0, Rgb(8.0f), 0.25f);
+    film.add_splat({1.5f, 0.5f}, 0, Rgb(8.0f), 0.5f);
+    film.count_samples(0, 1);
+    const Image image = film.develop();
+    CHECK(image.pixels[0] == Rgb(8.0f));
+    CHECK(image.pixels[1] == Rgb(1.5f));
+    CHECK(film.develop_camera().pixels[1] == Rgb(0.5f));
+    CHECK(film.clamp_loss().contributions == 3);
+    CHECK(film.clamp_loss().radiance == Rgb((24.0f + 1.5f + 3.0f) / 2.0f));
 }
 
 }  // namespace bdpt::test

@@ -92,10 +92,6 @@ void check_parts(const PlanWords& words)
     if (words.parts.has_value() == words.minutes.has_value()) {
         throw OptionError("--parts: expected either it or --minutes");
     }
-    if (render.rates && render.sequence) {
-        throw OptionError(
-            "--adaptive: a plan of several images has no rates: each would need its own");
-    }
     // AWS Batch has no arrays of one task, and none of more than 10,000.
     constexpr std::int64_t longest_array = 10'000;
     if (words.engine == "aws-batch" && words.parts &&
@@ -155,12 +151,19 @@ PlanArguments understand(const PlanWords& words)
         throw OptionError("--output is required");
     }
     check_parts(words);
+    if (result.render.rates && result.render.sequence) {
+        throw OptionError(
+            "--adaptive: a plan of several images has no rates: each would need its own");
+    }
     if (words.minutes && !(*words.minutes > 0.0)) {
         reject("--minutes", fmt::format("{}", *words.minutes), "a number above 0");
     }
     result.render_options = render_options(*words.command);
     if (names_no_file(words.render.environment)) {
         result.render_options.push_back("--env=" + *words.render.environment);
+    }
+    if (result.render.denoise) {
+        result.render_options.emplace_back("--denoise");  // for the layers that merging needs
     }
     result.merge_options =
         without(given_options(*words.command, "Output"),

@@ -22,6 +22,7 @@ struct WebpImage::State {
 
 namespace {
 
+/// That all of the file is there has been checked before.
 const char* describe(VP8StatusCode status)
 {
     switch (status) {
@@ -29,9 +30,6 @@ const char* describe(VP8StatusCode status)
             return "out of memory";
         case VP8_STATUS_UNSUPPORTED_FEATURE:
             return "of an unknown kind";
-        case VP8_STATUS_SUSPENDED:
-        case VP8_STATUS_NOT_ENOUGH_DATA:
-            return "the file ends too early";
         default:
             return "broken pixels";
     }

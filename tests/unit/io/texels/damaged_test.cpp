@@ -139,6 +139,22 @@ TEST_CASE("a WebP image that ends too early is left out")
     CHECK(warns(loaded.warnings, {"/images/0: WebP: ", "ends too early"}));
 }
 
+TEST_CASE("a WebP image whose pixels are broken is left out")
+{
+    for (const bool lossless : {false, true}) {
+        std::string broken = encode_webp(make_picture(64, 64, 4), lossless);
+        const std::size_t from = broken.size() / 2;
+        if (lossless) {
+            broken.replace(from, broken.size() - from, broken.size() - from, '\xff');
+        } else {
+            broken.replace(broken.find("VP8 ") + 8 + 10, 20, 20, '\xff');
+        }
+        const LoadedScene loaded = with_image(broken).load();
+        CHECK(loaded.scene.images.empty());
+        CHECK(warns(loaded.warnings, {"/images/0: WebP: broken pixels"}));
+    }
+}
+
 TEST_CASE("images that are cut off anywhere are damaged or refused, without a word of libraries")
 {
     CHECK(printed_by([] {
@@ -218,17 +234,8 @@ TEST_CASE("JPEG images whose channels nobody knows are refused")
 TEST_CASE("JPEG images of endless scans are refused")
 {
     const std::string file = encode_jpeg(make_picture(16, 16, 3), JpegKind::progressive);
-    const std::size_t scan = file.rfind("\xff\xda");
-    const std::string end = file.substr(file.size() - 2);
-    const auto with_more = [&](int scans) {
-        std::string longer = file.substr(0, file.size() - 2);
-        for (int i = 0; i < scans; ++i) {
-            longer += file.substr(scan, file.size() - 2 - scan);
-        }
-        return longer + end;
-    };
-    CHECK(outcome_of(with_more(100)) == Outcome::damaged);
-    CHECK(refusal(with_more(600)) == "JPEG: too many scans");
+    CHECK(outcome_of(repeat_scan(file, 100)) == Outcome::damaged);
+    CHECK(refusal(repeat_scan(file, 600)) == "JPEG: too many scans");
 }
 
 TEST_CASE("a broken PNG image is told of once, by its warning")

@@ -146,6 +146,17 @@ std::string encode_jpeg(const Picture& picture, JpegKind kind)
     return file;
 }
 
+std::string repeat_scan(const std::string& file, int times)
+{
+    constexpr std::size_t end = 2;  // bytes of the mark behind the last scan
+    const std::size_t scan = file.rfind("\xff\xda");
+    std::string longer = file.substr(0, file.size() - end);
+    for (int i = 0; i < times; ++i) {
+        longer += file.substr(scan, file.size() - end - scan);
+    }
+    return longer + file.substr(file.size() - end);
+}
+
 std::string encode_webp(const Picture& picture, bool lossless)
 {
     WebPConfig config;

@@ -35,6 +35,9 @@ enum class JpegKind {
 /// A JPEG file, by libjpeg.
 [[nodiscard]] std::string encode_jpeg(const Picture& picture, JpegKind kind);
 
+/// A progressive JPEG file whose last scan is there `times` times more.
+[[nodiscard]] std::string repeat_scan(const std::string& file, int times);
+
 /// A WebP file of three or four channels, by libwebp. If it is lossless, colours stay as they are
 /// where alpha is 0, too.
 [[nodiscard]] std::string encode_webp(const Picture& picture, bool lossless);

@@ -56,7 +56,7 @@ class Command:
         return self.wait(self.start(*words))
 
     def render(self, *words):
-        return self.run("render", self.scene, "--integrator", "pt", *words)
+        return self.run("render", self.scene, "--integrator", "mis", *words)
 
 
 def merges(command, arguments, folder):
@@ -75,7 +75,7 @@ def merges(command, arguments, folder):
 
 def checkpoints(command, folder):
     """Five checkpoints in a row, against none but the last."""
-    words = ["render", command.scene, "--integrator", "pt", "--size", "1920x1080", "--spp", "12", "--threads", "2"]
+    words = ["render", command.scene, "--integrator", "mis", "--size", "1920x1080", "--spp", "12", "--threads", "2"]
     costs = []
     for count in (0, CHECKPOINTS):
         part = folder / f"checkpoints-{count}.part.exr"
@@ -103,7 +103,7 @@ def processes(command, folder):
     for count in (2, 4):
         step = samples // count
         parts = [folder / f"{count}-{i}.part.exr" for i in range(count)]
-        running = [command.start("render", command.scene, "--integrator", "pt", *words, "--threads", "1", "--samples",
+        running = [command.start("render", command.scene, "--integrator", "mis", *words, "--threads", "1", "--samples",
                                  f"{i * step}:{(i + 1) * step}", "--part", part) for i, part in enumerate(parts)]
         total = sum(command.wait(process).cpu for process in running)
         total += command.run("merge", *parts, "-o", folder / "merged.exr").cpu

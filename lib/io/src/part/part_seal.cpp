@@ -45,7 +45,7 @@ template <typename File>
 ContentHash hash_of(const File& file, std::uint64_t size)
 {
     ContentHasher hasher;
-    std::vector<char> block(block_size);
+    std::vector<char> block(static_cast<std::size_t>(std::min<std::uint64_t>(block_size, size)));
     for (std::uint64_t done = 0; done < size; done += block_size) {
         const std::size_t count =
             static_cast<std::size_t>(std::min<std::uint64_t>(block_size, size - done));

@@ -1,8 +1,8 @@
 // Adaptive sampling leaves means as they are: whatever the rates are, and with those that a pilot
 // has found. Rates that a render's own samples have found do not.
 
+#include <bdpt/part/sample_rates.h>
 #include <bdpt/render.h>
-#include <bdpt/sample_rates.h>
 
 #include "catch.hpp"
 #include "equal_means.h"

@@ -6,8 +6,8 @@
 #include <bdpt/io/rates_file.h>
 #include <bdpt/isa.h>
 #include <bdpt/part/identity.h>
+#include <bdpt/part/sample_rates.h>
 #include <bdpt/render.h>
-#include <bdpt/sample_rates.h>
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>

@@ -1,6 +1,6 @@
 #include "options/plan_arguments.h"
 
-#include <bdpt/sample_rates.h>
+#include <bdpt/part/sample_rates.h>
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

@@ -1,6 +1,6 @@
 #include "options/render_arguments.h"
 
-#include <bdpt/sample_rates.h>
+#include <bdpt/part/sample_rates.h>
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>

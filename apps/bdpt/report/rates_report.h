@@ -1,7 +1,7 @@
 #pragma once
 
 #include <bdpt/io/image_metadata.h>
-#include <bdpt/sample_rates.h>
+#include <bdpt/part/sample_rates.h>
 
 #include <filesystem>
 

@@ -1,7 +1,7 @@
 #include "report/render_settings.h"
 
 #include <bdpt/eval/bench/option_names.h>
-#include <bdpt/sample_rates.h>
+#include <bdpt/part/sample_rates.h>
 #include <bdpt/version.h>
 
 #include <chrono>

@@ -2,8 +2,8 @@
 
 #include <bdpt/error.h>
 #include <bdpt/io/rates_file.h>
+#include <bdpt/part/sample_rates.h>
 #include <bdpt/render.h>
-#include <bdpt/sample_rates.h>
 #include <fmt/core.h>
 
 #include <algorithm>

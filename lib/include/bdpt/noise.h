@@ -1,7 +1,7 @@
 #pragma once
 
 #include <bdpt/export.h>
-#include <bdpt/film.h>
+#include <bdpt/film/film.h>
 
 #include <cstdint>
 

@@ -1,14 +1,14 @@
 #pragma once
 
-#include <bdpt/aov_film.h>
 #include <bdpt/export.h>
-#include <bdpt/film.h>
+#include <bdpt/film/aov_film.h>
+#include <bdpt/film/film.h>
+#include <bdpt/film/strategy_film.h>
 #include <bdpt/part/render_part.h>
 #include <bdpt/path_contribution.h>
 #include <bdpt/render_options.h>
 #include <bdpt/render_stats.h>
 #include <bdpt/scene.h>
-#include <bdpt/strategy_film.h>
 #include <bdpt/time_profile.h>
 
 #include <cstdint>

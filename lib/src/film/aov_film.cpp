@@ -1,5 +1,5 @@
-#include <bdpt/aov_film.h>
 #include <bdpt/error.h>
+#include <bdpt/film/aov_film.h>
 
 #include <algorithm>
 #include <cmath>

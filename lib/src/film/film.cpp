@@ -1,5 +1,5 @@
 #include <bdpt/error.h>
-#include <bdpt/film.h>
+#include <bdpt/film/film.h>
 
 #include <glm/common.hpp>
 

@@ -1,5 +1,5 @@
 #include <bdpt/error.h>
-#include <bdpt/sample_rates.h>
+#include <bdpt/part/sample_rates.h>
 
 #include <algorithm>
 #include <string>

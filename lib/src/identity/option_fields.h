@@ -2,9 +2,9 @@
 
 #include <bdpt/fields.h>
 #include <bdpt/filter_options.h>
+#include <bdpt/part/sample_rates.h>
 #include <bdpt/pixel_rect.h>
 #include <bdpt/render_options.h>
-#include <bdpt/sample_rates.h>
 
 namespace bdpt {
 

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <bdpt/film.h>
+#include <bdpt/film/film.h>
+#include <bdpt/film/strategy_film.h>
 #include <bdpt/path_contribution.h>
 #include <bdpt/render_options.h>
 #include <bdpt/render_stats.h>
-#include <bdpt/strategy_film.h>
 
 #include <cstdint>
 #include <functional>

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <bdpt/part/sample_rates.h>
 #include <bdpt/render_options.h>
-#include <bdpt/sample_rates.h>
 
 #include <cstdint>
 

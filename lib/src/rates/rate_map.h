@@ -1,6 +1,6 @@
 #pragma once
 
-#include <bdpt/sample_rates.h>
+#include <bdpt/part/sample_rates.h>
 
 #include <vector>
 

@@ -3,7 +3,7 @@
 #include "film/pixel_filter.h"
 #include "integrator/integrator.h"
 
-#include <bdpt/aov_film.h>
+#include <bdpt/film/aov_film.h>
 
 #include <optional>
 

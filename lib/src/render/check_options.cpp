@@ -7,7 +7,7 @@
 #include <bdpt/error.h>
 #include <bdpt/integrators.h>
 #include <bdpt/motion.h>
-#include <bdpt/sample_rates.h>
+#include <bdpt/part/sample_rates.h>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

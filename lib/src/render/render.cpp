@@ -1,7 +1,7 @@
 #include <bdpt/error.h>
 #include <bdpt/integrators.h>
+#include <bdpt/part/sample_rates.h>
 #include <bdpt/render.h>
-#include <bdpt/sample_rates.h>
 
 #include "camera/moving_camera.h"
 #include "integrator/integrator.h"

@@ -1,4 +1,4 @@
-#include <bdpt/sample_rates.h>
+#include <bdpt/part/sample_rates.h>
 
 #include "math/rgb.h"
 #include "math/split_mix.h"

@@ -1,4 +1,4 @@
-#include <bdpt/exact_sum.h>
+#include <bdpt/film/exact_sum.h>
 
 #include "catch.hpp"
 

@@ -1,6 +1,6 @@
 #include <bdpt/error.h>
-#include <bdpt/exact_sum.h>
-#include <bdpt/film.h>
+#include <bdpt/film/exact_sum.h>
+#include <bdpt/film/film.h>
 
 #include "catch.hpp"
 

@@ -1,5 +1,5 @@
 #include <bdpt/error.h>
-#include <bdpt/strategy_film.h>
+#include <bdpt/film/strategy_film.h>
 
 #include "catch.hpp"
 

@@ -3,7 +3,7 @@
 #include "catch.hpp"
 
 #include <bdpt/error.h>
-#include <bdpt/film.h>
+#include <bdpt/film/film.h>
 
 #include <algorithm>
 #include <cstddef>

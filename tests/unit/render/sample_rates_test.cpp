@@ -1,8 +1,8 @@
 // Adaptive sampling: what is promised to the bit. Means are compared in tests/statistical.
 
 #include <bdpt/error.h>
+#include <bdpt/part/sample_rates.h>
 #include <bdpt/render.h>
-#include <bdpt/sample_rates.h>
 
 #include "catch.hpp"
 #include "purity.h"

@@ -1,6 +1,6 @@
 #include "options/values/film_memory.h"
 
-#include <bdpt/exact_sum.h>
+#include <bdpt/film/exact_sum.h>
 #include <bdpt/integrators.h>
 
 #include <array>

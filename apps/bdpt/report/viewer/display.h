@@ -1,6 +1,6 @@
 #pragma once
 
-#include <bdpt/film.h>
+#include <bdpt/film/film.h>
 #include <bdpt/image.h>
 
 #include <chrono>

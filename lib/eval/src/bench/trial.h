@@ -3,7 +3,7 @@
 #include <bdpt/eval/bench/bench.h>
 #include <bdpt/eval/bench/bench_run.h>
 #include <bdpt/eval/bench/reference.h>
-#include <bdpt/film.h>
+#include <bdpt/film/film.h>
 #include <bdpt/render.h>
 
 #include <cstdint>

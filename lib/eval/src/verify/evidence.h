@@ -5,7 +5,7 @@
 
 #include <bdpt/eval/statistics/moments.h>
 #include <bdpt/eval/verify/verify_options.h>
-#include <bdpt/film.h>
+#include <bdpt/film/film.h>
 
 #include <array>
 #include <cstddef>

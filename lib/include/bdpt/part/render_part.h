@@ -1,12 +1,12 @@
 #pragma once
 
-#include <bdpt/aov_film.h>
 #include <bdpt/export.h>
-#include <bdpt/film.h>
+#include <bdpt/film/aov_film.h>
+#include <bdpt/film/film.h>
+#include <bdpt/film/strategy_film.h>
 #include <bdpt/part/identity.h>
 #include <bdpt/part/sample_set.h>
 #include <bdpt/render_stats.h>
-#include <bdpt/strategy_film.h>
 
 namespace bdpt {
 

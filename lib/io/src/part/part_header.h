@@ -1,7 +1,7 @@
 #pragma once
 
 #include <bdpt/aov.h>
-#include <bdpt/film.h>
+#include <bdpt/film/film.h>
 #include <bdpt/io/part_file.h>
 #include <bdpt/part/render_part.h>
 #include <bdpt/render_stats.h>

@@ -2,7 +2,7 @@
 
 #include <bdpt/export.h>
 #include <bdpt/io/image_metadata.h>
-#include <bdpt/sample_rates.h>
+#include <bdpt/part/sample_rates.h>
 
 #include <filesystem>
 

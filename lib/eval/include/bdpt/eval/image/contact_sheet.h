@@ -1,8 +1,8 @@
 #pragma once
 
 #include <bdpt/export.h>
+#include <bdpt/film/strategy_film.h>
 #include <bdpt/io/tone_map.h>
-#include <bdpt/strategy_film.h>
 
 #include <span>
 

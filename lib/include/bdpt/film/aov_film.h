@@ -1,9 +1,9 @@
 #pragma once
 
 #include <bdpt/aov.h>
-#include <bdpt/exact_sum.h>
 #include <bdpt/export.h>
-#include <bdpt/film.h>
+#include <bdpt/film/exact_sum.h>
+#include <bdpt/film/film.h>
 #include <bdpt/layer.h>
 #include <bdpt/pixel_rect.h>
 #include <bdpt/types.h>

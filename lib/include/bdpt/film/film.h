@@ -1,7 +1,7 @@
 #pragma once
 
-#include <bdpt/exact_sum.h>
 #include <bdpt/export.h>
+#include <bdpt/film/exact_sum.h>
 #include <bdpt/image.h>
 #include <bdpt/pixel_rect.h>
 

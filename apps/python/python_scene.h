@@ -19,7 +19,13 @@ struct PythonScene {
 /// load() and `Scene`.
 void bind_scene(nanobind::module_& module);
 
-/// Meshes, materials, lights and cameras of arrays.
+/// Materials of arrays.
+void bind_material(nanobind::module_& module);
+
+/// Lights of arrays.
+void bind_lights(nanobind::module_& module);
+
+/// These, meshes, cameras, and the `Scene` of them.
 void bind_parts_of_scenes(nanobind::module_& module);
 
 /// render(), `Render` and what belongs to it.

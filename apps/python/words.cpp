@@ -52,32 +52,41 @@ bool belongs(const CLI::Option& option, Call call)
            name == "background";
 }
 
-std::vector<std::string> names_of(const CLI::App& parser, Call call)
-{
-    std::vector<std::string> names;
-    for (const CLI::Option* option : parser.get_options()) {
-        const bool wanted =
-            call == Call::save ? !option->get_lnames().empty() && !has(option->get_lnames(), "help")
-                               : belongs(*option, call);
-        if (wanted) {
-            names.push_back(option->get_lnames().front());
+/// The options of a call, as the parser of the command has them.
+class CallOptions {
+public:
+    explicit CallOptions(Call call)
+    {
+        if (call == Call::save) {
+            describe_save(parser_, save_);
+        } else {
+            app::add_render_options(parser_, render_);
+        }
+        for (const CLI::Option* option : parser_.get_options()) {
+            const auto& names = option->get_lnames();
+            const bool wanted =
+                call == Call::save ? !names.empty() && !has(names, "help") : belongs(*option, call);
+            if (wanted) {
+                options_.push_back(option);
+            }
         }
     }
-    return names;
-}
-
-std::vector<std::string> option_names(Call call)
-{
-    CLI::App parser;
-    app::RenderWords render;
-    SaveWords save;
-    if (call == Call::save) {
-        describe_save(parser, save);
-    } else {
-        app::add_render_options(parser, render);
+    const std::vector<const CLI::Option*>& options() const { return options_; }
+    std::vector<std::string> names() const
+    {
+        std::vector<std::string> names;
+        for (const CLI::Option* option : options_) {
+            names.push_back(option->get_lnames().front());
+        }
+        return names;
     }
-    return names_of(parser, call);
-}
+
+private:
+    CLI::App parser_;
+    app::RenderWords render_;
+    SaveWords save_;
+    std::vector<const CLI::Option*> options_;
+};
 
 /// "from_" is "from": the word without it means something else to Python.
 std::string option_of(std::string keyword)
@@ -121,14 +130,14 @@ const char* function_of(Call call)
 
 Words words_of(const nb::kwargs& options, Call call)
 {
-    const std::vector<std::string> known = option_names(call);
+    const std::vector<std::string> known = CallOptions(call).names();
     Words words;
     for (const auto& [key, value] : options) {
         const auto keyword = nb::cast<std::string>(key);
         const std::string name = option_of(keyword);
         if (!has(known, name)) {
             for (const Call other : {Call::load, Call::render, Call::save}) {
-                if (has(option_names(other), name)) {
+                if (has(CallOptions(other).names(), name)) {
                     throw Error(ErrorCode::usage,
                                 fmt::format("{} is an option of {}, not of {}", keyword,
                                             function_of(other), function_of(call)));
@@ -176,20 +185,9 @@ SaveArguments understand_save(const Words& words)
 
 std::string option_list(Call call)
 {
-    CLI::App parser;
-    app::RenderWords render;
-    SaveWords save;
-    if (call == Call::save) {
-        describe_save(parser, save);
-    } else {
-        app::add_render_options(parser, render);
-    }
-    const std::vector<std::string> names = names_of(parser, call);
     std::string text;
-    for (const CLI::Option* option : parser.get_options()) {
-        if (option->get_lnames().empty() || !has(names, option->get_lnames().front())) {
-            continue;
-        }
+    const CallOptions options(call);
+    for (const CLI::Option* option : options.options()) {
         std::string name = option->get_lnames().front();
         std::replace(name.begin(), name.end(), '-', '_');
         text +=

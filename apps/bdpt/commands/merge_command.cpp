@@ -20,7 +20,7 @@
 
 #include "options/arguments.h"
 #include "options/values/output_files.h"
-#include "plan/plan.h"
+#include "plan/plan_file.h"
 #include "report/denoised.h"
 #include "report/part/merged_files.h"
 #include "report/part/part_collection.h"

@@ -16,7 +16,7 @@
 
 #include "commands/render_view.h"
 #include "options/values/output_files.h"
-#include "plan/plan.h"
+#include "plan/plan_file.h"
 #include "plan/planned_identity.h"
 #include "plan/planned_words.h"
 #include "report/denoised.h"

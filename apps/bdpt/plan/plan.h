@@ -81,15 +81,4 @@ struct Plan {
 /// "0-2,5" of numbers in ascending order.
 [[nodiscard]] std::string numbers_text(const std::vector<std::size_t>& numbers);
 
-/// As JSON. Throws `Error` (usage) for a path that is not UTF-8.
-[[nodiscard]] std::string to_text(const Plan& plan);
-
-/// The plan in `file`, with paths as they are there. Throws `Error`: not_found, and invalid_input
-/// for a file that is no plan, or one of another version.
-[[nodiscard]] Plan read_plan(const std::filesystem::path& file);
-
-/// What a path of a plan means here, as an absolute one.
-[[nodiscard]] std::filesystem::path resolved(const std::filesystem::path& path,
-                                             const std::filesystem::path& plan_file);
-
 }  // namespace bdpt::app

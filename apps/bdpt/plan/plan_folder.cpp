@@ -8,6 +8,8 @@
 #include <string>
 #include <system_error>
 
+#include "plan/plan_file.h"
+
 namespace bdpt::app {
 namespace {
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "options/arguments.h"
+#include "plan/plan_file.h"
 
 namespace bdpt::app {
 namespace {

@@ -9,7 +9,7 @@
 #include <system_error>
 #include <utility>
 
-#include "plan/plan.h"
+#include "plan/plan_file.h"
 
 namespace bdpt::app {
 namespace {

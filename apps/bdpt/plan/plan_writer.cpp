@@ -1,0 +1,97 @@
+#include <bdpt/error.h>
+#include <bdpt/version.h>
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+
+#include "plan/plan_file.h"
+
+namespace bdpt::app {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+std::vector<std::string> texts_of(const std::vector<fs::path>& paths)
+{
+    std::vector<std::string> result;
+    for (const fs::path& path : paths) {
+        result.push_back(path.string());
+    }
+    return result;
+}
+
+ordered_json to_json(const PlanImage& image)
+{
+    ordered_json json = ordered_json::object();
+    if (image.frame) {
+        json["frame"] = *image.frame;
+    }
+    if (image.camera) {
+        json["camera"] = *image.camera;
+    }
+    if (image.seed) {
+        json["seed"] = *image.seed;
+    }
+    return json;
+}
+
+ordered_json to_json(const PlanTask& task)
+{
+    const SampleRange images{.begin = static_cast<std::int64_t>(task.first_image),
+                             .end = static_cast<std::int64_t>(task.first_image + task.images)};
+    return {{"images", SampleSet(images).text()},
+            {"samples", SampleSet(task.samples).text()},
+            {"part", task.part.string()}};
+}
+
+ordered_json to_json(const Identity& identity)
+{
+    ordered_json json = ordered_json::object();
+    for (const auto& [name, value] : identity.components) {
+        json[name] = value;
+    }
+    return json;
+}
+
+}  // namespace
+
+std::string to_text(const Plan& plan)
+{
+    ordered_json json{{"format", plan_format},
+                      {"version", BDPT_VERSION},
+                      {"scene", plan.scene.string()},
+                      {"environment", ordered_json()},
+                      {"render", plan.render_options},
+                      {"merge", plan.merge_options},
+                      {"outputs", texts_of(plan.outputs)},
+                      {"strategies", ordered_json()},
+                      {"engine_files", texts_of(plan.engine_files)},
+                      {"images", ordered_json::array()},
+                      {"tasks", ordered_json::array()},
+                      {"files", to_json(plan.files)},
+                      {"identity", to_json(plan.identity)}};
+    if (plan.environment) {
+        json["environment"] = plan.environment->string();
+    }
+    if (plan.strategies) {
+        json["strategies"] = plan.strategies->string();
+    }
+    if (plan.rates) {
+        json["rates"] = plan.rates->string();
+    }
+    for (const PlanImage& image : plan.images) {
+        json["images"].push_back(to_json(image));
+    }
+    for (const PlanTask& task : plan.tasks) {
+        json["tasks"].push_back(to_json(task));
+    }
+    try {
+        return json.dump(2) + "\n";
+    } catch (const ordered_json::type_error&) {
+        throw Error(ErrorCode::usage,
+                    "a plan holds UTF-8 only: the name of a file or a value of an option is not");
+    }
+}
+
+}  // namespace bdpt::app

@@ -1,8 +1,11 @@
 // bdpt render --denoise and bdpt merge --denoise, with a library that counts
 // (tests/support/fake_oidn.cpp): images become 2 * image + albedo + 1 + normal + 2.
 
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -112,6 +115,31 @@ TEST_CASE("parts are denoised when they are merged")
     CHECK(read_channels(folder.path("merged.exr")) == read_channels(folder.path("whole.exr")));
 }
 
+TEST_CASE("a plan's parts are denoised when they are merged, wherever that is")
+{
+    const DenoiseFolder folder;
+    const std::string library =
+        std::filesystem::relative(BDPT_FAKE_OIDN, std::filesystem::current_path()).string();
+    const std::string plan = folder.path("job/plan.json");
+    REQUIRE(run({"plan", folder.path("cube.gltf"), "--size", "8x4", "--spp", "4", "--parts", "2",
+                 "--for", "make", "-o", folder.path("merged.exr"), "-d", folder.path("job"),
+                 "--denoise", "--denoiser-library", library, "--quiet"})
+                .exit_code == 0);
+    for (const char* task : {"0", "1"}) {
+        REQUIRE(run({"render", "--plan", plan, "--task", task, "--quiet"}).exit_code == 0);
+    }
+    const auto words = nlohmann::json::parse(std::ifstream(plan))["merge"];
+    CHECK(std::find(words.begin(), words.end(),
+                    "--denoiser-library=" + std::filesystem::absolute(library).string()) !=
+          words.end());
+    REQUIRE(run({"merge", "--plan", plan, "--quiet"}).exit_code == 0);
+    REQUIRE(folder
+                .render({"-o", folder.path("whole.exr"), "--denoise", "--denoiser-library",
+                         BDPT_FAKE_OIDN})
+                .exit_code == 0);
+    CHECK(read_channels(folder.path("merged.exr")) == read_channels(folder.path("whole.exr")));
+}
+
 TEST_CASE("without a denoiser nothing is rendered")
 {
     const DenoiseFolder folder;
@@ -123,6 +151,10 @@ TEST_CASE("without a denoiser nothing is rendered")
     const Outcome alone =
         folder.render({"-o", folder.path("a.exr"), "--denoiser-library", BDPT_FAKE_OIDN});
     CHECK(alone.exit_code == 2);
+    const Outcome empty =
+        folder.render({"-o", folder.path("a.exr"), "--denoise", "--denoiser-library", ""});
+    CHECK(empty.exit_code == 2);
+    CHECK(empty.err.find("--denoiser-library \"\"") != std::string::npos);
     const Outcome word = folder.render({"-o", folder.path("a.exr"), "--denoise=much"});
     CHECK(word.exit_code == 2);
     CHECK(word.err.find("much") != std::string::npos);

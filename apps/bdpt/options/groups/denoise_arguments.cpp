@@ -30,6 +30,9 @@ std::optional<DenoiseArguments> understand(const DenoiseWords& words)
         }
         return std::nullopt;
     }
+    if (words.library && words.library->empty()) {
+        reject("--denoiser-library", "", "a file or a folder");
+    }
     const bool layer = words.denoise == "layer";
     if (!layer && words.denoise != "true" && words.denoise != "image") {
         reject("--denoise", words.denoise, "image or layer");

@@ -8,6 +8,7 @@ target_sources(bdpt_io PRIVATE
   src/output/image_metadata.cpp
   src/output/output_file.cpp
   src/output/png.cpp
+  src/output/temporary_file.cpp
   src/output/tone_curve.cpp
   src/output/tone_map.cpp
   src/part/part_header.cpp

@@ -95,7 +95,8 @@ SceneReport report_of(const InfoArguments& arguments, const io::GltfOptions& opt
 
 void add_info_options(CLI::App& command, InfoArguments& arguments)
 {
-    command.add_option("file", arguments.file, "The scene: .gltf or .glb")->type_name("FILE");
+    command.add_option("file", arguments.file, "The scene: .gltf or .glb; - is the standard input")
+        ->type_name("FILE");
     add_scene_options(command, arguments.scene, "Scene");
     command.add_flag("--limits", arguments.limits, "Print the limits of what a file may contain");
     command.add_flag("--json", arguments.json, "Print one JSON object instead of text");

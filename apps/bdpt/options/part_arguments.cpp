@@ -11,6 +11,7 @@
 #include "options/render_arguments.h"
 #include "options/values/number.h"
 #include "options/values/output_files.h"
+#include "options/values/pipes.h"
 
 namespace bdpt::app {
 namespace {
@@ -126,7 +127,7 @@ void add_merge_options(CLI::App& command, MergeWords& words)
     command
         .add_option("-o,--output", words.outputs,
                     "Required: .part.exr (a part again), .exr (linear radiance) or .png "
-                    "(tone-mapped); may be repeated")
+                    "(tone-mapped); exr:- and png:- are the standard output. May be repeated")
         ->required()
         ->allow_extra_args(false)
         ->type_name("FILE")
@@ -193,6 +194,7 @@ MergeArguments understand(const MergeWords& words)
     if (words.strategies) {
         result.strategies = strategy_files(*words.strategies).layers;
     }
+    check_pipes({}, result.outputs, words.json ? Format::json : Format::text);
     result.samples = words.samples;
     result.noise = to_noise(words.noise);
     result.incomplete = words.partial ? Incomplete::write : Incomplete::refuse;

@@ -6,12 +6,14 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <string_view>
 #include <utility>
 
 #include "options/arguments.h"
 #include "options/command_options.h"
 #include "options/values/number.h"
+#include "options/values/pipes.h"
 
 namespace bdpt::app {
 namespace {
@@ -151,6 +153,10 @@ PlanArguments understand(const PlanWords& words)
         throw OptionError("--output is required");
     }
     check_parts(words);
+    if (result.render.file == "-" || result.render.environment == "-" ||
+        use_standard_output(result.render.outputs)) {
+        throw OptionError("-: a plan names files, which its tasks can read and write");
+    }
     if (result.render.rates && result.render.sequence) {
         throw OptionError(
             "--adaptive: a plan of several images has no rates: each would need its own");
@@ -165,9 +171,15 @@ PlanArguments understand(const PlanWords& words)
     if (result.render.denoise) {
         result.render_options.emplace_back("--denoise");  // for the layers that merging needs
     }
-    result.merge_options =
-        without(given_options(*words.command, "Output"),
-                {"--output", "--quiet", "--json", "--float", "--strategies", "--strategy-depth"});
+    result.merge_options = without(given_options(*words.command, "Output"),
+                                   {"--output", "--quiet", "--json", "--float", "--strategies",
+                                    "--strategy-depth", "--denoiser-library"});
+    if (result.render.denoise && result.render.denoise->library) {
+        // Who merges may be in another folder.
+        result.merge_options.push_back(
+            "--denoiser-library=" +
+            std::filesystem::absolute(*result.render.denoise->library).string());
+    }
     result.parts = words.parts;
     result.minutes = words.minutes.value_or(0.0);
     result.engine = to_engine(words.engine);

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -12,6 +13,7 @@
 
 #include "options/values/number.h"
 #include "options/values/output_files.h"
+#include "options/values/pipes.h"
 
 namespace bdpt::app {
 namespace {
@@ -172,8 +174,8 @@ void add_image_output(CLI::App& command, RenderWords& words)
     const auto group = "Output";
     command
         .add_option("-o,--output", words.outputs,
-                    "An image, .exr (linear radiance) or .png (tone-mapped); may be repeated. "
-                    "Required without --part")
+                    "An image, .exr (linear radiance) or .png (tone-mapped); exr:- and png:- are "
+                    "the standard output. May be repeated. Required without --part")
         ->allow_extra_args(false)
         ->type_name("FILE")
         ->group(group);
@@ -299,7 +301,7 @@ void add_seed_and_threads(CLI::App& command, RenderWords& words, const char* gro
 
 void add_plannable_options(CLI::App& command, RenderWords& words)
 {
-    command.add_option("file", words.file, "The scene: .gltf or .glb")
+    command.add_option("file", words.file, "The scene: .gltf or .glb; - is the standard input")
         ->required()
         ->type_name("FILE");
     add_image_output(command, words);
@@ -379,6 +381,10 @@ RenderArguments understand(const RenderWords& words)
     }
     result.format = words.json ? Format::json : Format::text;
     result.verbosity = words.quiet ? Verbosity::quiet : Verbosity::normal;
+    std::vector<std::filesystem::path> written = result.outputs;
+    written.push_back(result.stats.value_or(""));
+    check_pipes(std::array{result.file, std::filesystem::path(result.environment.value_or(""))},
+                written, result.format);
     return result;
 }
 

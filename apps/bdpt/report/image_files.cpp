@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "options/values/output_files.h"
+#include "options/values/pipes.h"
 #include "report/denoised.h"
 
 namespace bdpt::app {
@@ -32,15 +33,16 @@ WrittenImages write_as_they_are(std::span<const fs::path> outputs, const Image& 
     const auto coverage = display.backdrop ? coverage_of(options.layers) : std::span<const float>();
     WrittenImages report;
     for (const fs::path& output : outputs) {
-        if (has_extension(output, ".exr")) {
+        const fs::path file = written_file(output);
+        if (type_of(output) == ImageType::exr) {
             report.clamped_pixels =
-                io::write_exr(output, exr_image, options.layers, options.exr).clamped_pixels;
+                io::write_exr(file, exr_image, options.layers, options.exr).clamped_pixels;
             continue;
         }
         if (!report.exposure) {
             report.exposure = display.exposure.value_or(io::automatic_exposure(image));
         }
-        io::write_png(output,
+        io::write_png(file,
                       io::to_display(image, coverage,
                                      {.exposure = *report.exposure,
                                       .curve = display.curve,

@@ -92,7 +92,7 @@ std::optional<std::string> warning_of_flicker(const RenderArguments& arguments)
 {
     const bool writes_png =
         std::any_of(arguments.outputs.begin(), arguments.outputs.end(),
-                    [](const fs::path& output) { return has_extension(output, ".png"); });
+                    [](const fs::path& output) { return type_of(output) == ImageType::png; });
     if (!arguments.sequence || !arguments.sequence->frames || arguments.display.exposure ||
         !writes_png) {
         return std::nullopt;

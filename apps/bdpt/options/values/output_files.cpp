@@ -6,29 +6,30 @@
 
 #include <algorithm>
 #include <cctype>
-#include <optional>
 #include <string>
 #include <system_error>
 
-namespace bdpt::app {
-namespace {
+#include "options/values/pipes.h"
 
+namespace bdpt::app {
 namespace fs = std::filesystem;
 
-enum class FileType { exr, png };
-
-std::optional<FileType> type_of(const fs::path& file)
+std::optional<ImageType> type_of(const fs::path& output)
 {
-    if (has_extension(file, ".exr")) {
-        return FileType::exr;
+    if (is_standard_output(output)) {
+        return output == "png:-" ? ImageType::png : ImageType::exr;
     }
-    return has_extension(file, ".png") ? std::optional(FileType::png) : std::nullopt;
+    if (has_extension(output, ".exr")) {
+        return ImageType::exr;
+    }
+    return has_extension(output, ".png") ? std::optional(ImageType::png) : std::nullopt;
 }
-
-}  // namespace
 
 bool same_file(const fs::path& a, const fs::path& b)
 {
+    if (is_standard_output(a) || is_standard_output(b)) {
+        return is_standard_output(a) && is_standard_output(b);
+    }
     std::error_code missing;
     return fs::weakly_canonical(a, missing) == fs::weakly_canonical(b, missing);
 }
@@ -57,7 +58,7 @@ void check_outputs(std::span<const fs::path> outputs, std::span<const fs::path> 
                     fmt::format("{}: is an input and cannot be the output too", output.string()));
             }
         }
-        io::check_writable(output);
+        io::check_writable(written_file(output));
     }
     for (std::size_t i = 0; i < outputs.size(); ++i) {
         for (std::size_t k = 0; k < i; ++k) {
@@ -84,14 +85,16 @@ void check_part_file(const fs::path& file, std::span<const fs::path> others)
 bool writes_exr(std::span<const fs::path> outputs)
 {
     return std::any_of(outputs.begin(), outputs.end(),
-                       [](const fs::path& output) { return type_of(output) == FileType::exr; });
+                       [](const fs::path& output) { return type_of(output) == ImageType::exr; });
 }
 
 std::vector<fs::path> temporary_paths(std::span<const fs::path> outputs)
 {
     std::vector<fs::path> result;
     for (const fs::path& output : outputs) {
-        result.push_back(io::OutputFile::temporary_path(output));
+        if (!is_standard_output(output)) {
+            result.push_back(io::OutputFile::temporary_path(output));
+        }
     }
     return result;
 }

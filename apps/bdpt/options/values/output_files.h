@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -9,6 +11,12 @@ namespace bdpt::app {
 
 /// Are they one file, be it there or not?
 [[nodiscard]] bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
+
+/// The types of images that we write.
+enum class ImageType : std::uint8_t { exr, png };
+
+/// By the name of `output`; none: of neither type.
+[[nodiscard]] std::optional<ImageType> type_of(const std::filesystem::path& output);
 
 /// Does the name of `file` end with `extension`, like ".exr", in small or capital letters?
 [[nodiscard]] bool has_extension(const std::filesystem::path& file, std::string_view extension);

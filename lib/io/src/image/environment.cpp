@@ -2,7 +2,7 @@
 #include <bdpt/io/environment.h>
 
 #include "file/named_errors.h"
-#include "file/read_file.h"
+#include "file/standard_input.h"
 #include "file/warnings.h"
 #include "image/exr_reader.h"
 #include "image/hdr_reader.h"
@@ -36,7 +36,7 @@ void mend_pixels(Image& image, Warnings& warnings)
 
 LoadedEnvironment load(const std::filesystem::path& file, const ReadLimits& limits)
 {
-    const Bytes bytes = read_file(file, limits.file_bytes);
+    const Bytes bytes = read_named(file, limits.file_bytes);
     Warnings warnings;
     LoadedEnvironment loaded;
     if (is_exr(bytes)) {

@@ -2,7 +2,7 @@
 #include <bdpt/io/read_image.h>
 
 #include "file/named_errors.h"
-#include "file/read_file.h"
+#include "file/standard_input.h"
 #include "file/warnings.h"
 #include "image/exr_reader.h"
 #include "image/hdr_reader.h"
@@ -15,7 +15,7 @@ namespace {
 
 LoadedImage load(const std::filesystem::path& file, const ImageOptions& options)
 {
-    const Bytes bytes = read_file(file, options.limits.file_bytes);
+    const Bytes bytes = read_named(file, options.limits.file_bytes);
     if (is_exr(bytes)) {
         Warnings warnings;
         ExrImage exr_image = read_exr(bytes, options.layer, options.limits, warnings);

@@ -1,18 +1,19 @@
 #include <bdpt/io/output_file.h>
 
+#include "output/size_signal_block.h"
+#include "output/temporary_file.h"
+
 #include <bdpt/error.h>
 #include <fcntl.h>
 #include <fmt/core.h>
-#include <signal.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cerrno>
 #include <cstddef>
-#include <random>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -30,6 +31,11 @@ namespace fs = std::filesystem;
 std::string reason_of(int error_number)
 {
     return std::generic_category().message(error_number);
+}
+
+bool is_standard_output(const fs::path& file)
+{
+    return file == "-";
 }
 
 fs::path resolve_link(const fs::path& file)
@@ -60,51 +66,6 @@ void check_target(const fs::path& name, const fs::path& target)
     }
 }
 
-std::string host_name()
-{
-    std::array<char, 33> name{};  // the first 32 letters
-    ::gethostname(name.data(), name.size() - 1);
-    std::string result = name.data();
-    std::replace_if(
-        result.begin(), result.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
-    return result;
-}
-
-/// Tells this process from all others that may write to the same folder. Its number does not:
-/// processes of two containers, or of two machines, may have the same.
-const std::string& process_name()
-{
-    static const std::string name = [] {
-        std::random_device random;
-        return fmt::format("{}-{}-{:08x}{:08x}", host_name(), ::getpid(), random(), random());
-    }();
-    return name;
-}
-
-struct Created {
-    int descriptor = -1;
-    fs::path path;
-};
-
-/// A new file, named `temporary`. It is there already if this process has another `OutputFile` for
-/// the same target: then the name gets a number.
-Created create(const fs::path& temporary)
-{
-    constexpr int flags = O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC;
-    constexpr mode_t mode = 0666;  // less the umask, as for any new file
-    constexpr int most_writers = 1000;
-    Created result{.path = temporary};
-    for (int i = 1; i <= most_writers; ++i) {
-        result.descriptor = ::open(result.path.c_str(), flags, mode);
-        if (result.descriptor >= 0 || errno != EEXIST) {
-            break;
-        }
-        result.path = temporary;
-        result.path += fmt::format("-{}", i);
-    }
-    return result;
-}
-
 /// So that the new name survives a power cut too. File systems that cannot do it need not.
 void sync_folder(const fs::path& target)
 {
@@ -116,49 +77,34 @@ void sync_folder(const fs::path& target)
     }
 }
 
-/// While it lives, a write beyond the process' limit of file sizes (ulimit -f) fails with EFBIG
-/// instead of ending the process. Of the calling thread only, so that the host's handling of the
-/// signal stays as it is.
-class SizeSignalBlock {
-public:
-    SizeSignalBlock()
-    {
-        ::sigemptyset(&signal_);
-        ::sigaddset(&signal_, SIGXFSZ);
-        sigset_t pending;
-        ::sigpending(&pending);
-        was_pending_ = ::sigismember(&pending, SIGXFSZ) == 1;
-        ::pthread_sigmask(SIG_BLOCK, &signal_, &before_);
-    }
-    ~SizeSignalBlock()
-    {
-        const timespec no_time{};
-        while (!was_pending_ && ::sigtimedwait(&signal_, nullptr, &no_time) < 0 && errno == EINTR) {
-        }
-        ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
-    }
-    SizeSignalBlock(const SizeSignalBlock&) = delete;
-    SizeSignalBlock& operator=(const SizeSignalBlock&) = delete;
-
-private:
-    sigset_t signal_{};
-    sigset_t before_{};
-    bool was_pending_ = false;
-};
-
 }  // namespace
 
 fs::path OutputFile::temporary_path(const fs::path& file)
 {
+    if (is_standard_output(file)) {
+        return {};
+    }
     fs::path temporary = resolve_link(file);
     temporary += ".tmp-" + process_name();
     return temporary;
 }
 
-OutputFile::OutputFile(const fs::path& file) : name_(file), target_(resolve_link(file))
+OutputFile::OutputFile(const fs::path& file) : name_(file)
 {
+    if (is_standard_output(file)) {
+        name_ = "standard output";
+        if (::isatty(STDOUT_FILENO) != 0) {
+            fail(name_, "this is a terminal");
+        }
+        descriptor_ = ::memfd_create("bdpt output", MFD_CLOEXEC);
+        if (descriptor_ < 0) {
+            fail(name_, reason_of(errno));
+        }
+        return;
+    }
+    target_ = resolve_link(file);
     check_target(name_, target_);
-    Created created = create(temporary_path(file));
+    TemporaryFile created = create_temporary(temporary_path(file));
     descriptor_ = created.descriptor;
     temporary_ = std::move(created.path);
     if (descriptor_ < 0) {
@@ -170,7 +116,9 @@ OutputFile::~OutputFile()
 {
     if (descriptor_ >= 0) {
         ::close(descriptor_);
-        ::unlink(temporary_.c_str());
+        if (!temporary_.empty()) {
+            ::unlink(temporary_.c_str());
+        }
     }
 }
 
@@ -194,6 +142,26 @@ void OutputFile::write(std::span<const char> bytes)
     }
 }
 
+void OutputFile::copy_to_standard_output() const
+{
+    const SizeSignalBlock no_signal;
+    std::array<char, 65536> block{};
+    for (std::uint64_t done = 0; done < size_;) {
+        const auto length = std::min<std::uint64_t>(block.size(), size_ - done);
+        const std::span<char> bytes(block.data(), static_cast<std::size_t>(length));
+        read(done, bytes);
+        for (std::size_t written = 0; written < bytes.size();) {
+            const ssize_t count =
+                ::write(STDOUT_FILENO, bytes.data() + written, bytes.size() - written);
+            if (count < 0 && errno != EINTR) {
+                fail(name_, reason_of(errno));
+            }
+            written += count > 0 ? static_cast<std::size_t>(count) : 0;
+        }
+        done += length;
+    }
+}
+
 void OutputFile::read(std::uint64_t position, std::span<char> bytes) const
 {
     while (!bytes.empty()) {
@@ -214,6 +182,10 @@ void OutputFile::commit()
 {
     if (first_error_ != 0) {
         fail(name_, reason_of(first_error_));
+    }
+    if (temporary_.empty()) {
+        copy_to_standard_output();
+        return;
     }
     // EINVAL: a file system that has nothing to bring to a disk.
     if (::fsync(descriptor_) != 0 && errno != EINVAL) {

@@ -17,8 +17,8 @@ struct LoadedEnvironment {
 };
 
 /// Reads an equirectangular image in OpenEXR or Radiance HDR format; which of the two it is, its
-/// first bytes say. Pixels are taken as linear Rec. 709 [nit]; negative, infinite and NaN ones
-/// become 0, with a warning.
+/// first bytes say; "-" is the standard input. Pixels are taken as linear Rec. 709 [nit]; negative,
+/// infinite and NaN ones become 0, with a warning.
 ///
 /// Throws `Error`, whose message starts with the file's path: not_found (missing or unreadable),
 /// invalid_input (broken, or over a limit), unsupported (neither format).

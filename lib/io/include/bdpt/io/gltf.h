@@ -104,7 +104,8 @@ struct LoadedScene {
 };
 
 /// Reads a .gltf or .glb file [glTF 2.0] with all that it refers to; which of the two it is, its
-/// first bytes say. A scene without meshes loads with zero instances.
+/// first bytes say. "-" is the standard input, read once and kept; URIs start from the working
+/// directory then. A scene without meshes loads with zero instances.
 ///
 /// Throws `Error`, whose message starts with the file's path and names the place as a JSON pointer:
 /// not_found (a file that is missing or unreadable; no such scene, variant or animation),

@@ -10,6 +10,9 @@ namespace bdpt::io {
 
 /// A file that appears under its name only when it is whole. Until then its bytes are in
 /// `temporary_path()`, in the same folder; without a commit nothing is left of it.
+///
+/// The name "-" is the standard output: its bytes are kept in memory, and go there when the file
+/// is committed. A file of that name is "./-".
 class BDPT_EXPORT OutputFile {
 public:
     /// Where `file` grows: `NAME.tmp-HOST-PID-` and 16 random digits beside it, which no other
@@ -17,8 +20,8 @@ public:
     /// first.
     [[nodiscard]] static std::filesystem::path temporary_path(const std::filesystem::path& file);
 
-    /// Throws `Error` (output) when the folder is missing or cannot be written, or when `file`
-    /// exists and is a folder or protected.
+    /// Throws `Error` (output) when the folder is missing or cannot be written, when `file`
+    /// exists and is a folder or protected, or when it is the standard output and that a terminal.
     explicit OutputFile(const std::filesystem::path& file);
     ~OutputFile();
     OutputFile(const OutputFile&) = delete;
@@ -39,9 +42,11 @@ public:
     void commit();
 
 private:
+    void copy_to_standard_output() const;
+
     std::filesystem::path name_;  // as the caller knows it, for messages
     std::filesystem::path target_;
-    std::filesystem::path temporary_;
+    std::filesystem::path temporary_;  // empty: it has no name
     int descriptor_ = -1;
     std::uint64_t position_ = 0;
     std::uint64_t size_ = 0;

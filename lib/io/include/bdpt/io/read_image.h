@@ -29,8 +29,9 @@ struct LoadedImage {
 };
 
 /// Reads linear pixels from an OpenEXR (of halves or floats; the first part) or Radiance HDR file;
-/// which of the two it is, its first bytes say. Values are what the file has, also when they are
-/// negative, infinite or NaN. Alpha is ignored: colours are taken as they are.
+/// which of the two it is, its first bytes say; "-" is the standard input. Values are what the file
+/// has, also when they are negative, infinite or NaN. Alpha is ignored: colours are taken as they
+/// are.
 ///
 /// Throws `Error`, whose message starts with the file's path: not_found (missing or unreadable; no
 /// such layer), invalid_input (broken, or over a limit), unsupported (neither format).

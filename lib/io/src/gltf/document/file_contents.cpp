@@ -4,6 +4,7 @@
 #include "file/load_context.h"
 #include "file/named_errors.h"
 #include "file/read_file.h"
+#include "file/standard_input.h"
 #include "file/uri.h"
 #include "gltf/checks/glb.h"
 
@@ -68,7 +69,7 @@ std::optional<ContentHash> hash_if_readable(const std::string& uri, const LoadCo
 
 ContentHash hash_of_file(const std::filesystem::path& file, const ReadLimits& limits)
 {
-    return with_named_errors(file, [&] { return hash_of(read_file(file, limits.file_bytes)); });
+    return with_named_errors(file, [&] { return hash_of(read_named(file, limits.file_bytes)); });
 }
 
 std::vector<FileContent> gltf_file_contents(const std::filesystem::path& file,
@@ -76,7 +77,7 @@ std::vector<FileContent> gltf_file_contents(const std::filesystem::path& file,
 {
     return with_named_errors(file, [&] {
         LoadContext context{.folder = file.parent_path(), .limits = limits};
-        const Bytes bytes = read_file(file, limits.file_bytes);
+        const Bytes bytes = read_named(file, limits.file_bytes);
         std::vector<FileContent> result{{.name = file.filename().string(), .hash = hash_of(bytes)}};
         for (const std::string& uri : uris_of(bytes, context)) {
             result.push_back({.name = uri, .hash = hash_if_readable(uri, context)});

@@ -2,6 +2,7 @@
 
 #include "file/file_kind.h"
 #include "file/read_file.h"
+#include "file/standard_input.h"
 #include "file/uri.h"
 #include "gltf/checks/glb.h"
 #include "gltf/checks/layout.h"
@@ -149,7 +150,7 @@ void check_uris_of_all(const JsonPlace& root, const std::filesystem::path& folde
 
 CheckedGltf read_checked_gltf(const std::filesystem::path& file, LoadContext& context)
 {
-    Bytes bytes = read_file(file, context.limits.file_bytes);
+    Bytes bytes = read_named(file, context.limits.file_bytes);
     CheckedGltf result;
     std::optional<Bytes> bin;
     if (is_glb(bytes)) {

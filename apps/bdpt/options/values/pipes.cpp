@@ -1,0 +1,36 @@
+#include "options/values/pipes.h"
+
+#include <algorithm>
+
+#include "options/arguments.h"
+
+namespace bdpt::app {
+
+namespace fs = std::filesystem;
+
+bool is_standard_output(const fs::path& output)
+{
+    return output == "-" || output == "exr:-" || output == "png:-";
+}
+
+bool use_standard_output(std::span<const fs::path> outputs)
+{
+    return std::any_of(outputs.begin(), outputs.end(), is_standard_output);
+}
+
+fs::path written_file(const fs::path& output)
+{
+    return is_standard_output(output) ? fs::path("-") : output;
+}
+
+void check_pipes(std::span<const fs::path> inputs, std::span<const fs::path> outputs, Format format)
+{
+    if (std::count(inputs.begin(), inputs.end(), "-") > 1) {
+        throw OptionError("-: the standard input cannot be two files");
+    }
+    if (format == Format::json && use_standard_output(outputs)) {
+        throw OptionError("--json: its lines go to the standard output, where another output goes");
+    }
+}
+
+}  // namespace bdpt::app

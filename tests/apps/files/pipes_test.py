@@ -1,0 +1,96 @@
+#!/usr/bin/env python3
+"""Fails when scenes from the standard input, or images to the standard output, are not those of files:
+pipes_test.py COMMAND SCENE."""
+
+import json
+import os
+import pathlib
+import pty
+import subprocess
+import sys
+import tempfile
+
+COMMAND, SCENE = sys.argv[1:3]
+HOW = ["--size", "16x12", "--spp", "4", "--quiet"]
+PNG = b"\x89PNG"
+EXR = b"\x76\x2f\x31\x01"
+
+
+def bdpt(*words, source=None, cwd=None):
+    with open(source or os.devnull, "rb") as stream:
+        return subprocess.run([COMMAND, *map(str, words)], stdin=stream, capture_output=True, check=False, cwd=cwd)
+
+
+def equal(a, b, **more):
+    """Whether the images in two files are."""
+    return bdpt("compare", a, b, "--threshold", "mse=0", **more).returncode == 0
+
+
+def check_images(folder):
+    from_file = folder / "file.exr"
+    piped = folder / "piped.exr"
+    bdpt("render", SCENE, *HOW, "-o", from_file)
+    # URIs of a scene that comes from a pipe start from the working directory.
+    done = bdpt("render", "-", *HOW, "-o", "-", source=SCENE, cwd=pathlib.Path(SCENE).parent)
+    piped.write_bytes(done.stdout)
+    yield "EXR", done.stdout[:4] == EXR and equal(piped, from_file)
+    yield "compare from a pipe", equal("-", from_file, source=piped)
+    yield "PNG", bdpt("render", SCENE, *HOW, "-o", "png:-").stdout[:4] == PNG
+    yield "EXR by name", bdpt("render", SCENE, *HOW, "-o", "exr:-").stdout[:4] == EXR
+    both = bdpt("render", SCENE, *HOW, "-o", folder / "beside.exr", "-o", "-")
+    piped.write_bytes(both.stdout)
+    yield "a pipe beside a file", equal(piped, folder / "beside.exr")
+    frames = folder / "turn.##.exr"
+    bdpt("render", "-", *HOW, "--orbit", "2", "--frames", "1:2", "-o", frames, source=SCENE)
+    yield "frames of one pipe", all((folder / f"turn.0{i}.exr").exists() for i in (1, 2))
+
+
+def check_other_commands(folder):
+    part = folder / "a.part.exr"
+    bdpt("render", SCENE, *HOW, "--part", part)
+    yield "merge", bdpt("merge", part, "-o", "png:-", "--quiet").stdout[:4] == PNG
+    yield "info", b"nodes" in bdpt("info", "-", source=SCENE).stdout
+    stats = bdpt("render", SCENE, *HOW, "-o", folder / "a.png", "--stats", "-")
+    yield "stats", json.loads(stats.stdout)["samples"] == 4
+
+
+def check_refusals(folder):
+    yield "empty input", bdpt("render", "-", *HOW, "-o", "-").returncode == 4
+    yield "two outputs", bdpt("render", SCENE, *HOW, "-o", "-", "-o", "png:-").returncode == 2
+    yield "JSON beside an image", bdpt("render", SCENE, *HOW, "-o", "-", "--json").returncode == 2
+    yield "two inputs", bdpt("render", "-", "--env", "-", *HOW, "-o", "-", source=SCENE).returncode == 2
+    yield "several frames", bdpt("render", SCENE, *HOW, "--orbit", "2", "-o", "-").returncode == 2
+    plan = ["--spp", "8", "--parts", "2", "--for", "make", "-d", folder / "job"]
+    yield "plan of an input", bdpt("plan", "-", "-o", "a.png", *plan, source=SCENE).returncode == 2
+    yield "plan of an output", bdpt("plan", SCENE, "-o", "-", *plan).returncode == 2
+    with open("/dev/full", "wb") as full:
+        done = subprocess.run([COMMAND, "render", SCENE, *HOW, "-o", "-"], stdout=full, stderr=subprocess.PIPE,
+                              check=False)
+    yield "a full output", done.returncode == 6 and b"standard output" in done.stderr
+    _, terminal = pty.openpty()
+    done = subprocess.run([COMMAND, "render", "-", *HOW, "-o", "a.exr"], stdin=terminal, stderr=subprocess.PIPE,
+                          check=False, cwd=folder)
+    yield "a terminal as input", done.returncode == 3 and b"terminal" in done.stderr
+    done = subprocess.run([COMMAND, "render", SCENE, *HOW, "-o", "-"], stdout=terminal, stderr=subprocess.PIPE,
+                          check=False)
+    yield "a terminal as output", done.returncode == 6 and b"terminal" in done.stderr
+
+
+def check_files_called_so(folder):
+    """A file of that name is no standard input."""
+    (folder / "-").write_bytes(pathlib.Path(SCENE).read_bytes())
+    yield "a file called -", bdpt("render", "./-", *HOW, "-o", "b.exr", cwd=folder).returncode == 0
+    scene = {"asset": {"version": "2.0"}, "buffers": [{"byteLength": 4, "uri": "-"}], "scenes": [{}], "scene": 0}
+    (folder / "odd.gltf").write_text(json.dumps(scene))
+    (folder / "-").unlink()
+    done = bdpt("render", "odd.gltf", *HOW, "-o", "c.exr", source=SCENE, cwd=folder)
+    yield "a URI -", done.returncode == 3 and b"no such file" in done.stderr
+
+
+with tempfile.TemporaryDirectory() as name:
+    FOLDER = pathlib.Path(name)
+    RESULTS = [result for check in (check_images, check_other_commands, check_refusals, check_files_called_so)
+               for result in check(FOLDER)]
+FAILED = [what for what, passed in RESULTS if not passed]
+print("\n".join(f"failed: {what}" for what in FAILED) or f"{len(RESULTS)} checks passed")
+sys.exit(1 if FAILED else 0)

@@ -135,6 +135,31 @@ def light_paths():
     return tuple(cells)
 
 
+def light_samples():
+    """A row at equal samples and one at equal time for each scene."""
+    cells = []
+    for scene in ("cornell-box.gltf", "night-market.gltf"):
+        for limit in ({"spp": 16}, {"seconds": 4.0}):
+            cells += [Cell(f"{count} light sample{'s' if count > 1 else ''}", scene,
+                           by("mis") + ("--light-samples", str(count)) + depth(5), reference=depth(5), **limit)
+                      for count in (1, 4, 16)]
+    return tuple(cells)
+
+
+def heuristics():
+    return tuple(Cell(name, scene, ("--heuristic", name) + depth(5), 16, reference=depth(5))
+                 for scene in ("veach-plates.gltf", "cornell-box-hidden.gltf")
+                 for name in ("balance", "power", "cutoff", "maximum", "uniform"))
+
+
+def roulette():
+    """Paths of up to so many edges, with Russian roulette after three edges and without, at equal time."""
+    return tuple(Cell(f"{label}, {edges} edges", "cornell-box-hidden.gltf", by("mis") + more + depth(edges), seconds=4.0,
+                      reference=depth(edges))
+                 for label, more in (("roulette", ()), ("no roulette", ("--rr-start", "1000")))
+                 for edges in (4, 8, 16, 32))
+
+
 def direct_indirect():
     scene = "cornell-spheres.gltf"
     parts = {"direct only": ("--only", "direct"), "indirect only": ("--only", "indirect"), "direct and indirect": ()}
@@ -190,6 +215,10 @@ FIGURES = {
                           light_paths()),
     "hemisphere-light": Figure("Hemisphere (pt) against light sampling (nee), direct light", 4,
                                sweep("cornell-box.gltf", ("pt", "nee"), (1, 4, 16, 64), 2)),
+    "light-samples": Figure("1, 4, 16 light samples at each vertex, at equal samples, then at equal time", 3,
+                            light_samples()),
+    "heuristics": Figure("Five heuristics at equal samples", 5, heuristics()),
+    "roulette": Figure("With and without Russian roulette, at equal time", 4, roulette()),
     "direct-indirect": Figure("Direct only and indirect only", 3, direct_indirect()),
     "depths": Figure("Depth 0, 1, 2, 3, 100 of the reports", 5, tuple(
         Cell(f"depth {bounces}", "cornell-spheres.gltf", depth(bounces + 1), 64, reference=depth(bounces + 1))

@@ -74,6 +74,9 @@ TEST_CASE("wrong usage gives exit code 2 and names the option")
     rejects({"--rr-start", "0"}, "--rr-start");
     rejects({"--env-sampling", "even"}, "--env-sampling");
     rejects({"--light-sampling", "bvh"}, "--light-sampling");
+    rejects({"--light-samples", "0"}, "--light-samples");
+    rejects({"--light-samples", "1025"}, "--light-samples");
+    rejects({"--light-samples", "2", "--integrator", "lt"}, "--light-samples \"2\"");
     rejects({"--disable", "s2"}, "--disable \"s2\"");
     rejects({"--disable", "s2t1,"}, "--disable \"s2t1,\"");
     rejects({"--connections", "2", "--integrator", "lt"}, "--connections \"2\"");

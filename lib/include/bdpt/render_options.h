@@ -102,13 +102,15 @@ struct FilmOptions {
 
 /// Which random numbers, how many, and how next-event estimation spends them. Ranges: samples
 /// within [0, 2^32 - 1] and not empty; with rates within [0, 2^30] and from a multiple of
-/// SampleRates::group to another.
+/// SampleRates::group to another; light_samples [1, 1024].
 struct SamplingOptions {
     SampleRange samples{};  ///< per pixel; in the mean, if there are rates
     std::uint64_t seed = 0;
     SamplerKind sampler = SamplerKind::sobol;
     EnvironmentSampling environment = EnvironmentSampling::compensated;
     LightSampling lights = LightSampling::automatic;
+    /// Light samples of next-event estimation at each camera vertex, which all share its weight.
+    int light_samples = 1;
     /// How many samples each pixel takes in a round, which a sample index then is; of the size of
     /// the whole image. Null: one. Not for lt and vcm.
     std::shared_ptr<const SampleRates> rates{};

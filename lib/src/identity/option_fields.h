@@ -35,11 +35,13 @@ inline constexpr auto fields<FilmOptions> = all_fields(Field{"width", &FilmOptio
                                                        Field{"clamp", &FilmOptions::clamp});
 /// Fields of `SamplingOptions`, with names.
 template <>
-inline constexpr auto fields<SamplingOptions> = all_fields(
-    Field{"samples", &SamplingOptions::samples}, Field{"seed", &SamplingOptions::seed},
-    Field{"sampler", &SamplingOptions::sampler},
-    Field{"environment sampling", &SamplingOptions::environment},
-    Field{"light sampling", &SamplingOptions::lights}, Field{"rates", &SamplingOptions::rates});
+inline constexpr auto fields<SamplingOptions> =
+    all_fields(Field{"samples", &SamplingOptions::samples}, Field{"seed", &SamplingOptions::seed},
+               Field{"sampler", &SamplingOptions::sampler},
+               Field{"environment sampling", &SamplingOptions::environment},
+               Field{"light sampling", &SamplingOptions::lights},
+               Field{"light samples", &SamplingOptions::light_samples},
+               Field{"rates", &SamplingOptions::rates});
 /// Fields of `TransportOptions`, with names.
 template <>
 inline constexpr auto fields<TransportOptions> =

@@ -16,6 +16,7 @@ enum class LightId : std::uint32_t {};
 struct NextEventSampling {
     EnvironmentSampling environments = EnvironmentSampling::plain;
     LightSampling lights = LightSampling::automatic;
+    int samples = 1;  ///< of each camera vertex
 };
 
 /// A point of a light, whatever found it: all that its densities depend on.

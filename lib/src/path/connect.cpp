@@ -52,8 +52,14 @@ std::optional<Contribution> hit_light(const SampleContext& sample,
         .dispersed = x0.dispersed};
 }
 
+Vec2 first_light_sample(SampleContext& sample, int t)
+{
+    sample.sampler.start(SampleUse::next_event, static_cast<std::uint32_t>(t));
+    return sample.sampler.next_2d();
+}
+
 std::optional<Contribution> connect_to_light(SampleContext& sample,
-                                             std::span<const PathVertex> camera,
+                                             std::span<const PathVertex> camera, Vec2 u,
                                              PathWeigher& weigher)
 {
     const World& world = sample.world;
@@ -63,8 +69,6 @@ std::optional<Contribution> connect_to_light(SampleContext& sample,
         return std::nullopt;
     }
     const NextEventSampling sampling = weigher.next_event_sampling();
-    sampler.start(SampleUse::next_event, static_cast<std::uint32_t>(camera.size()));
-    const Vec2 u = sampler.next_2d();
     const auto choice = world.lights().choose_for_context(
         [&z] { return light_sample_context(z); }, u, [&sampler] { return sampler.next_fine(); },
         sampling.lights);

@@ -30,11 +30,14 @@ struct Splat {
                                                     std::span<const PathVertex> camera,
                                                     PathWeigher& weigher);
 
+/// The random point of the first light sample after `t` camera vertices.
+[[nodiscard]] Vec2 first_light_sample(SampleContext& sample, int t);
+
 /// s = 1: next-event estimation from the last of at least two camera vertices to a fresh point of a
-/// light.
+/// light, chosen by the random point `u`.
 [[nodiscard]] std::optional<Contribution> connect_to_light(SampleContext& sample,
                                                            std::span<const PathVertex> camera,
-                                                           PathWeigher& weigher);
+                                                           Vec2 u, PathWeigher& weigher);
 
 /// s = t = 1: a fresh point of a light is seen through a fresh point of the lens.
 [[nodiscard]] std::optional<Splat> connect_light_to_lens(SampleContext& sample,

@@ -30,7 +30,8 @@ StrategySet::StrategySet(const RenderOptions& options)
       next_event_sampling_{.environments = options.bidirectional.strategy_depth > 0
                                                ? EnvironmentSampling::plain
                                                : options.sampling.environment,
-                           .lights = options.sampling.lights}
+                           .lights = options.sampling.lights,
+                           .samples = options.sampling.light_samples}
 {
     counts_.assign(static_cast<std::size_t>(stride_ * stride_), 0.0f);
     for (int s = 0; s < stride_; ++s) {
@@ -38,8 +39,11 @@ StrategySet::StrategySet(const RenderOptions& options)
             if (s + t < 2 || !allows(s + t - 1, s, t) || !is_switched_on(options, {s, t})) {
                 continue;
             }
-            // A fresh light point for each camera vertex (s = 1); the rest comes from light paths.
-            const double samples = s <= 1 ? 1.0 : t <= 1 ? light_paths() : connections();
+            // Fresh light points for each camera vertex (s = 1); the rest comes from light paths.
+            const double samples = s == 1 && t >= 2 ? next_event_sampling_.samples
+                                   : s <= 1         ? 1.0
+                                   : t <= 1         ? light_paths()
+                                                    : connections();
             if (samples == 0.0) {
                 continue;
             }

@@ -27,10 +27,12 @@ public:
         return merges_ && s >= 2 && t >= 2 && allows(s + t - 2, s, t);
     }
 
-    /// Does every strategy that can make a path take part? For each camera path those with s <= 1
-    /// take one sample, the others `light_paths` where t <= 1 and `connections` where t >= 2.
+    /// Does every strategy that can make a path take part? For each camera path that with s = 0 and
+    /// (1, 1) take one sample, s = 1 `light_samples` at each vertex, the others `light_paths` where
+    /// t <= 1 and `connections` where t >= 2.
     [[nodiscard]] bool is_complete() const { return complete_; }
     [[nodiscard]] double light_paths() const { return light_paths_.per_camera_path; }
+    [[nodiscard]] double light_samples() const { return next_event_sampling_.samples; }
     [[nodiscard]] double connections() const { return light_paths_.connections; }
 
     /// How s = 1 samples lights: environments as asked for if s = 0 can make every path that it

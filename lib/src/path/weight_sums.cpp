@@ -28,7 +28,8 @@ WeightSums::WeightSums(const World& world, const Camera& camera, const StrategyS
       finite_lens_(camera.has_finite_lens()),
       merge_weight_(merge_weight),
       splats_(raise(strategies.light_paths())),
-      joins_(raise(strategies.connections()))
+      joins_(raise(strategies.connections())),
+      light_samples_(raise(strategies.light_samples()))
 {}
 
 /// What the heuristic makes of a quotient of densities, or of counts.
@@ -65,7 +66,9 @@ double WeightSums::hit_term(AreaPdf from_camera, const PathVertex& x0) const
 /// t >= 2
 double WeightSums::light_term(const PathVertex& x0, bool joins, std::size_t s) const
 {
-    return !joins ? 0.0 : s == 1 ? raise(quotient(x0.pdf_next_event, x0.pdf_fwd)) : joins_;
+    return !joins   ? 0.0
+           : s == 1 ? light_samples_ * raise(quotient(x0.pdf_next_event, x0.pdf_fwd))
+                    : joins_;
 }
 
 void WeightSums::sum_camera_path(std::span<PathVertex> path) const
@@ -130,7 +133,8 @@ float WeightSums::weight(std::span<const PathVertex> light, std::span<const Path
     const double beyond = beyond_camera_end(camera, join.light_at_camera_neighbor);
     if (s == 0) {
         const double next_event =
-            joinable(camera[t - 2]) ? raise(quotient(join.next_event, end.pdf_fwd)) : 0.0;
+            joinable(camera[t - 2]) ? light_samples_ * raise(quotient(join.next_event, end.pdf_fwd))
+                                    : 0.0;
         const double others =
             next_event + raise(quotient(join.light_at_camera_end, end.pdf_fwd)) * beyond;
         return static_cast<float>(1.0 / (1.0 + others));
@@ -151,7 +155,7 @@ float WeightSums::weight(std::span<const PathVertex> light, std::span<const Path
     const bool delta = world_.lights()[*light[0].light].is_delta();
     const double hit = delta ? 0.0 : raise(quotient(join.camera_at_light_end, join.next_event));
     const double walks = raise(quotient(light[0].pdf_fwd, join.next_event));
-    return static_cast<float>(1.0 / (1.0 + walks * camera_side + hit));
+    return static_cast<float>(light_samples_ / (light_samples_ + walks * camera_side + hit));
 }
 
 float WeightSums::weight_of_merge(std::span<const PathVertex> light,

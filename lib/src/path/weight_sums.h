@@ -74,7 +74,8 @@ private:
     bool finite_lens_;
     double merge_weight_;
     double splats_;  ///< what the heuristic makes of the number of samples with s >= 2, t <= 1
-    double joins_;   ///< and of those with s >= 2, t >= 2; that of s <= 1 is one
+    double joins_;   ///< and of those with s >= 2, t >= 2
+    double light_samples_;  ///< and of s = 1, t >= 2; that of s = 0 is one
 };
 
 }  // namespace bdpt

@@ -178,6 +178,7 @@ void check_options(const RenderOptions& options)
         throw Error(ErrorCode::usage,
                     "images of strategies (strategy_depth) need the integrator bdpt or lt");
     }
+    check_range("number of light samples", options.sampling.light_samples, 1, 1024);
     check_range("tile size", options.system.tile_size, 1, max_film_side);
     check_range("number of threads", options.system.threads, 0, max_threads);
     check_light_paths(options);

@@ -55,6 +55,7 @@ TEST_CASE("weights of all strategies sum to one on traced paths", "[mis]")
     options.transport.max_depth = max_depth;
     std::tie(options.bidirectional.light_paths, options.bidirectional.connections) =
         GENERATE(std::tuple(1.0, 1.0), std::tuple(0.1, 1.0), std::tuple(2.5, 0.4));
+    options.sampling.light_samples = GENERATE(1, 16);
     const StrategySet strategies(options);
     Subpath camera_path(max_depth + 1);
     RayCounts rays;
@@ -82,7 +83,8 @@ TEST_CASE("weights of all strategies sum to one on traced paths", "[mis]")
             for (int t = 2; t <= camera_path.size(); ++t) {
                 check(hit_light(sample, camera_path.first(t), weigher));
                 if (t <= max_depth) {
-                    check(connect_to_light(sample, camera_path.first(t), weigher));
+                    check(connect_to_light(sample, camera_path.first(t),
+                                           first_light_sample(sample, t), weigher));
                 }
                 for (int s = 2; s <= std::min(light_path.size(), max_depth + 1 - t); ++s) {
                     check(connect_interior(sample, light_path.first(s), camera_path.first(t),

@@ -22,31 +22,6 @@ namespace {
 
 constexpr int longest_path = 1000;  // [edges]
 
-constexpr std::array<std::pair<const char*, EnvironmentSampling>, 2> environment_samplings{
-    {{"plain", EnvironmentSampling::plain}, {"compensated", EnvironmentSampling::compensated}}};
-
-constexpr std::array<std::pair<const char*, LightSampling>, 3> light_samplings{
-    {{"auto", LightSampling::automatic},
-     {"power", LightSampling::power},
-     {"tree", LightSampling::tree}}};
-
-/// The value beside `name`, which the parser has found in the table.
-template <typename Table>
-auto value_of(const Table& table, const std::string& name)
-{
-    return std::find_if(table.begin(), table.end(),
-                        [&](const auto& entry) { return entry.first == name; })
-        ->second;
-}
-
-template <typename Table, typename Value>
-const char* name_of(const Table& table, Value value)
-{
-    return std::find_if(table.begin(), table.end(),
-                        [&](const auto& entry) { return entry.second == value; })
-        ->first;
-}
-
 std::string integrator_help()
 {
     std::vector<std::string> phrases;
@@ -64,16 +39,6 @@ std::vector<std::string> all_names(const Values& values)
     std::vector<std::string> names;
     for (const auto value : values) {
         names.emplace_back(eval::to_string(value));
-    }
-    return names;
-}
-
-template <typename Table>
-std::vector<std::string> names_of(const Table& table)
-{
-    std::vector<std::string> names;
-    for (const auto& entry : table) {
-        names.emplace_back(entry.first);
     }
     return names;
 }
@@ -272,12 +237,7 @@ void add_transport_options(CLI::App& command, TransportWords& words)
                integrator_help());
     add_choice("--heuristic", words.heuristic, all_names(eval::all_heuristics),
                "MIS heuristic: power (default), balance, cutoff, maximum, or uniform (for tests)");
-    add_choice("--env-sampling", words.environment_sampling, names_of(environment_samplings),
-               "Light sampling of environments: compensated (default; MIS compensation, leaves "
-               "uniform light to BSDF sampling) or plain");
-    add_choice("--light-sampling", words.light_sampling, names_of(light_samplings),
-               "Choice of one light: power (by emitted power), tree (light tree: by estimated "
-               "contribution to the point), auto (default: tree if there are many lights)");
+    add_light_sampling_options(command, words.light_sampling, group);
     add_limits(command, words, group);
     add_light_path_options(command, words, group);
     const BidirectionalOptions standard;
@@ -313,8 +273,7 @@ RenderOptions with_transport(const TransportWords& words, RenderOptions options)
     check_merging(words, integrator);
     options.integrator = eval::parse_integrator(integrator).value();
     options.transport.heuristic = eval::parse_heuristic(words.heuristic).value();
-    options.sampling.environment = value_of(environment_samplings, words.environment_sampling);
-    options.sampling.lights = value_of(light_samplings, words.light_sampling);
+    options.sampling = with_light_sampling(words.light_sampling, integrator, options.sampling);
     options.transport.max_depth = words.max_depth;
     if (words.only) {
         choose_light(*words.only, options);
@@ -347,15 +306,13 @@ RenderOptions with_transport(const TransportWords& words, RenderOptions options)
 nlohmann::ordered_json transport_json(const RenderOptions& options)
 {
     constexpr int unlimited = std::numeric_limits<int>::max();
-    nlohmann::ordered_json result{
-        {"integrator", eval::to_string(options.integrator)},
-        {"heuristic", eval::to_string(options.transport.heuristic)},
-        {"environment_sampling", name_of(environment_samplings, options.sampling.environment)},
-        {"light_sampling", name_of(light_samplings, options.sampling.lights)},
-        {"max_depth", options.transport.max_depth},
-        {"min_depth", options.transport.min_depth},
-        {"light_paths", number_json(options.bidirectional.light_paths)},
-        {"rr_start", options.transport.rr_start}};
+    nlohmann::ordered_json result{{"integrator", eval::to_string(options.integrator)},
+                                  {"heuristic", eval::to_string(options.transport.heuristic)},
+                                  {"max_depth", options.transport.max_depth},
+                                  {"min_depth", options.transport.min_depth},
+                                  {"light_paths", number_json(options.bidirectional.light_paths)},
+                                  {"rr_start", options.transport.rr_start}};
+    result.update(light_sampling_json(options.sampling));
     if (options.bidirectional.connections) {
         result["connections"] = number_json(*options.bidirectional.connections);
     }

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "options/groups/light_sampling_arguments.h"
+
 namespace CLI {
 class App;
 }
@@ -18,8 +20,7 @@ namespace bdpt::app {
 struct TransportWords {
     std::string integrator{};  ///< empty: not named
     std::string heuristic = "power";
-    std::string environment_sampling = "compensated";
-    std::string light_sampling = "auto";
+    LightSamplingWords light_sampling{};
     int max_depth = RenderOptions{}.transport.max_depth;
     std::optional<std::string> only{};
     std::optional<int> max_camera_depth{};

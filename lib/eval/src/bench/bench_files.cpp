@@ -113,6 +113,7 @@ ordered_json render_settings(const BenchScene& scene, const RenderOptions& optio
         {"sampler", options.sampling.sampler == SamplerKind::sobol ? "sobol" : "independent"},
         {"environment_sampling", static_cast<int>(options.sampling.environment)},
         {"light_sampling", static_cast<int>(options.sampling.lights)},
+        {"light_samples", options.sampling.light_samples},
         {"filter", static_cast<int>(options.film.filter.kind)},
         {"filter_radius",
          options.film.filter.radius.value_or(default_radius(options.film.filter.kind))},

@@ -2,6 +2,7 @@
 
 #include "camera/moving_camera.h"
 #include "integrator/sample_start.h"
+#include "math/shifted_points.h"
 #include "path/merge.h"
 #include "profile/sample_timer.h"
 
@@ -220,11 +221,26 @@ void BidirectionalIntegrator::join_camera_path(SampleContext& sample, Scratch& s
                 sample.enter(Phase::connect);
             }
         }
-        if (t <= options_.transport.max_depth && strategies_.uses(1, t)) {
-            if (const auto found = connect_to_light(sample, camera, *scratch.weigher)) {
-                scratch.sink.add(sample, {.s = 1, .t = t}, *found, strategies_.count(1, t));
-                sample.enter(Phase::connect);
-            }
+        const PathVertex& end = camera.back();
+        if (t <= options_.transport.max_depth && strategies_.uses(1, t) &&
+            end.kind == VertexKind::surface && end.connectible) {
+            join_to_lights(sample, camera, scratch);
+        }
+    }
+}
+
+void BidirectionalIntegrator::join_to_lights(SampleContext& sample,
+                                             std::span<const PathVertex> camera,
+                                             Scratch& scratch) const
+{
+    const auto t = static_cast<int>(camera.size());
+    const auto count = static_cast<std::uint32_t>(strategies_.next_event_sampling().samples);
+    const Vec2 first = first_light_sample(sample, t);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const Vec2 u = i == 0 ? first : shifted_point(first, i, count);
+        if (const auto found = connect_to_light(sample, camera, u, *scratch.weigher)) {
+            scratch.sink.add(sample, {.s = 1, .t = t}, *found, strategies_.count(1, t));
+            sample.enter(Phase::connect);
         }
     }
 }

@@ -41,6 +41,8 @@ private:
     [[nodiscard]] bool is_background(const PathVertex& x0) const;
     /// s <= 1: what the camera path brings by itself.
     void join_camera_path(SampleContext& sample, Scratch& scratch) const;
+    void join_to_lights(SampleContext& sample, std::span<const PathVertex> camera,
+                        Scratch& scratch) const;
     /// t <= 1: what the light path brings to any pixel.
     void join_light_path(SampleContext& sample, Scratch& scratch) const;
     /// s >= 2, t >= 2

@@ -3,6 +3,7 @@
 #include "camera/moving_camera.h"
 #include "integrator/sample_start.h"
 #include "math/rgb.h"
+#include "math/shifted_points.h"
 #include "profile/sample_timer.h"
 
 #include <glm/geometric.hpp>
@@ -33,7 +34,9 @@ PathIntegrator::PathIntegrator(const World& world, const MovingCamera& camera,
       next_event_sampling_{.environments = options.integrator == IntegratorKind::mis
                                                ? options.sampling.environment
                                                : EnvironmentSampling::plain,
-                           .lights = options.sampling.lights}
+                           .lights = options.sampling.lights,
+                           .samples = options.sampling.light_samples},
+      light_samples_(static_cast<float>(options.sampling.light_samples))
 {}
 
 RenderStats PathIntegrator::render_tile(const Tile& tile, SampleRange samples,
@@ -133,7 +136,7 @@ void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, Contribution
         const auto vertex = static_cast<std::uint32_t>(depth + 1);
         if (point.bsdf.connectible() && depth + 1 >= options_.transport.min_depth) {
             const PhaseScope scope(sample.clock, Phase::connect);
-            add({.s = 1, .t = depth + 1}, beta * sample_light(sample, point, depth));
+            add({.s = 1, .t = depth + 1}, beta * sample_lights(sample, point, depth));
         }
         sampler.start(SampleUse::camera_walk, vertex);
         const Vec2 u_direction = sampler.next_2d();
@@ -206,7 +209,7 @@ Rgb PathIntegrator::emission(const Ray& ray, LightId light, const LightPoint& hi
         lights.context_probability(light, ray.receiver, next_event_sampling_.lights);
     const AreaPdf pdf =
         lights[light].pdf_incident(ray.origin.p, hit, next_event_sampling_.environments) *
-        probability;
+        (probability * light_samples_);
     if (lights[light].is_infinite()) {
         return radiance * bsdf_weight(ray.pdf.value, pdf.value);
     }
@@ -215,11 +218,22 @@ Rgb PathIntegrator::emission(const Ray& ray, LightId light, const LightPoint& hi
     return radiance * bsdf_weight(used.value, pdf.value);
 }
 
-Rgb PathIntegrator::sample_light(SampleContext& sample, const SurfacePoint& point, int depth) const
+Rgb PathIntegrator::sample_lights(SampleContext& sample, const SurfacePoint& point, int depth) const
+{
+    sample.sampler.start(SampleUse::next_event, static_cast<std::uint32_t>(depth + 1));
+    const Vec2 u = sample.sampler.next_2d();
+    const auto count = static_cast<std::uint32_t>(next_event_sampling_.samples);
+    Rgb sum = sample_light(sample, point, depth, u);
+    for (std::uint32_t i = 1; i < count; ++i) {
+        sum += sample_light(sample, point, depth, shifted_point(u, i, count));
+    }
+    return sum / light_samples_;
+}
+
+Rgb PathIntegrator::sample_light(SampleContext& sample, const SurfacePoint& point, int depth,
+                                 Vec2 u) const
 {
     Sampler& sampler = sample.sampler;
-    sampler.start(SampleUse::next_event, static_cast<std::uint32_t>(depth + 1));
-    const Vec2 u = sampler.next_2d();
     const auto draw_fine = [&sampler] { return sampler.next_fine(); };
     const auto receiver = [&point] {
         return LightSampleContext{.p = point.end.p, .normal = point.bsdf.opaque_normal()};
@@ -253,7 +267,8 @@ Rgb PathIntegrator::sample_light(SampleContext& sample, const SurfacePoint& poin
     }
     sample.enter(Phase::weigh);
     return value *
-           light_weight(incident->pdf_solid_angle.value * choice->probability, f.pdf_fwd.value);
+           light_weight(incident->pdf_solid_angle.value * (choice->probability * light_samples_),
+                        f.pdf_fwd.value);
 }
 
 }  // namespace bdpt

@@ -23,9 +23,13 @@ private:
     /// Radiance that the ray brings from a light it hit, weighed against light sampling.
     [[nodiscard]] Rgb emission(const Ray& ray, LightId light, const LightPoint& hit,
                                Rgb radiance) const;
-    /// Next-event estimation at the point, which is vertex `depth` + 1 of the path.
-    [[nodiscard]] Rgb sample_light(SampleContext& sample, const SurfacePoint& point,
-                                   int depth) const;
+    /// Next-event estimation at the point, which is vertex `depth` + 1 of the path: the mean of
+    /// its light samples.
+    [[nodiscard]] Rgb sample_lights(SampleContext& sample, const SurfacePoint& point,
+                                    int depth) const;
+    /// One of them, by the random point `u`.
+    [[nodiscard]] Rgb sample_light(SampleContext& sample, const SurfacePoint& point, int depth,
+                                   Vec2 u) const;
     /// Weights of a light sample and of a BSDF sample that find the same point of a light, by their
     /// densities.
     [[nodiscard]] float light_weight(float light_pdf, float bsdf_pdf) const;
@@ -37,6 +41,7 @@ private:
     SampleSchedule schedule_;
     PixelFilter filter_;
     NextEventSampling next_event_sampling_;
+    float light_samples_;  // of these
 };
 
 }  // namespace bdpt

@@ -17,6 +17,7 @@
 #include "commands/command_line.h"
 #include "commands/compare_command.h"
 #include "commands/info_command.h"
+#include "commands/inspect_command.h"
 #include "commands/merge_command.h"
 #include "commands/plan_command.h"
 #include "commands/render_command.h"
@@ -59,9 +60,8 @@ std::string help_of(const CommandLine& line)
 std::string unknown_command(const std::string& word, const std::string& help)
 {
     return fmt::format(
-        "unknown command \"{}\": there are render, plan, merge, info, compare, bench and verify; "
-        "see "
-        "\"{}\"",
+        "unknown command \"{}\": there are render, plan, merge, info, compare, bench, verify and "
+        "inspect; see \"{}\"",
         word, help);
 }
 
@@ -129,6 +129,9 @@ int run_command(const CommandLine& line, const std::vector<std::string>& words)
     }
     if (line.verify->parsed()) {
         return run_verify(understand(line.verify_words));
+    }
+    if (line.inspect->parsed()) {
+        return run_inspect(understand(line.inspect_words));
     }
     return line.info->parsed() ? run_info(line.info_arguments)
                                : run_render(understand(line.render_words), words);

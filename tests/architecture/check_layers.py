@@ -11,7 +11,7 @@ import re
 import sys
 
 LAYERS = {"math": 1, "film": 2, "identity": 2, "profile": 2, "rates": 2, "texture": 2, "geometry": 3, "material": 3, "light": 4, "camera": 4,
-          "scene": 5, "path": 6, "integrator": 7, "pilot": 8, "render": 9}
+          "scene": 5, "path": 6, "integrator": 7, "pilot": 8, "render": 9, "inspect": 10}
 COMMAND_LAYERS = {"terminal": 1, "options": 2, "plan": 3, "stage": 3, "report": 4, "commands": 5}
 # The same of lib/io/src. Headers are named by their folder there too.
 IO_LAYERS = {"file": 1, "image": 2, "ies": 2, "output": 2, "part": 3, "denoise": 2, "oiio_module": 3, "gltf/checks": 3, "gltf/compression": 4,

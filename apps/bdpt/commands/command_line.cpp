@@ -18,6 +18,7 @@ constexpr const char* footer = R"(Examples:
   bdpt compare out.exr reference.exr
   bdpt bench scene.gltf -o bench --quick
   bdpt verify scene.gltf
+  bdpt inspect scene.gltf --pixel 640,360
 
 "bdpt help render", or "bdpt render --help", has all options and the exit codes.)";
 
@@ -45,11 +46,13 @@ CommandLine::CommandLine()
     verify =
         app.add_subcommand("verify", "Test that all integrators and strategies agree on a scene");
     add_verify_options(*verify, verify_words);
+    inspect = app.add_subcommand("inspect", "Tell what one sample of a pixel does");
+    add_inspect_options(*inspect, inspect_words);
     help = app.add_subcommand("help", "Print the help of a command");
     help->add_option("command", topic, "The command. Default: all")->type_name("COMMAND");
     version = app.add_subcommand("version",
                                  "Print the version, that of libraries, and the instruction set");
-    for (CLI::App* command : {render, plan, merge, info, compare, bench, verify}) {
+    for (CLI::App* command : {render, plan, merge, info, compare, bench, verify, inspect}) {
         let_the_last_count(*command);
     }
 }

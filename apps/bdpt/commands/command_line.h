@@ -6,6 +6,7 @@
 #include "commands/info_command.h"
 #include "options/bench_arguments.h"
 #include "options/compare_arguments.h"
+#include "options/inspect_arguments.h"
 #include "options/part_arguments.h"
 #include "options/plan_arguments.h"
 #include "options/render_arguments.h"
@@ -25,6 +26,7 @@ struct CommandLine {
     CompareWords compare_words;
     BenchWords bench_words;
     VerifyWords verify_words;
+    InspectWords inspect_words;
     std::string topic;  ///< what to help with
     CLI::App* render = nullptr;
     CLI::App* plan = nullptr;
@@ -33,6 +35,7 @@ struct CommandLine {
     CLI::App* compare = nullptr;
     CLI::App* bench = nullptr;
     CLI::App* verify = nullptr;
+    CLI::App* inspect = nullptr;
     CLI::App* help = nullptr;
     CLI::App* version = nullptr;
 };

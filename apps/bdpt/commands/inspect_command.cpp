@@ -1,0 +1,82 @@
+#include "commands/inspect_command.h"
+
+#include <bdpt/io/exr.h>
+#include <bdpt/io/png.h>
+#include <bdpt/render.h>
+#include <bdpt/version.h>
+#include <fmt/core.h>
+
+#include <array>
+#include <chrono>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "options/groups/transport_arguments.h"
+#include "options/values/output_files.h"
+#include "options/values/pipes.h"
+#include "report/direction_sheet.h"
+#include "report/inspect_text.h"
+#include "stage/prepared_scene.h"
+#include "terminal/console.h"
+
+namespace bdpt::app {
+namespace {
+
+void write_directions(const InspectArguments& arguments, const PreparedScene& stage,
+                      const RenderOptions& options)
+{
+    const DirectionMaps maps = inspect_directions(
+        stage.scene, stage.camera, options, arguments.sample, arguments.vertex, arguments.width);
+    const std::filesystem::path file = written_file(*arguments.directions);
+    io::ImageMetadata metadata;
+    metadata.version = BDPT_VERSION;
+    metadata.created = std::chrono::system_clock::now();
+    if (type_of(*arguments.directions) == ImageType::png) {
+        io::PngOptions png;
+        png.metadata = metadata;
+        io::write_png(file, direction_sheet(maps, options.sampling.light_samples), png);
+        return;
+    }
+    io::ExrOptions exr;
+    exr.metadata = metadata;
+    static_cast<void>(io::write_exr(file, maps.product, direction_layers(maps), exr));
+}
+
+}  // namespace
+
+int run_inspect(const InspectArguments& arguments)
+{
+    const RenderArguments& what = arguments.stage;
+    if (arguments.directions) {
+        check_outputs(std::array{*arguments.directions},
+                      std::array{what.file, std::filesystem::path(what.environment.value_or(""))});
+    }
+    // stdout has the report alone.
+    Console console(Format::text, what.verbosity);
+    const PreparedScene stage = prepare_scene(what);
+    for (const std::string& warning : stage.warnings) {
+        console.warning(warning);
+    }
+    RenderOptions options = what.options;
+    options.film.width = stage.size.width;
+    options.film.height = stage.size.height;
+    const bool chosen = options.integrator == IntegratorKind::automatic;
+    options = chosen_options(stage.scene, stage.camera, options);
+    const InspectedSample sample =
+        inspect_sample(stage.scene, stage.camera, options, arguments.sample);
+    if (arguments.directions) {
+        write_directions(arguments, stage, options);
+    }
+    if (what.format == Format::json) {
+        nlohmann::ordered_json json = inspect_json(sample, arguments.sample);
+        json["settings"] = transport_json(options);
+        print_report(json.dump(2) + "\n");
+    } else {
+        print_report(fmt::format("{}, camera {}, {}\n{}", what.file.string(), stage.camera.name,
+                                 integrator_text(options, chosen),
+                                 inspect_text(sample, arguments.sample)));
+    }
+    return 0;
+}
+
+}  // namespace bdpt::app

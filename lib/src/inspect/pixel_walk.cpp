@@ -1,0 +1,89 @@
+#include "inspect/pixel_walk.h"
+
+#include "path/light_path_counts.h"
+#include "path/strategy_set.h"
+#include "render/open_camera.h"
+
+#include <bdpt/error.h>
+#include <bdpt/integrators.h>
+#include <bdpt/render.h>
+
+#include <string>
+
+namespace bdpt {
+namespace {
+
+NextEventSampling sampling_of(const RenderOptions& options)
+{
+    if (info(options.integrator).has_strategies) {
+        return StrategySet(options).next_event_sampling();
+    }
+    return {.environments = options.integrator == IntegratorKind::mis ? options.sampling.environment
+                                                                      : EnvironmentSampling::plain,
+            .lights = options.sampling.lights};
+}
+
+WalkLimits limits_of(const RenderOptions& options, int max_vertices)
+{
+    return {.max_vertices = max_vertices,
+            .rr_start = options.transport.rr_start,
+            .rr_survival = options.transport.rr_survival};
+}
+
+}  // namespace
+
+RenderOptions inspected_options(const Scene& scene, const CameraDesc& camera, RenderOptions options,
+                                const PixelSample& sample)
+{
+    const bool in_image = sample.x >= 0 && sample.y >= 0 && sample.x < options.film.width &&
+                          sample.y < options.film.height;
+    if (!in_image) {
+        throw Error(ErrorCode::usage, "pixel " + std::to_string(sample.x) + "," +
+                                          std::to_string(sample.y) + " is not in the image of " +
+                                          std::to_string(options.film.width) + "x" +
+                                          std::to_string(options.film.height) + " pixels");
+    }
+    options.film.crop =
+        PixelRect{.x0 = sample.x, .y0 = sample.y, .x1 = sample.x + 1, .y1 = sample.y + 1};
+    options.film.aovs = {};
+    options.sampling.samples = {.begin = sample.index, .end = sample.index + 1};
+    options.sampling.rates = nullptr;
+    options.bidirectional.strategy_depth = 0;
+    options.system.threads = 1;
+    return chosen_options(scene, camera, options);
+}
+
+PixelWalk::PixelWalk(const Scene& scene, const CameraDesc& camera, const RenderOptions& options,
+                     const PixelSample& sample)
+    : options_(options),
+      camera_(open_camera(scene.world(), camera, options)),
+      start_(options_, PixelFilter(options.film.filter), scene.world(), camera_, sample.x, sample.y,
+             sample.index),
+      timed_(camera_, start_.moment.time),
+      sample_{.world = scene.world(),
+              .camera = timed_.get(),
+              .sampler = start_.sampler,
+              .time = start_.moment.time,
+              .wavelength = start_.moment.wavelength,
+              .rays = rays_,
+              .clock = nullptr},
+      next_event_sampling_(sampling_of(options)),
+      camera_path_(options.transport.max_depth + 1)
+{
+    trace_camera_subpath(sample_, start_.raster, limits_of(options_, camera_path_.capacity()),
+                         camera_path_);
+}
+
+Subpath PixelWalk::light_path()
+{
+    const bool own =
+        info(options_.integrator).traces_light_paths && !LightPathCounts(options_).shared;
+    Subpath path(own ? StrategySet(options_).light_vertices() : 0);
+    if (path.capacity() > 0) {
+        trace_light_subpath(sample_, limits_of(options_, path.capacity()), next_event_sampling_,
+                            path);
+    }
+    return path;
+}
+
+}  // namespace bdpt

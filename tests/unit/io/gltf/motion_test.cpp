@@ -1,7 +1,7 @@
 // What the reader makes of an animation while a shutter is open.
 
+#include "../gltf_fixture.h"
 #include "catch.hpp"
-#include "gltf_fixture.h"
 
 #include <bdpt/motion.h>
 #include <bdpt/scene_desc.h>

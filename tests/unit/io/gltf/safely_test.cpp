@@ -1,10 +1,10 @@
 #include <bdpt/io/read_image.h>
 
+#include "../gltf_fixture.h"
 #include "catch.hpp"
 #include "file/read_file.h"
 #include "gltf/compression/draco_decoder.h"
 #include "gltf/document/prepass.h"
-#include "gltf_fixture.h"
 #include "image/exr_header.h"
 
 #include <algorithm>

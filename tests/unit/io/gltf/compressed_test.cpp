@@ -1,7 +1,7 @@
+#include "../gltf_fixture.h"
 #include "catch.hpp"
 #include "gltf/compression/draco_decoder.h"
 #include "gltf/compression/meshopt_decoder.h"
-#include "gltf_fixture.h"
 
 #include <bdpt/scene_desc.h>
 

@@ -1,5 +1,5 @@
+#include "../gltf_fixture.h"
 #include "catch.hpp"
-#include "gltf_fixture.h"
 
 #include <functional>
 #include <string>

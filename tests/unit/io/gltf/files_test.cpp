@@ -1,7 +1,7 @@
+#include "../gltf_fixture.h"
 #include "catch.hpp"
 #include "file/named_errors.h"
 #include "file/uri.h"
-#include "gltf_fixture.h"
 
 #include <bdpt/io/file_contents.h>
 #include <sys/resource.h>

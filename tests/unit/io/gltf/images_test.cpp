@@ -1,6 +1,6 @@
+#include "../gltf_fixture.h"
+#include "../image_fixture.h"
 #include "catch.hpp"
-#include "gltf_fixture.h"
-#include "image_fixture.h"
 
 #include <bdpt/scene_desc.h>
 

@@ -10,21 +10,25 @@ target_sources(bdpt_io PRIVATE
   src/file/standard_input.cpp
   src/file/uri.cpp
   src/file/warnings.cpp
-  # images
+  # textures
   src/image/cube_map.cpp
-  src/image/environment.cpp
-  src/image/exr_channels.cpp
-  src/image/exr_header.cpp
-  src/image/exr_reader.cpp
-  src/image/hdr_reader.cpp
   src/image/image_cache.cpp
   src/image/image_size.cpp
   src/image/jpeg_image.cpp
-  src/image/oiio_library.cpp
   src/image/png_image.cpp
-  src/image/read_image.cpp
   src/image/texels.cpp
   src/image/webp_image.cpp
+  # images of linear radiance: OpenEXR, Radiance HDR, TIFF
+  src/image/linear/environment.cpp
+  src/image/linear/exr_channels.cpp
+  src/image/linear/exr_header.cpp
+  src/image/linear/exr_reader.cpp
+  src/image/linear/hdr_header.cpp
+  src/image/linear/hdr_reader.cpp
+  src/image/linear/hdr_scanlines.cpp
+  src/image/linear/oiio_library.cpp
+  src/image/linear/read_image.cpp
+  src/image/linear/tiff_reader.cpp
   # denoising by a library that is opened at run time
   src/denoise/denoiser.cpp
   src/denoise/oidn_functions.cpp
@@ -112,8 +116,8 @@ target_compile_definitions(bdpt_io PRIVATE
 # The implementation's warnings are not ours to mend.
 set_source_files_properties(src/gltf/document/tinygltf.cpp PROPERTIES COMPILE_OPTIONS "-w")
 
-# OpenImageIO lives in a module that is loaded with the first Radiance HDR image
-# (src/image/oiio_library.h).
+# OpenImageIO lives in a module that is loaded with the first TIFF image
+# (src/image/linear/oiio_library.h).
 add_library(bdpt_oiio MODULE src/oiio_module/oiio_module.cpp)
 bdpt_compile_options(bdpt_oiio)
 target_include_directories(bdpt_oiio PRIVATE src)
@@ -128,5 +132,5 @@ if(NOT BUILD_SHARED_LIBS)
        "\"$<TARGET_FILE_DIR:bdpt_oiio>\"")
 endif()
 list(JOIN folders "," folders)
-set_source_files_properties(src/image/oiio_library.cpp PROPERTIES
+set_source_files_properties(src/image/linear/oiio_library.cpp PROPERTIES
   COMPILE_DEFINITIONS "BDPT_OIIO_FOLDERS=${folders}")

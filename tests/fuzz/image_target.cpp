@@ -1,6 +1,6 @@
 #include "fuzz_target.h"
-#include "image/exr_reader.h"
-#include "image/hdr_reader.h"
+#include "image/linear/exr_reader.h"
+#include "image/linear/hdr_reader.h"
 #include "image/texels.h"
 #include "promises.h"
 
@@ -23,13 +23,13 @@ void check_size(int width, int height, std::size_t pixels)
 
 void decode(ByteView bytes)
 {
+    Warnings warnings;
     if (is_exr(bytes)) {
-        Warnings warnings;
         const Image image = read_exr(bytes, std::nullopt, fuzz::small_limits, warnings).image;
         return check_size(image.width, image.height, image.pixels.size());
     }
     if (is_hdr(bytes)) {
-        const Image image = read_hdr(bytes, fuzz::small_limits);
+        const Image image = read_hdr(bytes, fuzz::small_limits, warnings);
         return check_size(image.width, image.height, image.pixels.size());
     }
     const TexelImage image = decode_texels(bytes, fuzz::small_limits).image;

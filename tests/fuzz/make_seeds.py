@@ -54,10 +54,19 @@ def exr(width, height):
     return head + table + b"".join(lines)
 
 
-def hdr(width, height):
-    """Radiance HDR, flat."""
-    head = f"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n".encode()
-    return head + bytes([128, 64, 32, 129]) * (width * height)
+def hdr(resolution, *scanlines, lines=""):
+    """Radiance HDR; scanlines are flat or encoded."""
+    head = f"#?RADIANCE\n{lines}FORMAT=32-bit_rle_rgbe\n\n{resolution}\n".encode()
+    return head + b"".join(map(bytes, scanlines))
+
+
+def environments():
+    """Radiance HDR in all encodings and with all that changes pixels."""
+    pixel = [128, 64, 32, 129]
+    newer = [2, 2, 0, 10, *[138, 7], *[3, 200, 201, 202, 135, 9], *[10, *range(10)], *[138, 130]]
+    return {"flat.hdr": hdr("-Y 2 +X 4", 8 * pixel),
+            "runs.hdr": hdr("+X 2 -Y 10", newer, newer, lines="EXPOSURE=2.5\nCOLORCORR=1 0.5 2\n"),
+            "repeats.hdr": hdr("-Y 2 -X 300", [*pixel, 1, 1, 1, 43, 1, 1, 1, 1], [*pixel, 1, 1, 1, 0, 1, 1, 1, 1, *(43 * pixel)])}
 
 
 class Document:
@@ -244,8 +253,7 @@ def parts(command):
 
 def main():
     folder = pathlib.Path(sys.argv[1])
-    images = {"grey.png": png(3, 3, 0), "rgb.png": png(5, 2, 2), "rgba.png": png(4, 4), "halves.exr": exr(4, 2),
-                "flat.hdr": hdr(4, 2)}
+    images = {"grey.png": png(3, 3, 0), "rgb.png": png(5, 2, 2), "rgba.png": png(4, 4), "halves.exr": exr(4, 2), **environments()}
     with tempfile.TemporaryDirectory() as scratch:
         source = pathlib.Path(scratch) / "source.png"
         for name, kind, how in (("small.jpg", 2, ()), ("small.webp", 2, ()),

@@ -6,7 +6,7 @@ set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 consumer=$here/consumer
 prefix=$WORK/moved
-sky=$WORK/sky.hdr
+sky=$WORK/sky.tif
 unset CMAKE_PREFIX_PATH LD_LIBRARY_PATH PKG_CONFIG_PATH bdpt_DIR bdpt_ROOT
 export ASAN_OPTIONS=detect_leaks=0  # those of OpenImageIO are not our subject
 
@@ -32,14 +32,27 @@ expect_version() {
   [[ ${said%%$'\n'*} == "bdpt $VERSION" ]] || fail "$1 is not version $VERSION"
 }
 
+# One pixel of (1, 1, 1) in floats [TIFF 6.0]: the header, the pixel, and entries of tags from 256 to 511
+# as LOW-BYTE-OF-TAG:VALUE.
+write_tiff() {
+  printf 'II*\0\x14\0\0\0\0\0\x80\x3f\0\0\x80\x3f\0\0\x80\x3f\x0a\0'
+  local entry
+  for entry in 00:01 01:01 02:20 03:01 06:02 11:08 15:03 16:01 17:0c 53:03; do
+    # The bytes are in the format.
+    # shellcheck disable=SC2059
+    printf "\\x${entry%:*}\\x01\\x04\\0\\x01\\0\\0\\0\\x${entry#*:}\\0\\0\\0"
+  done
+  printf '\0\0\0\0'
+}
+
 install_and_move() {
   rm -rf "$WORK/installed" "$prefix"
   mkdir -p "$WORK"
   "$CMAKE" --install "$BUILD" --config "$CONFIG" --prefix "$WORK/installed" >"$WORK/install.log"
   # A package that knows where it was first is found out.
   mv "$WORK/installed" "$prefix"
-  # One pixel of (1, 1, 1); only OpenImageIO reads this format.
-  printf '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x80\x80\x81' >"$sky"
+  # Only OpenImageIO reads this format.
+  write_tiff >"$sky"
   ! grep -rIl -e "$BUILD" -e "$SOURCE" -e "$WORK" "$prefix" || fail "these files name the build"
 }
 

@@ -270,8 +270,8 @@ void add_view_options(CLI::App& command, RenderWords& words)
         ->group(group);
     command
         .add_option("--env", words.environment,
-                    "Environment map: an equirectangular .exr or .hdr, none, or default (the sky "
-                    "that scenes without light get). Replaces that of the file")
+                    "Environment map: an equirectangular .exr, .hdr or .tif, none, or default (the "
+                    "sky that scenes without light get). Replaces that of the file")
         ->type_name("FILE|none|default")
         ->group(group);
     add_environment_options(command, words.environment_change, group);

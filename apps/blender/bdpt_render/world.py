@@ -32,7 +32,8 @@ def environment_words(world, folder):
     # The middle of the image is seen along +x, that of ours along -z. A Mapping node turns the other way, as it turns what
     # is looked up.
     turn = -90.0 - math.degrees(rotation_of(texture))
-    return ["--env", str(file), "--env-intensity", f"{strength.default_value:.9g}", "--env-rotation", f"{turn:.9g}"], []
+    intensity = strength.default_value * exposure_of(file)
+    return ["--env", str(file), "--env-intensity", f"{intensity:.9g}", "--env-rotation", f"{turn:.9g}"], []
 
 
 def rotation_of(texture):
@@ -40,6 +41,14 @@ def rotation_of(texture):
     links = texture.inputs["Vector"].links
     mapping = links[0].from_node if links else None
     return mapping.inputs["Rotation"].default_value[2] if mapping and mapping.type == "MAPPING" else 0.0
+
+
+def exposure_of(file):
+    """What the pixels of a Radiance HDR file have been multiplied by: bdpt divides it out, Cycles does not."""
+    with file.open("rb") as stream:
+        header = stream.read(1 << 16).partition(b"\n\n")[0]
+    lines = header.split(b"\n") if header.startswith(b"#?") else []
+    return math.prod(float(line[len(b"EXPOSURE="):]) for line in lines if line.startswith(b"EXPOSURE="))
 
 
 def saved(image, folder):

@@ -1,4 +1,4 @@
-#include "image/oiio_interface.h"
+#include "image/linear/oiio_interface.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -21,6 +21,18 @@ void report(const std::string& text, char* message, std::size_t size)
     std::memcpy(message, text.data(), length);
     message[length] = '\0';
     std::replace(message, message + length, '\n', ' ');
+}
+
+BdptImageHeader describe(const OIIO::ImageSpec& spec)
+{
+    const bool has_floats = spec.format.is_floating_point() && spec.channelformats.empty();
+    return {.width = spec.width,
+            .height = spec.height,
+            .channels = spec.nchannels,
+            .has_floats = has_floats ? 1 : 0,
+            .orientation = spec.get_int_attribute("Orientation", 1),
+            .tile_width = spec.tile_width,
+            .tile_height = spec.tile_height};
 }
 
 }  // namespace
@@ -66,7 +78,7 @@ __attribute__((visibility("default"))) BdptImage* bdpt_oiio_open(
             report("neither volumes nor deep images are read", message, message_size);
             return nullptr;
         }
-        *header = {spec.width, spec.height, spec.nchannels};
+        *header = describe(spec);
         return image.release();
     } catch (const std::exception& error) {
         report(error.what(), message, message_size);

@@ -23,7 +23,7 @@
 
 #include "file/bytes.h"
 #include "file/named_errors.h"
-#include "image/exr_header.h"
+#include "image/linear/exr_header.h"
 #include "part/part_header.h"
 #include "part/part_planes.h"
 #include "part/part_seal.h"

@@ -5,7 +5,7 @@
 #include "file/read_file.h"
 #include "gltf/compression/draco_decoder.h"
 #include "gltf/document/prepass.h"
-#include "image/exr_header.h"
+#include "image/linear/exr_header.h"
 
 #include <algorithm>
 #include <string>

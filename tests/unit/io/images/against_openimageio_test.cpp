@@ -1,13 +1,17 @@
 #include "../image_fixture.h"
 #include "catch.hpp"
 #include "encoders.h"
-#include "image/oiio_library.h"
+#include "hdr_encoder.h"
+#include "image/linear/hdr_reader.h"
+#include "image/linear/oiio_library.h"
 #include "image/texels.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 
 using namespace bdpt;
 using namespace bdpt::io;
@@ -48,6 +52,19 @@ void compare(const char* format, const std::string& file, const IsClose& is_clos
             is_close(value, static_cast<int>(std::lround(values[i] * most)), value * alpha) ? 0 : 1;
     }
     CHECK(different == 0);
+}
+
+void compare_hdr(const std::string& file)
+{
+    Warnings warnings;
+    const Image ours = read_hdr(view(file), {}, warnings);
+    const OiioImage theirs = OiioLibrary().open("hdr", view(file));
+    REQUIRE(ours.width == theirs.header().width);
+    REQUIRE(ours.height == theirs.header().height);
+    std::vector<Rgb> values(ours.pixels.size());
+    REQUIRE(theirs.value_count() == 3 * values.size());
+    theirs.read(&values[0].r);
+    CHECK(ours.pixels == values);
 }
 
 constexpr auto equal = [](int ours, int theirs, double) { return ours == theirs; };
@@ -120,4 +137,27 @@ TEST_CASE("PNG images are read as OpenImageIO reads them")
             }
         }
     }
+}
+
+TEST_CASE("Radiance HDR images are read as OpenImageIO reads them")
+{
+    // It does not know the older encoding, and turns no image upright.
+    for (const HdrEncoding encoding : {HdrEncoding::flat, HdrEncoding::newer}) {
+        compare_hdr(upright(301, 17, make_pixels(301 * 17, 300), encoding).bytes());
+    }
+    const char* folder = std::getenv("BDPT_TEST_ASSETS");
+    if (folder == nullptr) {
+        WARN("real files are skipped: BDPT_TEST_ASSETS is not set");
+        return;
+    }
+    int count = 0;
+    for (const auto& entry :
+         std::filesystem::directory_iterator(std::filesystem::path(folder) / "hdr")) {
+        if (entry.path().extension() == ".hdr") {
+            std::ifstream stream(entry.path(), std::ios::binary);
+            compare_hdr({std::istreambuf_iterator<char>(stream), {}});
+            ++count;
+        }
+    }
+    CHECK(count >= 2);
 }

@@ -16,12 +16,14 @@ struct LoadedEnvironment {
     std::vector<std::string> warnings;  ///< one line each, without the file's name
 };
 
-/// Reads an equirectangular image in OpenEXR or Radiance HDR format; which of the two it is, its
-/// first bytes say; "-" is the standard input. Pixels are taken as linear Rec. 709 [nit]; negative,
-/// infinite and NaN ones become 0, with a warning.
+/// Reads an equirectangular image in OpenEXR, Radiance HDR or TIFF format; which of these it is,
+/// its first bytes say; "-" is the standard input. Pixels are taken as linear Rec. 709 [nit];
+/// negative, infinite and NaN ones become 0, with a warning. TIFF images are of floats; they are
+/// read by OpenImageIO, which is opened for the first of them.
 ///
 /// Throws `Error`, whose message starts with the file's path: not_found (missing or unreadable),
-/// invalid_input (broken, or over a limit), unsupported (neither format).
+/// invalid_input (broken, or over a limit), unsupported (another format or kind of pixels; TIFF
+/// where there is no OpenImageIO).
 [[nodiscard]] BDPT_EXPORT LoadedEnvironment load_environment(const std::filesystem::path& file,
                                                              const ReadLimits& limits = {});
 

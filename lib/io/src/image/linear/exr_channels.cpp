@@ -1,4 +1,4 @@
-#include "image/exr_channels.h"
+#include "image/linear/exr_channels.h"
 
 #include <bdpt/error.h>
 

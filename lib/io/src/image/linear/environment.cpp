@@ -1,11 +1,13 @@
 #include <bdpt/error.h>
 #include <bdpt/io/environment.h>
 
+#include "file/file_kind.h"
 #include "file/named_errors.h"
 #include "file/standard_input.h"
 #include "file/warnings.h"
-#include "image/exr_reader.h"
-#include "image/hdr_reader.h"
+#include "image/linear/exr_reader.h"
+#include "image/linear/hdr_reader.h"
+#include "image/linear/tiff_reader.h"
 
 #include <fmt/format.h>
 
@@ -34,18 +36,29 @@ void mend_pixels(Image& image, Warnings& warnings)
     }
 }
 
+Image read_any(ByteView bytes, const ReadLimits& limits, Warnings& warnings)
+{
+    if (is_exr(bytes)) {
+        return read_exr(bytes, std::nullopt, limits, warnings).image;
+    }
+    if (is_hdr(bytes)) {
+        return read_hdr(bytes, limits, warnings);
+    }
+    if (is_tiff(bytes)) {
+        return read_tiff(bytes, limits);
+    }
+    const auto kind = other_kind(bytes);
+    throw Error(ErrorCode::unsupported,
+                fmt::format("neither OpenEXR, Radiance HDR nor TIFF{}",
+                            kind ? fmt::format(", but {}", *kind) : std::string()));
+}
+
 LoadedEnvironment load(const std::filesystem::path& file, const ReadLimits& limits)
 {
     const Bytes bytes = read_named(file, limits.file_bytes);
     Warnings warnings;
     LoadedEnvironment loaded;
-    if (is_exr(bytes)) {
-        loaded.light.radiance = read_exr(bytes, std::nullopt, limits, warnings).image;
-    } else if (is_hdr(bytes)) {
-        loaded.light.radiance = read_hdr(bytes, limits);
-    } else {
-        throw Error(ErrorCode::unsupported, "neither OpenEXR nor Radiance HDR");
-    }
+    loaded.light.radiance = read_any(bytes, limits, warnings);
     mend_pixels(loaded.light.radiance, warnings);
     const Image& image = loaded.light.radiance;
     if (image.width != 2 * image.height && image.width * image.height != 1) {

@@ -1,4 +1,4 @@
-#include "image/exr_header.h"
+#include "image/linear/exr_header.h"
 
 #include "file/uri.h"
 

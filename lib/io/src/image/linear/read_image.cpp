@@ -4,8 +4,8 @@
 #include "file/named_errors.h"
 #include "file/standard_input.h"
 #include "file/warnings.h"
-#include "image/exr_reader.h"
-#include "image/hdr_reader.h"
+#include "image/linear/exr_reader.h"
+#include "image/linear/hdr_reader.h"
 
 #include <utility>
 
@@ -16,8 +16,8 @@ namespace {
 LoadedImage load(const std::filesystem::path& file, const ImageOptions& options)
 {
     const Bytes bytes = read_named(file, options.limits.file_bytes);
+    Warnings warnings;
     if (is_exr(bytes)) {
-        Warnings warnings;
         ExrImage exr_image = read_exr(bytes, options.layer, options.limits, warnings);
         return {.image = std::move(exr_image.image),
                 .filled = exr_image.filled,
@@ -30,9 +30,9 @@ LoadedImage load(const std::filesystem::path& file, const ImageOptions& options)
         throw Error(ErrorCode::not_found,
                     "no layer \"" + *options.layer + "\": Radiance HDR files have none");
     }
-    Image image = read_hdr(bytes, options.limits);
+    Image image = read_hdr(bytes, options.limits, warnings);
     const PixelRect whole{.x0 = 0, .y0 = 0, .x1 = image.width, .y1 = image.height};
-    return {.image = std::move(image), .filled = whole, .warnings = {}};
+    return {.image = std::move(image), .filled = whole, .warnings = warnings.lines()};
 }
 
 }  // namespace

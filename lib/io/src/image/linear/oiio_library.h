@@ -1,7 +1,7 @@
 #pragma once
 
 #include "file/bytes.h"
-#include "image/oiio_interface.h"
+#include "image/linear/oiio_interface.h"
 
 #include <cstddef>
 #include <memory>
@@ -39,7 +39,8 @@ private:
 /// have one is cheap.
 class OiioLibrary {
 public:
-    /// Throws `Error` (internal) when the module cannot be found or loaded.
+    /// Throws `Error`: unsupported when the module cannot be found or loaded, internal when it is
+    /// another version's.
     OiioLibrary();
 
     /// Opens an image in memory; `format` is one of OpenImageIO's names. Throws

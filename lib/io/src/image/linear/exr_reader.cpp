@@ -1,7 +1,7 @@
-#include "image/exr_reader.h"
+#include "image/linear/exr_reader.h"
 
-#include "image/exr_channels.h"
-#include "image/exr_header.h"
+#include "image/linear/exr_channels.h"
+#include "image/linear/exr_header.h"
 #include "image/image_size.h"
 
 #include <bdpt/error.h>

@@ -2,8 +2,8 @@
 
 #include <cstddef>
 
-// What the module bdpt_oiio offers. It is opened when the first Radiance HDR image is decoded and
-// not before: OpenImageIO with all its dependencies would cost every start of the program 0.3 s and
+// What the module bdpt_oiio offers. It is opened when the first TIFF image is decoded and not
+// before: OpenImageIO with all its dependencies would cost every start of the program 0.3 s and
 // 130 MB. Plain C types, no exceptions. Errors are a message in `message`, which ends with a zero
 // byte.
 extern "C" {
@@ -14,10 +14,14 @@ struct BdptImageHeader {
     int width;
     int height;
     int channels;
+    int has_floats;   // whether values are stored as floats, of any size
+    int orientation;  // as in TIFF; 1: row 0 is the top row
+    int tile_width;   // 0 if the image is not stored in tiles
+    int tile_height;
 };
 
 /// Changes when anything in this file does.
-constexpr int bdpt_oiio_interface_version = 3;
+constexpr int bdpt_oiio_interface_version = 4;
 int bdpt_oiio_version();
 
 /// Opens an image in memory, which must stay there until it is closed. `format` is a name of

@@ -1,4 +1,4 @@
-#include "image/oiio_library.h"
+#include "image/linear/oiio_library.h"
 
 #include <bdpt/error.h>
 
@@ -57,14 +57,13 @@ void* load_module()
         // It stays: OpenImageIO cannot be unloaded safely.
         void* module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
         if (module == nullptr) {
-            throw Error(ErrorCode::internal,
+            throw Error(ErrorCode::unsupported,
                         fmt::format("{} cannot be loaded: {}", file.string(), dlerror()));
         }
         return module;
     }
-    throw Error(
-        ErrorCode::internal,
-        fmt::format("Radiance HDR images cannot be read: no {} (tried {})", module_name, tried));
+    throw Error(ErrorCode::unsupported,
+                fmt::format("{} is not there (tried {})", module_name, tried));
 }
 
 template <typename Function>

@@ -170,10 +170,11 @@ void Console::begin_image(const ImageLabel& label)
     label_ = label;
 }
 
-void Console::warning(std::string_view message)
+void Console::warning(std::string_view message, Repeat repeat)
 {
     const std::lock_guard lock(mutex_);
-    if (verbosity_ == Verbosity::quiet || !warned_.emplace(message).second) {
+    const bool is_news = warned_.emplace(message).second || repeat == Repeat::always;
+    if (verbosity_ == Verbosity::quiet || !is_news) {
         return;
     }
     if (format_ == Format::json) {

@@ -38,6 +38,12 @@ struct TaskProgress {
     std::string activity;  ///< what is being done
 };
 
+/// How often a warning is shown.
+enum class Repeat : std::uint8_t {
+    never,   ///< the same message is shown once
+    always,  ///< each time is news
+};
+
 /// Which of several images is rendered.
 struct ImageLabel {
     std::optional<int> frame{};
@@ -70,8 +76,7 @@ public:
     void note(std::string_view message);
     /// A line for people, if there is one image only.
     void detail(std::string_view message);
-    /// The same message is shown once.
-    void warning(std::string_view message);
+    void warning(std::string_view message, Repeat repeat = Repeat::never);
     /// From now on events have "frame" and "camera", as far as there are any, and progress lines
     /// begin with the label.
     void begin_image(const ImageLabel& label);

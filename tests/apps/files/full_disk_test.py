@@ -26,9 +26,12 @@ class Render:
         self.begun = self.wait_for('"progress"')  # before that a signal would end it
 
     def wait_for(self, text):
+        """Whether the text comes before many lines of progress do."""
+        patience = 60
         for line in self.process.stdout:
-            if text in line:
-                return True
+            patience -= '"progress"' in line
+            if text in line or patience == 0:
+                return text in line
         return False
 
     def checkpoint(self, outcome):
@@ -64,6 +67,11 @@ def tests(folder):
     yield "a full disk is a warning, with what happens next", render.checkpoint("No space left on device; the render goes on")
     yield "the checkpoint before it stays", part.read_bytes() == before
     yield "nothing half-written is left", names() == {"a.part.exr", "filler"}
+    filler.unlink()
+    yield "what was missed comes with the next one", render.checkpoint('"event":"part"')
+    before = part.read_bytes()
+    filler = fill(folder)
+    yield "a disk that is full again is told of again", render.checkpoint("No space left on device; the render goes on")
     filler.unlink()
     yield "what was missed is no error when the last write succeeds", render.stop() == 143
     yield "and it has more samples", part.read_bytes() != before

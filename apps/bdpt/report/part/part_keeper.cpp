@@ -90,10 +90,10 @@ void PartKeeper::after_pass(const RenderPart& part, Checkpoint checkpoint)
         }
         last_ = Clock::now();
         interval_ *= patience;
-        console_.warning(
-            fmt::format("{}; the render goes on, and so it will be tried again in "
-                        "{:.0f} minutes",
-                        error.what(), interval_.count() / 60.0));
+        console_.warning(fmt::format("{}; the render goes on, and so it will be tried again in "
+                                     "{:.0f} minutes",
+                                     error.what(), interval_.count() / 60.0),
+                         Repeat::always);
     }
 }
 

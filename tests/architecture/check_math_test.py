@@ -9,6 +9,7 @@ import check_math
 
 SOUND = {
     "lib/a/camera_matrices.cpp.o": "                 U tanf\n",
+    "apps/a/direction_sheet.cpp.o": "                 U cos\n",
     "lib/a/display.cpp.o": "                 U exp2\n",
     "lib/a/tone_curve.cpp.o": "                 U log2f\n",
     "lib/a/tone_map.cpp.o": "                 U powf\n                 U exp2\n",

@@ -95,12 +95,16 @@ TEST_CASE("scanlines of one Radiance HDR image may have different encodings")
     CHECK(read(mixed).pixels == read(flat).pixels);
 }
 
-TEST_CASE("what looks like a mark is a pixel in scanlines too short or too long for it")
+TEST_CASE("pixels of Radiance HDR are not taken for the mark of an encoding")
 {
     std::vector<Rgbe> pixels(7, {9, 130, 9, 136});
     pixels[0] = {2, 2, 0, 7};
     CHECK(read(upright(7, 1, pixels, HdrEncoding::flat).bytes()).at(0, 0).r ==
           std::ldexp(2.0f, 7 - 136));
+    // The third byte of a mark is less than 128.
+    std::vector<Rgbe> blue(8, {2, 2, 130, 136});
+    CHECK(read(upright(8, 1, blue, HdrEncoding::flat).bytes()).pixels ==
+          std::vector<Rgb>(8, Rgb(2, 2, 130)));
     std::vector<Rgbe> many(32768, {9, 130, 9, 136});
     many[0] = {2, 2, 127, 136};
     const std::string file = upright(32768, 1, many, HdrEncoding::flat).bytes();

@@ -168,6 +168,9 @@ PlanArguments understand(const PlanWords& words)
     if (names_no_file(words.render.environment)) {
         result.render_options.push_back("--env=" + *words.render.environment);
     }
+    if (words.render.display.background) {  // of which merging needs alpha
+        result.render_options.push_back("--background=" + *words.render.display.background);
+    }
     if (result.render.denoise) {
         result.render_options.emplace_back("--denoise");  // for the layers that merging needs
     }

@@ -93,7 +93,8 @@ TEST_CASE("the tasks of a plan make the pixels of one render", "[plan]")
     // auto, with what it chooses; and what is open no more.
     const Words how = GENERATE(Words{}, Words{"--integrator", "auto", "--env=none"},
                                Words{"--integrator", "lt", "--aov", "alpha", "--seed=7"},
-                               Words{"--light-paths", "0.25", "--sampler", "independent"});
+                               Words{"--light-paths", "0.25", "--sampler", "independent"},
+                               Words{"--background", "transparent", "--integrator", "mis"});
     checked(plan(folder, joined(how, {"--half", "-o", path(folder, "out.png")})));
     CHECK(fs::exists(folder / "job" / "Makefile"));
     for (const char* task : {"2", "0", "1"}) {

@@ -18,8 +18,8 @@
 #include "options/part_arguments.h"
 #include "options/values/output_files.h"
 #include "python_scene.h"
-#include "report/denoised.h"
-#include "report/image_files.h"
+#include "report/image/denoised.h"
+#include "report/image/image_files.h"
 #include "report/part/merged_files.h"
 #include "report/render_settings.h"
 

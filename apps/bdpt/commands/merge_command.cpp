@@ -21,7 +21,7 @@
 #include "options/arguments.h"
 #include "options/values/output_files.h"
 #include "plan/plan_file.h"
-#include "report/denoised.h"
+#include "report/image/denoised.h"
 #include "report/part/merged_files.h"
 #include "report/part/part_collection.h"
 #include "report/part/part_command.h"

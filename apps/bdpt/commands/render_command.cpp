@@ -19,7 +19,7 @@
 #include "plan/plan_file.h"
 #include "plan/planned_identity.h"
 #include "plan/planned_words.h"
-#include "report/denoised.h"
+#include "report/image/denoised.h"
 #include "report/part/part_keeper.h"
 #include "report/render_files.h"
 #include "report/viewer/display.h"

@@ -19,7 +19,7 @@
 
 #include "options/groups/transport_arguments.h"
 #include "report/film_report.h"
-#include "report/image_files.h"
+#include "report/image/image_files.h"
 #include "report/part/part_command.h"
 #include "report/rates_report.h"
 #include "report/render_files.h"

@@ -16,7 +16,7 @@
 
 #include "options/groups/strategy_arguments.h"
 #include "options/values/output_files.h"
-#include "report/image_files.h"
+#include "report/image/image_files.h"
 #include "report/strategy_files.h"
 
 namespace bdpt::app {

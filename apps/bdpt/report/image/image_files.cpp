@@ -1,4 +1,4 @@
-#include "report/image_files.h"
+#include "report/image/image_files.h"
 
 #include <bdpt/io/display.h>
 #include <bdpt/io/png.h>
@@ -8,7 +8,7 @@
 
 #include "options/values/output_files.h"
 #include "options/values/pipes.h"
-#include "report/denoised.h"
+#include "report/image/denoised.h"
 
 namespace bdpt::app {
 

@@ -1,4 +1,4 @@
-#include "report/denoised.h"
+#include "report/image/denoised.h"
 
 #include <algorithm>
 #include <cstddef>

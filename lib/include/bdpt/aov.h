@@ -22,8 +22,13 @@ enum class Aov : std::uint8_t {
     /// Of the pixel's value [nit^2], estimated from its two half images; infinite when one is
     /// empty.
     variance,
-    /// Share of rays that meet a surface.
+    /// Share of rays that meet a surface; with `shadow` the opacity of that is added.
     alpha,
+    /// Opacity of the scene's black shadow on a level ground (`FilmOptions::ground_height`), which
+    /// rays meet that meet no surface: their share, times the share of the ground's direct light
+    /// that the scene takes away. In [0, 1]; 0, to the bit, where nothing is in the way of any
+    /// light.
+    shadow,
 };
 
 /// A set of them.

@@ -94,6 +94,9 @@ struct FilmOptions {
     std::optional<PixelRect> crop{};
     FilterOptions filter{};
     AovSet aovs{};
+    /// World y [m] of the ground of `Aov::shadow`; none: the lowest point of the scene's bounds,
+    /// at any time while the shutter is open.
+    std::optional<float> ground_height{};
     /// The greatest component [nit] that a contribution to a pixel may have, be it a camera sample
     /// or a splat; greater ones are scaled down. Takes fireflies away, and energy: biased. In (0,
     /// inf]; infinite: off.

@@ -9,7 +9,7 @@ struct RayCounts {
     std::uint64_t camera = 0;           ///< of camera subpaths
     std::uint64_t light = 0;            ///< of light subpaths
     std::uint64_t shadow = 0;           ///< between two points, or to a light at infinity
-    std::uint64_t aov = 0;              ///< for AOVs
+    std::uint64_t aov = 0;              ///< for AOVs, shadow rays to the ground among them
     std::uint64_t shadow_to_lens = 0;   ///< of `shadow`, from light subpaths to the lens (t = 1)
     std::uint64_t shadow_interior = 0;  ///< of `shadow`, between both subpaths (s, t >= 2)
 

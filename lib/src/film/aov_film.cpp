@@ -37,6 +37,20 @@ void merge_sums(std::vector<std::array<ExactSum, 3>>& to,
     }
 }
 
+void merge_sums(std::vector<ExactSum>& to, const std::vector<ExactSum>& from)
+{
+    for (std::size_t i = 0; i < to.size(); ++i) {
+        to[i].add(from[i]);
+    }
+}
+
+void merge_counts(std::vector<std::uint64_t>& to, const std::vector<std::uint64_t>& from)
+{
+    for (std::size_t i = 0; i < to.size(); ++i) {
+        to[i] += from[i];
+    }
+}
+
 }  // namespace
 
 AovFilm::AovFilm(const PixelRect& region, AovSet aovs, PixelCounts counts)
@@ -52,13 +66,20 @@ AovFilm::AovFilm(const PixelRect& region, AovSet aovs, PixelCounts counts)
     hits_.resize(std::max({room(Aov::albedo), room(Aov::normal), room(Aov::position),
                            room(Aov::depth), room(Aov::alpha)}));
     counts_.resize(counts == PixelCounts::own ? room(Aov::sample_count) : 0);
+    unshadowed_.resize(room(Aov::shadow));
+    shadowed_.resize(room(Aov::shadow));
+    ground_hits_.resize(room(Aov::shadow));
+}
+
+std::size_t AovFilm::index(int x, int y) const
+{
+    return static_cast<std::size_t>(y - region_.y0) * static_cast<std::size_t>(region_.width()) +
+           static_cast<std::size_t>(x - region_.x0);
 }
 
 void AovFilm::add(int x, int y, const PrimaryHit& hit) noexcept
 {
-    const std::size_t i =
-        static_cast<std::size_t>(y - region_.y0) * static_cast<std::size_t>(region_.width()) +
-        static_cast<std::size_t>(x - region_.x0);
+    const std::size_t i = index(x, y);
     if (!hits_.empty()) {
         ++hits_[i];
     }
@@ -76,12 +97,17 @@ void AovFilm::add(int x, int y, const PrimaryHit& hit) noexcept
     }
 }
 
+void AovFilm::add_ground(int x, int y, const GroundLight& light) noexcept
+{
+    const std::size_t i = index(x, y);
+    ++ground_hits_[i];
+    unshadowed_[i].add(std::min(light.unshadowed, ExactSum::max_value));
+    shadowed_[i].add(std::min(light.shadowed, ExactSum::max_value));
+}
+
 void AovFilm::count_samples(int x, int y, std::int64_t count) noexcept
 {
-    const std::size_t i =
-        static_cast<std::size_t>(y - region_.y0) * static_cast<std::size_t>(region_.width()) +
-        static_cast<std::size_t>(x - region_.x0);
-    counts_[i] += static_cast<std::uint64_t>(count);
+    counts_[index(x, y)] += static_cast<std::uint64_t>(count);
 }
 
 void AovFilm::merge(const AovFilm& other)
@@ -92,15 +118,12 @@ void AovFilm::merge(const AovFilm& other)
     merge_sums(albedo_, other.albedo_);
     merge_sums(normal_, other.normal_);
     merge_sums(position_, other.position_);
-    for (std::size_t i = 0; i < depth_.size(); ++i) {
-        depth_[i].add(other.depth_[i]);
-    }
-    for (std::size_t i = 0; i < hits_.size(); ++i) {
-        hits_[i] += other.hits_[i];
-    }
-    for (std::size_t i = 0; i < counts_.size(); ++i) {
-        counts_[i] += other.counts_[i];
-    }
+    merge_sums(depth_, other.depth_);
+    merge_counts(hits_, other.hits_);
+    merge_counts(counts_, other.counts_);
+    merge_sums(unshadowed_, other.unshadowed_);
+    merge_sums(shadowed_, other.shadowed_);
+    merge_counts(ground_hits_, other.ground_hits_);
 }
 
 std::vector<AovFilm::Plane> AovFilm::planes() const
@@ -124,6 +147,11 @@ std::vector<AovFilm::Plane> AovFilm::planes() const
     }
     if (!counts_.empty()) {
         result.push_back({.name = "counts", .count = &AovFilm::counts_});
+    }
+    if (needs_ground()) {
+        result.push_back({.name = "ground.unshadowed", .single = &AovFilm::unshadowed_});
+        result.push_back({.name = "ground.shadowed", .single = &AovFilm::shadowed_});
+        result.push_back({.name = "ground.hits", .count = &AovFilm::ground_hits_});
     }
     return result;
 }
@@ -166,6 +194,16 @@ void AovFilm::add_row(std::size_t plane, int row, std::span<const ExactSum::Word
     }
 }
 
+double AovFilm::shadow_opacity(std::size_t pixel, double samples) const
+{
+    const double unshadowed = unshadowed_[pixel].value();
+    if (!(unshadowed > 0.0 && samples > 0.0)) {
+        return 0.0;  // without light there is no shadow
+    }
+    const double share = static_cast<double>(ground_hits_[pixel]) / samples;
+    return share * (1.0 - shadowed_[pixel].value() / unshadowed);
+}
+
 std::vector<Layer> AovFilm::develop(const Film& film) const
 {
     if (film.region() != region_) {
@@ -197,8 +235,11 @@ std::vector<Layer> AovFilm::develop(const Film& film) const
         return hits_[i] > 0 ? sum / static_cast<double>(hits_[i]) : without;
     };
     using Index = std::size_t;
-    layer(Aov::alpha, "", "A",
-          [&](Index i, Index) { return over_samples(static_cast<double>(hits_[i])); });
+    const auto shadow = [&](Index i, Index) { return shadow_opacity(i, samples); };
+    layer(Aov::alpha, "", "A", [&](Index i, Index) {
+        return over_samples(static_cast<double>(hits_[i])) + (needs_ground() ? shadow(i, 0) : 0.0);
+    });
+    layer(Aov::shadow, "shadow", "A", shadow);
     layer(Aov::albedo, "albedo", "RGB",
           [&](Index i, Index c) { return over_samples(albedo_[i][c].value()); });
     layer(Aov::normal, "normal", "XYZ",

@@ -27,12 +27,11 @@ inline constexpr auto fields<FilterOptions> = all_fields(Field{"filter", &Filter
                                                                &FilterOptions::radius});
 /// Fields of `FilmOptions`, with names.
 template <>
-inline constexpr auto fields<FilmOptions> = all_fields(Field{"width", &FilmOptions::width},
-                                                       Field{"height", &FilmOptions::height},
-                                                       Field{"crop", &FilmOptions::crop},
-                                                       Field{"filter", &FilmOptions::filter},
-                                                       Field{"layers", &FilmOptions::aovs},
-                                                       Field{"clamp", &FilmOptions::clamp});
+inline constexpr auto fields<FilmOptions> = all_fields(
+    Field{"width", &FilmOptions::width}, Field{"height", &FilmOptions::height},
+    Field{"crop", &FilmOptions::crop}, Field{"filter", &FilmOptions::filter},
+    Field{"layers", &FilmOptions::aovs}, Field{"ground height", &FilmOptions::ground_height},
+    Field{"clamp", &FilmOptions::clamp});
 /// Fields of `SamplingOptions`, with names.
 template <>
 inline constexpr auto fields<SamplingOptions> =

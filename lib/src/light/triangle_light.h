@@ -41,6 +41,12 @@ public:
     [[nodiscard]] Rgb power() const;
     [[nodiscard]] LightBounds bounds() const;
 
+    /// Do both belong to one mesh, in one place?
+    [[nodiscard]] bool is_of_same_surface(const TriangleLight& other) const
+    {
+        return mesh_ == other.mesh_;
+    }
+
 private:
     struct Point {
         SegmentEnd end;

@@ -21,6 +21,7 @@ enum class SampleUse : std::uint32_t {
     light_start,  ///< of the light subpath: point and choice of the light (0), direction (1)
     light_walk,   ///< scattering at a vertex of the light subpath
     lens,         ///< a lens point: of the camera subpath (0), for a vertex of the light subpath
+    ground,       ///< a light (even numbers) or a direction (odd) for the ground under the scene
 };
 
 /// Random numbers of one pixel sample, a pure function of (kind, seed, pixel, sample index, use,

@@ -10,7 +10,11 @@
 namespace bdpt {
 
 AovPass::AovPass(const World& world, const MovingCamera& camera, const RenderOptions& options)
-    : world_(world), camera_(camera), options_(options), filter_(options.film.filter)
+    : world_(world),
+      camera_(camera),
+      options_(options),
+      filter_(options.film.filter),
+      ground_(world, options)
 {}
 
 RenderStats AovPass::render_tile(const Tile& tile, SampleRange samples, AovFilm& film) const
@@ -22,17 +26,15 @@ RenderStats AovPass::render_tile(const Tile& tile, SampleRange samples, AovFilm&
                 continue;
             }
             for (std::int64_t index = samples.begin; index < samples.end; ++index) {
-                ++stats.rays.aov;
-                if (const auto hit = first_hit(x, y, index)) {
-                    film.add(x, y, *hit);
-                }
+                add_sample(x, y, index, film, stats.rays);
             }
         }
     }
     return stats;
 }
 
-std::optional<PrimaryHit> AovPass::first_hit(int x, int y, std::int64_t sample_index) const
+void AovPass::add_sample(int x, int y, std::int64_t sample_index, AovFilm& film,
+                         RayCounts& rays) const
 {
     // The random numbers of the integrators' camera rays.
     SampleStart start(options_, filter_, world_, camera_, x, y, sample_index);
@@ -44,16 +46,21 @@ std::optional<PrimaryHit> AovPass::first_hit(int x, int y, std::int64_t sample_i
     SegmentKey segment = start.sampler.segment_key(0, 1);
     segment.wavelength = start.moment.wavelength;
     segment.time = start.moment.time;
-    const auto hit = world_.first_hit(ray.lens, ray.direction, segment);
-    if (!hit) {
-        return std::nullopt;
+    ++rays.aov;
+    if (const auto hit = world_.first_hit(ray.lens, ray.direction, segment)) {
+        const SurfacePoint point =
+            world_.surface_at(*hit, ray.direction, segment, camera.pixel_cone());
+        const Vec3 normal = point.bsdf.shading_normal();
+        film.add(x, y,
+                 {.albedo = point.bsdf.base_color(),
+                  .normal = dot(normal, ray.direction) > 0.0f ? -normal : normal,
+                  .position = point.end.p,
+                  .depth = camera.depth(point.end.p)});
+    } else if (film.needs_ground()) {
+        if (const auto light = ground_.light_at(ray, start.moment, start.sampler, rays)) {
+            film.add_ground(x, y, *light);
+        }
     }
-    const SurfacePoint point = world_.surface_at(*hit, ray.direction, segment, camera.pixel_cone());
-    const Vec3 normal = point.bsdf.shading_normal();
-    return PrimaryHit{.albedo = point.bsdf.base_color(),
-                      .normal = dot(normal, ray.direction) > 0.0f ? -normal : normal,
-                      .position = point.end.p,
-                      .depth = camera.depth(point.end.p)};
 }
 
 }  // namespace bdpt

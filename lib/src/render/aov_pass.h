@@ -2,15 +2,14 @@
 
 #include "film/pixel_filter.h"
 #include "integrator/integrator.h"
+#include "render/ground_shadow.h"
 
 #include <bdpt/film/aov_film.h>
 
-#include <optional>
-
 namespace bdpt {
 
-/// Follows the camera rays of a render once more, at their own times, to the first surface only:
-/// the same for every integrator.
+/// Follows the camera rays of a render once more, at their own times, to the first surface or to
+/// the ground only: the same for every integrator.
 class AovPass {
 public:
     /// The world and the camera must outlive this.
@@ -21,13 +20,13 @@ public:
                                           AovFilm& film) const;
 
 private:
-    [[nodiscard]] std::optional<PrimaryHit> first_hit(int x, int y,
-                                                      std::int64_t sample_index) const;
+    void add_sample(int x, int y, std::int64_t sample_index, AovFilm& film, RayCounts& rays) const;
 
     const World& world_;
     const MovingCamera& camera_;
     RenderOptions options_;
     PixelFilter filter_;
+    GroundShadow ground_;
 };
 
 }  // namespace bdpt

@@ -145,6 +145,11 @@ void check_options(const RenderOptions& options)
         check_crop(*options.film.crop, options.film.width, options.film.height);
     }
     check_filter(options.film.filter);
+    if (const auto height = options.film.ground_height;
+        height && !(std::abs(*height) <= greatest_coordinate)) {
+        throw Error(ErrorCode::usage, "height of the ground is " + std::to_string(*height) +
+                                          " m, beyond what rays reach");
+    }
     if (!(options.film.clamp > 0.0f)) {
         throw Error(ErrorCode::usage,
                     "clamp is " + std::to_string(options.film.clamp) + " nit, not above 0");

@@ -37,7 +37,7 @@ RenderStats render_tile(const Work& work, const RenderOptions& options, const Ti
     if (work.on_tile) {
         work.on_tile(tile, stats);
     }
-    if (aovs.needs_hits()) {
+    if (aovs.needs_camera_rays()) {
         stats += work.aov_pass.render_tile(tile, samples, aovs);
     }
     if (aovs.needs_counts()) {

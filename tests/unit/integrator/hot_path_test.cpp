@@ -258,7 +258,7 @@ TEST_CASE("hot path: nor do AOVs", "[hot_path]")
 {
     const World world(everything());
     RenderOptions options = options_of(IntegratorKind::bdpt);
-    options.film.aovs = {Aov::albedo, Aov::normal, Aov::depth, Aov::position};
+    options.film.aovs = {Aov::albedo, Aov::normal, Aov::depth, Aov::position, Aov::shadow};
     for (const CameraDesc& desc : cameras()) {
         const MovingCamera camera(desc, Camera(desc, size, size));
         const AovPass pass(world, camera, options);

@@ -38,7 +38,7 @@ Film film_of(const Scene& scene, const RenderOptions& options)
 }
 
 const AovSet all_aovs{Aov::albedo,       Aov::normal,   Aov::depth, Aov::position,
-                      Aov::sample_count, Aov::variance, Aov::alpha};
+                      Aov::sample_count, Aov::variance, Aov::alpha, Aov::shadow};
 
 std::vector<float> crop_of(const Layer& layer, const PixelRect& crop)
 {

@@ -38,7 +38,7 @@ std::vector<RenderOptions> kinds()
         result.push_back(options());
         result.back().integrator = kind;
     }
-    result.back().film.aovs = {Aov::albedo, Aov::depth, Aov::alpha};
+    result.back().film.aovs = {Aov::albedo, Aov::depth, Aov::alpha, Aov::shadow};
     result.push_back(options());
     result.back().bidirectional.light_paths = 0.3;
     result.push_back(options());
@@ -229,6 +229,8 @@ TEST_CASE("another scene, camera or option is refused by name", "[part]")
     option("option: filter", [](RenderOptions& o) { o.film.filter.kind = FilterKind::tent; });
     option("option: background",
            [](RenderOptions& o) { o.transport.background = Background::none; });
+    option("option: ground height (none, not 0.5)",
+           [](RenderOptions& o) { o.film.ground_height = 0.5f; });
     option("option: layers", [](RenderOptions& o) { o.film.aovs = {Aov::albedo}; });
     option("option: connections (none, not 3)",
            [](RenderOptions& o) { o.bidirectional.connections = 3.0; });

@@ -50,7 +50,7 @@ RenderOptions options(IntegratorKind kind, double light_paths = 1.0)
     result.integrator = kind;
     result.film.width = width;
     result.film.height = height;
-    result.film.aovs = {Aov::sample_count, Aov::alpha};
+    result.film.aovs = {Aov::sample_count, Aov::alpha, Aov::shadow};
     result.sampling.samples = {.begin = 0, .end = 16};
     result.transport.max_depth = 5;
     result.bidirectional.light_paths = light_paths;

@@ -25,6 +25,12 @@ struct PrimaryHit {
     float depth = 0.0f;   ///< along the camera's axis [m]
 };
 
+/// Direct light on the ground where a camera ray meets it: the luminance of its irradiance [lx].
+struct GroundLight {
+    float unshadowed = 0.0f;  ///< were the scene not in the way
+    float shadowed = 0.0f;    ///< at most that
+};
+
 /// Do all pixels take equally many samples?
 enum class PixelCounts : std::uint8_t {
     equal,  ///< as many as `Film::sample_count`
@@ -41,20 +47,23 @@ public:
     [[nodiscard]] AovSet aovs() const { return aovs_; }
     [[nodiscard]] PixelCounts counts() const { return pixel_counts_; }
     /// Is there anything to add?
-    [[nodiscard]] bool needs_hits() const { return !hits_.empty(); }
+    [[nodiscard]] bool needs_camera_rays() const { return !hits_.empty() || needs_ground(); }
+    [[nodiscard]] bool needs_ground() const { return !ground_hits_.empty(); }
     [[nodiscard]] bool needs_counts() const { return !counts_.empty(); }
 
     /// Adds a ray of pixel (x, y) in the region. Safe from any thread, one thread a pixel.
     void add(int x, int y, const PrimaryHit& hit) noexcept;
+    /// The same of a ray that meets the ground, where that is needed.
+    void add_ground(int x, int y, const GroundLight& light) noexcept;
     /// States that `count` samples of pixel (x, y) in the region are in the image; likewise.
     void count_samples(int x, int y, std::int64_t count) noexcept;
 
     /// Adds the rays of other samples. Throws `Error` (usage) when regions or AOVs differ.
     void merge(const AovFilm& other);
     /// The layers that were asked for, by the names that denoisers and compositors expect: albedo
-    /// (RGB), normal (XYZ), depth (Z), position (XYZ), sampleCount (Y), variance (RGB), and A in
-    /// the main layer. `film` is that of the same samples; throws `Error` (usage) when its region
-    /// is another.
+    /// (RGB), normal (XYZ), depth (Z), position (XYZ), sampleCount (Y), variance (RGB), shadow (A),
+    /// and A in the main layer. `film` is that of the same samples; throws `Error` (usage) when its
+    /// region is another.
     [[nodiscard]] std::vector<Layer> develop(const Film& film) const;
 
     // For files, as those of `Film`: "albedo.R", ..., "hits" and "counts" of every pixel.
@@ -77,6 +86,10 @@ private:
         std::vector<std::uint64_t> AovFilm::*count = nullptr;
     };
     [[nodiscard]] std::vector<Plane> planes() const;
+    /// Of a pixel in the region.
+    [[nodiscard]] std::size_t index(int x, int y) const;
+    /// Of the shadow in a pixel, of as many samples.
+    [[nodiscard]] double shadow_opacity(std::size_t pixel, double samples) const;
 
     PixelRect region_;
     AovSet aovs_;
@@ -88,6 +101,9 @@ private:
     std::vector<ExactSum> depth_;
     std::vector<std::uint64_t> hits_;
     std::vector<std::uint64_t> counts_;
+    std::vector<ExactSum> unshadowed_;
+    std::vector<ExactSum> shadowed_;
+    std::vector<std::uint64_t> ground_hits_;
 };
 
 }  // namespace bdpt

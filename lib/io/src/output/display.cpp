@@ -41,8 +41,13 @@ private:
     TexelImage& image_;
 };
 
-void check(const Image& image, std::span<const float> coverage, TexelType type)
+void check(const Image& image, std::span<const float> coverage, const DisplayOptions& options)
 {
+    const TexelType type = options.type;
+    if (!options.shadow.empty() && options.shadow.size() != coverage.size()) {
+        throw Error(ErrorCode::usage, fmt::format("{} values of alpha with {} of a shadow",
+                                                  coverage.size(), options.shadow.size()));
+    }
     if (!coverage.empty() && coverage.size() != image.pixels.size()) {
         throw Error(ErrorCode::usage, fmt::format("an image of {} pixels with {} values of alpha",
                                                   image.pixels.size(), coverage.size()));
@@ -57,9 +62,9 @@ void check(const Image& image, std::span<const float> coverage, TexelType type)
 TexelImage to_display(const Image& image, std::span<const float> coverage,
                       const DisplayOptions& options)
 {
-    check(image, coverage, options.type);
+    check(image, coverage, options);
     const double gain = std::exp2(double{options.exposure});
-    // The pixel on a screen, if `alpha` of it is covered.
+    // The pixel on a screen, if `alpha` of it is covered by what has its colour.
     const auto shown = [&](Rgb pixel, float alpha) {
         constexpr double brightest = 1e30;  // white at any exposure, and a float
         for (int channel = 0; channel < 3; ++channel) {
@@ -85,12 +90,14 @@ TexelImage to_display(const Image& image, std::span<const float> coverage,
     CodeWriter codes(result);
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
         const float alpha = opaque ? 1.0f : coverage[i] > 0.0f ? std::min(coverage[i], 1.0f) : 0.0f;
-        const Rgb color = alpha > 0.0f ? shown(image.pixels[i], alpha) : Rgb(0.0f);
+        const float own =
+            options.shadow.empty() ? alpha : std::max(alpha - options.shadow[i], 0.0f);
+        const Rgb color = own > 0.0f ? shown(image.pixels[i], own) : Rgb(0.0f);
         if (has_alpha) {
-            codes.add_color(color);
+            codes.add_color(own > 0.0f ? own / alpha * color : color);
             codes.add(alpha);
         } else {
-            codes.add_color(opaque ? color : alpha * color + (1.0f - alpha) * background);
+            codes.add_color(opaque ? color : own * color + (1.0f - alpha) * background);
         }
     }
     return result;

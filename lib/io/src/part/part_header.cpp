@@ -70,7 +70,7 @@ FilmLayout read_layout(const ordered_json& json)
 }
 
 constexpr std::array all_aovs{Aov::albedo,       Aov::normal,   Aov::depth, Aov::position,
-                              Aov::sample_count, Aov::variance, Aov::alpha};
+                              Aov::sample_count, Aov::variance, Aov::alpha, Aov::shadow};
 
 ordered_json to_json(const AovSet& aovs)
 {
@@ -87,7 +87,8 @@ AovSet read_aovs(const ordered_json& json)
 {
     AovSet aovs;
     for (const ordered_json& number : json) {
-        aovs.insert(static_cast<Aov>(checked(number.get<int>(), 0, static_cast<int>(Aov::alpha))));
+        aovs.insert(
+            static_cast<Aov>(checked(number.get<int>(), 0, static_cast<int>(all_aovs.back()))));
     }
     return aovs;
 }

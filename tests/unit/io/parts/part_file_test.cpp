@@ -42,7 +42,8 @@ RenderOptions options()
     result.film.height = 11;
     result.film.crop = PixelRect{.x0 = 3, .y0 = 2, .x1 = 15, .y1 = 10};
     result.film.clamp = 8.0f;
-    result.film.aovs = {Aov::albedo, Aov::normal, Aov::depth, Aov::position, Aov::alpha};
+    result.film.aovs = {Aov::albedo,   Aov::normal, Aov::depth,
+                        Aov::position, Aov::alpha,  Aov::shadow};
     result.transport.max_depth = 4;
     result.bidirectional.strategy_depth = 3;
     return result;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -84,6 +85,34 @@ TEST_CASE("colours are tone-mapped as if they covered all of a pixel")
     const TexelImage shown = to_display(image, coverage, options);
     CHECK(shown.bytes[4] == encode_srgb(pbr_neutral({1.6f, 0.8f, 0.4f}).r));
     CHECK(shown.bytes[5] == encode_srgb(pbr_neutral({1.6f, 0.8f, 0.4f}).g));
+}
+
+TEST_CASE("a shadow is black below the image, and changes none of its colours")
+{
+    // A half covered pixel whose other half is a quarter in shadow, and a shadow alone.
+    const std::vector<float> alpha{1.0f, 0.625f, 0.25f};
+    const std::vector<float> shadow{0.0f, 0.125f, 0.25f};
+    DisplayOptions options{.exposure = 1.0f, .curve = ToneCurve::filmic, .shadow = shadow};
+    const TexelImage shown = to_display(image, alpha, options);
+    const Rgb covered = apply(ToneCurve::filmic, {0.8f, 0.4f, 0.2f});
+    CHECK(shown.bytes[0] == encode_srgb(covered.r));
+    CHECK(shown.bytes[4] == encode_srgb(0.8f * covered.r));
+    CHECK(shown.bytes[7] == 159);
+    CHECK(std::vector<std::uint8_t>(shown.bytes.begin() + 8, shown.bytes.end()) ==
+          std::vector<std::uint8_t>{0, 0, 0, 64});
+    options.background = SrgbColor{255, 255, 255};
+    const TexelImage composed = to_display(image, alpha, options);
+    CHECK(composed.bytes[3] == encode_srgb(0.5f * covered.r + 0.375f));
+    CHECK(composed.bytes[6] == encode_srgb(0.75f));
+
+    // Without any it is as if none were given.
+    const std::vector<float> none(3, 0.0f);
+    options.shadow = none;
+    DisplayOptions without = options;
+    without.shadow = {};
+    CHECK(to_display(image, coverage, options).bytes == to_display(image, coverage, without).bytes);
+    options.shadow = std::span(none).first(2);
+    CHECK_THROWS_AS(to_display(image, coverage, options), Error);
 }
 
 TEST_CASE("16 bits tell apart what 8 bits do not")

@@ -21,13 +21,15 @@ struct DisplayOptions {
     TexelType type = TexelType::unorm8;  ///< of the result: unorm8 or unorm16
     /// What is seen where the image covers nothing; none: the result has alpha.
     std::optional<SrgbColor> background{};
+    /// The part of each pixel's coverage that is a black shadow behind the image; empty: none.
+    std::span<const float> shadow{};
 };
 
 /// Tone-mapped, sRGB-encoded pixels. `coverage`, in [0, 1], is the alpha of each pixel, by which
-/// its colour has been multiplied; empty: all are opaque. Colours are divided by it before they are
-/// tone-mapped. The result has three channels, composed over the background in display-linear
-/// light, or four: straight alpha. Throws `Error` (usage) when `coverage` has not one value a
-/// pixel, or the type is another.
+/// its colour has been multiplied; empty: all are opaque. Colours are divided by it, less the
+/// shadow, before they are tone-mapped. The result has three channels, composed over the background
+/// in display-linear light, or four: straight alpha. Throws `Error` (usage) when `coverage` has not
+/// one value a pixel, or `shadow` neither none nor one, or the type is another.
 [[nodiscard]] BDPT_EXPORT TexelImage to_display(const Image& image, std::span<const float> coverage,
                                                 const DisplayOptions& options);
 

@@ -126,10 +126,12 @@ def test_bad_input_is_one_error_with_its_code(cornell_box, call, code, words):
 
 
 def test_images_are_saved_as_the_command_saves_them(command, cornell_box, tmp_path):
-    render = bdpt.render(cornell_box, spp=1, background="transparent", **SMALL)
+    render = bdpt.render(cornell_box, spp=1, background="transparent", ground="shadow", **SMALL)
+    assert render.layers["shadow"].max() > 0
     render.save(tmp_path / "ours.png", tone_map="pbr-neutral", exposure=0, png_bits=16)
     command("render", SCENES / "cornell-box.gltf", "--spp", "1", "--size", "24x16", "--integrator", "bdpt", "--background",
-            "transparent", "--tone-map", "pbr-neutral", "--exposure", "0", "--png-bits", "16", "-o", tmp_path / "its.png", "-q")
+            "transparent", "--ground", "shadow", "--tone-map", "pbr-neutral", "--exposure", "0", "--png-bits", "16",
+            "-o", tmp_path / "its.png", "-q")
     difference = subprocess.run(["idiff", "-a", "-fail", "0", tmp_path / "ours.png", tmp_path / "its.png"],
                                 capture_output=True, text=True)
     assert difference.returncode == 0, difference.stdout

@@ -22,7 +22,7 @@ constexpr const char* footer = R"(Examples:
   bdpt render scene.gltf -o out.exr
   bdpt render scene.glb -o out.exr -o out.png --spp 256 --size 1920x1080
   bdpt render room.glb -o out.exr --time 90s --camera "Camera 2"
-  bdpt render chair.glb -o out.png --background transparent --tone-map pbr-neutral
+  bdpt render chair.glb -o out.png --background transparent --ground shadow
   bdpt render walk.glb -o out.png --animation run --frame-time 0.25
   bdpt render hall.glb -o out.exr --spp 4096 --part out.part.exr
   bdpt render lamp.glb -o lamp.exr --spp 1024 --adaptive
@@ -309,6 +309,7 @@ void add_plannable_options(CLI::App& command, RenderWords& words)
     add_samples_option(command, words.part, "How to render");
     add_transport_options(command, words.transport);
     add_film_options(command, words.film);
+    add_ground_options(command, words.ground, "Film");
     add_view_options(command, words);
 }
 
@@ -362,6 +363,7 @@ RenderArguments understand(const RenderWords& words)
         result.options.transport.background = Background::none;
         result.options.film.aovs.insert(Aov::alpha);
     }
+    result.options = with_ground(words.ground, result.options);
     result.denoise = understand(words.denoise);
     if (result.denoise) {
         result.options.film.aovs.insert(Aov::albedo);

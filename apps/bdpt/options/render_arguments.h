@@ -17,6 +17,7 @@
 #include "options/groups/display_arguments.h"
 #include "options/groups/environment_arguments.h"
 #include "options/groups/film_arguments.h"
+#include "options/groups/ground_arguments.h"
 #include "options/groups/lens_arguments.h"
 #include "options/groups/rates_arguments.h"
 #include "options/groups/scene_arguments.h"
@@ -59,6 +60,7 @@ struct RenderWords {
     int threads = 0;
     std::string isa = "native";
     FilmWords film;
+    GroundWords ground;
     std::optional<std::string> stats;
     bool profile = false;
     StrategyWords strategies;

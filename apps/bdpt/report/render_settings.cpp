@@ -76,6 +76,10 @@ ordered_json settings_of(const RenderArguments& arguments, const PreparedScene& 
     if (arguments.display.backdrop) {
         settings["background"] = backdrop_text(*arguments.display.backdrop);
     }
+    if (options.film.aovs.contains(Aov::shadow)) {
+        settings["ground"] = "shadow";
+        settings["ground_height"] = options.film.ground_height.value_or(stage.scene.bounds().min.y);
+    }
     if (arguments.texture_filter == TextureFilter::mip_mapped) {
         settings["texture_filter"] = "mip";
     }

@@ -10,6 +10,7 @@ namespace bdpt::app {
 namespace {
 
 constexpr std::uint64_t color_sum = 3 * sizeof(ExactSum);
+constexpr std::uint64_t shadow_sums = 2 * sizeof(ExactSum) + sizeof(std::uint64_t);
 
 /// Sums of a pixel in an `AovFilm`, and floats of the layer that they are developed to.
 struct AovCost {
@@ -18,13 +19,14 @@ struct AovCost {
     std::uint64_t channels;
 };
 
-constexpr std::array<AovCost, 7> aov_costs{{{Aov::albedo, color_sum, 3},
+constexpr std::array<AovCost, 8> aov_costs{{{Aov::albedo, color_sum, 3},
                                             {Aov::normal, color_sum, 3},
                                             {Aov::depth, sizeof(ExactSum), 1},
                                             {Aov::position, color_sum, 3},
                                             {Aov::sample_count, 0, 1},
                                             {Aov::variance, 0, 3},
-                                            {Aov::alpha, sizeof(std::uint64_t), 1}}};
+                                            {Aov::alpha, sizeof(std::uint64_t), 1},
+                                            {Aov::shadow, shadow_sums, 1}}};
 
 }  // namespace
 

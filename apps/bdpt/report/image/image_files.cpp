@@ -9,6 +9,7 @@
 #include "options/values/output_files.h"
 #include "options/values/pipes.h"
 #include "report/image/denoised.h"
+#include "report/image/matte.h"
 
 namespace bdpt::app {
 
@@ -16,21 +17,20 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Alpha; empty if no layer has it.
-std::span<const float> coverage_of(std::span<const Layer> layers)
-{
-    const auto found = std::find_if(layers.begin(), layers.end(), [](const Layer& layer) {
-        return layer.name.empty() && layer.channels == "A";
-    });
-    return found != layers.end() ? std::span(found->values) : std::span<const float>();
-}
+/// What .png files show.
+struct Picture {
+    const Image& image;
+    Matte matte;
+};
 
 WrittenImages write_as_they_are(std::span<const fs::path> outputs, const Image& exr_image,
-                                const Image& image, const ImageFileOptions& options)
+                                const Picture& picture, const ImageFileOptions& options)
 {
     const DisplayArguments& display = options.display;
     const auto background = display.backdrop ? display.backdrop->color : std::nullopt;
-    const auto coverage = display.backdrop ? coverage_of(options.layers) : std::span<const float>();
+    const Matte& matte = picture.matte;
+    const auto coverage = display.backdrop ? std::span(matte.alpha) : std::span<const float>();
+    const auto shadow = display.backdrop ? std::span(matte.shadow) : std::span<const float>();
     WrittenImages report;
     for (const fs::path& output : outputs) {
         const fs::path file = written_file(output);
@@ -40,14 +40,15 @@ WrittenImages write_as_they_are(std::span<const fs::path> outputs, const Image& 
             continue;
         }
         if (!report.exposure) {
-            report.exposure = display.exposure.value_or(io::automatic_exposure(image));
+            report.exposure = display.exposure.value_or(io::automatic_exposure(picture.image));
         }
         io::write_png(file,
-                      io::to_display(image, coverage,
+                      io::to_display(picture.image, coverage,
                                      {.exposure = *report.exposure,
                                       .curve = display.curve,
                                       .type = display.type,
-                                      .background = background}),
+                                      .background = background,
+                                      .shadow = shadow}),
                       {.exposure = *report.exposure,
                        .metadata = options.exr.metadata,
                        .curve = display.curve});
@@ -60,13 +61,21 @@ WrittenImages write_as_they_are(std::span<const fs::path> outputs, const Image& 
 WrittenImages write_image_files(std::span<const fs::path> outputs, const Image& image,
                                 ImageFileOptions options)
 {
+    const Matte noisy = matte_of(options.layers);
     if (options.denoiser == nullptr || outputs.empty()) {
-        return write_as_they_are(outputs, image, image, options);
+        return write_as_they_are(outputs, image, {image, noisy}, options);
     }
     const Image clean = denoised(*options.denoiser, image, options.layers);
+    const Matte clean_matte = denoised(*options.denoiser, noisy, options.layers);
     const bool clean_first = options.denoised_as == DenoisedAs::image;
-    options.layers.push_back(clean_first ? layer_of(image, "noisy") : layer_of(clean, "denoised"));
-    return write_as_they_are(outputs, clean_first ? clean : image, clean, options);
+    if (clean_first) {
+        put(clean_matte, noisy, "noisyShadow", options.layers);
+        options.layers.push_back(layer_of(image, "noisy"));
+    } else {
+        put(noisy, clean_matte, "denoisedShadow", options.layers);
+        options.layers.push_back(layer_of(clean, "denoised"));
+    }
+    return write_as_they_are(outputs, clean_first ? clean : image, {clean, clean_matte}, options);
 }
 
 }  // namespace bdpt::app

@@ -57,7 +57,13 @@ std::vector<Case> cases()
     SceneBuilder globe;
     globe.light(
         PointLightDesc{.position = {1.0f, 2.0f, 0.5f}, .intensity = Rgb(5.0f), .radius = 0.4f});
-    return {{"sky", sky}, {"lamps", lamps()}, {"globe", globe}, {"bulb", bulb()}};
+    SceneBuilder all = lamps();
+    all.light(sunny_sky());
+    return {{"sky", sky},
+            {"lamps", lamps()},
+            {"sky and lamps", all},
+            {"globe", globe},
+            {"bulb", bulb()}};
 }
 
 void add_things(SceneBuilder& builder)

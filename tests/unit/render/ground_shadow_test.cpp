@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <limits>
 
@@ -140,6 +141,19 @@ TEST_CASE("a disk hides the square of the sine of a sky", "[ground]")
     CHECK(mean_of(shadow.opacity) == Approx(expected).margin(0.004));
 }
 
+TEST_CASE("sky and sun shade the ground by their shares of its light", "[ground]")
+{
+    // Half of the sky is hidden, the sun is not. Each brings pi.
+    SceneBuilder builder;
+    builder.place(builder.add_mesh(disk_above(1.0f, 1.0f, 256)), lambertian(Rgb(0.5f)), Mat4(1.0f));
+    builder.light(even_sky());
+    builder.light(DirectionalLightDesc{.direction = {3.0f, -1.0f, 0.0f},
+                                       .illuminance = Rgb(3.14159265f * std::sqrt(10.0f))});
+    const CameraDesc beside = camera_at({3.0f, 0.3f, 0.0f}, {0.0f, 0.0f, 0.0f}, 1e-3f);
+    const Shadow shadow = shadow_of(builder.desc, beside, ground_options(8, 256));
+    CHECK(mean_of(shadow.opacity) == Approx(0.25).margin(0.004));
+}
+
 TEST_CASE("a mask cuts shadows, a veil lets its share through", "[ground]")
 {
     MaterialDesc veil = lambertian(Rgb(0.5f));
@@ -220,6 +234,56 @@ TEST_CASE("the ground is seen from above only, and as far as rays reach", "[grou
     check(in_parallel(above, 3.0f), 0.01, 1.0);
     check(with_lens(above, 0.2f, 6.0f), 0.01, 1.0);
     check(camera_at({0.0f, 0.0f, 6.0f}, {0.0f, 0.0f, 0.0f}, 0.6f), 0.0, 0.0);  // in it
+}
+
+TEST_CASE("ground beyond the reach of rays is not looked at", "[ground]")
+{
+    SceneBuilder builder = square(lambertian(Rgb(0.5f)));
+    builder.light(low_sun());
+    const Scene scene(builder.desc);
+    const auto rays = [&](Vec3 to) {
+        const CameraDesc far_up = camera_at({0.0f, 9e14f, 0.0f}, to, 1e-5f);
+        return render(scene, far_up, ground_options(8, 4)).stats.rays.aov;
+    };
+    constexpr std::uint64_t of_camera = 8U * 8U * 4U;
+    CHECK(rays({9e14f, 0.0f, 0.0f}) > of_camera);
+    CHECK(rays({9e14f, 8.999e14f, 0.0f}) == of_camera);
+}
+
+TEST_CASE("light that is no number counts neither way", "[ground]")
+{
+    // So strong and near that its irradiance is beyond floats, with a shade right below.
+    SceneBuilder builder;
+    builder.light(PointLightDesc{.position = {0.0f, 1e-3f, 0.0f}, .intensity = Rgb(5e34f)});
+    builder.quad({-5e-3f, 5e-4f, 5e-3f}, {5e-3f, 5e-4f, 5e-3f}, {5e-3f, 5e-4f, -5e-3f},
+                 {-5e-3f, 5e-4f, -5e-3f}, lambertian(Rgb(0.5f)));
+    const Shadow shadow =
+        shadow_of(builder.desc, in_parallel(camera_above(), 0.02f), ground_options(side, 4));
+    for (const float opacity : shadow.opacity) {
+        REQUIRE(opacity >= 0.0f);
+        REQUIRE(opacity <= 1.0f);
+    }
+}
+
+TEST_CASE("a veil that lies on the ground does not shade it", "[ground]")
+{
+    MaterialDesc veil = lambertian(Rgb(0.5f));
+    veil.alpha_mode = AlphaMode::blend;
+    veil.base_color.w = 0.5f;
+    MeshDesc mesh;
+    mesh.positions = {{-9, 0.3f, 9}, {9, 0.3f, 9}, {9, 0.3f, -9}, {-9, 0.3f, -9}};
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    SceneBuilder builder;
+    const MeshId id = builder.add_mesh(mesh);
+    const Mat4 turn = glm::rotate(Mat4(1.0f), 0.7f, Vec3(0.0f, 1.0f, 0.0f));
+    builder.place(id, veil, translation({0.1f, 0.7f, 0.2f}) * turn);
+    builder.place(id, veil, translation({30.0f, 0.7f, 0.0f}) * turn);  // rays go to its space
+    builder.light(low_sun());
+    RenderOptions options = ground_options(side, 16);
+    options.film.ground_height.reset();
+    const Shadow shadow = shadow_of(builder.desc, camera_above(), options);
+    CHECK(mean_of(shadow.alpha) == Approx(0.5).margin(0.01));
+    check_clear(shadow);
 }
 
 TEST_CASE("without light there is no shadow, nor without surfaces", "[ground]")

@@ -1,4 +1,5 @@
 #include <bdpt/light_desc.h>
+#include <nanobind/stl/string.h>
 
 #include "arrays.h"
 #include "attributes.h"
@@ -12,11 +13,13 @@ void bind_lights(nb::module_& module)
 {
     nb::class_<PointLightDesc> point(module, "PointLight", "Shines alike in all directions.");
     point.def("__init__", &construct<PointLightDesc>, nb::arg("attributes"));
+    point.def_rw("name", &PointLightDesc::name, "For layers of ids.");
     def_vec(point, "position", &PointLightDesc::position, "[m]");
     def_vec(point, "intensity", &PointLightDesc::intensity, "[cd]");
     point.def_rw("radius", &PointLightDesc::radius, "[m] 0: a point; else a sphere that is seen.");
     nb::class_<SpotLightDesc> spot(module, "SpotLight", "A point light in a cone.");
     spot.def("__init__", &construct<SpotLightDesc>, nb::arg("attributes"));
+    spot.def_rw("name", &SpotLightDesc::name, "For layers of ids.");
     def_vec(spot, "position", &SpotLightDesc::position, "[m]");
     def_vec(spot, "direction", &SpotLightDesc::direction, "The axis.");
     def_vec(spot, "intensity", &SpotLightDesc::intensity, "[cd] within the inner cone");

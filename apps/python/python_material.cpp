@@ -17,8 +17,8 @@ namespace {
 namespace nb = nanobind;
 
 template <typename T>
-void def_number(nb::class_<ArrayMaterial>& type, const char* name, T MaterialDesc::*member,
-                const char* text)
+void def_value(nb::class_<ArrayMaterial>& type, const char* name, T MaterialDesc::*member,
+               const char* text)
 {
     type.def_prop_rw(
         name, [member](const ArrayMaterial& material) { return material.desc.*member; },
@@ -94,6 +94,7 @@ void bind_material(nb::module_& module)
                                    "A material as in glTF 2.0, with its names, units and defaults. "
                                    "Keyword arguments are attributes.");
     type.def("__init__", &construct<ArrayMaterial>, nb::arg("attributes"));
+    def_value(type, "name", &MaterialDesc::name, "For layers of ids.");
     type.def_prop_rw(
         "base_color",
         [](const ArrayMaterial& material) {
@@ -108,20 +109,20 @@ void bind_material(nb::module_& module)
                                         color.size() == 4 ? color[3] : 1.0f};
         },
         "Linear RGB or RGBA, [0, 1].");
-    def_number(type, "metallic", &MaterialDesc::metallic, "[0, 1]; default 1.");
-    def_number(type, "roughness", &MaterialDesc::roughness, "[0, 1]; default 1.");
+    def_value(type, "metallic", &MaterialDesc::metallic, "[0, 1]; default 1.");
+    def_value(type, "roughness", &MaterialDesc::roughness, "[0, 1]; default 1.");
     def_color(type, "emission", &MaterialDesc::emission, "Radiance [nit].");
-    def_number(type, "double_sided", &MaterialDesc::double_sided, "Emits from both sides.");
-    def_number(type, "unlit", &MaterialDesc::unlit, "Shines with its base colour [nit].");
-    def_number(type, "ior", &MaterialDesc::ior, "Index of refraction; default 1.5.");
-    def_number(type, "specular", &MaterialDesc::specular, "[0, 1]; default 1.");
-    def_number(type, "transmission", &MaterialDesc::transmission, "[0, 1].");
-    def_number(type, "thickness", &MaterialDesc::thickness,
-               "Above 0: the mesh bounds a solid body; 0: a thin sheet.");
-    def_number(type, "attenuation_distance", &MaterialDesc::attenuation_distance, "[m]");
+    def_value(type, "double_sided", &MaterialDesc::double_sided, "Emits from both sides.");
+    def_value(type, "unlit", &MaterialDesc::unlit, "Shines with its base colour [nit].");
+    def_value(type, "ior", &MaterialDesc::ior, "Index of refraction; default 1.5.");
+    def_value(type, "specular", &MaterialDesc::specular, "[0, 1]; default 1.");
+    def_value(type, "transmission", &MaterialDesc::transmission, "[0, 1].");
+    def_value(type, "thickness", &MaterialDesc::thickness,
+              "Above 0: the mesh bounds a solid body; 0: a thin sheet.");
+    def_value(type, "attenuation_distance", &MaterialDesc::attenuation_distance, "[m]");
     def_color(type, "attenuation_color", &MaterialDesc::attenuation_color,
               "What is left of white after attenuation_distance.");
-    def_number(type, "dispersion", &MaterialDesc::dispersion, "20 / Abbe number.");
+    def_value(type, "dispersion", &MaterialDesc::dispersion, "20 / Abbe number.");
     for (const auto& [name, slot] : texture_slots) {
         type.def_prop_rw(
             name, [](const ArrayMaterial&) { return nb::none(); },

@@ -8,11 +8,13 @@
 #include <nanobind/stl/string.h>
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "arrays.h"
 #include "options/part_arguments.h"
@@ -100,10 +102,27 @@ Render render_scene(PythonScene& scene, const nb::object& progress, const nb::kw
     return result;
 }
 
+std::vector<Layer> all_layers(const RenderPart& part)
+{
+    return app::layers_of(part.film, part.aovs, part.ids);
+}
+
+/// Of each kind of ids, by name.
+std::map<std::string, std::map<std::string, std::uint32_t>> ids_of(const Render& render)
+{
+    std::map<std::string, std::map<std::string, std::uint32_t>> result;
+    for (const IdManifest& manifest : render.part.ids.manifests()) {
+        for (const NamedId& name : manifest.names) {
+            result[manifest.layer][name.name] = static_cast<std::uint32_t>(name.id);
+        }
+    }
+    return result;
+}
+
 std::map<std::string, FloatArray> layers_of(const Render& render)
 {
     std::map<std::string, FloatArray> arrays;
-    for (Layer& layer : render.part.aovs.develop(render.part.film)) {
+    for (Layer& layer : all_layers(render.part)) {
         const std::string name = layer.name.empty() ? "alpha" : layer.name;
         arrays.emplace(name, to_array(std::move(layer)));
     }
@@ -139,8 +158,9 @@ void save(const Render& render, const fs::path& file, const nb::kwargs& options)
                  .placement = io::ExrPlacement{.x = layout.region.x0,
                                                .y = layout.region.y0,
                                                .full_width = layout.width,
-                                               .full_height = layout.height}},
-         .layers = render.part.aovs.develop(render.part.film),
+                                               .full_height = layout.height},
+                 .manifests = render.part.ids.manifests()},
+         .layers = all_layers(render.part),
          .display = asked.display,
          .denoiser = denoiser ? &*denoiser : nullptr,
          .denoised_as = asked.denoise ? asked.denoise->as : app::DenoisedAs::image});
@@ -168,6 +188,10 @@ void bind_render(nb::module_& module)
             "top.")
         .def_prop_ro("layers", &layers_of, nb::rv_policy::reference,
                      "Layers of aov=..., by name: arrays of float32 (height, width, channels).")
+        .def_prop_ro("ids", &ids_of,
+                     "What the ids in layers of aov='object' and aov='material' stand for, such as "
+                     "ids['CryptoObject']['lamp']: numbers whose bits are those of floats in "
+                     "layers['CryptoObject00'].")
         .def_prop_ro(
             "samples", [](const Render& render) { return render.part.samples.text(); },
             "Which samples of each pixel it has, like '0:64'.")

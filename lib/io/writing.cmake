@@ -3,6 +3,7 @@ find_package(PNG REQUIRED GLOBAL)
 target_sources(bdpt_io PRIVATE
   src/output/camera_matrices.cpp
   src/output/display.cpp
+  src/output/cryptomatte.cpp
   src/output/exr.cpp
   src/output/exr_metadata.cpp
   src/output/image_metadata.cpp
@@ -11,6 +12,7 @@ target_sources(bdpt_io PRIVATE
   src/output/temporary_file.cpp
   src/output/tone_curve.cpp
   src/output/tone_map.cpp
+  src/part/id_json.cpp
   src/part/part_header.cpp
   src/part/part_planes.cpp
   src/part/part_reader.cpp

@@ -237,6 +237,7 @@ def parts(command):
     scene = "scenes/cornell-box.gltf"  # as it will be read in the part
     project = pathlib.Path(__file__).resolve().parents[2]
     kinds = {"bdpt": ["--integrator", "bdpt"], "layers": ["--integrator", "mis", "--aov", "albedo,depth,variance,alpha", "--crop", "1,0,3,2"],
+             "ids": ["--integrator", "pt", "--aov", "object,material"],
              "strategies": ["--integrator", "lt", "--strategy-depth", "2", "--clamp", "5"]}
     files = {}
     with tempfile.TemporaryDirectory() as scratch:

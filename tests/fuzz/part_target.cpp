@@ -75,6 +75,7 @@ void read_file(std::string_view bytes)
                                              static_cast<std::size_t>(part.film.height()),
                   "images have as many pixels as they say");
     static_cast<void>(part.aovs.develop(part.film));
+    static_cast<void>(part.ids.develop(part.film));
     static_cast<void>(part.strategies.develop());
     try {
         merge_part(part, info);

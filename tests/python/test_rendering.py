@@ -145,3 +145,21 @@ def test_errors_of_images():
         bdpt.compare(black, white[:3])
     with pytest.raises(bdpt.Error, match="ssim"):
         bdpt.compare(black, white, metrics=["ssim"])
+
+
+def test_layers_of_ids_have_names(tmp_path):
+    quad = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], np.float32)
+    triangles = np.array([[0, 1, 2], [0, 2, 3]], np.uint32)
+    card = bdpt.Mesh(quad, triangles, material=bdpt.Material(name="paper"), name="card")
+    scene = bdpt.Scene([card], [bdpt.EnvironmentLight(np.ones((1, 1, 3), np.float32))],
+                       bdpt.Camera(from_=(0, 0, 5), look_at=(0, 0, 0)), size=(8, 8))
+    render = bdpt.render(scene, spp=4, aov=["object", "material", "alpha"])
+    assert set(render.ids) == {"CryptoObject", "CryptoMaterial"} and render.ids["CryptoObject"].keys() == {"card"}
+    for layer, name in (("CryptoObject", "card"), ("CryptoMaterial", "paper")):
+        ids = render.layers[layer + "00"]
+        assert ids.shape == (8, 8, 4) and ids[4, 4, 1] == 1 and ids[0, 0, 1] == 0
+        assert ids[4, 4, :1].view(np.uint32) == render.ids[layer][name]
+        assert np.array_equal(ids[..., 1:2], render.layers[""])
+    render.save(tmp_path / "a.part.exr")
+    part = bdpt.read_part(tmp_path / "a.part.exr")
+    assert part.ids == render.ids and np.array_equal(part.layers["CryptoObject00"], render.layers["CryptoObject00"])

@@ -161,11 +161,15 @@ ImageFileOptions image_file_options(const RenderArguments& arguments, const Prep
                                      .y = region.y0,
                                      .full_width = stage.size.width,
                                      .full_height = stage.size.height};
-    std::vector<Layer> layers = result.aovs.develop(result.film);
+    std::vector<Layer> layers = layers_of(result.film, result.aovs, result.ids);
     if (result.profile) {
         layers.push_back(time_layer(*result.profile));
     }
-    return {.exr = {arguments.channel_type, std::move(metadata), arguments.storage, placement},
+    return {.exr = {.type = arguments.channel_type,
+                    .metadata = std::move(metadata),
+                    .storage = arguments.storage,
+                    .placement = placement,
+                    .manifests = result.ids.manifests()},
             .layers = std::move(layers),
             .display = arguments.display,
             .denoiser = session.denoiser,

@@ -29,6 +29,10 @@ enum class Aov : std::uint8_t {
     /// that the scene takes away. In [0, 1]; 0, to the bit, where nothing is in the way of any
     /// light.
     shadow,
+    /// Shares of rays that meet each object, by the names of instances: Cryptomatte (`IdFilm`).
+    object,
+    /// The same by the names of materials.
+    material,
 };
 
 /// A set of them.
@@ -53,5 +57,11 @@ private:
     }
     std::uint32_t bits_ = 0;
 };
+
+/// Does it have AOVs that are images of ids?
+[[nodiscard]] constexpr bool asks_for_ids(AovSet aovs)
+{
+    return aovs.contains(Aov::object) || aovs.contains(Aov::material);
+}
 
 }  // namespace bdpt

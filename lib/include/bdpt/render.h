@@ -3,6 +3,7 @@
 #include <bdpt/export.h>
 #include <bdpt/film/aov_film.h>
 #include <bdpt/film/film.h>
+#include <bdpt/film/id_film.h>
 #include <bdpt/film/strategy_film.h>
 #include <bdpt/part/render_part.h>
 #include <bdpt/path_contribution.h>
@@ -63,6 +64,7 @@ struct RenderControl {
 struct RenderResult {
     Film film;
     AovFilm aovs;             ///< of the same samples; empty if none were asked for
+    IdFilm ids;               ///< likewise
     StrategyFilm strategies;  ///< of the same samples; empty if none were asked for
     RenderStats stats;
     /// What was rendered: those that were asked for, with what IntegratorKind::automatic chose.

@@ -7,6 +7,9 @@
 
 #include <glm/geometric.hpp>
 
+#include <cstddef>
+#include <vector>
+
 namespace bdpt {
 
 AovPass::AovPass(const World& world, const MovingCamera& camera, const RenderOptions& options)
@@ -15,26 +18,40 @@ AovPass::AovPass(const World& world, const MovingCamera& camera, const RenderOpt
       options_(options),
       filter_(options.film.filter),
       ground_(world, options)
-{}
+{
+    if (asks_for_ids(options.film.aovs)) {
+        names_.emplace(world.description());
+    }
+}
 
-RenderStats AovPass::render_tile(const Tile& tile, SampleRange samples, AovFilm& film) const
+IdNames AovPass::names() const
+{
+    return names_ ? names_->names(options_.film.aovs) : IdNames{};
+}
+
+RenderStats AovPass::render_tile(const Tile& tile, SampleRange samples, AovFilm& film,
+                                 IdFilm& ids) const
 {
     RenderStats stats;
+    std::vector<SurfaceIds> met;  // by the rays of a pixel
+    met.reserve(names_ ? static_cast<std::size_t>(samples.end - samples.begin) : 0);
     for (int y = tile.y_begin; y < tile.y_end; ++y) {
         for (int x = tile.x_begin; x < tile.x_end; ++x) {
             if (!film.region().contains(x, y)) {
                 continue;
             }
+            met.clear();
             for (std::int64_t index = samples.begin; index < samples.end; ++index) {
-                add_sample(x, y, index, film, stats.rays);
+                add_sample(x, y, index, film, met, stats.rays);
             }
+            ids.add(x, y, met);
         }
     }
     return stats;
 }
 
 void AovPass::add_sample(int x, int y, std::int64_t sample_index, AovFilm& film,
-                         RayCounts& rays) const
+                         std::vector<SurfaceIds>& met, RayCounts& rays) const
 {
     // The random numbers of the integrators' camera rays.
     SampleStart start(options_, filter_, world_, camera_, x, y, sample_index);
@@ -56,6 +73,9 @@ void AovPass::add_sample(int x, int y, std::int64_t sample_index, AovFilm& film,
                   .normal = dot(normal, ray.direction) > 0.0f ? -normal : normal,
                   .position = point.end.p,
                   .depth = camera.depth(point.end.p)});
+        if (names_) {
+            met.push_back(names_->ids_of(*hit));
+        }
     } else if (film.needs_ground()) {
         if (const auto light = ground_.light_at(ray, start.moment, start.sampler, rays)) {
             film.add_ground(x, y, *light);

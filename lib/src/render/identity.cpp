@@ -1,6 +1,8 @@
 #include <bdpt/part/identity.h>
 
 #include "identity/desc_hasher.h"
+#include "scene/scene_names.h"
+#include "scene/world.h"
 
 #include <bdpt/integrators.h>
 #include <bdpt/render.h>
@@ -114,6 +116,23 @@ void add_camera(std::vector<IdentityComponent>& result, const CameraDesc& camera
     });
 }
 
+/// Names are in no image but those of ids.
+void add_names(std::vector<IdentityComponent>& result, const SceneDesc& scene, AovSet aovs)
+{
+    if (!asks_for_ids(aovs)) {
+        return;
+    }
+    const SceneNames names(scene);
+    if (aovs.contains(Aov::object)) {
+        result.push_back(
+            {.name = "scene: names of objects", .value = hash_text(names.ids(IdKind::object))});
+    }
+    if (aovs.contains(Aov::material)) {
+        result.push_back(
+            {.name = "scene: names of materials", .value = hash_text(names.ids(IdKind::material))});
+    }
+}
+
 const IdentityComponent* find(const Identity& identity, std::string_view name)
 {
     const auto found = std::find_if(identity.components.begin(), identity.components.end(),
@@ -131,6 +150,7 @@ bool is_readable(const std::string& value)
 Identity identity(const Scene& scene, const CameraDesc& camera, const RenderOptions& options)
 {
     Identity result{scene.identity()};
+    add_names(result.components, scene.world().description(), options.film.aovs);
     add_camera(result.components, camera);
     add_options(result.components, chosen_options(scene, camera, options));
     result.components.push_back({.name = "build: version", .value = BDPT_VERSION});

@@ -31,17 +31,17 @@ void count_samples(const SampleSchedule& schedule, const Tile& tile, SampleRange
 
 /// The samples of the tile, in all films.
 RenderStats render_tile(const Work& work, const RenderOptions& options, const Tile& tile,
-                        SampleRange samples, const Films& films, AovFilm& aovs)
+                        SampleRange samples, const Films& films, RenderPart& result)
 {
     RenderStats stats = work.integrator.render_tile(tile, samples, films);
     if (work.on_tile) {
         work.on_tile(tile, stats);
     }
-    if (aovs.needs_camera_rays()) {
-        stats += work.aov_pass.render_tile(tile, samples, aovs);
+    if (result.aovs.needs_camera_rays() || result.ids.needs_hits()) {
+        stats += work.aov_pass.render_tile(tile, samples, result.aovs, result.ids);
     }
-    if (aovs.needs_counts()) {
-        count_samples(SampleSchedule(options), tile, samples, aovs);
+    if (result.aovs.needs_counts()) {
+        count_samples(SampleSchedule(options), tile, samples, result.aovs);
     }
     return stats;
 }
@@ -88,7 +88,7 @@ void render_at_once(const Work& work, const RenderOptions& options, SampleRange 
                                     .y_begin = y,
                                     .y_end = std::min(y + side, area.y1)};
                     stats_of_threads.local() +=
-                        render_tile(work, options, tile, samples, films, result.aovs);
+                        render_tile(work, options, tile, samples, films, result);
                 }
             }
         },

@@ -83,7 +83,8 @@ double cpu_seconds()
 }
 
 /// A part of the render without any samples.
-RenderPart empty_part(Identity identity, const RenderOptions& options, const CameraDesc& camera)
+RenderPart empty_part(Identity identity, const RenderOptions& options, const CameraDesc& camera,
+                      const AovPass& aov_pass)
 {
     const FilmLayout layout = film_layout(options);
     return {.identity = std::move(identity),
@@ -91,6 +92,7 @@ RenderPart empty_part(Identity identity, const RenderOptions& options, const Cam
             .film = Film(layout),
             .aovs = AovFilm(layout.region, options.film.aovs,
                             options.sampling.rates ? PixelCounts::own : PixelCounts::equal),
+            .ids = IdFilm(layout.region, options.film.aovs, aov_pass.names()),
             .strategies = StrategyFilm(layout.region, strategies_with_images(options, camera)),
             .stats = {}};
 }
@@ -112,6 +114,7 @@ RenderResult result_of(PartResult done)
     RenderPart& part = done.part;
     return {.film = std::move(part.film),
             .aovs = std::move(part.aovs),
+            .ids = std::move(part.ids),
             .strategies = std::move(part.strategies),
             .stats = part.stats,
             .options = std::move(done.options),
@@ -150,7 +153,7 @@ PartResult render_part(const Scene& scene, const CameraDesc& camera_desc,
     Threads threads(options.system.threads);
 
     PartResult result{.part = so_far.samples.empty()
-                                  ? empty_part(std::move(identity), options, camera_desc)
+                                  ? empty_part(std::move(identity), options, camera_desc, aov_pass)
                                   : std::move(so_far),
                       .options = options};
     RenderPart& part = result.part;

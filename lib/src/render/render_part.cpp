@@ -16,6 +16,7 @@ void merge(RenderPart& part, const RenderPart& other)
     }
     part.film.merge(other.film);
     part.aovs.merge(other.aovs);
+    part.ids.merge(other.ids);
     part.strategies.merge(other.strategies);
     part.samples.add(other.samples);
     part.stats += other.stats;

@@ -98,6 +98,7 @@ void render_group(const Scene& scene, const MovingCamera& camera, const RenderOp
                     .samples = {},
                     .film = Film(film_layout(options)),
                     .aovs = {},
+                    .ids = {},
                     .strategies = {},
                     .stats = {}};
     const std::function<void(const PathContribution&)> nobody;

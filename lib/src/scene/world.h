@@ -70,6 +70,8 @@ public:
     [[nodiscard]] Rgb transmittance_to_infinity(const SegmentEnd& a, Vec3 direction,
                                                 SegmentKey segment) const noexcept;
 
+    /// What it was made of.
+    [[nodiscard]] const SceneDesc& description() const { return desc_; }
     [[nodiscard]] const LightSet& lights() const { return *lights_; }
     /// Does any material?
     [[nodiscard]] bool disperses() const { return disperses_; }

@@ -28,6 +28,7 @@ TEST_CASE("AOVs are names with commas between")
     CHECK(parse_aovs("depth,depth") == AovSet{Aov::depth});
     CHECK(parse_aovs("normal,position,variance") ==
           AovSet{Aov::normal, Aov::position, Aov::variance});
+    CHECK(parse_aovs("object,material") == AovSet{Aov::object, Aov::material});
     for (const char* wrong : {"", ",", "depth,", ",depth", "depth, alpha", "Depth", "uv"}) {
         CAPTURE(wrong);
         CHECK_FALSE(parse_aovs(wrong));

@@ -258,14 +258,17 @@ TEST_CASE("hot path: nor do AOVs", "[hot_path]")
 {
     const World world(everything());
     RenderOptions options = options_of(IntegratorKind::bdpt);
-    options.film.aovs = {Aov::albedo, Aov::normal, Aov::depth, Aov::position, Aov::shadow};
+    options.film.aovs = {Aov::albedo, Aov::normal, Aov::depth,   Aov::position,
+                         Aov::shadow, Aov::object, Aov::material};
     for (const CameraDesc& desc : cameras()) {
         const MovingCamera camera(desc, Camera(desc, size, size));
         const AovPass pass(world, camera, options);
         AovFilm film(region, options.film.aovs);
+        IdFilm ids(region, options.film.aovs, pass.names());
         check_costs_nothing_a_sample([&](std::int64_t samples) {
-            static_cast<void>(pass.render_tile(whole, {.begin = 0, .end = samples}, film));
+            static_cast<void>(pass.render_tile(whole, {.begin = 0, .end = samples}, film, ids));
         });
+        CHECK(ids.ranks()[0] > 2);
     }
 }
 

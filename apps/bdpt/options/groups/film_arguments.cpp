@@ -19,13 +19,15 @@ constexpr std::array<std::pair<std::string_view, FilterKind>, 4> filters{
      {"gaussian", FilterKind::gaussian},
      {"blackman-harris", FilterKind::blackman_harris}}};
 
-constexpr std::array<std::pair<std::string_view, Aov>, 7> aovs{{{"albedo", Aov::albedo},
+constexpr std::array<std::pair<std::string_view, Aov>, 9> aovs{{{"albedo", Aov::albedo},
                                                                 {"normal", Aov::normal},
                                                                 {"depth", Aov::depth},
                                                                 {"position", Aov::position},
                                                                 {"samples", Aov::sample_count},
                                                                 {"variance", Aov::variance},
-                                                                {"alpha", Aov::alpha}}};
+                                                                {"alpha", Aov::alpha},
+                                                                {"object", Aov::object},
+                                                                {"material", Aov::material}}};
 
 /// The parts of `text` between commas; empty ones too.
 std::vector<std::string_view> split(std::string_view text)
@@ -124,7 +126,7 @@ void add_film_options(CLI::App& command, FilmWords& words)
     command
         .add_option("--aov", words.aovs,
                     "Extra .exr layers (AOVs), comma-separated: albedo, normal, depth, position, "
-                    "samples, variance, alpha")
+                    "samples, variance, alpha; object, material: Cryptomatte")
         ->type_name("LIST")
         ->group(group);
     command
@@ -156,8 +158,8 @@ RenderOptions with_film(const FilmWords& words, RenderOptions options)
         const std::optional<AovSet> set = parse_aovs(*words.aovs);
         if (!set) {
             reject("--aov", *words.aovs,
-                   "albedo, normal, depth, position, samples, variance, alpha or some of them, "
-                   "with commas between");
+                   "albedo, normal, depth, position, samples, variance, alpha, object, material "
+                   "or some of them, with commas between");
         }
         options.film.aovs = *set;
     }

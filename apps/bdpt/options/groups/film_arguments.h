@@ -26,7 +26,7 @@ struct FilmWords {
 /// "gaussian" or "gaussian:2"; the radius [pixels] is in the range of `FilterOptions`.
 [[nodiscard]] std::optional<FilterOptions> parse_filter(std::string_view text);
 
-/// "albedo,normal,depth,position,samples,variance,alpha", or some of them.
+/// "albedo,normal,depth,position,samples,variance,alpha,object,material", or some of them.
 [[nodiscard]] std::optional<AovSet> parse_aovs(std::string_view text);
 
 /// "x0,y0,x1,y1", whole numbers; x0 < x1 and y0 < y1.

@@ -1,6 +1,7 @@
 #include "options/values/film_memory.h"
 
 #include <bdpt/film/exact_sum.h>
+#include <bdpt/film/id_film.h>
 #include <bdpt/integrators.h>
 
 #include <array>
@@ -12,21 +13,27 @@ namespace {
 constexpr std::uint64_t color_sum = 3 * sizeof(ExactSum);
 constexpr std::uint64_t shadow_sums = 2 * sizeof(ExactSum) + sizeof(std::uint64_t);
 
-/// Sums of a pixel in an `AovFilm`, and floats of the layer that they are developed to.
+/// Sums of a pixel in an `AovFilm` or `IdFilm`, and floats of the layer that they are developed to.
 struct AovCost {
     Aov aov;
     std::uint64_t sums;  // [bytes]
     std::uint64_t channels;
 };
 
-constexpr std::array<AovCost, 8> aov_costs{{{Aov::albedo, color_sum, 3},
-                                            {Aov::normal, color_sum, 3},
-                                            {Aov::depth, sizeof(ExactSum), 1},
-                                            {Aov::position, color_sum, 3},
-                                            {Aov::sample_count, 0, 1},
-                                            {Aov::variance, 0, 3},
-                                            {Aov::alpha, sizeof(std::uint64_t), 1},
-                                            {Aov::shadow, shadow_sums, 1}}};
+/// What most pixels take; each further id takes 8 bytes, and what the heap adds.
+constexpr std::uint64_t two_ids = sizeof(IdCounts) + 32;
+constexpr std::uint64_t id_channels = 2 * IdFilm::levels;
+
+constexpr std::array<AovCost, 10> aov_costs{{{Aov::albedo, color_sum, 3},
+                                             {Aov::normal, color_sum, 3},
+                                             {Aov::depth, sizeof(ExactSum), 1},
+                                             {Aov::position, color_sum, 3},
+                                             {Aov::sample_count, 0, 1},
+                                             {Aov::variance, 0, 3},
+                                             {Aov::alpha, sizeof(std::uint64_t), 1},
+                                             {Aov::shadow, shadow_sums, 1},
+                                             {Aov::object, two_ids, id_channels},
+                                             {Aov::material, two_ids, id_channels}}};
 
 }  // namespace
 

@@ -5,6 +5,8 @@
 #include <bdpt/io/tone_map.h>
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 #include "options/values/output_files.h"
 #include "options/values/pipes.h"
@@ -57,6 +59,14 @@ WrittenImages write_as_they_are(std::span<const fs::path> outputs, const Image& 
 }
 
 }  // namespace
+
+std::vector<Layer> layers_of(const Film& film, const AovFilm& aovs, const IdFilm& ids)
+{
+    std::vector<Layer> layers = aovs.develop(film);
+    std::vector<Layer> more = ids.develop(film);
+    std::move(more.begin(), more.end(), std::back_inserter(layers));
+    return layers;
+}
 
 WrittenImages write_image_files(std::span<const fs::path> outputs, const Image& image,
                                 ImageFileOptions options)

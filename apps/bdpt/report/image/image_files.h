@@ -1,5 +1,7 @@
 #pragma once
 
+#include <bdpt/film/aov_film.h>
+#include <bdpt/film/id_film.h>
 #include <bdpt/image.h>
 #include <bdpt/io/denoise.h>
 #include <bdpt/io/exr.h>
@@ -28,6 +30,10 @@ struct WrittenImages {
     std::size_t clamped_pixels = 0;  ///< in an EXR file of halves
     std::optional<float> exposure;   ///< [EV] of the PNG files, if there were any
 };
+
+/// All layers that were asked for; `film` is of the same samples.
+[[nodiscard]] std::vector<Layer> layers_of(const Film& film, const AovFilm& aovs,
+                                           const IdFilm& ids);
 
 /// Writes all `outputs`, each as its extension says; with a denoiser PNG files are denoised, and
 /// EXR files have both images. A PNG file with a backdrop needs the layer with alpha. Throws

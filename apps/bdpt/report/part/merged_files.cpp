@@ -124,8 +124,12 @@ void write_merged_files(const MergeArguments& arguments, const DisplayArguments&
                                      .full_height = layout.height};
     const Image image = part.film.develop();
     const ImageFileOptions options{
-        .exr = {arguments.channel_type, std::move(notes.metadata), arguments.storage, placement},
-        .layers = part.aovs.develop(part.film),
+        .exr = {.type = arguments.channel_type,
+                .metadata = std::move(notes.metadata),
+                .storage = arguments.storage,
+                .placement = placement,
+                .manifests = part.ids.manifests()},
+        .layers = layers_of(part.film, part.aovs, part.ids),
         .display = display,
         .denoiser = denoiser,
         .denoised_as = arguments.denoise ? arguments.denoise->as : DenoisedAs::image};

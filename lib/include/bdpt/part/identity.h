@@ -27,7 +27,7 @@ struct Identity {
 };
 
 /// That of a render. Not in it is what changes no bit: the samples that are asked for, threads,
-/// tiles, limits of memory, names.
+/// tiles, limits of memory; names only where images of ids show them.
 [[nodiscard]] BDPT_EXPORT Identity identity(const Scene& scene, const CameraDesc& camera,
                                             const RenderOptions& options);
 

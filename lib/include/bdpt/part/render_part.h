@@ -3,6 +3,7 @@
 #include <bdpt/export.h>
 #include <bdpt/film/aov_film.h>
 #include <bdpt/film/film.h>
+#include <bdpt/film/id_film.h>
 #include <bdpt/film/strategy_film.h>
 #include <bdpt/part/identity.h>
 #include <bdpt/part/sample_set.h>
@@ -18,6 +19,7 @@ struct RenderPart {
     SampleSet samples;  ///< that the films hold, of every pixel
     Film film;
     AovFilm aovs;             ///< empty if none were asked for
+    IdFilm ids;               ///< likewise
     StrategyFilm strategies;  ///< empty if none were asked for
     RenderStats stats;
     double cpu_seconds = 0.0;  ///< [s] of the process, while it rendered these samples

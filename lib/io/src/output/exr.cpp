@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "output/check_pixels.h"
+#include "output/cryptomatte.h"
 #include "output/exr_metadata.h"
 #include "output/exr_stream.h"
 #include "output/write_errors.h"
@@ -97,6 +98,7 @@ Imf::Header make_header(const Imath::Box2i& window, const ExrPlacement& placemen
     for (const Channel& channel : content.channels()) {
         header.channels().insert(channel.name, Imf::Channel(channel.type));
     }
+    add_cryptomatte_metadata(header, options.manifests);
     add_exr_metadata(
         header, options.metadata,
         static_cast<float>(placement.full_width) / static_cast<float>(placement.full_height));

@@ -3,6 +3,7 @@
 #include <bdpt/error.h>
 #include <bdpt/fields.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -12,6 +13,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "part/id_json.h"
 #include "part/json_values.h"
 
 namespace bdpt::io {
@@ -70,7 +72,8 @@ FilmLayout read_layout(const ordered_json& json)
 }
 
 constexpr std::array all_aovs{Aov::albedo,       Aov::normal,   Aov::depth, Aov::position,
-                              Aov::sample_count, Aov::variance, Aov::alpha, Aov::shadow};
+                              Aov::sample_count, Aov::variance, Aov::alpha, Aov::shadow,
+                              Aov::object,       Aov::material};
 
 ordered_json to_json(const AovSet& aovs)
 {
@@ -91,6 +94,18 @@ AovSet read_aovs(const ordered_json& json)
             static_cast<Aov>(checked(number.get<int>(), 0, static_cast<int>(all_aovs.back()))));
     }
     return aovs;
+}
+
+/// No pixel has more ids than there are names, or samples; kinds that were not asked for have none.
+void check_ids(const PartHeader& header)
+{
+    for (std::size_t kind = 0; kind < id_kinds.size(); ++kind) {
+        const auto most = std::min<std::uint64_t>(
+            header.names[kind].size(), static_cast<std::uint64_t>(header.samples.count()));
+        if (header.ranks[kind] > (header.aovs.contains(id_aovs[kind]) ? most : 0)) {
+            throw std::runtime_error("more ids of a pixel than there can be");
+        }
+    }
 }
 
 std::vector<Strategy> read_strategies(const ordered_json& json)
@@ -219,6 +234,12 @@ PartHeader read(const ordered_json& json)
     header.layout = read_layout(json.at("film"));
     header.aovs = read_aovs(json.at("layers"));
     header.counts = json.value("own_counts", false) ? PixelCounts::own : PixelCounts::equal;
+    if (asks_for_ids(header.aovs)) {
+        const ordered_json& ids = json.at("ids");
+        header.names = names_from_json(ids);
+        header.ranks = ranks_from_json(ids);
+        check_ids(header);
+    }
     header.strategies = read_strategies(json.at("strategies"));
     header.totals = read_totals(json.at("totals"), header.layout);
     header.stats = read_stats(json.at("stats"));
@@ -239,6 +260,8 @@ PartHeader header_of(const RenderPart& part, const PartNotes& notes)
             .layout = part.film.layout(),
             .aovs = part.aovs.aovs(),
             .counts = part.aovs.counts(),
+            .names = part.ids.names(),
+            .ranks = part.ids.ranks(),
             .strategies = part.strategies.strategies(),
             .totals = part.film.totals(),
             .stats = part.stats,
@@ -262,6 +285,9 @@ std::string to_text(const PartHeader& header)
                       {"command", header.notes.command}};
     if (header.counts == PixelCounts::own) {
         json["own_counts"] = true;
+    }
+    if (asks_for_ids(header.aovs)) {
+        json["ids"] = ids_to_json(header.names, header.ranks);
     }
     for (const auto& [name, value] : header.identity.components) {
         json["identity"][name] = value;
@@ -293,6 +319,7 @@ RenderPart make_part(const PartHeader& header)
             .samples = {},
             .film = Film(header.layout),
             .aovs = AovFilm(header.layout.region, header.aovs, header.counts),
+            .ids = IdFilm(header.layout.region, header.aovs, header.names),
             .strategies = StrategyFilm(header.layout.region, header.strategies),
             .stats = {}};
 }

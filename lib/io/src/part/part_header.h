@@ -2,6 +2,7 @@
 
 #include <bdpt/aov.h>
 #include <bdpt/film/film.h>
+#include <bdpt/film/id_film.h>
 #include <bdpt/io/part_file.h>
 #include <bdpt/part/render_part.h>
 #include <bdpt/render_stats.h>
@@ -19,6 +20,8 @@ struct PartHeader {
     FilmLayout layout;
     AovSet aovs;
     PixelCounts counts = PixelCounts::equal;
+    IdNames names;    ///< of the AOVs that are images of ids
+    IdRanks ranks{};  ///< that the file has planes for
     std::vector<Strategy> strategies;
     FilmTotals totals;
     RenderStats stats;

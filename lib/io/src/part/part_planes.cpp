@@ -9,6 +9,19 @@ namespace {
 constexpr int words_of_sum = 4;  // of 32 bits
 static_assert(sizeof(ExactSum::Words) == words_of_sum * sizeof(std::uint32_t));
 
+/// "object.0", ..., a plane for each rank of each kind.
+std::vector<std::string> id_planes(const IdRanks& ranks)
+{
+    std::vector<std::string> names;
+    for (const IdKind kind : id_kinds) {
+        for (std::size_t rank = 0; rank < ranks[static_cast<std::size_t>(kind)]; ++rank) {
+            names.push_back((kind == IdKind::object ? "object." : "material.") +
+                            std::to_string(rank));
+        }
+    }
+    return names;
+}
+
 /// Where in memory the 32 bits with that rank are, the lowest being 0.
 std::size_t place_of(int rank)
 {
@@ -18,19 +31,21 @@ std::size_t place_of(int rank)
 
 }  // namespace
 
-PlaneRow::PlaneRow(const RenderPart& part)
+PlaneRow::PlaneRow(const RenderPart& part, const IdRanks& ranks)
     : left_(part.film.region().x0),
       width_(static_cast<std::size_t>(part.film.width())),
       film_(Film::plane_names()),
       aovs_(part.aovs.plane_names()),
       strategies_(part.strategies.plane_names()),
-      words_((film_.size() + aovs_.size() + strategies_.size()) * width_)
+      ids_(id_planes(ranks)),
+      ranks_(ranks),
+      words_((film_.size() + aovs_.size() + strategies_.size() + ids_.size()) * width_)
 {}
 
 std::vector<std::string> PlaneRow::channels() const
 {
     std::vector<std::string> result;
-    for (const auto* planes : {&film_, &aovs_, &strategies_}) {
+    for (const auto* planes : {&film_, &aovs_, &strategies_, &ids_}) {
         for (const std::string& plane : *planes) {
             for (int rank = 0; rank < words_of_sum; ++rank) {
                 result.push_back(plane + "." + std::to_string(rank));
@@ -76,9 +91,14 @@ void PlaneRow::take(const RenderPart& part, int row)
     take_planes(part.film, film_.size());
     take_planes(part.aovs, aovs_.size());
     take_planes(part.strategies, strategies_.size());
+    for (const IdKind kind : id_kinds) {
+        for (std::size_t rank = 0; rank < ranks_[static_cast<std::size_t>(kind)]; ++rank) {
+            part.ids.read_row(kind, rank, row, row_of(plane++));
+        }
+    }
 }
 
-void PlaneRow::add_to(RenderPart& part, int row) const
+void PlaneRow::add_to(RenderPart& part, int row, std::int64_t samples) const
 {
     std::size_t plane = 0;
     const auto add_planes = [&](auto& film, std::size_t count) {
@@ -89,6 +109,11 @@ void PlaneRow::add_to(RenderPart& part, int row) const
     add_planes(part.film, film_.size());
     add_planes(part.aovs, aovs_.size());
     add_planes(part.strategies, strategies_.size());
+    for (const IdKind kind : id_kinds) {
+        const std::size_t count = ranks_[static_cast<std::size_t>(kind)];
+        part.ids.add_row(kind, row, {words_.data() + plane * width_, count * width_}, samples);
+        plane += count;
+    }
 }
 
 }  // namespace bdpt::io

@@ -5,6 +5,7 @@
 #include <OpenEXR/ImfFrameBuffer.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,8 +16,8 @@ namespace bdpt::io {
 /// each sum as four channels of 32 bits, "half0.R.0" (the lowest) to "half0.R.3".
 class PlaneRow {
 public:
-    /// `part` has the films.
-    explicit PlaneRow(const RenderPart& part);
+    /// `part` has the films; `ranks`: of ids that there are planes for.
+    PlaneRow(const RenderPart& part, const IdRanks& ranks);
 
     /// Names of channels.
     [[nodiscard]] std::vector<std::string> channels() const;
@@ -24,7 +25,9 @@ public:
     [[nodiscard]] Imf::FrameBuffer frame_buffer();
     /// Row `row`, counted from the top of the region, of the films.
     void take(const RenderPart& part, int row);
-    void add_to(RenderPart& part, int row) const;
+    /// The planes are those of `samples` samples. Throws `Error` (invalid_input) for ids that no
+    /// film has.
+    void add_to(RenderPart& part, int row, std::int64_t samples) const;
 
 private:
     [[nodiscard]] std::span<ExactSum::Words> row_of(std::size_t plane);
@@ -35,6 +38,8 @@ private:
     std::vector<std::string> film_;
     std::vector<std::string> aovs_;
     std::vector<std::string> strategies_;
+    std::vector<std::string> ids_;
+    IdRanks ranks_;
     std::vector<ExactSum::Words> words_;  // a row of a plane after the other
 };
 

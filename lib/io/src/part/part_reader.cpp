@@ -16,6 +16,7 @@
 #include <exception>
 #include <functional>
 #include <new>
+#include <numeric>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -107,6 +108,9 @@ void check_planes(const Imf::Header& exr, const PartHeader& header, const Sealed
         }
         ++channels;
     }
+    if (std::accumulate(header.ranks.begin(), header.ranks.end(), std::size_t{0}) > channels) {
+        fail("its sums have channels that no part has");  // before all of their names take memory
+    }
     const std::uint64_t pixels =
         static_cast<std::uint64_t>(r.width()) * static_cast<std::uint64_t>(r.height());
     if (pixels * channels * sizeof(std::uint32_t) > greatest_compression * file.size()) {
@@ -118,7 +122,7 @@ void check_planes(const Imf::Header& exr, const PartHeader& header, const Sealed
     pixel.layout.height = 1;
     pixel.layout.region = {.x0 = 0, .y0 = 0, .x1 = 1, .y1 = 1};
     const RenderPart small = make_part(pixel);
-    const std::vector<std::string> wanted = PlaneRow(small).channels();
+    const std::vector<std::string> wanted = PlaneRow(small, header.ranks).channels();
     const bool all = std::all_of(wanted.begin(), wanted.end(), [&exr](const std::string& name) {
         return exr.channels().findChannel(name) != nullptr;
     });
@@ -140,7 +144,7 @@ void merge_header(RenderPart& part, const PartHeader& header)
         fail(("has samples that are there already: " + both.text()).c_str());
     }
     if (part.film.layout() != header.layout || part.aovs.aovs() != header.aovs ||
-        part.strategies.strategies() != header.strategies) {
+        part.strategies.strategies() != header.strategies || part.ids.names() != header.names) {
         fail("its films are not those of its render");
     }
     for (const SampleRange& range : header.samples.ranges()) {
@@ -201,12 +205,12 @@ void merge_part(RenderPart& part, const PartInfo& info)
         check_planes(exr.header(1), header, file);
         merge_header(part, header);
         Imf::InputPart input(exr, 1);
-        PlaneRow row(part);
+        PlaneRow row(part, header.ranks);
         input.setFrameBuffer(row.frame_buffer());
         const int top = header.layout.region.y0;
         for (int y = 0; y < part.film.height(); ++y) {
             input.readPixels(top + y);
-            row.add_to(part, y);
+            row.add_to(part, y, header.samples.count());
         }
         return 0;
     });

@@ -118,7 +118,7 @@ PartWrite write_part(const std::filesystem::path& file, const RenderPart& part,
     OutputFile output(file);
     with_write_errors(file, [&] {
         ExrStream stream(output, file.string());
-        PlaneRow row(part);
+        PlaneRow row(part, part.ids.ranks());
         const std::array headers{image_header(part, notes), sums_header(part, notes, row)};
         Imf::MultiPartOutputFile exr(stream, headers.data(), static_cast<int>(headers.size()));
         write_image(exr, part.film);

@@ -86,10 +86,25 @@ TEST_CASE("nodes share the meshes that they use")
         return loaded.scene.materials.at(
             static_cast<std::size_t>(loaded.scene.instances[i].material));
     };
-    CHECK(material(0).name.empty());
+    CHECK(material(0).name == "default");
     CHECK(material(0).metallic == 1.0f);
     CHECK(material(3).name == "paint");
     CHECK(moved(loaded.scene.instances[2], {1, 0, 0}) == Vec3(-1, 0, 0));
+}
+
+TEST_CASE("nodes and materials without a name are called by their place in the document")
+{
+    GltfFixture fixture =
+        with_nodes({{{"children", {1, 2}}}, {{"mesh", 0}}, {{"mesh", 0}, {"name", "b"}}}, {0});
+    fixture.json["meshes"][0]["name"] = "shared";
+    fixture.json["meshes"][0]["primitives"][0]["material"] = 1;
+    fixture.json["materials"] = {{{"name", "unused"}}, nlohmann::json::object()};
+    const LoadedScene loaded = fixture.load();
+    REQUIRE(loaded.scene.instances.size() == 2);
+    CHECK(loaded.scene.instances[0].name == "node_1");
+    CHECK(loaded.scene.instances[1].name == "b");
+    REQUIRE(loaded.scene.materials.size() == 1);
+    CHECK(loaded.scene.materials[0].name == "material_1");
 }
 
 TEST_CASE("a scene is chosen by name, by index or by default")

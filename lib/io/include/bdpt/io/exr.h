@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bdpt/export.h>
+#include <bdpt/film/id_film.h>
 #include <bdpt/image.h>
 #include <bdpt/io/image_metadata.h>
 #include <bdpt/layer.h>
@@ -10,6 +11,7 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace bdpt::io {
 
@@ -39,6 +41,8 @@ struct ExrOptions {
     ImageMetadata metadata;
     ExrStorage storage = ExrStorage::scanlines;
     std::optional<ExrPlacement> placement{};  ///< none: it is not cropped
+    /// Written as metadata of Cryptomatte, if their layers are among those of the file.
+    std::vector<IdManifest> manifests{};
 };
 
 /// What could not be written as it was.

@@ -3,6 +3,8 @@
 #include "gltf/material/material.h"
 #include "gltf/material/texture.h"
 
+#include <fmt/core.h>
+
 #include <cstddef>
 #include <optional>
 #include <set>
@@ -17,9 +19,15 @@ std::vector<MaterialDesc> read_all(const tinygltf::Model& model, const std::vect
     std::vector<MaterialDesc> materials;
     materials.reserve(indices.size());
     for (const int index : indices) {
+        if (index < 0) {
+            materials.emplace_back().name = "default";
+            continue;
+        }
         materials.push_back(
-            index < 0 ? MaterialDesc{}
-                      : read_material(model, static_cast<std::size_t>(index), textures, context));
+            read_material(model, static_cast<std::size_t>(index), textures, context));
+        if (materials.back().name.empty()) {
+            materials.back().name = fmt::format("material_{}", index);
+        }
     }
     return materials;
 }

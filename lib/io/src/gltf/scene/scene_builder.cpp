@@ -170,7 +170,7 @@ private:
         }
         const tinygltf::Node& source = model_.nodes[node];
         InstanceDesc instance;
-        instance.name = source.name.empty() ? model_.meshes[id.mesh].name : source.name;
+        instance.name = source.name.empty() ? fmt::format("node_{}", node) : source.name;
         // Thousands of instances have one name, which may be of any length.
         context_.budget.spend(fmt::format("/nodes/{}", node), 1,
                               sizeof instance + instance.name.size());

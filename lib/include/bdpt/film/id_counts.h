@@ -1,0 +1,39 @@
+#pragma once
+
+#include <bdpt/export.h>
+#include <bdpt/film/name_id.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace bdpt {
+
+/// How many camera rays of a pixel met an id.
+struct IdCount {
+    NameId id = NameId::none;
+    std::uint32_t count = 0;
+    [[nodiscard]] bool operator==(const IdCount&) const = default;
+};
+
+/// Those of one pixel, as many as there are: in the order of ids, whatever the order was in which
+/// they came. Most pixels have one id, which takes no memory elsewhere.
+class BDPT_EXPORT IdCounts {
+public:
+    [[nodiscard]] std::size_t size() const { return first_.count > 0 ? 1 + more_.size() : 0; }
+    [[nodiscard]] const IdCount& operator[](std::size_t i) const
+    {
+        return i == 0 ? first_ : more_[i - 1];
+    }
+
+    /// Adds `count` rays, 1 or more, that met `id`.
+    void add(NameId id, std::uint32_t count);
+
+    [[nodiscard]] bool operator==(const IdCounts&) const = default;
+
+private:
+    IdCount first_;
+    std::vector<IdCount> more_;
+};
+
+}  // namespace bdpt

@@ -1,0 +1,113 @@
+#include "scene/scene_names.h"
+
+#include "scene/light_set.h"
+
+#include <bdpt/error.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <variant>
+
+namespace bdpt {
+namespace {
+
+/// Of all names that images show [bytes]: as JSON they still fit the header of a part's file.
+constexpr std::size_t most_text = std::size_t{4} << 20;
+
+std::string name_or_place(const std::string& name, std::string_view kind, std::size_t index)
+{
+    return name.empty() ? std::string(kind) + "_" + std::to_string(index) : name;
+}
+
+std::string name_of(const LightDesc& light, std::size_t index)
+{
+    return std::visit(
+        [index](const auto& desc) {
+            if constexpr (requires { desc.name; }) {
+                return name_or_place(desc.name, "light", index);
+            } else {
+                return name_or_place({}, "light", index);
+            }
+        },
+        light);
+}
+
+std::vector<NamedId> named_ids(std::vector<std::string> names)
+{
+    std::sort(names.begin(), names.end());
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    std::vector<NamedId> result;
+    result.reserve(names.size());
+    for (std::string& name : names) {
+        const NameId id = name_id(name);
+        result.push_back({.name = std::move(name), .id = id});
+    }
+    return result;
+}
+
+}  // namespace
+
+SceneNames::SceneNames(const SceneDesc& desc)
+{
+    std::vector<NameId> materials;
+    for (std::size_t i = 0; i < desc.materials.size(); ++i) {
+        materials_.push_back(name_or_place(desc.materials[i].name, "material", i));
+        materials.push_back(name_id(materials_.back()));
+    }
+    for (std::size_t i = 0; i < desc.instances.size(); ++i) {
+        const InstanceDesc& instance = desc.instances[i];
+        objects_.push_back(name_or_place(instance.name, "instance", i));
+        instances_.push_back({.object = name_id(objects_.back()),
+                              .material = materials[static_cast<std::size_t>(instance.material)]});
+    }
+    for (std::size_t i = 0; i < desc.lights.size(); ++i) {
+        if (!light_spheres(std::span(&desc.lights[i], 1)).empty()) {
+            const std::string name = name_of(desc.lights[i], i);
+            objects_.push_back(name);
+            materials_.push_back(name);
+            spheres_.push_back({.object = name_id(name), .material = name_id(name)});
+        }
+    }
+}
+
+IdNames SceneNames::names(AovSet aovs) const
+{
+    IdNames result;
+    if (aovs.contains(Aov::object)) {
+        result[static_cast<std::size_t>(IdKind::object)] = named_ids(objects_);
+    }
+    if (aovs.contains(Aov::material)) {
+        result[static_cast<std::size_t>(IdKind::material)] = named_ids(materials_);
+    }
+    std::size_t text = 0;
+    for (const std::vector<NamedId>& names : result) {
+        for (const NamedId& name : names) {
+            text += name.name.size();
+        }
+    }
+    if (text > most_text) {
+        throw Error(ErrorCode::invalid_input, "the names of objects and materials have " +
+                                                  std::to_string(text) +
+                                                  " bytes, but images of ids (Cryptomatte) hold " +
+                                                  std::to_string(most_text));
+    }
+    return result;
+}
+
+std::vector<NameId> SceneNames::ids(IdKind kind) const
+{
+    const auto member = kind == IdKind::object ? &SurfaceIds::object : &SurfaceIds::material;
+    std::vector<NameId> result;
+    result.reserve(instances_.size() + spheres_.size());
+    for (const auto* surfaces : {&instances_, &spheres_}) {
+        for (const SurfaceIds& ids : *surfaces) {
+            result.push_back(ids.*member);
+        }
+    }
+    return result;
+}
+
+}  // namespace bdpt

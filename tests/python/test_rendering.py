@@ -159,7 +159,7 @@ def test_layers_of_ids_have_names(tmp_path):
         ids = render.layers[layer + "00"]
         assert ids.shape == (8, 8, 4) and ids[4, 4, 1] == 1 and ids[0, 0, 1] == 0
         assert ids[4, 4, :1].view(np.uint32) == render.ids[layer][name]
-        assert np.array_equal(ids[..., 1:2], render.layers[""])
+        assert np.array_equal(ids[..., 1:2], render.layers["alpha"])
     render.save(tmp_path / "a.part.exr")
     part = bdpt.read_part(tmp_path / "a.part.exr")
     assert part.ids == render.ids and np.array_equal(part.layers["CryptoObject00"], render.layers["CryptoObject00"])

@@ -50,8 +50,8 @@ TEST_CASE("words about transport become options")
     CHECK(options.bidirectional.disabled == std::vector{Strategy{3, 0}});
     const auto json = transport_json(options);
     CHECK(json == nlohmann::ordered_json::parse(R"({"integrator": "lt", "heuristic": "cutoff",
-        "environment_sampling": "plain", "light_sampling": "tree", "light_samples": 1,
         "max_depth": 5, "min_depth": 1, "light_paths": 2, "rr_start": 4,
+        "environment_sampling": "plain", "light_sampling": "tree", "light_samples": 1,
         "max_camera_depth": 3, "max_light_depth": 0, "disabled": ["s3t0"]})"));
 }
 

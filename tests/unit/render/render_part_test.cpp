@@ -262,7 +262,7 @@ TEST_CASE("every option but those of the system belongs to the identity", "[part
                              "camera: vertical field of view", "option: clamp"}) {
         CHECK(all.find(name) != std::string::npos);
     }
-    for (const char* name : {"memory", "threads", "samples", "tile", "option: film"}) {
+    for (const char* name : {"memory", "threads", "option: samples", "tile", "option: film"}) {
         CAPTURE(name);
         CHECK(all.find(name) == std::string::npos);
     }

@@ -166,8 +166,8 @@ TEST_CASE("sampleCount tells how many samples pixels took", "[rates]")
         const RenderOptions o = with(kind, random_rates());
         const RenderResult result = image_of(scene, o);
         const std::vector<Layer> layers = result.aovs.develop(result.film);
-        REQUIRE(layers.size() == 2);
-        const Layer& counts = layers[1];
+        REQUIRE(layers.size() == 3);
+        const Layer& counts = layers[2];
         CHECK(counts.name == "sampleCount");
         std::uint64_t sum = 0;
         int wrong = 0;

@@ -21,8 +21,10 @@ def start(*words):
 
 
 def inner(process):
-    """The number, out here, of what is process 1 in there."""
+    """The number, out here, of what is process 1 in there. OSError when it has ended."""
     for _ in range(200):
+        if process.poll() is not None:
+            raise ProcessLookupError
         children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
         if children:
             status = pathlib.Path(f"/proc/{children[0]}/status").read_text()

@@ -173,6 +173,8 @@ TEST_CASE("lines that change no pixel of a Radiance HDR image do not count")
     }
     std::string other = upright(1, 1, {{128, 64, 32, 129}}, HdrEncoding::flat).bytes();
     other.replace(0, 10, "#?RGBE");
+    CHECK(is_hdr(view(other)));
+    CHECK_FALSE(is_hdr(view(other.substr(0, 5))));
     CHECK(read(other).pixels == plain.image.pixels);
     CHECK(read(other + "more").pixels == plain.image.pixels);
 }

@@ -52,7 +52,7 @@ struct Tiff {
             put(278, height);
             put(279, size);
         }
-        if (channels == 4) {
+        if (channels % 2 == 0) {
             put(338, 2);  // alpha that is not multiplied in
         }
         put(339, sample_format);
@@ -100,6 +100,8 @@ TEST_CASE("TIFF environments of floats are read")
     const std::vector<float> with_alpha{1, 2, 3, 0, 4, 5, 6, 0.5f};
     CHECK(load(floats(2, 1, 4, with_alpha).bytes()).light.radiance.pixels ==
           std::vector<Rgb>{Rgb(1, 2, 3), Rgb(4, 5, 6)});
+    CHECK(load(floats(2, 1, 2, {7, 0.5f, 3, 0}).bytes()).light.radiance.pixels ==
+          std::vector<Rgb>{Rgb(7), Rgb(3)});
     CHECK(load(floats(2, 1, 1, {7, -1}).bytes()).light.radiance.pixels ==
           std::vector<Rgb>{Rgb(7), Rgb(0)});
     CHECK(warns(load(floats(2, 1, 1, {7, -1}).bytes()).warnings, {"pixel (1, 0): -1"}));

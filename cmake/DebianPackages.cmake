@@ -1,5 +1,6 @@
-# cpack -G DEB, in the build folder: bdpt (the command, the libraries, man pages, completions, documents)
-# and libbdpt-dev (headers, and what CMake and pkg-config need).
+# cpack -G DEB, in the build folder: bdpt (the command, the libraries, man pages, completions, documents),
+# bdpt-openimageio (the module that reads TIFF images) and libbdpt-dev (headers, and what CMake and
+# pkg-config need).
 if(NOT BUILD_SHARED_LIBS OR NOT BDPT_BUILD_APPS)
   return()
 endif()
@@ -9,7 +10,7 @@ set(CPACK_PACKAGE_NAME bdpt)
 set(CPACK_PACKAGE_CONTACT "${BDPT_PACKAGE_CONTACT}")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
-set(CPACK_COMPONENTS_ALL bdpt_runtime bdpt_development)
+set(CPACK_COMPONENTS_ALL bdpt_runtime bdpt_openimageio bdpt_development)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 
@@ -21,9 +22,19 @@ The command bdpt renders glTF 2.0 scenes to OpenEXR and PNG images, alone or
 on a farm, and compares integrators. Its libraries do the same for programs.")
 # Packages of the libraries that ours are linked to, found by dpkg-shlibdeps.
 set(CPACK_DEBIAN_BDPT_RUNTIME_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_BDPT_RUNTIME_PACKAGE_SUGGESTS bdpt-openimageio)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS
     "${CMAKE_BINARY_DIR}/lib;${CMAKE_BINARY_DIR}/lib/io;${CMAKE_BINARY_DIR}/lib/eval")
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+
+set(CPACK_DEBIAN_BDPT_OPENIMAGEIO_PACKAGE_NAME bdpt-openimageio)
+set(CPACK_DEBIAN_BDPT_OPENIMAGEIO_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_BDPT_OPENIMAGEIO_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_BDPT_OPENIMAGEIO_PACKAGE_DEPENDS "bdpt (= ${PROJECT_VERSION})")
+set(CPACK_DEBIAN_BDPT_OPENIMAGEIO_DESCRIPTION
+"TIFF environments for the renderer bdpt
+The module by which bdpt reads TIFF images as environments. OpenEXR and
+Radiance HDR images are read without it.")
 
 set(CPACK_DEBIAN_BDPT_DEVELOPMENT_PACKAGE_NAME libbdpt-dev)
 set(CPACK_DEBIAN_BDPT_DEVELOPMENT_PACKAGE_SECTION libdevel)

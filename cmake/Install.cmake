@@ -37,9 +37,10 @@ if(BDPT_BUILD_IO)
   set_property(TARGET bdpt_io APPEND PROPERTY INSTALL_RPATH "$ORIGIN")
   install(DIRECTORY lib/io/include/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
           COMPONENT bdpt_development FILES_MATCHING PATTERN "*.h")
-  # bdpt_io looks for it there: lib/io/src/image/oiio_library.cpp
+  # bdpt_io looks for it there: lib/io/src/image/linear/oiio_library.cpp
+  # A component of its own: it brings OpenImageIO with 260 libraries, and all else works without it.
   install(TARGETS bdpt_oiio LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/bdpt"
-          COMPONENT bdpt_runtime)
+          COMPONENT bdpt_openimageio)
 endif()
 
 if(BDPT_BUILD_EVAL)

@@ -69,6 +69,25 @@ run_command() {
   ! grep -v "^$prefix/bin/\.\./\|^$prefix/$LIBDIR/" <<<"$loaded" || fail "not from $prefix"
 }
 
+# What the component without OpenImageIO is able to do.
+run_without_module() {
+  local slim=$WORK/slim
+  rm -rf "$slim"
+  "$CMAKE" --install "$BUILD" --config "$CONFIG" --prefix "$slim" --component bdpt_runtime >/dev/null
+  ! find "$slim" -name '*oiio*' | grep . || fail "the module is among what needs no OpenImageIO"
+  printf '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x80\x80\x81' >"$slim/sky.hdr"
+  local words=(render "$SOURCE/scenes/furnace.gltf" -o "$slim/out.png" --size 16x16 --spp 1 --quiet)
+  "$slim/bin/bdpt" "${words[@]}" --env "$slim/sky.hdr"
+  rm "$slim/out.png"
+  local said code=0
+  said=$("$slim/bin/bdpt" "${words[@]}" --env "$sky" 2>&1) || code=$?
+  printf '%s\n' "$said"
+  [[ $code == 5 && $(wc -l <<<"$said") == 1 ]] || fail "exit code $code"
+  [[ $said == "bdpt: error: $sky: TIFF images are read by OpenImageIO: libbdpt_oiio.so is not there (tried "*
+  ]] || fail "another error"
+  [[ ! -e $slim/out.png ]] || fail "an image without its environment"
+}
+
 use_find_package() {
   rm -rf "$WORK/find_package"
   build_consumer "$WORK/find_package" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release \
@@ -156,10 +175,17 @@ make_debian_packages() {
   rm -rf "$folder"
   (cd "$BUILD" && cpack -G DEB -C "$CONFIG" -B "$folder")
   local command=$folder/bdpt_${VERSION}_*.deb headers=$folder/libbdpt-dev_${VERSION}_*.deb depends
-  # The names of both end with the architecture.
+  local module=$folder/bdpt-openimageio_${VERSION}_*.deb
+  # The names of all end with the architecture.
   # shellcheck disable=SC2086
   depends=$(dpkg-deb -f $command Depends)
-  [[ $depends == *libembree*libtbb* ]] || fail "bdpt depends on: $depends"
+  [[ $depends == *libembree*libtbb* && $depends != *openimageio* ]] || fail "bdpt depends on: $depends"
+  # shellcheck disable=SC2086
+  [[ $(dpkg-deb -f $command Suggests) == bdpt-openimageio ]] || fail "bdpt suggests something else"
+  # shellcheck disable=SC2086
+  depends=$(dpkg-deb -f $module Depends)
+  [[ $depends == *"bdpt (= $VERSION)"* && $depends == *libopenimageio* ]] \
+    || fail "bdpt-openimageio depends on: $depends"
   # shellcheck disable=SC2086
   depends=$(dpkg-deb -f $headers Depends)
   [[ $depends == "bdpt (= $VERSION), libglm-dev" ]] || fail "libbdpt-dev depends on: $depends"
@@ -167,12 +193,15 @@ make_debian_packages() {
   dpkg-deb -x $command "$folder/unpacked"
   # shellcheck disable=SC2086
   dpkg-deb -x $headers "$folder/unpacked"
+  [[ -z $(find "$folder/unpacked" -name '*oiio*') ]] || fail "the module is in the package bdpt"
+  # shellcheck disable=SC2086
+  dpkg-deb -x $module "$folder/unpacked"
   expect_version "$folder/unpacked/usr/bin/bdpt" --version
   local file
   for file in share/man/man1/bdpt-render.1 share/bash-completion/completions/bdpt \
     share/zsh/site-functions/_bdpt share/fish/vendor_completions.d/bdpt.fish \
     share/doc/bdpt/copyright share/doc/bdpt/docs/render.md include/bdpt/render.h \
-    lib/libbdpt.so lib/cmake/bdpt/bdptConfig.cmake; do
+    lib/bdpt/libbdpt_oiio.so lib/libbdpt.so lib/cmake/bdpt/bdptConfig.cmake; do
     [[ -s $folder/unpacked/usr/$file ]] || fail "no $file"
   done
 }
@@ -180,6 +209,7 @@ make_debian_packages() {
 case $1 in
   install) install_and_move ;;
   command) run_command ;;
+  without_module) run_without_module ;;
   find_package) use_find_package ;;
   pkg-config) use_pkg_config ;;
   add_subdirectory) use_add_subdirectory ;;

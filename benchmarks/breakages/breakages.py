@@ -25,10 +25,19 @@ CACHE = "lib/src/integrator/bidirectional/light_path_cache.cpp"
 # So wide, and so far into the box, that light paths hit it.
 WIDE_LENS = ("--lens-radius", "0.1", "--from", "0.278,0.273,-0.1", "--look-at", "0.278,0.273,0.28", "--fov", "100")
 SHARED = ("--light-paths", "0.25", "--connections", "1.5")
+FOG = ("--fog", "0.3,0.6,1.2", "--fog-anisotropy", "0.5", "--max-depth", "4")
 # In the roughest sphere of glass-rough.gltf, below the lamp.
 INSIDE_GLASS = ("--from", "1.05,0.29,0.3", "--look-at", "1.05,1.5,0.31", "--fov", "90")
 
 BREAKAGES = (
+    Breakage("walks in media leave out the probability of their flight", WALK, "pdf * met.probability();", "pdf;",
+             options=FOG),
+    Breakage("reverse densities take points of media for surfaces", "lib/src/path/path_vertex.h",
+             "flight.to(vertex.kind == VertexKind::medium)", "flight.to(false)", options=FOG),
+    Breakage("media choose distances by all colours and weigh them by one", "lib/src/scene/media.cpp",
+             ".pass = mean(left)", ".pass = left.g", options=FOG),
+    Breakage("phase functions sample backwards", "lib/src/material/models/henyey_greenstein.cpp",
+             ".wi = {sine * c, sine * s, -along}", ".wi = {sine * c, sine * s, along}", options=FOG),
     Breakage("a join lacks 1/d^2", CONNECT, "f_y.f_cos * y.beta * (1.0f / distance_squared)",
              "f_y.f_cos * y.beta"),
     Breakage("the longest light subpath is not joined", BIDIRECTIONAL,
@@ -37,8 +46,8 @@ BREAKAGES = (
              "for (int s = 2; s <= longest_s; ++s) {\n        if (!strategies_.uses(s, 1)",
              "for (int s = 3; s <= longest_s; ++s) {\n        if (!strategies_.uses(s, 1)"),
     Breakage("survivors of roulette are not worth more", WALK, "    beta /= survival;\n", ""),
-    Breakage("area densities of walks lack the cosine", WALK, "to_area(step.pdf, cosine, distance_squared);\n    if (prev",
-             "to_area(step.pdf, 1.0f, distance_squared);\n    if (prev"),
+    Breakage("area densities of walks lack the cosine", WALK, ": to_area(step.pdf, cosine, distance_squared);\n    vert",
+             ": to_area(step.pdf, 1.0f, distance_squared);\n    vert"),
     Breakage("reverse densities of walks are halved", WALK,
              "scattered->pdf_rev.value * previous.area_per_solid_angle",
              "0.5f * scattered->pdf_rev.value * previous.area_per_solid_angle", "cornell-box-hidden.gltf"),

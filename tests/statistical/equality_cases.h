@@ -42,6 +42,9 @@ struct EqualityCase {
 /// Materials whose normal maps lean by up to 70 degrees. Not among `equality_cases` either.
 [[nodiscard]] std::vector<EqualityCase> normal_map_cases();
 
+/// Fog, and bodies that scatter within. Not among `equality_cases`.
+[[nodiscard]] std::vector<EqualityCase> media_cases();
+
 /// What moves while the shutter is open. Not among `equality_cases`.
 [[nodiscard]] std::vector<EqualityCase> motion_cases();
 

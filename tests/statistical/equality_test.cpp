@@ -159,6 +159,11 @@ TEST_CASE("all integrators agree: what moves", "[equality][motion]")
     check_cases(motion_cases(), 420000);
 }
 
+TEST_CASE("all integrators agree: media", "[equality][media]")
+{
+    check_cases(media_cases(), 450000);
+}
+
 TEST_CASE("all integrators agree: light profiles", "[equality][profiles]")
 {
     check_cases(profile_cases(), 430000);

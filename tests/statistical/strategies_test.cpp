@@ -164,6 +164,25 @@ TEST_CASE("each strategy alone, in a body that absorbs", "[strategies]")
     }
 }
 
+TEST_CASE("each strategy alone, in fog", "[strategies][media]")
+{
+    // Joins of vertices in a medium, which may be as close as they like, have no finite variance by
+    // themselves.
+    SceneBuilder builder = open_stage_builder();
+    builder.desc.fog = MediumDesc{
+        .extinction = {0.1f, 0.2f, 0.3f}, .albedo = {0.9f, 0.8f, 0.7f}, .anisotropy = 0.3f};
+    const Scene scene(std::move(builder.desc));
+    Options options(64000);
+    for (const int edges : {1, 2}) {
+        TileMeans reference(scene, thin_lens(), options(IntegratorKind::mis, edges, edges));
+        for (const int s : {0, 1, edges + 1}) {
+            TileMeans alone(scene, thin_lens(), options.only(s, edges));
+            check_equal("s = " + std::to_string(s) + " of " + std::to_string(edges) + " edges",
+                        reference, alone, 0.1);
+        }
+    }
+}
+
 TEST_CASE("each strategy alone makes long paths as bright as they are", "[strategies]")
 {
     // In a furnace paths of k edges bring Le a^(k - 1) [nit].

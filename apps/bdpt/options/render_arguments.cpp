@@ -275,6 +275,7 @@ void add_view_options(CLI::App& command, RenderWords& words)
         ->type_name("FILE|none|default")
         ->group(group);
     add_environment_options(command, words.environment_change, group);
+    add_fog_options(command, words.fog, group);
     command
         .add_option("--texture-filter", words.texture_filter,
                     "Texture filter: bilinear (default) or mip (mip maps: faster for large "
@@ -358,12 +359,16 @@ RenderArguments understand(const RenderWords& words)
     result.texture_filter =
         words.texture_filter == "mip" ? TextureFilter::mip_mapped : TextureFilter::bilinear;
     result.environment_change = understand(words.environment_change);
+    result.fog = understand(words.fog);
     result.display = understand(words.display);
     if (result.display.backdrop) {
         result.options.transport.background = Background::none;
         result.options.film.aovs.insert(Aov::alpha);
     }
     result.options = with_ground(words.ground, result.options);
+    if (result.fog && result.options.film.aovs.contains(Aov::shadow)) {
+        reject("--fog", *words.fog.extinction, "no --ground shadow beside it");
+    }
     result.denoise = understand(words.denoise);
     if (result.denoise) {
         result.options.film.aovs.insert(Aov::albedo);

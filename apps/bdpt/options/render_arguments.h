@@ -17,6 +17,7 @@
 #include "options/groups/display_arguments.h"
 #include "options/groups/environment_arguments.h"
 #include "options/groups/film_arguments.h"
+#include "options/groups/fog_arguments.h"
 #include "options/groups/ground_arguments.h"
 #include "options/groups/lens_arguments.h"
 #include "options/groups/rates_arguments.h"
@@ -55,6 +56,7 @@ struct RenderWords {
     std::optional<std::string> environment;
     std::string texture_filter = "bilinear";
     EnvironmentWords environment_change;
+    FogWords fog;
     DisplayWords display;
     DenoiseWords denoise;
     int threads = 0;
@@ -91,6 +93,7 @@ struct RenderArguments {
     std::optional<std::string> environment;   ///< file, "none" or "default"
     TextureFilter texture_filter = TextureFilter::bilinear;
     EnvironmentChange environment_change;  ///< of whichever environment it is
+    std::optional<MediumDesc> fog;         ///< around all bodies, if any
     DisplayArguments display;
     std::optional<DenoiseArguments> denoise;  ///< if images are to be denoised
     io::ExrChannelType channel_type = io::ExrChannelType::single_float;

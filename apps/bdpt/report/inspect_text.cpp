@@ -22,6 +22,8 @@ const char* kind_text(const InspectedVertex& vertex)
             return "light";
         case InspectedKind::surface:
             return vertex.is_light ? "surface, light" : "surface";
+        case InspectedKind::medium:
+            return "medium";
         case InspectedKind::infinite:
             return "infinite";
     }

@@ -73,6 +73,11 @@ ordered_json settings_of(const RenderArguments& arguments, const PreparedScene& 
     if (arguments.environment_change.intensity != 1.0f) {
         settings["environment_intensity"] = arguments.environment_change.intensity;
     }
+    if (arguments.fog) {
+        settings["fog"] = {{"extinction", to_json(arguments.fog->extinction)},
+                           {"albedo", to_json(arguments.fog->albedo)},
+                           {"anisotropy", arguments.fog->anisotropy}};
+    }
     if (arguments.display.backdrop) {
         settings["background"] = backdrop_text(*arguments.display.backdrop);
     }

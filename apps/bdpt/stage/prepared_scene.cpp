@@ -191,6 +191,7 @@ PreparedScene prepare_scene(const RenderArguments& arguments,
     const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
 
     loaded.scene.texture_filter = arguments.texture_filter;
+    loaded.scene.fog = arguments.fog;
     LitScene lit = add_environment(std::move(loaded.scene), arguments);
     const bool only_emitters = lit.desc.lights.empty() && has_light(lit.desc);
     const auto loading_end = std::chrono::steady_clock::now();

@@ -24,6 +24,7 @@ enum class InspectedKind : std::uint8_t {
     lens,
     light,  ///< where a light path starts
     surface,
+    medium,    ///< where a medium scatters
     infinite,  ///< on a light at infinity
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bdpt/fields.h>
+#include <bdpt/medium_desc.h>
 #include <bdpt/scene_ids.h>
 #include <bdpt/types.h>
 
@@ -78,10 +79,17 @@ struct DiffuseTransmissionDesc {
     std::optional<TextureRef> color_texture;  ///< sRGB
 };
 
+/// Scattering within a body whose attenuation says how dense it is [KHR_materials_volume_scatter,
+/// draft].
+struct VolumeScatterDesc {
+    Rgb color{0.0f};          ///< [0, 1], multi-scatter albedo: about what a dense body looks like
+    float anisotropy = 0.0f;  ///< g of Henyey and Greenstein, in (-1, 1): > 0 forwards
+};
+
 /// glTF 2.0 metallic-roughness material with KHR_materials_{anisotropy, clearcoat,
 /// diffuse_transmission, dispersion, emissive_strength, iridescence, ior, sheen, specular,
-/// transmission, volume, unlit}; names, defaults and ranges are those of the specification
-/// [glTF 2.0, sec. 3.9; KHR extensions of these names].
+/// transmission, volume, volume_scatter, unlit}; names, defaults and ranges are those of the
+/// specification [glTF 2.0, sec. 3.9; KHR extensions of these names].
 struct MaterialDesc {
     std::string name{};
     Vec4 base_color{1.0f};  ///< [0, 1]
@@ -110,6 +118,7 @@ struct MaterialDesc {
     AnisotropyDesc anisotropy{};
     IridescenceDesc iridescence{};
     DiffuseTransmissionDesc diffuse_transmission{};
+    VolumeScatterDesc volume_scatter{};
 
     std::optional<TextureRef> base_color_texture;          ///< sRGB, times base_color
     std::optional<TextureRef> metallic_roughness_texture;  ///< linear; G roughness, B metallic
@@ -167,6 +176,12 @@ inline constexpr auto fields<DiffuseTransmissionDesc> = all_fields(
     Number{"diffuse transmission colour", &DiffuseTransmissionDesc::color, Limits::unit()},
     Field{"diffuse transmission texture", &DiffuseTransmissionDesc::texture},
     Field{"diffuse transmission colour texture", &DiffuseTransmissionDesc::color_texture});
+/// Fields of `VolumeScatterDesc`, with names and limits.
+template <>
+inline constexpr auto fields<VolumeScatterDesc> =
+    all_fields(Number{"multi-scatter colour", &VolumeScatterDesc::color, Limits::unit()},
+               Number{"scatter anisotropy", &VolumeScatterDesc::anisotropy,
+                      Limits{-most_anisotropy, most_anisotropy}});
 /// Fields of `MaterialDesc`, with names and limits.
 template <>
 inline constexpr auto fields<MaterialDesc> = all_fields(
@@ -192,6 +207,7 @@ inline constexpr auto fields<MaterialDesc> = all_fields(
     Field{"anisotropy", &MaterialDesc::anisotropy},
     Field{"iridescence", &MaterialDesc::iridescence},
     Field{"diffuse transmission", &MaterialDesc::diffuse_transmission},
+    Field{"volume scatter", &MaterialDesc::volume_scatter},
     Field{"base colour texture", &MaterialDesc::base_color_texture},
     Field{"metallic roughness texture", &MaterialDesc::metallic_roughness_texture},
     Field{"normal texture", &MaterialDesc::normal_texture},

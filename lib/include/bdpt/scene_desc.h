@@ -4,6 +4,7 @@
 #include <bdpt/image.h>
 #include <bdpt/light_desc.h>
 #include <bdpt/material_desc.h>
+#include <bdpt/medium_desc.h>
 #include <bdpt/scene_ids.h>
 #include <bdpt/types.h>
 
@@ -68,6 +69,8 @@ struct SceneDesc {
     std::vector<LightProfile> profiles;
     std::vector<LightDesc> lights;  ///< at most one environment
     TextureFilter texture_filter = TextureFilter::bilinear;
+    /// Around all bodies; it fills the sphere around the bounds of the scene.
+    std::optional<MediumDesc> fog{};
 };
 
 /// How a camera maps directions or points to the film.
@@ -112,7 +115,7 @@ inline constexpr auto fields<SceneDesc> =
     all_fields(Field{"images", &SceneDesc::images}, Field{"materials", &SceneDesc::materials},
                Field{"meshes", &SceneDesc::meshes}, Field{"instances", &SceneDesc::instances},
                Field{"profiles", &SceneDesc::profiles}, Field{"lights", &SceneDesc::lights},
-               Field{"texture filter", &SceneDesc::texture_filter});
+               Field{"texture filter", &SceneDesc::texture_filter}, Field{"fog", &SceneDesc::fog});
 /// Fields of `CameraDesc`, with names and limits.
 template <>
 inline constexpr auto fields<CameraDesc> = all_fields(

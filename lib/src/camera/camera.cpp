@@ -15,7 +15,7 @@ Camera::Camera(const CameraDesc& desc, int width, int height)
 {}
 
 Camera::Camera(const CameraDesc& desc, int width, int height, const RasterBounds& visible,
-               const SideMedia* medium)
+               MediumId medium)
     : medium_(medium),
       film_size_(width, height),
       visible_(visible),
@@ -73,7 +73,7 @@ SegmentEnd Camera::lens_end(Vec3 local_point) const
 {
     return {.p = position_ + world_from_camera_ * local_point,
             .ng = has_finite_lens() ? -world_from_camera_[2] : Vec3(0.0f),
-            .media = medium_};
+            .media = SideMedia::around(medium_)};
 }
 
 SolidAnglePdf Camera::pdf_of(float inv_cos) const

@@ -57,9 +57,9 @@ public:
     /// `width`, `height`: film size [pixels].
     Camera(const CameraDesc& desc, int width, int height);
     /// Connections to the lens are wanted within `visible` only; it may reach beyond the film. The
-    /// lens lies in `medium`, which must outlive this, if that absorbs.
+    /// lens lies in `medium`.
     Camera(const CameraDesc& desc, int width, int height, const RasterBounds& visible,
-           const SideMedia* medium = nullptr);
+           MediumId medium = MediumId::clear);
 
     /// The same camera in another pose, which `can_move` from the first.
     [[nodiscard]] Camera moved_to(const Mat4& world_from_camera) const;
@@ -92,7 +92,7 @@ private:
     [[nodiscard]] Vec2 raster_of(Vec3 lens, Vec3 d) const;
 
     Vec3 position_;
-    const SideMedia* medium_;
+    MediumId medium_;
     Mat3 world_from_camera_;  // orthonormal
     Vec2 film_size_;          // [pixels]
     RasterBounds visible_;

@@ -15,7 +15,7 @@ struct SegmentEnd {
     float error = 0.0f;  ///< how far off p can be, and the surface that a ray meets there [m]
     Vec3 ng{0.0f};       ///< unit geometric normal on the front; zero when on no surface
     std::uint32_t sphere = no_sphere;  ///< that p lies on; segments touch spheres from outside only
-    const SideMedia* media = nullptr;  ///< null where nothing absorbs
+    SideMedia media{};                 ///< on both sides; around a point on no surface
 };
 
 }  // namespace bdpt

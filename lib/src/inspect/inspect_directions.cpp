@@ -86,10 +86,10 @@ const PathVertex& checked_vertex(const Subpath& path, int vertex)
                         std::to_string(path.size() - 1));
     }
     const PathVertex& result = path.all()[static_cast<std::size_t>(vertex)];
-    if (result.kind != VertexKind::surface || !result.connectible) {
+    if (!scatters(result.kind) || !result.connectible) {
         throw Error(ErrorCode::usage,
                     "vertex " + std::to_string(vertex) +
-                        " has no density of directions: it is no surface, or scatters by delta "
+                        " has no density of directions: it does not scatter, or by delta "
                         "lobes alone");
     }
     return result;

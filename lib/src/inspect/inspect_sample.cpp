@@ -18,6 +18,8 @@ InspectedKind kind_of(VertexKind kind)
             return InspectedKind::light;
         case VertexKind::surface:
             return InspectedKind::surface;
+        case VertexKind::medium:
+            return InspectedKind::medium;
         case VertexKind::infinite:
             return InspectedKind::infinite;
     }
@@ -28,10 +30,10 @@ std::vector<InspectedVertex> described(std::span<const PathVertex> path)
 {
     std::vector<InspectedVertex> result;
     for (const PathVertex& vertex : path) {
-        const bool scatters = vertex.kind == VertexKind::surface && vertex.bsdf != nullptr;
+        const bool on_surface = vertex.kind == VertexKind::surface && vertex.bsdf != nullptr;
         result.push_back({.kind = kind_of(vertex.kind),
                           .position = vertex.end.p,
-                          .normal = scatters ? vertex.bsdf->shading_normal() : Vec3(0.0f),
+                          .normal = on_surface ? vertex.bsdf->shading_normal() : Vec3(0.0f),
                           .beta = vertex.beta,
                           .emission = vertex.emission,
                           .pdf_fwd = vertex.pdf_fwd.value,

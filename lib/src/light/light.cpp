@@ -10,16 +10,25 @@ Light::Light(Model model)
 
 Light::Light(const LightDesc& desc, const LightContext& context)
     : Light(std::visit([&context](const auto& kind) { return make_model(kind, context); }, desc))
-{}
+{
+    media_ = SideMedia::around(context.medium);
+}
 
 std::optional<EmissionSample> Light::sample_emission(Vec2 u_position, Vec2 u_direction,
                                                      float time) const
 {
-    return std::visit(
+    if (const auto* common = std::get_if<TriangleLight>(&model_)) {
+        return common->sample_emission(u_position, u_direction, time);
+    }
+    auto sampled = std::visit(
         [=](const auto& light) -> std::optional<EmissionSample> {
             return light.sample_emission(u_position, u_direction, time);
         },
         model_);
+    if (sampled) {
+        sampled->end.media = media_;
+    }
+    return sampled;
 }
 
 std::optional<IncidentSample> Light::sample_incident(Vec3 receiver, Vec2 u,
@@ -28,11 +37,15 @@ std::optional<IncidentSample> Light::sample_incident(Vec3 receiver, Vec2 u,
     if (const auto* common = std::get_if<TriangleLight>(&model_)) [[likely]] {
         return common->sample_incident(receiver, u, sampling, time);
     }
-    return std::visit(
+    auto sampled = std::visit(
         [=](const auto& light) -> std::optional<IncidentSample> {
             return light.sample_incident(receiver, u, sampling, time);
         },
         model_);
+    if (sampled) {
+        sampled->end.media = media_;
+    }
+    return sampled;
 }
 
 AreaPdf Light::pdf_position(const LightPoint& x0) const

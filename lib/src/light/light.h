@@ -44,11 +44,14 @@ public:
     [[nodiscard]] std::optional<LightBounds> bounds() const;
 
     [[nodiscard]] const Model& model() const { return model_; }
+    /// Around it; not set for triangles, whose material knows.
+    [[nodiscard]] SideMedia media() const { return media_; }
 
 private:
     Model model_;
     bool is_delta_;
     bool is_infinite_;
+    SideMedia media_{};
 };
 
 }  // namespace bdpt

@@ -29,7 +29,8 @@ using AnyLightModel = AnyOf<TriangleLight, SphereLight, PunctualLight, Direction
 struct LightContext {
     std::span<const IntensityProfile> profiles;
     BoundingSphere bounds;
-    std::uint32_t sphere = 0;  ///< number that the light gets if it is a sphere
+    std::uint32_t sphere = 0;           ///< number that the light gets if it is a sphere
+    MediumId medium = MediumId::clear;  ///< around it
 };
 
 // What a description becomes; it outlives the light.

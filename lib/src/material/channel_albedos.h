@@ -1,6 +1,7 @@
 #pragma once
 
 #include "material/specular_albedo.h"
+#include "math/side_media.h"
 #include "math/wavelength.h"
 
 #include <bdpt/scene_desc.h>
@@ -35,16 +36,16 @@ private:
 /// a solid transmitter.
 [[nodiscard]] std::array<float, wavelengths> channel_indices(const MaterialDesc& desc);
 
-/// What is around a body: another one, or nothing.
+/// What is around a body: another one, fog, or nothing.
 struct Exterior {
     std::array<float, wavelengths> indices{1.0f, 1.0f, 1.0f};
-    Rgb absorption{0.0f};  ///< [1/m]
+    MediumId medium = MediumId::clear;
 
     friend bool operator==(const Exterior&, const Exterior&) = default;
 };
 
-/// What `desc` is for the bodies within it.
-[[nodiscard]] Exterior exterior_within(const MaterialDesc& desc);
+/// What `desc` is for the bodies within it; `medium` is that of its inside.
+[[nodiscard]] Exterior exterior_within(const MaterialDesc& desc, MediumId medium);
 
 /// Where a solid transmitter lies in something denser it is seen from the other side: as if its
 /// inside were around it.

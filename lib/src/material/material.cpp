@@ -1,5 +1,6 @@
 #include "material/material.h"
 
+#include "material/medium.h"
 #include "math/elementary.h"
 
 #include <glm/common.hpp>
@@ -16,31 +17,6 @@ namespace {
 {
     const bool solid = desc.thickness > 0.0f && desc.transmission > 0.0f && !desc.unlit;
     return solid ? Body::solid : Body::thin_walled;
-}
-
-/// Does light go through the inside of the body, refracted or not?
-[[nodiscard]] bool has_medium(const MaterialDesc& desc)
-{
-    const bool translucent = desc.thickness > 0.0f && desc.diffuse_transmission.factor > 0.0f;
-    return volume_of(desc) == Body::solid || (translucent && !desc.unlit);
-}
-
-/// The coefficient that leaves the attenuation colour after the attenuation distance.
-[[nodiscard]] Rgb absorption_of(const MaterialDesc& desc)
-{
-    constexpr float least_color = 1e-20f;     // black keeps a finite coefficient
-    constexpr float most_absorption = 1e30f;  // [1/m]
-    if (!has_medium(desc) || std::isinf(desc.attenuation_distance)) {
-        return Rgb{0.0f};
-    }
-    Rgb absorption{0.0f};
-    for (int channel = 0; channel < 3; ++channel) {
-        const float color = std::clamp(desc.attenuation_color[channel], least_color, 1.0f);
-        const float depth = std::max(0.0f, -log_exact(color));
-        absorption[channel] =
-            depth == 0.0f ? 0.0f : std::min(depth / desc.attenuation_distance, most_absorption);
-    }
-    return absorption;
 }
 
 /// Those that the base colour is looked up in. What emits or lets light pass is sampled as it is,
@@ -63,9 +39,9 @@ std::array<float, wavelengths> channel_indices(const MaterialDesc& desc)
     return {std::max(1.0f, desc.ior - spread), desc.ior, desc.ior + spread};
 }
 
-Exterior exterior_within(const MaterialDesc& desc)
+Exterior exterior_within(const MaterialDesc& desc, MediumId medium)
 {
-    Exterior exterior{.absorption = absorption_of(desc)};
+    Exterior exterior{.medium = medium};
     if (volume_of(desc) == Body::solid) {
         exterior.indices = channel_indices(desc);
     }
@@ -89,7 +65,7 @@ BoundaryIndices boundary_indices(const MaterialDesc& desc, const Exterior& exter
 
 Material::Material(const MaterialDesc& desc, const TextureImages& images,
                    const ChannelAlbedos& albedos, const LayerTables* tables,
-                   const Exterior& exterior)
+                   const Exterior& exterior, MediumId within)
     : surface_{Rgb{desc.base_color.x, desc.base_color.y, desc.base_color.z},
                desc.metallic,
                desc.roughness,
@@ -98,10 +74,10 @@ Material::Material(const MaterialDesc& desc, const TextureImages& images,
                desc.transmission,
                volume_of(desc)},
       emission_(desc.emission),
-      within_{absorption_of(desc), absorption_of(desc)},
       // What has no inside has the same medium on both sides.
-      media_{has_medium(desc) ? within_.behind : exterior.absorption, exterior.absorption},
-      absorbs_(media_.behind != Rgb(0.0f) || media_.ahead != Rgb(0.0f)),
+      media_{bdpt::has_inside(desc) ? within : exterior.medium, exterior.medium},
+      has_inside_(is_solid_transmitter() || !medium_within(desc).is_clear() ||
+                  media_.behind != media_.ahead),
       double_sided_(desc.double_sided),
       unlit_(desc.unlit),
       alpha_mode_(desc.alpha_mode),

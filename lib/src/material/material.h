@@ -20,9 +20,11 @@ namespace bdpt {
 class Material {
 public:
     /// `albedos` belong to `boundary_indices(desc, exterior)`; `tables` are needed where
-    /// `has_layers(desc)`. Throws nothing: `desc` has been validated.
+    /// `has_layers(desc)`; `within` is the scene's name of `medium_within(desc)`. Throws nothing:
+    /// `desc` has been validated.
     Material(const MaterialDesc& desc, const TextureImages& images, const ChannelAlbedos& albedos,
-             const LayerTables* tables = nullptr, const Exterior& exterior = {});
+             const LayerTables* tables = nullptr, const Exterior& exterior = {},
+             MediumId within = MediumId::clear);
 
     [[nodiscard]] Bsdf bsdf(const ShadingPoint& point) const noexcept;
     /// Does that depend on `ShadingPoint::footprint`?
@@ -82,21 +84,11 @@ public:
     {
         return surface_.body == Body::solid;
     }
-    /// Has an inside that light goes through, refracted or not.
-    [[nodiscard]] bool has_inside() const noexcept
-    {
-        return is_solid_transmitter() || within_.ahead != Rgb(0.0f);
-    }
-    /// Of the inside of a solid transmitter, diffuse or not [1/m] (Beer-Lambert;
-    /// KHR_materials_volume); zero for all others. A colour of zero absorbs like 1e-20.
-    [[nodiscard]] Rgb absorption() const noexcept { return within_.ahead; }
-    /// What absorbs on both sides of its surfaces; null if nothing does.
-    [[nodiscard]] const SideMedia* media() const noexcept { return absorbs_ ? &media_ : nullptr; }
-    /// What absorbs around a point within it; null if nothing does.
-    [[nodiscard]] const SideMedia* media_within() const noexcept
-    {
-        return within_.ahead != Rgb(0.0f) ? &within_ : nullptr;
-    }
+    /// Has an inside that light goes through, refracted or not, and which does not do to it what is
+    /// around does.
+    [[nodiscard]] bool has_inside() const noexcept { return has_inside_; }
+    /// On both sides of its surfaces.
+    [[nodiscard]] SideMedia media() const noexcept { return media_; }
     /// Set of texture coordinates that the tangent follows, if the material needs one.
     [[nodiscard]] std::optional<int> tangent_uv_set() const noexcept { return tangent_uv_set_; }
 
@@ -118,9 +110,8 @@ private:
     std::optional<PlainModel> plain_;  ///< of a surface on which nothing varies
     Rgb emission_{0.0f};
     Rgb mean_emission_{0.0f};
-    SideMedia within_;
     SideMedia media_;
-    bool absorbs_;
+    bool has_inside_;
     bool disperses_ = false;
     bool double_sided_;
     bool unlit_;

@@ -1,13 +1,26 @@
 #pragma once
 
-#include <bdpt/types.h>
+#include <cstdint>
 
 namespace bdpt {
 
-/// What absorbs light on both sides of a surface [1/m] (Beer-Lambert).
+/// Names a medium of a scene.
+enum class MediumId : std::uint32_t {
+    clear  ///< light passes as if there were nothing
+};
+
+/// The media on both sides of a surface.
 struct SideMedia {
-    Rgb behind{0.0f};
-    Rgb ahead{0.0f};
+    MediumId behind = MediumId::clear;
+    MediumId ahead = MediumId::clear;
+
+    /// Of a point that lies on no surface.
+    [[nodiscard]] static constexpr SideMedia around(MediumId medium) { return {medium, medium}; }
+    [[nodiscard]] constexpr bool are_clear() const
+    {
+        return behind == MediumId::clear && ahead == MediumId::clear;
+    }
+    friend bool operator==(const SideMedia&, const SideMedia&) = default;
 };
 
 }  // namespace bdpt

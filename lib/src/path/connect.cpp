@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include <cmath>
+#include <limits>
 
 namespace bdpt {
 namespace {
@@ -24,7 +25,21 @@ AreaPdf at_neighbor(SolidAnglePdf pdf, const PathVertex& neighbor)
 /// Density of sampling `end` from a point at squared distance `distance_squared`; `w` joins them.
 AreaPdf at_end(SolidAnglePdf pdf, const SegmentEnd& end, Vec3 w, float distance_squared)
 {
-    return to_area(pdf, std::abs(dot(end.ng, w)), distance_squared);
+    return to_area(pdf, abs_cosine(end, w), distance_squared);
+}
+
+/// The flight between a vertex and one next to it on a path, or a light at infinity.
+Flight flight_between(const World& world, const PathVertex& vertex, const PathVertex& other)
+{
+    if (!world.media().any()) {
+        return {};
+    }
+    if (other.kind == VertexKind::infinite) {
+        return world.media().flight(vertex.end, other.end, other.end.p,
+                                    std::numeric_limits<float>::max());
+    }
+    const Vec3 along = other.end.p - vertex.end.p;
+    return world.media().flight(vertex.end, other.end, along, std::sqrt(dot(along, along)));
 }
 
 }  // namespace
@@ -40,12 +55,13 @@ std::optional<Contribution> hit_light(const SampleContext& sample,
     sample.enter(Phase::weigh);
     const PathVertex& x1 = before_last(camera);
     const LightDensities densities = light_densities(sample, x0, x1.end);
+    const Flight flight = flight_between(sample.world, x1, x0);
     return Contribution{
         .unweighted = value,
         .weight = weigher.weight(
             {}, camera,
             {.light_at_camera_end = densities.emit,
-             .light_at_camera_neighbor = densities.to_next,
+             .light_at_camera_neighbor = densities.to_next * probability_to(x1, flight),
              .camera_at_light_end = {},
              .camera_at_light_neighbor = {},
              .next_event = next_event_density(sample, x0, x1, weigher.next_event_sampling())}),
@@ -65,7 +81,7 @@ std::optional<Contribution> connect_to_light(SampleContext& sample,
     const World& world = sample.world;
     Sampler& sampler = sample.sampler;
     const PathVertex& z = camera.back();
-    if (z.kind != VertexKind::surface || !z.connectible) {
+    if (!scatters(z.kind) || !z.connectible) {
         return std::nullopt;
     }
     const NextEventSampling sampling = weigher.next_event_sampling();
@@ -98,9 +114,9 @@ std::optional<Contribution> connect_to_light(SampleContext& sample,
     }
     ++sample.rays.shadow;
     const SegmentKey segment = sample.segment(1, static_cast<int>(camera.size()));
-    value *= light.is_infinite() ? world.transmittance_to_infinity(z.end, incident->wi, segment)
-                                 : world.transmittance(z.end, x0.end, segment);
-    if (is_black(value)) {
+    const auto flight = light.is_infinite() ? world.flight_to_infinity(z.end, incident->wi, segment)
+                                            : world.flight(z.end, x0.end, segment);
+    if (!flight || is_black(value *= flight->transmittance)) {
         return std::nullopt;
     }
     sample.enter(Phase::weigh);
@@ -114,9 +130,9 @@ std::optional<Contribution> connect_to_light(SampleContext& sample,
         .unweighted = value,
         .weight =
             weigher.weight(std::span(&x0, 1), camera,
-                           {.light_at_camera_end = densities.to_next,
+                           {.light_at_camera_end = densities.to_next * probability_to(z, *flight),
                             .light_at_camera_neighbor = at_neighbor(f.pdf_rev, before_last(camera)),
-                            .camera_at_light_end = from_camera,
+                            .camera_at_light_end = from_camera * flight->pass,
                             .camera_at_light_neighbor = {},
                             .next_event = incident->pdf * choice->probability}),
         .dispersed = z.dispersed};
@@ -153,8 +169,8 @@ std::optional<Splat> connect_light_to_lens(SampleContext& sample, PathWeigher& w
         return std::nullopt;
     }
     ++sample.rays.shadow;
-    value *= world.transmittance(incident->end, to_lens->lens, sample.segment(1, 1));
-    if (is_black(value)) {
+    const auto flight = world.flight(incident->end, to_lens->lens, sample.segment(1, 1));
+    if (!flight || is_black(value *= flight->transmittance)) {
         return std::nullopt;
     }
     sample.enter(Phase::weigh);
@@ -170,14 +186,14 @@ std::optional<Splat> connect_light_to_lens(SampleContext& sample, PathWeigher& w
     lens.end = to_lens->lens;
     lens.pdf_fwd = to_lens->pdf_lens;
     const float distance_squared = incident->distance * incident->distance;
-    const float weight =
-        weigher.weight(std::span(&x0, 1), std::span(&lens, 1),
-                       {.light_at_camera_end = densities.to_next,
-                        .light_at_camera_neighbor = {},
-                        .camera_at_light_end =
-                            at_end(to_lens->pdf_direction, x0.end, to_lens->wi, distance_squared),
-                        .camera_at_light_neighbor = {},
-                        .next_event = incident->pdf * choice->probability});
+    const float weight = weigher.weight(
+        std::span(&x0, 1), std::span(&lens, 1),
+        {.light_at_camera_end = densities.to_next * flight->pass,
+         .light_at_camera_neighbor = {},
+         .camera_at_light_end =
+             at_end(to_lens->pdf_direction, x0.end, to_lens->wi, distance_squared) * flight->pass,
+         .camera_at_light_neighbor = {},
+         .next_event = incident->pdf * choice->probability});
     return Splat{.contribution = {.unweighted = value, .weight = weight, .dispersed = false},
                  .raster = to_lens->raster};
 }
@@ -204,25 +220,27 @@ std::optional<Splat> connect_to_lens(SampleContext& sample, std::span<const Path
     }
     ++sample.rays.shadow;
     ++sample.rays.shadow_to_lens;
-    value *= sample.world.transmittance(y.end, to_lens->lens,
-                                        sample.segment(static_cast<int>(light.size()), 1));
-    if (is_black(value)) {
+    const auto flight = sample.world.flight(y.end, to_lens->lens,
+                                            sample.segment(static_cast<int>(light.size()), 1));
+    if (!flight || is_black(value *= flight->transmittance)) {
         return std::nullopt;
     }
     sample.enter(Phase::weigh);
     const float distance_squared = to_lens->distance * to_lens->distance;
-    const float cosine = std::abs(dot(y.end.ng, to_lens->wi));
+    const float cosine = abs_cosine(y.end, to_lens->wi);
     PathVertex lens;
     lens.kind = VertexKind::camera;
     lens.end = to_lens->lens;
     lens.pdf_fwd = to_lens->pdf_lens;
     const float weight = weigher.weight(
         light, std::span(&lens, 1),
-        {.light_at_camera_end = at_end(f.pdf_fwd, lens.end, to_lens->wi, distance_squared),
+        {.light_at_camera_end =
+             at_end(f.pdf_fwd, lens.end, to_lens->wi, distance_squared) * flight->pass,
          .light_at_camera_neighbor = {},
-         .camera_at_light_end = to_lens->pdf_plane
-                                    ? to_area(*to_lens->pdf_plane, cosine)
-                                    : to_area(to_lens->pdf_direction, cosine, distance_squared),
+         .camera_at_light_end =
+             (to_lens->pdf_plane ? to_area(*to_lens->pdf_plane, cosine)
+                                 : to_area(to_lens->pdf_direction, cosine, distance_squared)) *
+             probability_to(y, *flight),
          .camera_at_light_neighbor = at_neighbor(f.pdf_rev, before_last(light)),
          .next_event = light[0].pdf_next_event});
     return Splat{.contribution = {.unweighted = value, .weight = weight, .dispersed = y.dispersed},
@@ -262,7 +280,7 @@ std::optional<Contribution> connect_interior(const SampleContext& sample,
 {
     const PathVertex& y = light.back();
     const PathVertex& z = camera.back();
-    if (z.kind != VertexKind::surface || !z.connectible || !y.connectible) {
+    if (!scatters(z.kind) || !z.connectible || !y.connectible) {
         return std::nullopt;
     }
     const Vec3 to_y = y.end.p - z.end.p;
@@ -282,10 +300,10 @@ std::optional<Contribution> connect_interior(const SampleContext& sample,
     }
     ++sample.rays.shadow;
     ++sample.rays.shadow_interior;
-    value *= sample.world.transmittance(
+    const auto flight = sample.world.flight(
         z.end, y.end,
         sample.segment(static_cast<int>(light.size()), static_cast<int>(camera.size())));
-    if (is_black(value)) {
+    if (!flight || is_black(value *= flight->transmittance)) {
         return std::nullopt;
     }
     sample.enter(Phase::weigh);
@@ -293,9 +311,11 @@ std::optional<Contribution> connect_interior(const SampleContext& sample,
         .unweighted = value,
         .weight = weigher.weight(
             light, camera,
-            {.light_at_camera_end = at_end(f_y.pdf_fwd, z.end, wi, distance_squared),
+            {.light_at_camera_end =
+                 at_end(f_y.pdf_fwd, z.end, wi, distance_squared) * probability_to(z, *flight),
              .light_at_camera_neighbor = at_neighbor(f_z.pdf_rev, before_last(camera)),
-             .camera_at_light_end = at_end(f_z.pdf_fwd, y.end, wi, distance_squared),
+             .camera_at_light_end =
+                 at_end(f_z.pdf_fwd, y.end, wi, distance_squared) * probability_to(y, *flight),
              .camera_at_light_neighbor = at_neighbor(f_y.pdf_rev, before_last(light)),
              .next_event = light[0].pdf_next_event}),
         .dispersed = y.dispersed || z.dispersed};

@@ -21,8 +21,7 @@ bool can_be_seen_directly(const Light& light, const Camera& camera)
 
 LightSampleContext light_sample_context(const PathVertex& x1)
 {
-    return {.p = x1.end.p,
-            .normal = x1.kind == VertexKind::surface ? x1.bsdf->opaque_normal() : std::nullopt};
+    return {.p = x1.end.p, .normal = scatters(x1.kind) ? x1.bsdf->opaque_normal() : std::nullopt};
 }
 
 AreaPdf next_event_density(const SampleContext& sample, const PathVertex& x0, const PathVertex& x1,
@@ -45,7 +44,7 @@ LightDensities light_densities(const SampleContext& sample, const PathVertex& x0
     const float distance_squared = dot(offset, offset);
     const Vec3 to_light = infinite ? x0.end.p : offset * (1.0f / std::sqrt(distance_squared));
     const LightPoint point = light_point(x0, sample.time);
-    const float cosine = std::abs(dot(x1.ng, to_light));
+    const float cosine = abs_cosine(x1, to_light);
     return {.emit = light.pdf_position(point) * lights.emission_probability(*x0.light),
             .to_next = infinite ? to_area(sample.world.bounding_sphere().pdf_disk(), cosine)
                                 : to_area(light.pdf_direction(x0.end.ng, -to_light, sample.time),

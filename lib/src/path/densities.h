@@ -9,7 +9,7 @@ namespace bdpt {
 /// them.
 struct LightDensities {
     AreaPdf emit;     ///< x_0 as the start of a light path (s >= 2)
-    AreaPdf to_next;  ///< x_1 sampled from x_0 by a light path
+    AreaPdf to_next;  ///< x_1 sampled from x_0 by a light path, media left out
 };
 
 /// x_1 as next-event estimation chooses a light for it. The same whichever walk made the vertex:

@@ -2,6 +2,9 @@
 
 #include "scene/world.h"
 
+#include <glm/geometric.hpp>
+
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <type_traits>
@@ -16,6 +19,7 @@ enum class VertexKind : std::uint8_t {
     camera,   ///< on the lens
     light,    ///< where a light path starts, or a point found by next-event estimation
     surface,  ///< on a surface, which may emit
+    medium,   ///< in a medium, which scatters
     infinite  ///< on a light at infinity: `end.p` is the unit direction towards it
 };
 
@@ -39,15 +43,33 @@ struct PathVertex {
     bool scattered_delta = false;  ///< the walk left through a delta lobe
     bool dispersed = false;        ///< this vertex disperses, or one before it in the subpath
     float opacity = 1.0f;          ///< the share of rays that meet the surface
-    const Bsdf* bsdf = nullptr;    ///< of surfaces; lives in the `Subpath`
+    const Bsdf* bsdf = nullptr;    ///< of what scatters; lives in the `Subpath`
 };
 
 static_assert(std::is_trivially_copyable_v<PathVertex> && sizeof(PathVertex) <= 120);
 
+/// Does light change its direction at such a vertex, by its `bsdf`?
+[[nodiscard]] constexpr bool scatters(VertexKind kind)
+{
+    return kind == VertexKind::surface || kind == VertexKind::medium;
+}
+
 /// Can a strategy join at this vertex, which lies inside of a subpath?
 [[nodiscard]] inline bool joinable(const PathVertex& vertex)
 {
-    return vertex.kind != VertexKind::surface || (vertex.connectible && !vertex.scattered_delta);
+    return !scatters(vertex.kind) || (vertex.connectible && !vertex.scattered_delta);
+}
+
+/// |cos| of a direction at the end of a segment; 1 where there is no surface to be foreshortened.
+[[nodiscard]] inline float abs_cosine(const SegmentEnd& end, Vec3 w)
+{
+    return end.ng == Vec3(0.0f) ? 1.0f : std::abs(dot(end.ng, w));
+}
+
+/// Of a walk that comes to the vertex over the flight, which is part of its density.
+[[nodiscard]] inline float probability_to(const PathVertex& vertex, const Flight& flight)
+{
+    return flight.to(vertex.kind == VertexKind::medium);
 }
 
 }  // namespace bdpt

@@ -2,6 +2,7 @@
 
 #include "math/rgb.h"
 #include "path/densities.h"
+#include "path/encounter.h"
 
 #include <glm/geometric.hpp>
 
@@ -11,12 +12,6 @@
 
 namespace bdpt {
 namespace {
-
-/// |cos| at a vertex; 1 where there is no surface to be foreshortened.
-float abs_cosine(Vec3 ng, Vec3 w)
-{
-    return ng == Vec3(0.0f) ? 1.0f : std::abs(dot(ng, w));
-}
 
 /// The state of a walk that is about to look for its next vertex.
 struct Step {
@@ -30,7 +25,7 @@ struct Step {
 };
 
 /// Camera walks end on the environment, which light walks cannot see.
-void append_environment(const World& world, const Step& step, Subpath& path)
+void append_environment(const World& world, const Step& step, const Encounter& met, Subpath& path)
 {
     const auto id = world.lights().environment();
     if (!id) {
@@ -43,20 +38,19 @@ void append_environment(const World& world, const Step& step, Subpath& path)
     vertex.light = id;
     vertex.dispersed = dispersed;
     vertex.end.p = step.direction;
-    vertex.beta = step.beta * medium_transmittance(*step.origin, {}, step.direction,
-                                                   std::numeric_limits<float>::max());
+    vertex.beta = step.beta * met.weight();
     vertex.emission = light.radiance(step.direction);
-    vertex.pdf_fwd = {step.pdf.value};
+    vertex.pdf_fwd = {step.pdf.value * met.probability()};
 }
 
-void append_surface(const SurfacePoint& point, float distance_squared, const Step& step,
-                    Subpath& path)
+void append_point(const SurfacePoint& point, float distance_squared, const Step& step,
+                  const Encounter& met, Subpath& path)
 {
     PathVertex& previous = path.back();
     PathVertex& vertex = path.append();
     vertex.end = point.end;
-    vertex.beta = step.beta * medium_transmittance(*step.origin, point.end, step.direction,
-                                                   std::sqrt(distance_squared));
+    vertex.kind = met.in_medium ? VertexKind::medium : VertexKind::surface;
+    vertex.beta = step.beta * met.weight();
     vertex.emission = point.emission;
     vertex.light = point.light;
     vertex.barycentrics = point.barycentrics;
@@ -64,13 +58,15 @@ void append_surface(const SurfacePoint& point, float distance_squared, const Ste
     vertex.connectible = point.bsdf.connectible();
     vertex.dispersed = previous.dispersed || point.disperses;
     vertex.opacity = point.opacity;
-    const float cosine = std::abs(dot(point.end.ng, step.direction));
-    vertex.pdf_fwd = step.pdf_plane ? to_area(*step.pdf_plane, cosine)
-                                    : to_area(step.pdf, cosine, distance_squared);
-    if (previous.kind != VertexKind::infinite) {
-        previous.area_per_solid_angle =
-            abs_cosine(previous.end.ng, step.direction) / distance_squared;
-    }
+    const float cosine = abs_cosine(point.end, step.direction);
+    const AreaPdf pdf = step.pdf_plane ? to_area(*step.pdf_plane, cosine)
+                                       : to_area(step.pdf, cosine, distance_squared);
+    vertex.pdf_fwd = pdf * met.probability();
+    const float cosine_before = abs_cosine(previous.end, step.direction);
+    previous.area_per_solid_angle =
+        previous.kind == VertexKind::infinite
+            ? met.flight.pass
+            : cosine_before / distance_squared * probability_to(previous, met.flight);
 }
 
 /// Everything of a walk that does not change on its way.
@@ -84,32 +80,35 @@ struct Walk {
 };
 
 /// Records that `step` crosses the lens before it ends, after `free_distance`.
-void look_for_lens(const Camera& camera, const Step& step, float free_distance, Subpath& path)
+void look_for_lens(const SampleContext& sample, const Step& step, float free_distance,
+                   Subpath& path)
 {
-    const auto hit = camera.hit_lens(step.origin->p, step.direction);
+    const auto hit = sample.camera.hit_lens(step.origin->p, step.direction);
     if (!hit || hit->distance >= free_distance || hit->distance * hit->distance < coincident) {
         return;
     }
     const float distance_squared = hit->distance * hit->distance;
     const float cosine = std::abs(dot(hit->lens.ng, step.direction));
     const PathVertex& last = path.back();
+    const Flight flight =
+        sample.world.media().flight(*step.origin, hit->lens, step.direction, hit->distance);
     LensCrossing crossing;
     crossing.light_vertices = path.size();
     crossing.raster = hit->raster;
     crossing.importance = hit->importance;
     crossing.camera_at_light_end =
         last.kind == VertexKind::infinite
-            ? AreaPdf{hit->pdf_direction.value}
-            : AreaPdf{hit->pdf_direction.value * abs_cosine(last.end.ng, step.direction) /
-                      distance_squared};
+            ? AreaPdf{hit->pdf_direction.value * flight.pass}
+            : AreaPdf{hit->pdf_direction.value * abs_cosine(last.end, step.direction) /
+                      distance_squared * probability_to(last, flight)};
     PathVertex& lens = crossing.lens;
     lens.kind = VertexKind::camera;
     lens.end = hit->lens;
-    lens.beta =
-        step.beta * medium_transmittance(*step.origin, hit->lens, step.direction, hit->distance);
+    lens.beta = step.beta * (flight.transmittance / flight.pass);
     // Both densities of the lens: as the walk found it, and as a camera path starts.
-    lens.pdf_rev = step.pdf_plane ? to_area(*step.pdf_plane, cosine)
-                                  : to_area(step.pdf, cosine, distance_squared);
+    lens.pdf_rev = (step.pdf_plane ? to_area(*step.pdf_plane, cosine)
+                                   : to_area(step.pdf, cosine, distance_squared)) *
+                   flight.pass;
     lens.pdf_fwd = hit->pdf_lens;
     path.add_crossing(crossing);
 }
@@ -130,27 +129,23 @@ bool survives(Rgb& beta, Rgb full, float least, Sampler& sampler)
     return true;
 }
 
-/// The first surface on the way of `step`, in the place of the next vertex of `path`; null if there
-/// is none.
-const SurfacePoint* find_surface(const SampleContext& sample, const Step& step, SegmentKey segment,
-                                 Subpath& path)
+/// What was met, in the place of the next vertex of `path`; null if that is nothing.
+const SurfacePoint* shade(const SampleContext& sample, const Step& step, const Encounter& met,
+                          SegmentKey segment, Subpath& path)
 {
-    const auto hit = sample.world.first_hit(*step.origin, step.direction, segment);
-    if (!hit) {
+    if (!met.in_medium && !met.surface) {
         return nullptr;
     }
     const PhaseScope scope(sample.clock, Phase::shade);
-    return &path.emplace_surface([&] {
-        return sample.world.surface_at(*hit, step.direction, segment, sample.camera.pixel_cone());
-    });
+    return &path.emplace_surface(
+        [&] { return point_of(sample, met, *step.origin, step.direction, segment); });
 }
 
 /// Goes on from the first vertex until the path is full, leaves the scene or is absorbed.
 void walk(SampleContext& sample, const Walk& rules, Step step, Subpath& path)
 {
     Rgb full = step.beta;  // what roulette compares with
-    const Camera& camera = sample.camera;
-    const bool watches_lens = !rules.from_camera() && camera.has_finite_lens();
+    const bool watches_lens = !rules.from_camera() && sample.camera.has_finite_lens();
     const int max_vertices = rules.limits.max_vertices;
     // A walk whose vertices are full may still cross the lens.
     while (path.size() < max_vertices || (watches_lens && path.size() == max_vertices)) {
@@ -159,9 +154,11 @@ void walk(SampleContext& sample, const Walk& rules, Step step, Subpath& path)
             rules.from_camera() ? sample.segment(0, path.size()) : sample.segment(path.size(), 0);
         // It may take the place of the vertex after the last, which the lens alone is looked for
         // from.
-        const SurfacePoint* hit = find_surface(sample, step, segment, path);
+        const Encounter met = follow(sample, *step.origin, step.direction, segment,
+                                     {.from_camera = rules.from_camera(), .vertices = path.size()});
+        const SurfacePoint* hit = shade(sample, step, met, segment, path);
         if (watches_lens) {
-            look_for_lens(camera, step,
+            look_for_lens(sample, step,
                           hit ? glm::distance(hit->end.p, step.origin->p)
                               : std::numeric_limits<float>::infinity(),
                           path);
@@ -171,7 +168,7 @@ void walk(SampleContext& sample, const Walk& rules, Step step, Subpath& path)
         }
         if (!hit) {
             if (rules.from_camera()) {
-                append_environment(sample.world, step, path);
+                append_environment(sample.world, step, met, path);
             }
             return;
         }
@@ -180,7 +177,7 @@ void walk(SampleContext& sample, const Walk& rules, Step step, Subpath& path)
         if (distance_squared < coincident) {
             return;
         }
-        append_surface(*hit, distance_squared, step, path);
+        append_point(*hit, distance_squared, step, met, path);
         if (path.size() == max_vertices && !watches_lens) {
             return;
         }

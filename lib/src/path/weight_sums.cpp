@@ -48,7 +48,9 @@ double WeightSums::camera_term(bool joins, std::size_t t) const
 
 double WeightSums::merge_term(const PathVertex& vertex, AreaPdf pdf, bool joins) const
 {
-    return joins ? raise(merge_weight_ * static_cast<double>(vertex.opacity * pdf.value)) : 0.0;
+    return joins && vertex.kind == VertexKind::surface
+               ? raise(merge_weight_ * static_cast<double>(vertex.opacity * pdf.value))
+               : 0.0;
 }
 
 /// t = 0

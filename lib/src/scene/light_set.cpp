@@ -81,7 +81,8 @@ std::vector<Sphere> light_spheres(std::span<const LightDesc> lights)
 
 LightSet::LightSet(std::span<const InstanceDesc> instances, std::span<const PlacedMesh> placed,
                    std::span<const Material> materials, std::span<const LightDesc> lights,
-                   std::span<const IntensityProfile> profiles, const BoundingSphere& bounds)
+                   std::span<const IntensityProfile> profiles, const BoundingSphere& bounds,
+                   std::span<const MediumId> media)
     : first_of_instance_(instances.size())
 {
     const int most_samples = most_emission_samples(instances, placed, materials);
@@ -96,12 +97,14 @@ LightSet::LightSet(std::span<const InstanceDesc> instances, std::span<const Plac
             lights_.emplace_back(TriangleLight(placed[i], material, t, most_samples));
         }
     }
-    for (const LightDesc& desc : lights) {
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const LightDesc& desc = lights[i];
         const LightId id{static_cast<std::uint32_t>(lights_.size())};
         lights_.emplace_back(desc,
                              LightContext{.profiles = profiles,
                                           .bounds = bounds,
-                                          .sphere = static_cast<std::uint32_t>(spheres_.size())});
+                                          .sphere = static_cast<std::uint32_t>(spheres_.size()),
+                                          .medium = media[i]});
         if (std::holds_alternative<EnvironmentLightDesc>(desc)) {
             environment_ = id;
         }

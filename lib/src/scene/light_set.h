@@ -24,10 +24,12 @@ class LightSet {
 public:
     using Choice = NextEventLights::Choice;
 
-    /// All arguments belong together and outlive this object: `placed[i]` is `instances[i]`.
+    /// All arguments belong together and outlive this object, but for `media`: `placed[i]` is
+    /// `instances[i]`, and `lights[i]` lies in `media[i]`.
     LightSet(std::span<const InstanceDesc> instances, std::span<const PlacedMesh> placed,
              std::span<const Material> materials, std::span<const LightDesc> lights,
-             std::span<const IntensityProfile> profiles, const BoundingSphere& bounds);
+             std::span<const IntensityProfile> profiles, const BoundingSphere& bounds,
+             std::span<const MediumId> media);
 
     [[nodiscard]] std::size_t size() const { return lights_.size(); }
     [[nodiscard]] const Light& operator[](LightId id) const

@@ -31,10 +31,10 @@ World::World(SceneDesc desc, Isa isa) : desc_(std::move(desc)), mip_maps_(ForRow
     WorldBuilder(*this).build(isa);
 }
 
-const SideMedia* World::medium_at(Vec3 p) const
+MediumId World::medium_at(Vec3 p) const
 {
     const auto body = bodies_ ? bodies_->at(p) : std::nullopt;
-    return body ? material_of(*body).media_within() : nullptr;
+    return body ? within_[static_cast<std::size_t>(desc_.instances[*body].material)] : fog_;
 }
 
 const Material& World::material_of(std::uint32_t instance) const noexcept
@@ -97,7 +97,7 @@ SurfacePoint World::sphere_point(const RayHit& hit, Vec3 direction, float time) 
     const LightId id = lights_->of_sphere(hit.sphere);
     const auto& light = std::get<SphereLight>((*lights_)[id].model());
     const bool outside = dot(hit.at.ng, direction) < 0.0f;
-    return {.end = light.surface(hit.at.ng, time),
+    return {.end = end_at(hit, direction, time),
             .bsdf = Bsdf(),
             .emission = outside ? light.radiance(-direction, time) : Rgb(0.0f),
             .light = id};
@@ -162,8 +162,35 @@ SurfacePoint World::mesh_point(const RayHit& hit, Vec3 direction, SegmentKey seg
     return result;
 }
 
-Rgb World::transmittance(const SegmentEnd& a, const SegmentEnd& b,
-                         SegmentKey segment) const noexcept
+SegmentEnd World::end_at(const RayHit& hit, Vec3 direction, float time) const noexcept
+{
+    if (hit.sphere != no_sphere) [[unlikely]] {
+        const Light& light = (*lights_)[lights_->of_sphere(hit.sphere)];
+        SegmentEnd end = std::get<SphereLight>(light.model()).surface(hit.at.ng, time);
+        end.media = light.media();
+        return end;
+    }
+    return {.p = hit.at.point.p,
+            .error = hit.at.point.error,
+            .ng = hit.at.ng != Vec3(0.0f) ? hit.at.ng : -direction,
+            .media = material_of(hit.instance).media()};
+}
+
+SurfacePoint World::medium_point(const SegmentEnd& from, Vec3 direction,
+                                 const MediumEvent& event) const noexcept
+{
+    const Medium& medium = media_[event.medium];
+    const Vec3 wo = -direction;
+    SurfacePoint point;
+    point.end.p = from.p + event.distance * direction;
+    point.end.media = SideMedia::around(event.medium);
+    point.bsdf = Bsdf(wo, Frame::from_normal(wo), wo,
+                      HenyeyGreenstein(medium.scattering, medium.anisotropy));
+    return point;
+}
+
+std::optional<Flight> World::flight(const SegmentEnd& a, const SegmentEnd& b,
+                                    SegmentKey segment) const noexcept
 {
     // Both ends are moved to their own side of their surfaces, so the whole segment between them is
     // tested; the factor only keeps rounding of the end from reaching through.
@@ -177,22 +204,34 @@ Rgb World::transmittance(const SegmentEnd& a, const SegmentEnd& b,
                            .t_max = short_of_end,
                            .ignored_sphere = a.sphere != no_sphere ? a.sphere : b.sphere,
                            .segment = segment})) {
-        return Rgb(0.0f);
+        return std::nullopt;
     }
-    return a.media == nullptr && b.media == nullptr
-               ? Rgb(1.0f)
-               : medium_transmittance(a, b, to_b, std::sqrt(dot(to_b, to_b)));
+    return media_.any() ? media_.flight(a, b, to_b, std::sqrt(dot(to_b, to_b))) : Flight{};
+}
+
+std::optional<Flight> World::flight_to_infinity(const SegmentEnd& a, Vec3 direction,
+                                                SegmentKey segment) const noexcept
+{
+    if (embree_->occluded({.origin = offset_origin(a.p, a.error, a.ng, direction),
+                           .direction = direction,
+                           .segment = segment})) {
+        return std::nullopt;
+    }
+    return media_.flight(a, {}, direction, std::numeric_limits<float>::max());
+}
+
+Rgb World::transmittance(const SegmentEnd& a, const SegmentEnd& b,
+                         SegmentKey segment) const noexcept
+{
+    const auto free = flight(a, b, segment);
+    return free ? free->transmittance : Rgb(0.0f);
 }
 
 Rgb World::transmittance_to_infinity(const SegmentEnd& a, Vec3 direction,
                                      SegmentKey segment) const noexcept
 {
-    if (embree_->occluded({.origin = offset_origin(a.p, a.error, a.ng, direction),
-                           .direction = direction,
-                           .segment = segment})) {
-        return Rgb(0.0f);
-    }
-    return medium_transmittance(a, {}, direction, std::numeric_limits<float>::max());
+    const auto free = flight_to_infinity(a, direction, segment);
+    return free ? free->transmittance : Rgb(0.0f);
 }
 
 }  // namespace bdpt

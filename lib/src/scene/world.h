@@ -9,7 +9,7 @@
 #include "math/footprint.h"
 #include "scene/enclosing_volumes.h"
 #include "scene/light_set.h"
-#include "scene/medium.h"
+#include "scene/media.h"
 #include "texture/mip_maps.h"
 
 #include <bdpt/scene.h>
@@ -23,7 +23,7 @@
 
 namespace bdpt {
 
-/// A point on a surface with everything a path needs to go on from it.
+/// A point on a surface, or in a medium, with everything a path needs to go on from it.
 struct SurfacePoint {
     SegmentEnd end;
     Bsdf bsdf;
@@ -62,6 +62,17 @@ public:
         return hit ? std::optional(surface_at(*hit, direction, segment, PixelCone{}))
                    : std::nullopt;
     }
+    /// The end of the ray that hit it: what `surface_at` has, without the surface.
+    [[nodiscard]] SegmentEnd end_at(const RayHit& hit, Vec3 direction, float time) const noexcept;
+    /// A point of a medium that a ray in the unit direction `direction` came to.
+    [[nodiscard]] SurfacePoint medium_point(const SegmentEnd& from, Vec3 direction,
+                                            const MediumEvent& event) const noexcept;
+    /// What becomes of light between two points; nothing when it meets a surface in between.
+    [[nodiscard]] std::optional<Flight> flight(const SegmentEnd& a, const SegmentEnd& b,
+                                               SegmentKey segment) const noexcept;
+    /// The same from a point to infinity in the unit direction `direction`.
+    [[nodiscard]] std::optional<Flight> flight_to_infinity(const SegmentEnd& a, Vec3 direction,
+                                                           SegmentKey segment) const noexcept;
     /// What is left of light between two points: zero when it meets a surface in between, else what
     /// the medium lets through.
     [[nodiscard]] Rgb transmittance(const SegmentEnd& a, const SegmentEnd& b,
@@ -84,8 +95,9 @@ public:
     [[nodiscard]] std::string embree_version() const { return embree_->embree_version(); }
     /// As that of `EmbreeScene`.
     [[nodiscard]] float farthest_origin() const noexcept { return embree_->farthest_origin(); }
-    /// What absorbs around a point that lies on no surface; null if nothing does.
-    [[nodiscard]] const SideMedia* medium_at(Vec3 p) const;
+    [[nodiscard]] const Media& media() const { return media_; }
+    /// Around a point that lies on no surface.
+    [[nodiscard]] MediumId medium_at(Vec3 p) const;
     /// What is likely not meant, one line each.
     [[nodiscard]] const std::vector<std::string>& warnings() const noexcept { return warnings_; }
 
@@ -112,7 +124,10 @@ private:
     std::map<float, std::unique_ptr<const SpecularAlbedo>> albedos_;  // by index of refraction
     std::unique_ptr<const LayerTables> layer_tables_;                 // if any material needs them
     MipMaps mip_maps_;                                                // if textures have any
+    Media media_;
+    MediumId fog_ = MediumId::clear;
     std::vector<Material> materials_;
+    std::vector<MediumId> within_;  // each material
     bool disperses_ = false;
     bool moves_ = false;
     std::vector<PlacedMesh> placed_;

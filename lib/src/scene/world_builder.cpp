@@ -74,8 +74,11 @@ void WorldBuilder::build(Isa isa)
 {
     World& w = world_;
     validate(w.desc_);
-    add_materials();
     place_meshes();
+    if (w.desc_.fog) {
+        w.fog_ = w.media_.add_fog(medium_of(*w.desc_.fog), w.sphere_);
+    }
+    add_materials();
     w.embree_ = std::make_unique<const EmbreeScene>(
         w.desc_.instances, w.placed_, w.desc_.meshes.size(), w.spheres_, w.any_hit_filter(), isa);
     w.warnings_ = precision_warnings(w.desc_);
@@ -90,18 +93,26 @@ void WorldBuilder::add_materials()
         world_.layer_tables_ = std::make_unique<const LayerTables>(materials);
     }
     for (const MaterialDesc& material : materials) {
-        world_.materials_.push_back(make_material(material, {}));
+        add_material(material, {.medium = world_.fog_});
     }
 }
 
-Material WorldBuilder::make_material(const MaterialDesc& desc, const Exterior& exterior)
+void WorldBuilder::add_material(const MaterialDesc& desc, const Exterior& exterior)
+{
+    const MediumId within = world_.media_.add(medium_within(desc));
+    world_.materials_.push_back(make_material(desc, exterior, within));
+    world_.within_.push_back(within);
+}
+
+Material WorldBuilder::make_material(const MaterialDesc& desc, const Exterior& exterior,
+                                     MediumId within)
 {
     World& w = world_;
     const auto [red, green, blue] = boundary_indices(desc, exterior).greater_by_less;
     const bool mip_mapped = w.desc_.texture_filter == TextureFilter::mip_mapped;
     const TextureImages texture_images(w.desc_.images, mip_mapped ? &w.mip_maps_ : nullptr);
     Material material(desc, texture_images, {albedo_of(red), albedo_of(green), albedo_of(blue)},
-                      w.layer_tables_.get(), exterior);
+                      w.layer_tables_.get(), exterior, within);
     w.disperses_ = w.disperses_ || material.disperses();
     return material;
 }
@@ -131,6 +142,23 @@ void WorldBuilder::place_meshes()
     w.sphere_ = sphere_around(w.bounds_);
 }
 
+/// What is around each light; around those at infinity, where their rays enter the scene.
+std::vector<MediumId> WorldBuilder::media_around(const std::vector<LightDesc>& lights) const
+{
+    std::vector<MediumId> media;
+    for (const LightDesc& light : lights) {
+        media.push_back(std::visit(
+            [this](const auto& desc) {
+                if constexpr (requires { desc.position; }) {
+                    return world_.medium_at(desc.position);
+                }
+                return world_.fog_;
+            },
+            light));
+    }
+    return media;
+}
+
 void WorldBuilder::add_lights()
 {
     World& w = world_;
@@ -139,8 +167,9 @@ void WorldBuilder::add_lights()
     for (const LightProfile& profile : desc.profiles) {
         w.profiles_.emplace_back(profile);
     }
-    w.lights_ = std::make_unique<const LightSet>(desc.instances, w.placed_, w.materials_,
-                                                 desc.lights, w.profiles_, w.sphere_);
+    w.lights_ =
+        std::make_unique<const LightSet>(desc.instances, w.placed_, w.materials_, desc.lights,
+                                         w.profiles_, w.sphere_, media_around(desc.lights));
     check_powers(desc, w.materials_, *w.lights_);
     w.counts_ = count(desc);
     w.counts_.lights = w.lights_->size();

@@ -20,7 +20,10 @@ private:
     void add_materials();
     void place_meshes();
     void add_lights();
-    [[nodiscard]] Material make_material(const MaterialDesc& desc, const Exterior& exterior);
+    void add_material(const MaterialDesc& desc, const Exterior& exterior);
+    [[nodiscard]] Material make_material(const MaterialDesc& desc, const Exterior& exterior,
+                                         MediumId within);
+    [[nodiscard]] std::vector<MediumId> media_around(const std::vector<LightDesc>& lights) const;
     [[nodiscard]] const SpecularAlbedo& albedo_of(float ior);
 
     void find_enclosing_volumes();

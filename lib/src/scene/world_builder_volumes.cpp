@@ -53,14 +53,15 @@ void WorldBuilder::give_surroundings(const std::vector<std::optional<std::uint32
         }
         const MaterialId outer = scene.instances[*around[i]].material;
         const MaterialDesc& desc = scene.materials[static_cast<std::size_t>(own)];
-        const Exterior exterior = exterior_within(scene.materials[static_cast<std::size_t>(outer)]);
-        if (exterior == Exterior{}) {
+        const auto number = static_cast<std::size_t>(outer);
+        const Exterior exterior = exterior_within(scene.materials[number], world_.within_[number]);
+        if (exterior == Exterior{.medium = world_.fog_}) {
             continue;
         }
         const auto [known, is_new] =
             nested.try_emplace({own, outer}, static_cast<MaterialId>(world_.materials_.size()));
         if (is_new) {
-            world_.materials_.push_back(make_material(desc, exterior));
+            add_material(desc, exterior);
         }
         result[i] = known->second;
     }

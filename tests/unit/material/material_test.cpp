@@ -1,4 +1,5 @@
 #include "material/material.h"
+#include "material/medium.h"
 
 #include "catch.hpp"
 #include "math/elementary.h"
@@ -253,21 +254,20 @@ TEST_CASE("emission is factor times sRGB texture, and its mean that of the image
 
 TEST_CASE("absorption leaves the attenuation colour after the attenuation distance")
 {
-    const SpecularAlbedo albedo(1.5f);
     MaterialDesc desc;
     desc.transmission = 1.0f;
     desc.thickness = 1.0f;
-    CHECK(Material(desc, {}, albedo).absorption() == Rgb{0.0f});
+    CHECK(medium_within(desc).extinction == Rgb{0.0f});
     desc.attenuation_color = {0.5f, 1.0f, 0.0f};
-    CHECK(Material(desc, {}, albedo).absorption() == Rgb{0.0f});  // at infinity
+    CHECK(medium_within(desc).extinction == Rgb{0.0f});  // at infinity
     desc.attenuation_distance = 0.25f;
-    const Rgb absorption = Material(desc, {}, albedo).absorption();
+    const Rgb absorption = medium_within(desc).extinction;
     CHECK(absorption.x == Approx(std::log(2.0) / 0.25));
     CHECK(absorption.y == 0.0f);
     CHECK(absorption.z > 100.0f);
     CHECK(std::isfinite(absorption.z));
     desc.attenuation_distance = 1e-38f;
-    CHECK(is_finite(Material(desc, {}, albedo).absorption()));
+    CHECK(is_finite(medium_within(desc).extinction));
     desc.thickness = 0.0f;  // a thin sheet has no inside
-    CHECK(Material(desc, {}, albedo).absorption() == Rgb{0.0f});
+    CHECK(medium_within(desc).extinction == Rgb{0.0f});
 }

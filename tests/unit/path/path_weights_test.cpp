@@ -18,9 +18,13 @@ namespace {
 using test::SceneBuilder;
 
 /// A room with all that makes densities special: mirror, glass, gloss, two kinds of lights.
-SceneDesc room()
+SceneDesc room(bool foggy)
 {
     SceneBuilder builder;
+    if (foggy) {
+        builder.desc.fog = MediumDesc{
+            .extinction = {0.3f, 0.6f, 1.2f}, .albedo = {0.9f, 0.8f, 0.7f}, .anisotropy = 0.4f};
+    }
     builder.walls(test::plastic(Rgb(0.7f), 0.3f), test::lambertian(Rgb(0.6f)));
     builder.ceiling(test::lambertian(Rgb(0.7f))).lamp(0.9f, 0.5f, Rgb(5.0f));
     builder.sphere({-0.4f, -0.6f, 0.0f}, 0.4f, test::glass(0.0f));
@@ -45,7 +49,7 @@ float sum_of_weights(const PathDensities& path, Heuristic heuristic)
 
 TEST_CASE("weights of all strategies sum to one on traced paths", "[mis]")
 {
-    const World world(room());
+    const World world(room(GENERATE(false, true)));
     constexpr int max_depth = 6;
     constexpr int size = 16;
     const Camera camera(test::room_camera(), size, size);
@@ -100,7 +104,7 @@ TEST_CASE("joining and hitting agree about the densities of the same path", "[mi
 {
     // The camera walk finds the lamp: weigh that path as it was made (s = 0). Then treat its own
     // last vertex as the light sample of next-event estimation: the densities must be the same.
-    const World world(room());
+    const World world(room(GENERATE(false, true)));
     constexpr int max_depth = 5;
     const Camera camera(test::room_camera(), 16, 16);
     RenderOptions options;
@@ -135,8 +139,11 @@ TEST_CASE("joining and hitting agree about the densities of the same path", "[mi
             const float distance_squared = dot(along, along);
             const Vec3 wi = along / std::sqrt(distance_squared);
             const BsdfEval f = x1.bsdf->eval(wi, TransportMode::radiance);
+            const Flight flight =
+                world.media().flight(x1.end, x0.end, along, std::sqrt(distance_squared));
             const float joined =
-                to_area(f.pdf_fwd, std::abs(dot(x0.end.ng, wi)), distance_squared).value;
+                to_area(f.pdf_fwd, std::abs(dot(x0.end.ng, wi)), distance_squared).value *
+                flight.pass;
             CHECK(made.from_camera[0].value == Approx(joined).epsilon(1e-3));
             // L_2 as a join would compute it equals what the walk stored for a reversed walk.
             const PathVertex& x2 = path[path.size() - 3];
@@ -175,7 +182,7 @@ TEST_CASE("next-event estimation has the density that others are weighed against
         trace_camera_subpath(sample, raster, {.max_vertices = path.capacity()}, path);
         for (int t = 2; t <= path.size(); ++t) {
             const PathVertex& x1 = path[t - 1];
-            if (x1.kind != VertexKind::surface || !x1.connectible) {
+            if (!scatters(x1.kind) || !x1.connectible) {
                 continue;
             }
             const auto choice = world.lights().choose_for_context(

@@ -24,9 +24,13 @@ constexpr int size = 16;
 
 /// Glass, a mirror, gloss, alpha, delta lights, a lamp and the sky: all that makes a weight
 /// special.
-SceneDesc room()
+SceneDesc room(bool foggy)
 {
     SceneBuilder builder;
+    if (foggy) {
+        builder.desc.fog = MediumDesc{
+            .extinction = {0.3f, 0.6f, 1.2f}, .albedo = {0.9f, 0.8f, 0.7f}, .anisotropy = 0.4f};
+    }
     builder.walls(test::plastic(Rgb(0.7f), 0.3f), test::lambertian(Rgb(0.6f)));
     builder.lamp(0.9f, 0.5f, Rgb(5.0f));
     builder.sphere({-0.4f, -0.6f, 0.0f}, 0.4f, test::glass(0.0f));
@@ -63,7 +67,7 @@ std::vector<float> weights_of(SampleContext sample, const Subpath& light_path,
         }
         // However far apart: the weight does not depend on it.
         for (int s = 2; s <= light_path.size() && can_merge(camera_path.first(t).back()); ++s) {
-            if (strategies.merges(s, t) && light_path.first(s).back().connectible) {
+            if (strategies.merges(s, t) && can_merge(light_path.first(s).back())) {
                 add(merge(sample, light_path.first(s), camera_path.first(t), merging, weigher));
             }
         }
@@ -79,7 +83,8 @@ std::vector<float> weights_of(SampleContext sample, const Subpath& light_path,
 
 TEST_CASE("sums over subpaths weigh joins as all densities of the path do", "[mis]")
 {
-    const World world(room());
+    const bool foggy = GENERATE(false, true);
+    const World world(room(foggy));
     const auto heuristic = GENERATE(Heuristic::balance, Heuristic::power);
     // Of light paths and connections for each camera path.
     const auto [light_paths, connections] =

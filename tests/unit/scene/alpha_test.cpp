@@ -345,7 +345,7 @@ TEST_CASE("unlit surfaces shine with their base colour and scatter nothing", "[a
     CHECK(front->emission == Rgb(0.125f, 1.0f, 1.0f));
     CHECK(back->emission == (double_sided ? front->emission : Rgb(0.0f)));
     CHECK(front->light.has_value());
-    CHECK(front->end.media == nullptr);
+    CHECK(front->end.media.are_clear());
     CHECK_FALSE(front->bsdf.connectible());
     CHECK_FALSE(front->bsdf.sample(0.3f, {0.2f, 0.7f}, TransportMode::radiance));
     CHECK(front->bsdf.eval(-down, TransportMode::importance).f_cos == Rgb(0.0f));

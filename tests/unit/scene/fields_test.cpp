@@ -72,7 +72,7 @@ TEST_CASE("each number of a material is refused when it is none", "[fields]")
         }
         number = before;
     });
-    CHECK(numbers == 40);
+    CHECK(numbers == 44);
 }
 
 TEST_CASE("each texture of a material is checked", "[fields]")

@@ -46,20 +46,6 @@ TEST_CASE("Beer-Lambert: the attenuation colour is left after the attenuation di
     CHECK(world.transmittance_to_infinity(front->end, {0, 0, -1}, {}) == Rgb(0.0f));
 }
 
-TEST_CASE("a medium is known from either end, and the rule is symmetric", "[world]")
-{
-    const SideMedia media{.behind = {1, 2, 0}};
-    const SegmentEnd glass{.p = {0, 0, 0}, .ng = {0, 0, 1}, .media = &media};
-    const SegmentEnd opaque{.p = {0, 0, -1}, .ng = {0, 0, 1}};
-    const Vec3 down(0, 0, -1);
-    const Rgb expected(std::exp(-1.0f), std::exp(-2.0f), 1.0f);
-    const Rgb one_way = medium_transmittance(glass, opaque, down, 1.0f);
-    CHECK(one_way.r == Approx(expected.r));
-    CHECK(one_way.g == Approx(expected.g));
-    CHECK(medium_transmittance(opaque, glass, -down, 1.0f) == one_way);
-    CHECK(medium_transmittance(glass, opaque, -down, 1.0f) == Rgb(1.0f));  // leaves on the outside
-}
-
 TEST_CASE("emission is seen from the front, or from both sides", "[world]")
 {
     for (const bool double_sided : {false, true}) {

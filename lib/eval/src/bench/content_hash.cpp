@@ -83,7 +83,16 @@ void add_all(Hasher& hasher, std::string_view name, const std::vector<T>& values
 template <typename T>
 void add_value(Hasher& hasher, std::string_view name, const T& value)
 {
-    if constexpr (std::is_same_v<T, std::string> || std::is_same_v<T, std::optional<float>>) {
+    if constexpr (std::is_same_v<T, std::optional<MediumDesc>>) {
+        if (value) {  // scenes without fog have the hash of older reports
+            add(hasher, *value);
+        }
+    } else if constexpr (std::is_same_v<T, VolumeScatterDesc>) {
+        if (value.color != Rgb(0.0f)) {  // and so have materials that scatter nothing within
+            add(hasher, value);
+        }
+    } else if constexpr (std::is_same_v<T, std::string> ||
+                         std::is_same_v<T, std::optional<float>>) {
         return;  // names, and what their author had in mind, show in no image
     } else if constexpr (std::is_same_v<T, std::optional<TextureRef>>) {
         return;  // all at the end

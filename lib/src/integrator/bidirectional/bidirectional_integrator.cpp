@@ -222,8 +222,8 @@ void BidirectionalIntegrator::join_camera_path(SampleContext& sample, Scratch& s
             }
         }
         const PathVertex& end = camera.back();
-        if (t <= options_.transport.max_depth && strategies_.uses(1, t) &&
-            end.kind == VertexKind::surface && end.connectible) {
+        if (t <= options_.transport.max_depth && strategies_.uses(1, t) && scatters(end.kind) &&
+            end.connectible) {
             join_to_lights(sample, camera, scratch);
         }
     }

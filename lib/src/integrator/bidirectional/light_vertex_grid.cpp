@@ -16,7 +16,7 @@ void for_each_vertex(const LightPathCache& cache, const Visit& visit)
 {
     cache.for_each_path([&](std::span<const PathVertex> path) {
         for (std::size_t size = 2; size <= path.size(); ++size) {
-            if (path[size - 1].connectible) {
+            if (path[size - 1].kind == VertexKind::surface && path[size - 1].connectible) {
                 visit(path.first(size));
             }
         }

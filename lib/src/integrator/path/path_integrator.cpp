@@ -4,6 +4,7 @@
 #include "integrator/sample_start.h"
 #include "math/rgb.h"
 #include "math/shifted_points.h"
+#include "path/encounter.h"
 #include "profile/sample_timer.h"
 
 #include <glm/geometric.hpp>
@@ -93,33 +94,31 @@ void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, Contribution
     for (int depth = 1; depth <= options_.transport.max_depth; ++depth) {
         ++sample.rays.camera;
         const SegmentKey segment = sample.segment(0, depth);
-        const auto hit = world_.first_hit(ray.origin, ray.direction, segment);
-        if (!hit) {
+        const Encounter met = follow(sample, ray.origin, ray.direction, segment,
+                                     {.from_camera = true, .vertices = depth});
+        if (!met.in_medium && !met.surface) {
             const auto id = world_.lights().environment();
             const bool visible =
                 depth > 1 || options_.transport.background == Background::environment;
             if (id && visible) {
                 const PhaseScope scope(sample.clock, Phase::weigh);
                 const auto& light = std::get<EnvironmentLight>(world_.lights()[*id].model());
-                const Rgb open = medium_transmittance(ray.origin, {}, ray.direction,
-                                                      std::numeric_limits<float>::max());
                 add({.s = 0, .t = depth + 1},
-                    beta * open *
-                        emission(ray, *id, {.p = ray.direction}, light.radiance(ray.direction)));
+                    beta * met.weight() *
+                        emission(ray, *id, {.p = ray.direction}, light.radiance(ray.direction),
+                                 met.probability()));
             }
             break;
         }
         sample.enter(Phase::shade);
-        const SurfacePoint point =
-            world_.surface_at(*hit, ray.direction, segment, camera.pixel_cone());
+        const SurfacePoint point = point_of(sample, met, ray.origin, ray.direction, segment);
         sample.enter(Phase::walk);
         const Vec3 along = point.end.p - ray.origin.p;
         const float distance_squared = dot(along, along);
         if (distance_squared < coincident) {
             break;
         }
-        beta *=
-            medium_transmittance(ray.origin, point.end, ray.direction, std::sqrt(distance_squared));
+        beta *= met.weight();
         if (point.light) {
             const PhaseScope scope(sample.clock, Phase::weigh);
             const LightPoint on_light{.p = point.end.p,
@@ -127,7 +126,7 @@ void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, Contribution
                                       .barycentrics = point.barycentrics,
                                       .time = sample.time};
             add({.s = 0, .t = depth + 1},
-                beta * emission(ray, *point.light, on_light, point.emission));
+                beta * emission(ray, *point.light, on_light, point.emission, met.probability()));
         }
         if (depth == options_.transport.max_depth) {
             break;
@@ -198,8 +197,8 @@ float PathIntegrator::bsdf_weight(float bsdf_pdf, float light_pdf) const
                                                       : 1.0f - light_weight(light_pdf, bsdf_pdf);
 }
 
-Rgb PathIntegrator::emission(const Ray& ray, LightId light, const LightPoint& hit,
-                             Rgb radiance) const
+Rgb PathIntegrator::emission(const Ray& ray, LightId light, const LightPoint& hit, Rgb radiance,
+                             float probability_of_flight) const
 {
     if (!ray.competes || is_black(radiance)) {
         return radiance;
@@ -211,11 +210,11 @@ Rgb PathIntegrator::emission(const Ray& ray, LightId light, const LightPoint& hi
         lights[light].pdf_incident(ray.origin.p, hit, next_event_sampling_.environments) *
         (probability * light_samples_);
     if (lights[light].is_infinite()) {
-        return radiance * bsdf_weight(ray.pdf.value, pdf.value);
+        return radiance * bsdf_weight(ray.pdf.value * probability_of_flight, pdf.value);
     }
     const Vec3 along = hit.p - ray.origin.p;
     const AreaPdf used = to_area(ray.pdf, std::abs(dot(hit.ng, ray.direction)), dot(along, along));
-    return radiance * bsdf_weight(used.value, pdf.value);
+    return radiance * bsdf_weight(used.value * probability_of_flight, pdf.value);
 }
 
 Rgb PathIntegrator::sample_lights(SampleContext& sample, const SurfacePoint& point, int depth) const
@@ -259,16 +258,20 @@ Rgb PathIntegrator::sample_light(SampleContext& sample, const SurfacePoint& poin
     }
     ++sample.rays.shadow;
     const SegmentKey segment = sample.segment(1, depth + 1);
-    value *= light.is_infinite()
-                 ? world_.transmittance_to_infinity(point.end, incident->wi, segment)
-                 : world_.transmittance(point.end, incident->end, segment);
+    const auto flight = light.is_infinite()
+                            ? world_.flight_to_infinity(point.end, incident->wi, segment)
+                            : world_.flight(point.end, incident->end, segment);
+    if (!flight) {
+        return Rgb(0.0f);
+    }
+    value *= flight->transmittance;
     if (light.is_delta()) {
         return value;
     }
     sample.enter(Phase::weigh);
     return value *
            light_weight(incident->pdf_solid_angle.value * (choice->probability * light_samples_),
-                        f.pdf_fwd.value);
+                        f.pdf_fwd.value * flight->pass);
 }
 
 }  // namespace bdpt

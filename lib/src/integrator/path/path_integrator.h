@@ -20,9 +20,10 @@ private:
     void add_sample(int x, int y, const ScheduledSample& scheduled, const Films& films,
                     ContributionSink& sink, RenderStats& stats) const;
     void trace_path(SampleContext& sample, Vec2 raster, ContributionSink& sink) const;
-    /// Radiance that the ray brings from a light it hit, weighed against light sampling.
-    [[nodiscard]] Rgb emission(const Ray& ray, LightId light, const LightPoint& hit,
-                               Rgb radiance) const;
+    /// Radiance that the ray brings from a light it hit, weighed against light sampling;
+    /// `probability_of_flight` is that of no medium scattering it on its way.
+    [[nodiscard]] Rgb emission(const Ray& ray, LightId light, const LightPoint& hit, Rgb radiance,
+                               float probability_of_flight) const;
     /// Next-event estimation at the point, which is vertex `depth` + 1 of the path: the mean of
     /// its light samples.
     [[nodiscard]] Rgb sample_lights(SampleContext& sample, const SurfacePoint& point,

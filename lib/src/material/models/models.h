@@ -1,6 +1,7 @@
 #pragma once
 
 #include "material/models/black.h"
+#include "material/models/henyey_greenstein.h"
 #include "material/models/lambertian.h"
 #include "material/models/layered.h"
 #include "material/models/mapped.h"
@@ -13,8 +14,9 @@ namespace bdpt {
 
 /// The list of all models that a `Bsdf` may be, cheap and common ones first. Whoever visits it has
 /// no default case: the compiler names each place that does not know a model.
-using AnyModel = std::variant<Black, Lambertian, SeenFrom<MetallicRoughness>, Layered,
-                              Mapped<Lambertian>, Mapped<MetallicRoughness>, Mapped<Layered>>;
+using AnyModel =
+    std::variant<Black, Lambertian, SeenFrom<MetallicRoughness>, Layered, Mapped<Lambertian>,
+                 Mapped<MetallicRoughness>, Mapped<Layered>, HenyeyGreenstein>;
 
 /// A material without layers.
 using PlainModel = std::variant<Black, Lambertian, MetallicRoughness>;

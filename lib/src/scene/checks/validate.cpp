@@ -160,6 +160,9 @@ void validate(const SceneDesc& desc)
     for (std::size_t i = 0; i < desc.instances.size(); ++i) {
         check(desc.instances[i], label("instance", i, desc.instances[i].name), desc);
     }
+    if (desc.fog) {
+        check_own_limits("fog", *desc.fog);
+    }
     const float reach = coordinate_limit_of(desc.instances, desc.meshes.size());
     check_coordinates(desc, reach);
     validate_lights(desc, reach);

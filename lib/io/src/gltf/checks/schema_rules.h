@@ -269,6 +269,12 @@ inline constexpr std::array schema_rules{
                Kind::number},
     SchemaRule{"materials/*/extensions/KHR_materials_volume/thicknessFactor", Kind::number},
     SchemaRule{"materials/*/extensions/KHR_materials_volume/attenuationDistance", Kind::number},
+    SchemaRule{"materials/*/extensions/KHR_materials_volume_scatter/scatterAnisotropy",
+               Kind::number},
+    SchemaRule{"materials/*/extensions/KHR_materials_volume_scatter/multiscatterColor",
+               Kind::numbers, "", 3},
+    SchemaRule{"materials/*/extensions/KHR_materials_volume_scatter/multiscatterColorFactor",
+               Kind::numbers, "", 3},
     SchemaRule{"materials/*/extensions/KHR_materials_volume/attenuationColor", Kind::numbers, "",
                3},
 };

@@ -34,6 +34,8 @@ constexpr std::array table{
     ExtensionSupport{"KHR_materials_variants", supported, "chosen by --variant"},
     ExtensionSupport{"KHR_materials_volume", supported,
                      "thickness tells solid from thin bodies only"},
+    ExtensionSupport{"KHR_materials_volume_scatter", supported,
+                     "a draft; by random walks, so --max-depth limits them"},
     ExtensionSupport{"KHR_mesh_quantization", supported, ""},
     ExtensionSupport{"KHR_meshopt_compression", supported,
                      "where meshoptimizer is installed; not the filter COLOR"},

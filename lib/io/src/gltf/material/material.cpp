@@ -43,6 +43,7 @@ public:
         }
         read_transmission();
         read_volume();
+        read_volume_scatter();
         read_layers(values_, desc_);
         if (source_.normalTexture.index >= 0) {
             desc_.normal_scale = static_cast<float>(source_.normalTexture.scale);
@@ -184,6 +185,22 @@ private:
                           fmt::format("{}/extensions/KHR_materials_volume/attenuationDistance: {}",
                                       place_, distance));
         }
+    }
+
+    /// Draft of September 2025; older files call the colour a factor.
+    void read_volume_scatter()
+    {
+        const auto* value = values_.extension("KHR_materials_volume_scatter");
+        if (value == nullptr) {
+            return;
+        }
+        const char* color =
+            value->Has("multiscatterColor") ? "multiscatterColor" : "multiscatterColorFactor";
+        desc_.volume_scatter.color = values_.color(*value, color, 1.0, Rgb(0.0f));
+        constexpr auto most = static_cast<double>(most_anisotropy);
+        desc_.volume_scatter.anisotropy =
+            values_.in_range(number_or(*value, "scatterAnisotropy", 0.0), -most, most,
+                             "extensions/KHR_materials_volume_scatter/scatterAnisotropy");
     }
 
     const tinygltf::Material& source_;

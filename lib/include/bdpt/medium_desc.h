@@ -1,0 +1,26 @@
+#pragma once
+
+#include <bdpt/fields.h>
+#include <bdpt/types.h>
+
+namespace bdpt {
+
+/// How far the anisotropy of scattering may be from 0; the phase functions of -1 and 1 have all of
+/// their light in one direction.
+inline constexpr float most_anisotropy = 0.9999f;
+
+/// A homogeneous medium that absorbs and scatters light, such as fog [Pharr et al. 2023, Physically
+/// Based Rendering, ch. 11].
+struct MediumDesc {
+    Rgb extinction{0.0f};     ///< [1/m], >= 0: 1 / the mean free path; absorption and scattering
+    Rgb albedo{1.0f};         ///< [0, 1]: the share of it that scatters
+    float anisotropy = 0.0f;  ///< g of Henyey and Greenstein, in (-1, 1): > 0 forwards
+};
+/// Fields of `MediumDesc`, with names and limits.
+template <>
+inline constexpr auto fields<MediumDesc> = all_fields(
+    Number{"extinction", &MediumDesc::extinction, Limits::at_least(0.0f)},
+    Number{"albedo", &MediumDesc::albedo, Limits::unit()},
+    Number{"anisotropy", &MediumDesc::anisotropy, Limits{-most_anisotropy, most_anisotropy}});
+
+}  // namespace bdpt

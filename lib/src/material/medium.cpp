@@ -1,0 +1,65 @@
+#include "material/medium.h"
+
+#include "math/elementary.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bdpt {
+namespace {
+
+/// The coefficient that leaves the attenuation colour after the attenuation distance.
+[[nodiscard]] Rgb extinction_of(const MaterialDesc& desc)
+{
+    constexpr float least_color = 1e-20f;     // black keeps a finite coefficient
+    constexpr float most_extinction = 1e30f;  // [1/m]
+    if (!has_inside(desc) || std::isinf(desc.attenuation_distance)) {
+        return Rgb{0.0f};
+    }
+    Rgb extinction{0.0f};
+    for (int channel = 0; channel < 3; ++channel) {
+        const float color = std::clamp(desc.attenuation_color[channel], least_color, 1.0f);
+        const float depth = std::max(0.0f, -log_exact(color));
+        extinction[channel] =
+            depth == 0.0f ? 0.0f : std::min(depth / desc.attenuation_distance, most_extinction);
+    }
+    return extinction;
+}
+
+}  // namespace
+
+bool has_inside(const MaterialDesc& desc)
+{
+    return desc.thickness > 0.0f && !desc.unlit &&
+           (desc.transmission > 0.0f || desc.diffuse_transmission.factor > 0.0f);
+}
+
+Rgb single_scatter_albedo(Rgb multiscatter_color)
+{
+    Rgb result{0.0f};
+    for (int channel = 0; channel < 3; ++channel) {
+        const float c = multiscatter_color[channel];
+        const float root = std::sqrt(9.59217f + 41.6808f * c + 17.7126f * c * c);
+        const float s = 4.09712f + 4.20863f * c - root;
+        // The fit is off by 1e-6 at both ends.
+        result[channel] = c == 0.0f ? 0.0f : std::clamp(1.0f - s * s, 0.0f, 1.0f);
+    }
+    return result;
+}
+
+Medium medium_within(const MaterialDesc& desc)
+{
+    const Rgb extinction = extinction_of(desc);
+    return {.extinction = extinction,
+            .scattering = extinction * single_scatter_albedo(desc.volume_scatter.color),
+            .anisotropy = desc.volume_scatter.anisotropy};
+}
+
+Medium medium_of(const MediumDesc& desc)
+{
+    return {.extinction = desc.extinction,
+            .scattering = desc.extinction * desc.albedo,
+            .anisotropy = desc.anisotropy};
+}
+
+}  // namespace bdpt

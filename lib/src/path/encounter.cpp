@@ -1,0 +1,48 @@
+#include "path/encounter.h"
+
+#include <glm/geometric.hpp>
+
+#include <limits>
+
+namespace bdpt {
+namespace {
+
+/// Is the ray, to which nothing but its surface is known, scattered before that?
+void pass_media(SampleContext& sample, const SegmentEnd& origin, Vec3 direction, SegmentKey segment,
+                const WalkPlace& place, Encounter& met)
+{
+    const Media& media = sample.world.media();
+    SegmentEnd end;
+    float distance = std::numeric_limits<float>::max();
+    if (met.surface) {
+        end = sample.world.end_at(*met.surface, direction, segment.time);
+        distance = glm::distance(end.p, origin.p);
+    }
+    if (media.scatter(origin, end, direction)) {
+        const auto vertex = static_cast<std::uint32_t>(2 * place.vertices);
+        sample.sampler.start(SampleUse::flight, vertex + (place.from_camera ? 0U : 1U));
+        const Vec2 u = sample.sampler.next_2d();
+        met.in_medium = media.draw_event(origin, end, direction, distance, u);
+    }
+    if (met.in_medium) {
+        distance = met.in_medium->distance;
+        end = {.p = origin.p + distance * direction,
+               .media = SideMedia::around(met.in_medium->medium)};
+    }
+    met.flight = media.flight(origin, end, direction, distance);
+}
+
+}  // namespace
+
+Encounter follow(SampleContext& sample, const SegmentEnd& origin, Vec3 direction,
+                 SegmentKey segment, const WalkPlace& place)
+{
+    Encounter met;
+    met.surface = sample.world.first_hit(origin, direction, segment);
+    if (sample.world.media().any()) {
+        pass_media(sample, origin, direction, segment, place, met);
+    }
+    return met;
+}
+
+}  // namespace bdpt

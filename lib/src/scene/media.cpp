@@ -1,0 +1,123 @@
+#include "scene/media.h"
+
+#include "math/elementary.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace bdpt {
+namespace {
+
+/// The side of `end` that a ray in direction `w` leaves to.
+MediumId medium_towards(const SegmentEnd& end, Vec3 w)
+{
+    return dot(end.ng, w) < 0.0f ? end.media.behind : end.media.ahead;
+}
+
+/// Beer-Lambert.
+Rgb attenuate(Rgb optical_depth)
+{
+    return {exp_exact(-optical_depth.r), exp_exact(-optical_depth.g), exp_exact(-optical_depth.b)};
+}
+
+float mean(Rgb value)
+{
+    return (value.r + value.g + value.b) * (1.0f / 3.0f);
+}
+
+}  // namespace
+
+MediumId Media::add(const Medium& medium)
+{
+    if (medium.is_clear()) {
+        return MediumId::clear;
+    }
+    const auto known = std::find(media_.begin() + 1, media_.end(), medium);
+    const auto id = static_cast<MediumId>(known - media_.begin());
+    // Fog ends somewhere; a body that is filled with the same does not.
+    if (known != media_.end() && id != fog_) {
+        return id;
+    }
+    media_.push_back(medium);
+    any_scatters_ = any_scatters_ || medium.scatters();
+    return static_cast<MediumId>(media_.size() - 1);
+}
+
+MediumId Media::add_fog(const Medium& medium, const BoundingSphere& extent)
+{
+    fog_ = add(medium);
+    extent_ = extent;
+    return fog_;
+}
+
+MediumId Media::scatterer(const SegmentEnd& a, const SegmentEnd& b, Vec3 w) const noexcept
+{
+    const MediumId one = medium_towards(a, w);
+    const MediumId other = medium_towards(b, -w);
+    const bool one_scatters = (*this)[one].scatters();
+    if (one == other || !(*this)[other].scatters()) {
+        return one_scatters ? one : MediumId::clear;
+    }
+    if (!one_scatters) {
+        return other;
+    }
+    const float density = mean((*this)[one].extinction);
+    const float other_density = mean((*this)[other].extinction);
+    return density > other_density || (density == other_density && one < other) ? one : other;
+}
+
+Media::Span Media::filled(MediumId medium, Vec3 from, Vec3 w, float distance) const noexcept
+{
+    if (medium != fog_) {
+        return {0.0f, distance};
+    }
+    using DVec3 = glm::dvec3;
+    const DVec3 direction = glm::normalize(DVec3(w));
+    const DVec3 offset = DVec3(from) - DVec3(extent_.center);
+    const double radius = static_cast<double>(extent_.radius);
+    const double middle = -dot(offset, direction);
+    const double half_squared = middle * middle - (dot(offset, offset) - radius * radius);
+    if (half_squared <= 0.0) {
+        return {};
+    }
+    const double half = std::sqrt(half_squared);
+    const double most = static_cast<double>(distance);
+    return {static_cast<float>(std::clamp(middle - half, 0.0, most)),
+            static_cast<float>(std::clamp(middle + half, 0.0, most))};
+}
+
+Flight Media::flight_through(const SegmentEnd& a, const SegmentEnd& b, Vec3 w,
+                             float distance) const noexcept
+{
+    const auto depth = [&](MediumId medium) {
+        const Span span = filled(medium, a.p, w, distance);
+        return (*this)[medium].extinction * (span.end - span.begin);
+    };
+    const MediumId id = scatter(a, b, w) ? scatterer(a, b, w) : MediumId::clear;
+    if (id == MediumId::clear) {
+        return {.transmittance =
+                    attenuate(max(depth(medium_towards(a, w)), depth(medium_towards(b, -w))))};
+    }
+    const Rgb left = attenuate(depth(id));
+    return {.transmittance = left, .pass = mean(left), .stop = mean((*this)[id].extinction * left)};
+}
+
+std::optional<MediumEvent> Media::draw_event(const SegmentEnd& a, const SegmentEnd& b, Vec3 w,
+                                             float distance, Vec2 u) const noexcept
+{
+    const MediumId id = scatterer(a, b, w);
+    const Span span = filled(id, a.p, w, distance);
+    const int channel = std::min(static_cast<int>(3.0f * u.y), 2);
+    const float extinction = (*this)[id].extinction[channel];
+    const float way = -log_exact(1.0f - u.x);
+    // Not a quotient, which may be infinite.
+    if (!(way < extinction * (span.end - span.begin))) {
+        return std::nullopt;
+    }
+    return MediumEvent{.distance = std::min(span.begin + way / extinction, span.end), .medium = id};
+}
+
+}  // namespace bdpt

@@ -1,0 +1,97 @@
+#include "equality_cases.h"
+
+#include "scene_builder.h"
+
+#include <cmath>
+#include <utility>
+
+namespace bdpt::test {
+namespace {
+
+const MediumDesc mist{.extinction = {0.2f, 0.4f, 0.8f}, .albedo = {0.9f, 0.8f, 0.6f}};
+
+SceneBuilder lit_room()
+{
+    SceneBuilder builder;
+    builder.walls(lambertian(Rgb(0.7f)), lambertian({0.7f, 0.5f, 0.3f}));
+    builder.ceiling(lambertian(Rgb(0.7f))).lamp(0.9f, 0.7f, Rgb(4.0f, 3.5f, 3.0f));
+    return builder;
+}
+
+EqualityCase of(std::string name, SceneBuilder builder)
+{
+    EqualityCase result{
+        .name = std::move(name), .scene = std::move(builder.desc), .camera = room_camera()};
+    // A vertex in a medium may lie as close to the lens as it likes: splats alone have no finite
+    // variance.
+    result.seen_by_lt = std::nullopt;
+    return result;
+}
+
+/// A body whose boundary does nothing but let light in.
+MaterialDesc inside_of(Rgb attenuation, float distance, VolumeScatterDesc scatter)
+{
+    MaterialDesc material = glass(0.0f);
+    material.ior = 1.0f;
+    material.attenuation_color = attenuation;
+    material.attenuation_distance = distance;
+    material.volume_scatter = scatter;
+    return material;
+}
+
+EqualityCase fog()
+{
+    SceneBuilder builder = lit_room();
+    builder.sphere({0.3f, -0.6f, 0.1f}, 0.4f, plastic(Rgb(0.6f), 0.4f), 24);
+    builder.desc.fog = mist;
+    builder.desc.fog->anisotropy = 0.5f;
+    return of("fog that colours light", std::move(builder));
+}
+
+EqualityCase fog_under_sky()
+{
+    SceneBuilder builder;
+    builder.walls(lambertian(Rgb(0.7f)), lambertian({0.7f, 0.5f, 0.3f}));
+    EnvironmentLightDesc sky{.radiance = {.width = 4, .height = 2, .pixels = {}}};
+    for (int i = 0; i < 8; ++i) {
+        sky.radiance.pixels.emplace_back(0.5f + 0.2f * static_cast<float>(i));
+    }
+    builder.light(std::move(sky));
+    builder.desc.fog = mist;
+    return of("fog under a sky", std::move(builder));
+}
+
+/// What scatters within a rough boundary, beside what scatters within no boundary at all.
+EqualityCase bodies()
+{
+    SceneBuilder builder = lit_room();
+    MaterialDesc wax = lambertian(Rgb(0.9f));
+    wax.thickness = 1.0f;
+    wax.diffuse_transmission.factor = 0.8f;
+    wax.attenuation_color = {0.5f, 0.3f, 0.2f};
+    wax.attenuation_distance = 0.3f;
+    wax.volume_scatter = {.color = {0.9f, 0.7f, 0.5f}, .anisotropy = 0.3f};
+    builder.sphere({-0.45f, -0.5f, 0.0f}, 0.45f, wax, 24);
+    builder.sphere({0.5f, -0.5f, 0.2f}, 0.4f,
+                   inside_of({0.3f, 0.5f, 0.6f}, 0.5f, {Rgb(0.8f), -0.3f}), 24);
+    EqualityCase result = of("bodies that scatter", std::move(builder));
+    result.max_depth = 5;
+    return result;
+}
+
+EqualityCase lens_in_fog()
+{
+    EqualityCase result = fog();
+    result.name = "a wide lens in fog";
+    result.camera = with_lens(room_camera(), 0.8f, 3.4f);
+    return result;
+}
+
+}  // namespace
+
+std::vector<EqualityCase> media_cases()
+{
+    return {fog(), fog_under_sky(), bodies(), lens_in_fog()};
+}
+
+}  // namespace bdpt::test

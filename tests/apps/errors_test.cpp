@@ -118,6 +118,18 @@ TEST_CASE("wrong usage gives exit code 2 and names the option")
     rejects({"--env-rotation", "361"}, "--env-rotation \"361\"");
     rejects({"--env-intensity", "-1"}, "--env-intensity \"-1\"");
     rejects({"--env-intensity", "inf"}, "--env-intensity");
+    rejects({"--fog", "-1"}, "--fog \"-1\"");
+    rejects({"--fog", "nan"}, "--fog");
+    rejects({"--fog", "inf"}, "--fog");
+    rejects({"--fog", "1,2"}, "--fog \"1,2\"");
+    rejects({"--fog", "1,2,-3"}, "--fog");
+    rejects({"--fog", "1", "--fog-albedo", "1.5"}, "--fog-albedo \"1.5\"");
+    rejects({"--fog", "1", "--fog-albedo", "0.5,0.5,x"}, "--fog-albedo");
+    rejects({"--fog", "1", "--fog-anisotropy", "1"}, "--fog-anisotropy \"1\"");
+    rejects({"--fog", "1", "--fog-anisotropy", "nan"}, "--fog-anisotropy");
+    rejects({"--fog-albedo", "0.5"}, "--fog with it");
+    rejects({"--fog-anisotropy", "0.5"}, "--fog with it");
+    rejects({"--fog", "1", "--ground", "shadow", "--background", "black"}, "--fog \"1\"");
     rejects({"--look-at", "1,2"}, "--look-at \"1,2\"");
     rejects({"--from", "1,2,x"}, "--from \"1,2,x\"");
     rejects({"--from", "1,2,nan"}, "--from");

@@ -219,6 +219,38 @@ TEST_CASE("options --env-rotation and --env-intensity change the environment")
     CHECK(none.err.find("--env-rotation and --env-intensity do nothing") != std::string::npos);
 }
 
+TEST_CASE("options --fog fill the scene")
+{
+    const ScratchFolder folder;
+    const std::string scene = write_cube(folder, "grey", {.cameras = two_cameras}).string();
+    const auto file = [&](const Words& more) {
+        Words words{"render", scene,   "--spp", "16",
+                    "--size", "32x16", "-o",    (folder / "out.exr").string()};
+        words.insert(words.end(), more.begin(), more.end());
+        DisplayFolder::check(run(words));
+        return read_exr(folder / "out.exr");
+    };
+    const auto brightness = [](const ExrFile& image) {
+        float sum = 0.0f;
+        for (const Rgb& pixel : image.image.pixels) {
+            sum += pixel.g;
+        }
+        return sum;
+    };
+    const float clear = brightness(file({}));
+    const float smoke = brightness(file({"--fog", "0.1", "--fog-albedo", "0"}));
+    const float mist = brightness(file({"--fog", "0.1"}));
+    CHECK(smoke < 0.97f * clear);
+    CHECK(mist > smoke);
+    CHECK(brightness(file({"--fog", "0"})) == clear);
+    const ExrFile all =
+        file({"--fog", "0.1,0.2,0.3", "--fog-albedo", "0.5", "--fog-anisotropy", "-0.25"});
+    const auto settings = nlohmann::json::parse(all.text("bdpt.settings"))["fog"];
+    CHECK(settings["extinction"][2].get<float>() == 0.3f);
+    CHECK(settings["albedo"][0] == 0.5);
+    CHECK(settings["anisotropy"] == -0.25);
+}
+
 TEST_CASE("the default environment is brighter with --env-intensity, too")
 {
     const ScratchFolder folder;

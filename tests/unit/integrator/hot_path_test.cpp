@@ -90,6 +90,8 @@ SceneDesc everything()
     absorbing.dispersion = 1.0f;
     absorbing.attenuation_distance = 0.2f;
     absorbing.attenuation_color = {0.9f, 0.5f, 0.4f};
+    absorbing.volume_scatter = {.color = Rgb(0.8f), .anisotropy = 0.5f};
+    builder.desc.fog = MediumDesc{.extinction = {0.2f, 0.3f, 0.4f}, .albedo = Rgb(0.8f)};
     const MeshId ball = builder.sphere_mesh(12);  // shared: instances
     float x = -0.75f;
     for (const MaterialDesc& material :

@@ -101,6 +101,28 @@ TEST_CASE("roulette that lets every walk go on changes no bit", "[purity]")
     }
 }
 
+TEST_CASE("the same bits in media, for any threads, tiles, parts and crops", "[purity][media]")
+{
+    SceneBuilder builder;
+    builder.walls(test::lambertian(Rgb(0.7f)), test::plastic(Rgb(0.6f), 0.3f));
+    builder.lamp(0.9f, 0.4f, Rgb(5.0f));
+    MaterialDesc milk = test::glass(0.3f);
+    milk.attenuation_color = {0.3f, 0.4f, 0.5f};
+    milk.attenuation_distance = 0.2f;
+    milk.volume_scatter = {.color = Rgb(0.9f), .anisotropy = 0.4f};
+    builder.sphere({0.3f, -0.5f, 0.2f}, 0.4f, milk, 16);
+    builder.desc.fog = MediumDesc{.extinction = {0.2f, 0.4f, 0.8f}, .albedo = {0.9f, 0.8f, 0.7f}};
+    const Scene scene(std::move(builder.desc));
+    for (const auto kind : {IntegratorKind::mis, IntegratorKind::lt, IntegratorKind::bdpt,
+                            IntegratorKind::vcm, IntegratorKind::automatic}) {
+        CAPTURE(static_cast<int>(kind));
+        RenderOptions o = options(kind);
+        o.sampling.samples = {.begin = 0, .end = 6};
+        o.system.threads = 1;
+        test::check_purity(scene, o, render(scene, test::room_camera(), o));
+    }
+}
+
 TEST_CASE("the same bits for a scene that is built again", "[purity]")
 {
     CHECK(film_of(room(), options(IntegratorKind::bdpt)) ==

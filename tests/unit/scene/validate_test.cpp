@@ -175,6 +175,13 @@ TEST_CASE("lights and images", "[validate]")
     });
     check_refused("there are 2 environment lights",
                   [](SceneDesc& d) { d.lights.push_back(d.lights[1]); });
+    const auto fog = [](MediumDesc medium) { return [medium](SceneDesc& d) { d.fog = medium; }; };
+    constexpr float infinite = std::numeric_limits<float>::infinity();
+    check_refused("fog: extinction is -1", fog({.extinction = {0, -1, 0}}));
+    check_refused("fog: extinction is inf", fog({.extinction = {0, infinite, 0}}));
+    check_refused("fog: albedo is 1.1", fog({.albedo = {0, 0, 1.1f}}));
+    check_refused("fog: anisotropy is 1", fog({.anisotropy = 1.0f}));
+    check_refused("fog: anisotropy is -1", fog({.anisotropy = -1.0f}));
     check_refused("image 0: 2 x 1 texels with 4 bytes",
                   [](SceneDesc& d) { d.images[0].width = 2; });
     check_refused("image 0: 1 x 1 texels with 4 bytes",

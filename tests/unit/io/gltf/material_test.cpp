@@ -88,6 +88,36 @@ TEST_CASE("the factors of a material are read")
     CHECK(material.attenuation_color == Rgb(0.5f, 1, 0.25f));
 }
 
+TEST_CASE("bodies that scatter are read, by either name of their colour")
+{
+    const auto scatter = [](const nlohmann::json& extension) {
+        return with_material(
+                   {{"extensions",
+                     {{"KHR_materials_diffuse_transmission", {{"diffuseTransmissionFactor", 1}}},
+                      {"KHR_materials_volume", {{"thicknessFactor", 1}}},
+                      {"KHR_materials_volume_scatter", extension}}}})
+            .load();
+    };
+    const auto of = [](const LoadedScene& loaded) {
+        return loaded.scene.materials.at(0).volume_scatter;
+    };
+    const LoadedScene loaded =
+        scatter({{"multiscatterColor", {0.5, 0.25, 0}}, {"scatterAnisotropy", 0.75}});
+    CHECK(of(loaded).color == Rgb(0.5f, 0.25f, 0.0f));
+    CHECK(of(loaded).anisotropy == 0.75f);
+    CHECK(loaded.warnings.empty());
+    CHECK(of(scatter({{"multiscatterColorFactor", {1, 0.5, 0.25}}})).color ==
+          Rgb(1.0f, 0.5f, 0.25f));
+    CHECK(of(scatter(nlohmann::json::object())).color == Rgb(0.0f));
+    const LoadedScene beyond =
+        scatter({{"multiscatterColor", {2, 0, 0}}, {"scatterAnisotropy", -1}});
+    CHECK(of(beyond).color == Rgb(1, 0, 0));
+    CHECK(of(beyond).anisotropy == -most_anisotropy);
+    CHECK(warns(beyond.warnings, {"/materials/0/", "multiscatterColor", "and 1 more"}));
+    CHECK_THROWS_AS(scatter({{"multiscatterColor", "red"}}), Error);
+    CHECK_THROWS_AS(scatter({{"scatterAnisotropy", {1}}}), Error);
+}
+
 TEST_CASE("values beyond their ranges are brought back with a warning")
 {
     const LoadedScene loaded =

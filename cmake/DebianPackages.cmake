@@ -1,6 +1,6 @@
 # cpack -G DEB, in the build folder: bdpt (the command, the libraries, man pages, completions, documents),
-# bdpt-openimageio (the module that reads TIFF images) and libbdpt-dev (headers, and what CMake and
-# pkg-config need).
+# bdpt-openimageio (the module that reads TIFF images), libbdpt-dev (headers, and what CMake and pkg-config need)
+# and, if the Python package is built with Debian's Python, python3-bdpt.
 if(NOT BUILD_SHARED_LIBS OR NOT BDPT_BUILD_APPS)
   return()
 endif()
@@ -43,4 +43,18 @@ set(CPACK_DEBIAN_BDPT_DEVELOPMENT_DESCRIPTION
 "bidirectional path tracing for programs
 Headers of the libraries bdpt, bdpt_io and bdpt_eval, and their packages for
 CMake and pkg-config.")
+
+if(BDPT_BUILD_PYTHON AND BDPT_PYTHON_DEBIAN_DEPENDS)
+  list(APPEND CPACK_COMPONENTS_ALL bdpt_python)
+  set(CPACK_DEBIAN_BDPT_PYTHON_PACKAGE_NAME python3-bdpt)
+  set(CPACK_DEBIAN_BDPT_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_BDPT_PYTHON_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_BDPT_PYTHON_PACKAGE_DEPENDS "bdpt (= ${PROJECT_VERSION}), ${BDPT_PYTHON_DEBIAN_DEPENDS}")
+  set(CPACK_DEBIAN_BDPT_PYTHON_PACKAGE_CONTROL_EXTRA
+      "${PROJECT_SOURCE_DIR}/cmake/python/postinst;${PROJECT_SOURCE_DIR}/cmake/python/prerm")
+  set(CPACK_DEBIAN_BDPT_PYTHON_DESCRIPTION
+"bidirectional path tracing for Python
+The Python package bdpt renders glTF scenes, or scenes of NumPy arrays, to
+NumPy arrays and image files, with the options and the bits of the command.")
+endif()
 include(CPack)

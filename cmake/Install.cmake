@@ -83,4 +83,7 @@ install(FILES LICENSE RENAME copyright DESTINATION "${CMAKE_INSTALL_DOCDIR}"
         COMPONENT bdpt_runtime)  # where Debian looks for it
 install(DIRECTORY docs DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT bdpt_runtime
         FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.svg")
+if(BDPT_BUILD_PYTHON AND BDPT_BUILD_APPS)
+  include(cmake/InstallPython.cmake)
+endif()
 include(cmake/DebianPackages.cmake)

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Completions and man pages, as shells and man readers take them: completion_test.py FOLDER SHELL.
+"""Completions and man pages, as shells and man readers take them: completion_test.py [--installed] FOLDER SHELL.
 
-FOLDER is what bdpt_manual wrote, SHELL is bash, zsh, fish or man. Exits with 77 where that is not installed. Runs in a
-folder that has scene.glb, and in which bdpt need not be there: completions do not start it.
+FOLDER is what bdpt_manual wrote, SHELL is bash, zsh, fish or man. With --installed FOLDER is PREFIX/share of an installation,
+whose files shells find by the name of the command; bash does so by the package bash-completion. Exits with 77 where the shell
+is not installed. Runs in a folder that has scene.glb, and in which bdpt need not be there: completions do not start it.
 """
 
 import os
@@ -30,6 +31,7 @@ CASES = [
     ("bdpt help ver", ["verify"], ["render"]),
 ]
 SECONDS = 20.0
+BASH_COMPLETION = "/usr/share/bash-completion/bash_completion"
 
 
 class InteractiveShell:
@@ -69,30 +71,34 @@ class InteractiveShell:
 class Fish:
     """fish tells what it would offer without a terminal."""
 
-    def __init__(self, file):
-        self.file = file
+    def __init__(self, setup):
+        self.setup = setup
 
     def complete(self, line):
-        script = f"source {self.file}; complete -C '{line}'"
+        script = f"{self.setup}; complete -C '{line}'"
         return subprocess.run(["fish", "-c", script], capture_output=True, text=True, check=True).stdout
 
     def close(self):
         pass
 
 
-def start(shell, folder):
+def start(shell, folder, installed):
     if shell == "bash":
+        file = BASH_COMPLETION if installed else f"{folder}/bash/bdpt"
         return InteractiveShell(["bash", "--norc", "-i"],
-                                f"bind 'set enable-bracketed-paste off'; source {folder}/bash/bdpt")
+                                f"bind 'set enable-bracketed-paste off'; export XDG_DATA_DIRS={folder}; source {file}")
     if shell == "zsh":
-        return InteractiveShell(["zsh", "-f", "-i"], f"setopt no_beep; fpath=({folder}/zsh $fpath); "
+        functions = "zsh/site-functions" if installed else "zsh"
+        return InteractiveShell(["zsh", "-f", "-i"], f"setopt no_beep; LISTMAX=1000; fpath=({folder}/{functions} $fpath); "
                                 "autoload -U compinit; compinit -u -D")
-    return Fish(f"{folder}/fish/bdpt.fish")
+    if installed:  # fish looks for completions of commands that are there
+        return Fish(f"set PATH {folder}/../bin $PATH; set fish_complete_path {folder}/fish/vendor_completions.d")
+    return Fish(f"source {folder}/fish/bdpt.fish")
 
 
-def check_shell(shell, folder):
+def check_shell(shell, folder, installed):
     faults = []
-    session = start(shell, folder)
+    session = start(shell, folder, installed)
     for line, there, absent in CASES:
         shown = session.complete(line)
         words = set(re.findall(r"[\w.-]+", shown))
@@ -125,16 +131,20 @@ def check_pages(folder):
 
 
 def main():
-    folder, shell = os.path.abspath(sys.argv[1]), sys.argv[2]
+    installed = sys.argv[1] == "--installed"
+    folder, shell = os.path.abspath(sys.argv[-2]), sys.argv[-1]
     program = "mandoc" if shell == "man" else shell
     if shutil.which(program) is None:
         print(f"skipped: {program} is not installed")
+        return 77
+    if installed and shell == "bash" and not os.path.exists(BASH_COMPLETION):
+        print("skipped: bash-completion is not installed")
         return 77
     with tempfile.TemporaryDirectory() as place:
         os.chdir(place)
         os.mkdir("folder")
         pathlib.Path("scene.glb").touch()
-        faults = check_pages(folder) if shell == "man" else check_shell(shell, folder)
+        faults = check_pages(folder) if shell == "man" else check_shell(shell, folder, installed)
     print("\n".join(faults))
     return 1 if faults else 0
 

@@ -204,6 +204,37 @@ make_debian_packages() {
     lib/bdpt/libbdpt_oiio.so lib/libbdpt.so lib/cmake/bdpt/bdptConfig.cmake; do
     [[ -s $folder/unpacked/usr/$file ]] || fail "no $file"
   done
+  check_python_package "$folder"
+}
+
+# python3-bdpt, with the Python it is built for. Another Python than Debian's makes no package.
+check_python_package() {
+  local folder=$1 packages
+  packages=("$folder"/python3-bdpt_"${VERSION}"_*.deb)
+  if [[ -z $PYTHON_DEPENDS ]]; then
+    [[ ! -e ${packages[0]} ]] || fail "a package for a Python that is not Debian's"
+    echo "no package python3-bdpt: the Python package is not built, or not with Debian's Python"
+    return
+  fi
+  local depends usr=$folder/unpacked/usr
+  depends=$(dpkg-deb -f "${packages[0]}" Depends)
+  [[ $depends == "bdpt (= $VERSION), $PYTHON_DEPENDS, "*libstdc++6* ]] || fail "python3-bdpt depends on: $depends"
+  # What its module is compiled for.
+  local abi
+  abi=$(dpkg-deb -c "${packages[0]}" | sed -n 's/.*_bdpt\.cpython-3\([0-9]*\)-.*/\1/p')
+  [[ $depends == *"python3 (>= 3.$abi), python3 (<< 3.$((abi + 1))), python3-numpy"* ]] \
+    || fail "python3-bdpt with a module for Python 3.$abi depends on: $depends"
+  dpkg-deb -x "${packages[0]}" "$folder/unpacked"
+  cmp "$SOURCE/LICENSE" "$usr/share/doc/python3-bdpt/copyright"
+  dpkg-deb -e "${packages[0]}" "$folder/control"
+  [[ -x $folder/control/postinst && -x $folder/control/prerm ]] || fail "nothing removes what Python compiles"
+  PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$usr/lib/python3/dist-packages "$PYTHON" "$here/check_python.py" \
+    "$usr" "$usr/bin/bdpt" "$SOURCE/scenes/cornell-box.gltf" "$VERSION"
+}
+
+# Completions where they are installed, as shells find them by the name of the command.
+check_completions() {
+  "$PYTHON3" "$SOURCE/tests/apps/completion_test.py" --installed "$prefix/share" "$1"
 }
 
 case $1 in
@@ -215,5 +246,6 @@ case $1 in
   add_subdirectory) use_add_subdirectory ;;
   debian) make_debian_packages ;;
   core_alone) configure_core_alone ;;
+  bash | zsh | fish) check_completions "$1" ;;
   *) fail "unknown task $1" ;;
 esac

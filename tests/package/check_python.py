@@ -1,0 +1,42 @@
+"""The Python package of a Debian package that is unpacked and not installed: check_python.py USR BDPT SCENE VERSION.
+
+USR is where it was unpacked, PYTHONPATH the folder of packages in there. BDPT is the command whose bits an image must have.
+"""
+
+import importlib.metadata
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import bdpt
+import numpy as np
+
+
+def check_bits(command, scene):
+    with tempfile.TemporaryDirectory() as folder:
+        part = pathlib.Path(folder, "its.part.exr")
+        words = ["--size", "24x16", "--spp", "2", "--integrator", "bdpt"]
+        subprocess.run([command, "render", scene, *words, "--part", part, "--quiet"], check=True)
+        its = bdpt.read_part(part)
+        ours = bdpt.render(bdpt.load(scene), size=(24, 16), spp=2, integrator="bdpt")
+        assert ours.image.any() and np.array_equal(ours.image, its.image), "not the bits of the command"
+
+
+def main():
+    usr, command, scene, version = sys.argv[1:]
+    package = pathlib.Path(bdpt.__file__).parent
+    assert package == pathlib.Path(usr, "lib/python3/dist-packages/bdpt"), package
+    loaded = pathlib.Path("/proc/self/maps").read_text(encoding="utf-8")
+    libraries = {line.split()[-1] for line in loaded.splitlines() if "/libbdpt" in line}
+    assert len(libraries) == 3 and all(name.startswith(usr + "/lib/") for name in libraries), libraries
+    assert bdpt.__version__ == version, bdpt.__version__
+    known = importlib.metadata.distribution("bdpt")
+    assert known.version == version and known.read_text("INSTALLER") == "debian\n", known.version
+    assert known.requires == ["numpy"] and known.metadata["Summary"].endswith("to images"), known.metadata
+    for name in ("_bdpt.pyi", "py.typed"):
+        assert (package / name).exists(), name
+    check_bits(command, scene)
+
+
+main()

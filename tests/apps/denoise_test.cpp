@@ -82,6 +82,27 @@ TEST_CASE("with --denoise the noisy image is a layer")
     check_denoised(clean, "", plain);
 }
 
+TEST_CASE("before a backdrop colours of surfaces are denoised, and edges stay")
+{
+    const DenoiseFolder folder;
+    REQUIRE(folder
+                .render({"-o", folder.path("clean.exr"), "--background", "transparent", "--spp",
+                         "16", "--denoise", "--denoiser-library", BDPT_FAKE_OIDN})
+                .exit_code == 0);
+    const ExrChannels clean = read_channels(folder.path("clean.exr"));
+    const std::vector<float>& coverage = clean.at("A");
+    int partial = 0;
+    for (std::size_t i = 0; i < coverage.size(); ++i) {
+        // What that library adds is added to surfaces, not to what is beside them.
+        const float expected = 2.0f * clean.at("noisy.G")[i] + clean.at("albedo.G")[i] +
+                               clean.at("normal.Y")[i] + 3.0f * coverage[i];
+        CHECK(clean.at("G")[i] == Approx(expected).margin(1e-6));
+        partial += coverage[i] > 0.0f && coverage[i] < 1.0f ? 1 : 0;
+    }
+    CHECK(std::count(coverage.begin(), coverage.end(), 0.0f) > 0);
+    CHECK(partial > 0);
+}
+
 TEST_CASE("with --denoise=layer the denoised image is a layer")
 {
     const DenoiseFolder folder;

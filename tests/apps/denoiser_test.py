@@ -2,14 +2,20 @@
 """bdpt render --denoise with Open Image Denoise itself: denoiser_test.py BDPT SCENES.
 
 Takes the library from the environment variable BDPT_TEST_DENOISER, a file or its folder; exits with 77 where that is not
-set. Renders few samples of scenes whose light comes by splats, by camera samples and by both, and compares errors.
+set. Renders few samples of scenes whose light comes by splats, by camera samples and by both, and compares errors; then
+a scene on a shadow catcher, where noise of the shadow must go, and edges must not get worse over another background.
 """
 
 import json
 import os
+import pathlib
 import subprocess
 import sys
 import tempfile
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "ids"))
+from exr_file import ExrFile
 
 # A scene, how it is rendered, and how much of the error may be left. What light paths splat is as clean as the rest.
 CASES = [
@@ -19,6 +25,50 @@ CASES = [
     ("caustic-metal", ["--integrator", "bdpt"], 0.5),
 ]
 SIZE = ["--size", "96x96", "--quiet"]
+
+
+def channel(exr, name):
+    return [value for row in exr.values[name] for value in row]
+
+
+def mean_square(first, second, chosen):
+    return sum((first[i] - second[i]) ** 2 for i in chosen) / len(chosen)
+
+
+def over_white(exr, color, shadow):
+    """Of a transparent image; its shadow is another layer's."""
+    alpha = [a - s for a, s in zip(channel(exr, "A"), channel(exr, "shadow.A"))]
+    return [r + 1 - a - s for r, a, s in zip(channel(exr, color), alpha, channel(exr, shadow))]
+
+
+def check_shadow_catcher(bdpt, scenes, library, folder):
+    words = [bdpt, "render", os.path.join(scenes, "instances.gltf"), "--env", "default", "--camera", "auto", "--background",
+             "transparent", "--ground", "shadow", "--integrator", "mis", *SIZE]
+    reference, clean = (pathlib.Path(folder, name) for name in ("long.exr", "short.exr"))
+    subprocess.run([*words, "--spp", "256", "--seed", "1", "-o", reference], check=True)
+    subprocess.run([*words, "--spp", "16", "--denoise", "--denoiser-library", library, "-o", clean], check=True)
+    reference, exr = ExrFile(reference), ExrFile(clean)
+    shadow, noisy, true = channel(exr, "shadow.A"), channel(exr, "noisyShadow.A"), channel(reference, "shadow.A")
+    coverage = [a - s for a, s in zip(channel(reference, "A"), true)]
+    everywhere, edges = range(len(true)), [i for i, share in enumerate(coverage) if 0.01 < share < 0.99]
+    white = over_white(reference, "R", "shadow.A")
+    figures = {
+        "shadow": [mean_square(x, true, everywhere) for x in (noisy, shadow)],
+        "edges": [mean_square(x, white, edges)
+                  for x in (over_white(exr, "noisy.R", "noisyShadow.A"), over_white(exr, "R", "shadow.A"))],
+    }
+    for name, (before, after) in figures.items():
+        print(f"shadow catcher, {name}: mean square error {before:.4g}, denoised {after:.4g}")
+    means = sum(noisy) / len(noisy), sum(shadow) / len(shadow)
+    print(f"shadow catcher: mean {means[0]:.5f}, denoised {means[1]:.5f}; {len(edges)} pixels of edges")
+    faults = [f"shadow catcher: {name} got worse, or hardly better" for name, most in (("shadow", 0.25), ("edges", 0.5))
+              if not figures[name][1] < most * figures[name][0]]
+    if not (means[0] > 0.01 and abs(means[1] / means[0] - 1) < 0.02):
+        faults.append("shadow catcher: the mean of the shadow is another one")
+    alpha, red = channel(exr, "A"), channel(exr, "R")
+    if any(red[i] != 0 for i in everywhere if alpha[i] == shadow[i]):
+        faults.append("shadow catcher: light where nothing is")
+    return faults
 
 
 def main():
@@ -46,6 +96,7 @@ def main():
             print(f"{scene} {' '.join(options)}: relmse {noisy:.4g}, denoised {clean:.4g}")
             if not clean < most * noisy:
                 faults.append(f"{scene}: {clean} is not below {most} of {noisy}")
+        faults += check_shadow_catcher(bdpt, scenes, library, folder)
     print("\n".join(faults))
     return 1 if faults else 0
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <string_view>
+#include <vector>
+
+#include "report/image/visible_values.h"
 
 namespace bdpt::app {
 namespace {
@@ -34,6 +37,24 @@ Image denoised(const io::Denoiser& denoiser, const Image& image, std::span<const
                              .normal = albedo != nullptr ? find(layers, "normal") : nullptr});
 }
 
+Image denoised(const io::Denoiser& denoiser, const Image& image, std::span<const Layer> layers,
+               std::span<const float> coverage)
+{
+    std::vector<Layer> helpers;
+    for (const char* name : {"albedo", "normal"}) {
+        if (const Layer* layer = find(layers, name)) {
+            helpers.push_back(visible_values(*layer, coverage));
+        }
+    }
+    const Image colors = image_of(visible_values(layer_of(image, ""), coverage));
+    Image result = denoised(denoiser, colors, helpers);
+    for (std::size_t i = 0; i < result.pixels.size(); ++i) {
+        // Light paths may find what no camera ray of the pixel has found.
+        result.pixels[i] = coverage[i] > 0.0f ? coverage[i] * result.pixels[i] : image.pixels[i];
+    }
+    return result;
+}
+
 Layer layer_of(const Image& image, const char* name)
 {
     Layer layer{.name = name,
@@ -46,6 +67,16 @@ Layer layer_of(const Image& image, const char* name)
         layer.values.insert(layer.values.end(), {pixel.r, pixel.g, pixel.b});
     }
     return layer;
+}
+
+Image image_of(const Layer& layer)
+{
+    Image image{layer.width, layer.height, {}};
+    image.pixels.reserve(layer.values.size() / 3);
+    for (std::size_t i = 0; i + 2 < layer.values.size(); i += 3) {
+        image.pixels.emplace_back(layer.values[i], layer.values[i + 1], layer.values[i + 2]);
+    }
+    return image;
 }
 
 }  // namespace bdpt::app

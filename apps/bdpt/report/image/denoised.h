@@ -22,7 +22,15 @@ namespace bdpt::app {
 [[nodiscard]] Image denoised(const io::Denoiser& denoiser, const Image& image,
                              std::span<const Layer> layers);
 
+/// The same for an image that is black where surfaces do not cover it, by those shares of pixels.
+/// What is denoised are colours of surfaces, so edges stay as they are.
+[[nodiscard]] Image denoised(const io::Denoiser& denoiser, const Image& image,
+                             std::span<const Layer> layers, std::span<const float> coverage);
+
 /// The values of an image as a layer of that name.
 [[nodiscard]] Layer layer_of(const Image& image, const char* name);
+
+/// The other way round; the layer has three channels.
+[[nodiscard]] Image image_of(const Layer& layer);
 
 }  // namespace bdpt::app

@@ -75,7 +75,10 @@ WrittenImages write_image_files(std::span<const fs::path> outputs, const Image& 
     if (options.denoiser == nullptr || outputs.empty()) {
         return write_as_they_are(outputs, image, {image, noisy}, options);
     }
-    const Image clean = denoised(*options.denoiser, image, options.layers);
+    // Without a backdrop what no surface covers is the sky.
+    const Image clean = options.display.backdrop && !noisy.alpha.empty()
+                            ? denoised(*options.denoiser, image, options.layers, coverage_of(noisy))
+                            : denoised(*options.denoiser, image, options.layers);
     const Matte clean_matte = denoised(*options.denoiser, noisy, options.layers);
     const bool clean_first = options.denoised_as == DenoisedAs::image;
     if (clean_first) {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "report/image/denoised.h"
+#include "report/image/visible_values.h"
 
 namespace bdpt::app {
 namespace {
@@ -35,23 +35,36 @@ Matte matte_of(std::span<const Layer> layers)
             .shadow = shadow != nullptr ? shadow->values : std::vector<float>()};
 }
 
+std::vector<float> coverage_of(const Matte& matte)
+{
+    std::vector<float> coverage = matte.alpha;
+    for (std::size_t i = 0; i < matte.shadow.size(); ++i) {
+        coverage[i] = std::clamp(coverage[i] - matte.shadow[i], 0.0f, 1.0f);
+    }
+    return coverage;
+}
+
 Matte denoised(const io::Denoiser& denoiser, const Matte& noisy, std::span<const Layer> layers)
 {
     const Layer* shadow = find(layers, shadow_layer);
     if (shadow == nullptr || noisy.alpha.empty()) {
         return noisy;
     }
+    const std::vector<float> coverage = coverage_of(noisy);
+    std::vector<float> seen(coverage);  // of the ground
+    std::transform(seen.begin(), seen.end(), seen.begin(),
+                   [](float covered) { return 1.0f - covered; });
+    const Layer opacity = visible_values(*shadow, seen);
     Image image{shadow->width, shadow->height, {}};
-    image.pixels.reserve(noisy.shadow.size());
-    for (const float opacity : noisy.shadow) {
-        image.pixels.emplace_back(opacity);
+    image.pixels.reserve(opacity.values.size());
+    for (const float value : opacity.values) {
+        image.pixels.emplace_back(value);
     }
-    const Image clean = denoised(denoiser, image, layers);
+    const Image clean = denoiser.denoise({.image = image});
     Matte result = noisy;
     for (std::size_t i = 0; i < clean.pixels.size(); ++i) {
-        const float covered = noisy.alpha[i] - noisy.shadow[i];
-        result.shadow[i] = std::clamp(clean.pixels[i].g, 0.0f, 1.0f - covered);
-        result.alpha[i] = covered + result.shadow[i];
+        result.shadow[i] = seen[i] * std::clamp(clean.pixels[i].g, 0.0f, 1.0f);
+        result.alpha[i] = coverage[i] + result.shadow[i];
     }
     return result;
 }

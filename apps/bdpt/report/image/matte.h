@@ -17,7 +17,11 @@ struct Matte {
 
 [[nodiscard]] Matte matte_of(std::span<const Layer> layers);
 
-/// `noisy` with its shadow denoised, by the help of the layers that it is of.
+/// Shares of pixels that surfaces cover: alpha without the shadow.
+[[nodiscard]] std::vector<float> coverage_of(const Matte& matte);
+
+/// `noisy` with its shadow denoised: its opacity where the ground is seen. The layers are those
+/// that it is of.
 [[nodiscard]] Matte denoised(const io::Denoiser& denoiser, const Matte& noisy,
                              std::span<const Layer> layers);
 

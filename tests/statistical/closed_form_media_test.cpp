@@ -101,7 +101,7 @@ TEST_CASE("single scattering of a point light", "[closed-form][media]")
         CAPTURE(g);
         for (const auto kind :
              {IntegratorKind::pt, IntegratorKind::nee, IntegratorKind::mis, IntegratorKind::bdpt}) {
-            check_mean(scene, camera, options(kind, 2), expected, 0.01);
+            check_mean(scene, camera, options(kind, 2), expected, 0.015);
         }
     }
 }

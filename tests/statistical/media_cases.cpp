@@ -22,6 +22,7 @@ EqualityCase of(std::string name, SceneBuilder builder)
 {
     EqualityCase result{
         .name = std::move(name), .scene = std::move(builder.desc), .camera = room_camera()};
+    result.detectable_bias = 0.05;
     // A vertex in a medium may lie as close to the lens as it likes: splats alone have no finite
     // variance.
     result.seen_by_lt = std::nullopt;

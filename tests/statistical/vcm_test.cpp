@@ -99,6 +99,11 @@ TEST_CASE("vcm with a small radius agrees with mis: alpha, layers and many light
     check_small_radius(normal_map_cases(), 3, 560000);
 }
 
+TEST_CASE("vcm with a small radius agrees with mis: media", "[equality][media][vcm]")
+{
+    check_small_radius(media_cases(), 2, 590000);
+}
+
 TEST_CASE("vcm with a small radius agrees with mis: what moves", "[equality][motion][vcm]")
 {
     // All pixels of a sample have one time, so samples must be evenly spread over time.

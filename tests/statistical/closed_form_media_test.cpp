@@ -5,6 +5,7 @@
 #include "scene_builder.h"
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include <cmath>
 #include <utility>
@@ -69,6 +70,29 @@ TEST_CASE("fog that absorbs nothing under an even sky is not seen", "[closed-for
             o.transport.max_depth = 16;
         }
         check_mean(scene, camera, o, 1.0, 0.02);
+    }
+}
+
+TEST_CASE("a volume of even density is a medium", "[closed-form][media]")
+{
+    SceneBuilder fog;
+    fog.light(EnvironmentLightDesc{.radiance = {.width = 1, .height = 1, .pixels = {Rgb(1)}}});
+    VolumeDesc volume;
+    volume.size = {6, 6, 6};
+    volume.density.assign(216, 0.7f);
+    volume.world_from_grid = glm::translate(Mat4(1.0f), Vec3(-3.0f));
+    volume.anisotropy = 0.5f;
+    fog.desc.volumes.push_back(volume);
+    const Scene white(fog.desc);
+    fog.desc.volumes.front().albedo = Rgb(0.0f);
+    const Scene black(std::move(fog.desc));
+    const CameraDesc camera = camera_at({0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -1.0f}, 0.002f);
+    // Half a voxel on the border goes linearly to half of the density.
+    const double through = std::exp(-0.7 * (2.5 + 0.5 * 0.75));
+    for (const auto kind :
+         {IntegratorKind::pt, IntegratorKind::nee, IntegratorKind::mis, IntegratorKind::bdpt}) {
+        check_mean(black, camera, options(kind, 3), through, 0.02);
+        check_mean(white, camera, options(kind, kind == IntegratorKind::bdpt ? 24 : 60), 1.0, 0.02);
     }
 }
 

@@ -2,7 +2,10 @@
 
 #include "scene_builder.h"
 
-#include <cmath>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cstdint>
 #include <utility>
 
 namespace bdpt::test {
@@ -88,11 +91,34 @@ EqualityCase lens_in_fog()
     return result;
 }
 
+/// A cloud that is denser in the middle, beside fog and a body within it.
+EqualityCase cloud()
+{
+    SceneBuilder builder = lit_room();
+    builder.sphere({0.4f, -0.2f, 0.2f}, 0.3f, plastic(Rgb(0.6f), 0.4f), 24);
+    VolumeDesc volume;
+    volume.size = {12, 10, 9};
+    for (std::uint32_t i = 0; i < 12 * 10 * 9; ++i) {
+        const Vec3 at(i % 12, i / 12 % 10, i / 120);
+        const Vec3 offset = (at - Vec3(5.5f, 4.5f, 4.0f)) / Vec3(6.0f, 5.0f, 4.5f);
+        volume.density.push_back(std::max(0.0f, 1.0f - dot(offset, offset)) *
+                                 (i % 3 == 0 ? 1.5f : 0.5f));
+    }
+    volume.world_from_grid =
+        glm::scale(glm::translate(Mat4(1.0f), Vec3(-0.8f, -0.7f, -0.6f)), Vec3(0.14f));
+    volume.extinction = 3.0f;
+    volume.albedo = {0.9f, 0.7f, 0.5f};
+    volume.anisotropy = 0.4f;
+    builder.desc.volumes.push_back(std::move(volume));
+    builder.desc.fog = MediumDesc{.extinction = {0.05f, 0.1f, 0.15f}, .albedo = Rgb(0.8f)};
+    return of("a cloud in fog", std::move(builder));
+}
+
 }  // namespace
 
 std::vector<EqualityCase> media_cases()
 {
-    return {fog(), fog_under_sky(), bodies(), lens_in_fog()};
+    return {fog(), fog_under_sky(), bodies(), lens_in_fog(), cloud()};
 }
 
 }  // namespace bdpt::test

@@ -7,6 +7,7 @@
 #include <bdpt/medium_desc.h>
 #include <bdpt/scene_ids.h>
 #include <bdpt/types.h>
+#include <bdpt/volume_desc.h>
 
 #include <array>
 #include <cstdint>
@@ -71,6 +72,7 @@ struct SceneDesc {
     TextureFilter texture_filter = TextureFilter::bilinear;
     /// Around all bodies; it fills the sphere around the bounds of the scene.
     std::optional<MediumDesc> fog{};
+    std::vector<VolumeDesc> volumes{};
 };
 
 /// How a camera maps directions or points to the film.
@@ -115,7 +117,8 @@ inline constexpr auto fields<SceneDesc> =
     all_fields(Field{"images", &SceneDesc::images}, Field{"materials", &SceneDesc::materials},
                Field{"meshes", &SceneDesc::meshes}, Field{"instances", &SceneDesc::instances},
                Field{"profiles", &SceneDesc::profiles}, Field{"lights", &SceneDesc::lights},
-               Field{"texture filter", &SceneDesc::texture_filter}, Field{"fog", &SceneDesc::fog});
+               Field{"texture filter", &SceneDesc::texture_filter}, Field{"fog", &SceneDesc::fog},
+               Field{"volumes", &SceneDesc::volumes});
 /// Fields of `CameraDesc`, with names and limits.
 template <>
 inline constexpr auto fields<CameraDesc> = all_fields(

@@ -19,6 +19,7 @@ InspectedKind kind_of(VertexKind kind)
         case VertexKind::surface:
             return InspectedKind::surface;
         case VertexKind::medium:
+        case VertexKind::volume:
             return InspectedKind::medium;
         case VertexKind::infinite:
             return InspectedKind::infinite;

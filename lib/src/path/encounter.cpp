@@ -29,6 +29,16 @@ void pass_media(SampleContext& sample, const SegmentEnd& origin, Vec3 direction,
         end = {.p = origin.p + distance * direction,
                .media = SideMedia::around(met.in_medium->medium)};
     }
+    const Volumes& volumes = sample.world.volumes();
+    if (volumes.any()) {
+        met.in_volume = volumes.draw_event(origin.p, direction, distance, segment);
+    }
+    if (met.in_volume) {
+        met.in_medium.reset();
+        met.around = media.along(origin, end, direction);
+        distance = met.in_volume->distance;
+        end = {.p = origin.p + distance * direction, .media = SideMedia::around(met.around)};
+    }
     met.flight = media.flight(origin, end, direction, distance);
 }
 
@@ -39,7 +49,7 @@ Encounter follow(SampleContext& sample, const SegmentEnd& origin, Vec3 direction
 {
     Encounter met;
     met.surface = sample.world.first_hit(origin, direction, segment);
-    if (sample.world.media().any()) {
+    if (sample.world.media().any() || sample.world.volumes().any()) {
         pass_media(sample, origin, direction, segment, place, met);
     }
     return met;

@@ -1,21 +1,37 @@
 #pragma once
 
+#include "path/path_vertex.h"
 #include "path/sample_context.h"
 
 #include <optional>
 
 namespace bdpt {
 
-/// What a ray comes to first: a point where a medium scatters it, a surface, or neither.
+/// What a ray comes to first: a point where a medium or a volume scatters it, a surface, or
+/// nothing.
 struct Encounter {
     std::optional<MediumEvent> in_medium;
-    std::optional<RayHit> surface;  ///< of the ray, whether or not it gets there
-    Flight flight;                  ///< to where it ends
+    std::optional<VolumeEvent> in_volume;
+    std::optional<RayHit> surface;      ///< of the ray, whether or not it gets there
+    Flight flight;                      ///< to where it ends
+    MediumId around = MediumId::clear;  ///< of a point in a volume
 
     /// Probability of getting there, or its density along the ray.
+    /// Volumes are left out: what they let through, their extinction, too.
     [[nodiscard]] float probability() const { return flight.to(in_medium.has_value()); }
-    /// What a throughput is multiplied by.
-    [[nodiscard]] Rgb weight() const { return flight.transmittance / probability(); }
+    /// What a throughput is multiplied by. Walks get through volumes by chance, as often as light.
+    [[nodiscard]] Rgb weight() const
+    {
+        const Rgb weight = flight.transmittance / probability();
+        return in_volume ? weight / in_volume->extinction : weight;
+    }
+    [[nodiscard]] bool is_nothing() const { return !in_medium && !in_volume && !surface; }
+    [[nodiscard]] VertexKind kind() const
+    {
+        return in_volume   ? VertexKind::volume
+               : in_medium ? VertexKind::medium
+                           : VertexKind::surface;
+    }
 };
 
 /// Which walk it is, and how many vertices it has.
@@ -33,6 +49,9 @@ struct WalkPlace {
                                            const SegmentEnd& origin, Vec3 direction,
                                            SegmentKey segment)
 {
+    if (met.in_volume) {
+        return sample.world.volume_point(origin, direction, *met.in_volume, met.around);
+    }
     return met.in_medium ? sample.world.medium_point(origin, direction, *met.in_medium)
                          : sample.world.surface_at(*met.surface, direction, segment,
                                                    sample.camera.pixel_cone());

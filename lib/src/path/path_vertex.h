@@ -19,7 +19,8 @@ enum class VertexKind : std::uint8_t {
     camera,   ///< on the lens
     light,    ///< where a light path starts, or a point found by next-event estimation
     surface,  ///< on a surface, which may emit
-    medium,   ///< in a medium, which scatters
+    medium,   ///< in a homogeneous medium, which scatters
+    volume,   ///< in a volume, whose density varies: densities of walks leave its extinction out
     infinite  ///< on a light at infinity: `end.p` is the unit direction towards it
 };
 
@@ -51,7 +52,7 @@ static_assert(std::is_trivially_copyable_v<PathVertex> && sizeof(PathVertex) <= 
 /// Does light change its direction at such a vertex, by its `bsdf`?
 [[nodiscard]] constexpr bool scatters(VertexKind kind)
 {
-    return kind == VertexKind::surface || kind == VertexKind::medium;
+    return kind == VertexKind::surface || kind == VertexKind::medium || kind == VertexKind::volume;
 }
 
 /// Can a strategy join at this vertex, which lies inside of a subpath?

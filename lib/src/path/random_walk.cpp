@@ -49,7 +49,7 @@ void append_point(const SurfacePoint& point, float distance_squared, const Step&
     PathVertex& previous = path.back();
     PathVertex& vertex = path.append();
     vertex.end = point.end;
-    vertex.kind = met.in_medium ? VertexKind::medium : VertexKind::surface;
+    vertex.kind = met.kind();
     vertex.beta = step.beta * met.weight();
     vertex.emission = point.emission;
     vertex.light = point.light;
@@ -133,7 +133,7 @@ bool survives(Rgb& beta, Rgb full, float least, Sampler& sampler)
 const SurfacePoint* shade(const SampleContext& sample, const Step& step, const Encounter& met,
                           SegmentKey segment, Subpath& path)
 {
-    if (!met.in_medium && !met.surface) {
+    if (met.is_nothing()) {
         return nullptr;
     }
     const PhaseScope scope(sample.clock, Phase::shade);

@@ -69,6 +69,15 @@ MediumId Media::scatterer(const SegmentEnd& a, const SegmentEnd& b, Vec3 w) cons
     return density > other_density || (density == other_density && one < other) ? one : other;
 }
 
+MediumId Media::along(const SegmentEnd& a, const SegmentEnd& b, Vec3 w) const noexcept
+{
+    if (const MediumId id = scatterer(a, b, w); id != MediumId::clear) {
+        return id;
+    }
+    const MediumId one = medium_towards(a, w);
+    return one != MediumId::clear ? one : medium_towards(b, -w);
+}
+
 Media::Span Media::filled(MediumId medium, Vec3 from, Vec3 w, float distance) const noexcept
 {
     if (medium != fog_) {

@@ -56,6 +56,8 @@ public:
         const bool clear = a.media.are_clear() && b.media.are_clear();
         return clear ? Flight{} : flight_through(a, b, w, distance);
     }
+    /// Of the segment: one that scatters, or else one that absorbs.
+    [[nodiscard]] MediumId along(const SegmentEnd& a, const SegmentEnd& b, Vec3 w) const noexcept;
     /// Does a medium scatter light there?
     [[nodiscard]] bool scatter(const SegmentEnd& a, const SegmentEnd& b, Vec3 w) const noexcept
     {

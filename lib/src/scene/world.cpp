@@ -15,6 +15,18 @@
 namespace bdpt {
 namespace {
 
+/// Where a medium scatters a ray; `around`: the medium at that point.
+SurfacePoint scattering_point(Vec3 p, Vec3 direction, MediumId around,
+                              const HenyeyGreenstein& phase)
+{
+    const Vec3 wo = -direction;
+    SurfacePoint point;
+    point.end.p = p;
+    point.end.media = SideMedia::around(around);
+    point.bsdf = Bsdf(wo, Frame::from_normal(wo), wo, phase);
+    return point;
+}
+
 /// A type of its own, as that of a plain function would be visible from outside of the library.
 struct ForRowsAtOnce {
     void operator()(int count, const std::function<void(int, int)>& work) const
@@ -180,13 +192,17 @@ SurfacePoint World::medium_point(const SegmentEnd& from, Vec3 direction,
                                  const MediumEvent& event) const noexcept
 {
     const Medium& medium = media_[event.medium];
-    const Vec3 wo = -direction;
-    SurfacePoint point;
-    point.end.p = from.p + event.distance * direction;
-    point.end.media = SideMedia::around(event.medium);
-    point.bsdf = Bsdf(wo, Frame::from_normal(wo), wo,
-                      HenyeyGreenstein(medium.scattering, medium.anisotropy));
-    return point;
+    return scattering_point(from.p + event.distance * direction, direction, event.medium,
+                            HenyeyGreenstein(medium.scattering, medium.anisotropy));
+}
+
+SurfacePoint World::volume_point(const SegmentEnd& from, Vec3 direction, const VolumeEvent& event,
+                                 MediumId around) const noexcept
+{
+    const Volume& volume = volumes_[event.volume];
+    return scattering_point(
+        from.p + event.distance * direction, direction, around,
+        HenyeyGreenstein(event.extinction * volume.albedo(), volume.anisotropy()));
 }
 
 std::optional<Flight> World::flight(const SegmentEnd& a, const SegmentEnd& b,
@@ -206,7 +222,15 @@ std::optional<Flight> World::flight(const SegmentEnd& a, const SegmentEnd& b,
                            .segment = segment})) {
         return std::nullopt;
     }
-    return media_.any() ? media_.flight(a, b, to_b, std::sqrt(dot(to_b, to_b))) : Flight{};
+    if (!media_.any() && !volumes_.any()) {
+        return Flight{};
+    }
+    const float distance = std::sqrt(dot(to_b, to_b));
+    Flight flight = media_.flight(a, b, to_b, distance);
+    if (volumes_.any()) {
+        flight.transmittance *= volumes_.transmittance(a.p, to_b / distance, distance, segment);
+    }
+    return flight;
 }
 
 std::optional<Flight> World::flight_to_infinity(const SegmentEnd& a, Vec3 direction,
@@ -217,7 +241,12 @@ std::optional<Flight> World::flight_to_infinity(const SegmentEnd& a, Vec3 direct
                            .segment = segment})) {
         return std::nullopt;
     }
-    return media_.flight(a, {}, direction, std::numeric_limits<float>::max());
+    constexpr float infinite = std::numeric_limits<float>::max();
+    Flight flight = media_.flight(a, {}, direction, infinite);
+    if (volumes_.any()) {
+        flight.transmittance *= volumes_.transmittance(a.p, direction, infinite, segment);
+    }
+    return flight;
 }
 
 Rgb World::transmittance(const SegmentEnd& a, const SegmentEnd& b,

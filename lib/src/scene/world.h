@@ -10,6 +10,7 @@
 #include "scene/enclosing_volumes.h"
 #include "scene/light_set.h"
 #include "scene/media.h"
+#include "scene/volume.h"
 #include "texture/mip_maps.h"
 
 #include <bdpt/scene.h>
@@ -67,6 +68,10 @@ public:
     /// A point of a medium that a ray in the unit direction `direction` came to.
     [[nodiscard]] SurfacePoint medium_point(const SegmentEnd& from, Vec3 direction,
                                             const MediumEvent& event) const noexcept;
+    /// The same of a volume; `around` is what else is there.
+    [[nodiscard]] SurfacePoint volume_point(const SegmentEnd& from, Vec3 direction,
+                                            const VolumeEvent& event,
+                                            MediumId around) const noexcept;
     /// What becomes of light between two points; nothing when it meets a surface in between.
     [[nodiscard]] std::optional<Flight> flight(const SegmentEnd& a, const SegmentEnd& b,
                                                SegmentKey segment) const noexcept;
@@ -96,6 +101,7 @@ public:
     /// As that of `EmbreeScene`.
     [[nodiscard]] float farthest_origin() const noexcept { return embree_->farthest_origin(); }
     [[nodiscard]] const Media& media() const { return media_; }
+    [[nodiscard]] const Volumes& volumes() const { return volumes_; }
     /// Around a point that lies on no surface.
     [[nodiscard]] MediumId medium_at(Vec3 p) const;
     /// What is likely not meant, one line each.
@@ -126,6 +132,7 @@ private:
     MipMaps mip_maps_;                                                // if textures have any
     Media media_;
     MediumId fog_ = MediumId::clear;
+    Volumes volumes_;
     std::vector<Material> materials_;
     std::vector<MediumId> within_;  // each material
     bool disperses_ = false;

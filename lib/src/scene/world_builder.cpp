@@ -16,7 +16,8 @@
 namespace bdpt {
 namespace {
 
-Bounds bounds_of(std::span<const PlacedMesh> placed, std::span<const Sphere> spheres)
+Bounds bounds_of(std::span<const PlacedMesh> placed, std::span<const Sphere> spheres,
+                 std::span<const VolumeDesc> volumes)
 {
     Bounds bounds{.min = Vec3(std::numeric_limits<float>::infinity()),
                   .max = Vec3(-std::numeric_limits<float>::infinity())};
@@ -39,6 +40,14 @@ Bounds bounds_of(std::span<const PlacedMesh> placed, std::span<const Sphere> sph
         add_sphere(sphere.center, sphere.radius);
         for (const Vec3& center : sphere.motion) {
             add_sphere(center, sphere.radius);
+        }
+    }
+    for (const VolumeDesc& volume : volumes) {
+        for (int corner = 0; corner < 8; ++corner) {
+            const Vec3 sides((corner & 1) != 0, (corner & 2) != 0, (corner & 4) != 0);
+            const Vec3 p(volume.world_from_grid * Vec4(sides * Vec3(volume.size), 1.0f));
+            bounds.min = min(bounds.min, p);
+            bounds.max = max(bounds.max, p);
         }
     }
     return bounds.min.x <= bounds.max.x ? bounds : Bounds{};
@@ -78,6 +87,7 @@ void WorldBuilder::build(Isa isa)
     if (w.desc_.fog) {
         w.fog_ = w.media_.add_fog(medium_of(*w.desc_.fog), w.sphere_);
     }
+    w.volumes_ = Volumes(w.desc_.volumes);
     add_materials();
     w.embree_ = std::make_unique<const EmbreeScene>(
         w.desc_.instances, w.placed_, w.desc_.meshes.size(), w.spheres_, w.any_hit_filter(), isa);
@@ -138,7 +148,7 @@ void WorldBuilder::place_meshes()
                            [](const PlacedMesh& mesh) { return mesh.moves(); }) ||
                std::any_of(desc.lights.begin(), desc.lights.end(), light_moves);
     w.spheres_ = light_spheres(desc.lights);
-    w.bounds_ = bounds_of(w.placed_, w.spheres_);
+    w.bounds_ = bounds_of(w.placed_, w.spheres_, desc.volumes);
     w.sphere_ = sphere_around(w.bounds_);
 }
 

@@ -182,6 +182,26 @@ TEST_CASE("lights and images", "[validate]")
     check_refused("fog: albedo is 1.1", fog({.albedo = {0, 0, 1.1f}}));
     check_refused("fog: anisotropy is 1", fog({.anisotropy = 1.0f}));
     check_refused("fog: anisotropy is -1", fog({.anisotropy = -1.0f}));
+    const auto volume = [](const auto& change) {
+        return [change](SceneDesc& d) {
+            VolumeDesc smoke{.name = "smoke", .size = {2, 1, 1}, .density = {0.0f, 1.0f}};
+            change(smoke);
+            d.volumes.push_back(std::move(smoke));
+        };
+    };
+    check_refused("volume 0 \"smoke\": 2 x 1 x 1 voxels, but 1 densities",
+                  volume([](VolumeDesc& v) { v.density.pop_back(); }));
+    check_refused("volume 0 \"smoke\": 0 x 1 x 1 voxels",
+                  volume([](VolumeDesc& v) { v.size.x = 0; }));
+    check_refused("volume 0 \"smoke\": density is -1",
+                  volume([](VolumeDesc& v) { v.density[1] = -1.0f; }));
+    check_refused("volume 0 \"smoke\": extinction is inf",
+                  volume([](VolumeDesc& v) { v.extinction = infinite; }));
+    check_refused("volume 0 \"smoke\": albedo is 2", volume([](VolumeDesc& v) { v.albedo.g = 2; }));
+    check_refused("volume 0 \"smoke\": anisotropy is 1",
+                  volume([](VolumeDesc& v) { v.anisotropy = 1; }));
+    check_refused("volume 0 \"smoke\": transform has no inverse",
+                  volume([](VolumeDesc& v) { v.world_from_grid[0] = Vec4(0.0f); }));
     check_refused("image 0: 2 x 1 texels with 4 bytes",
                   [](SceneDesc& d) { d.images[0].width = 2; });
     check_refused("image 0: 1 x 1 texels with 4 bytes",

@@ -63,7 +63,8 @@ void add_all(Hasher& hasher, std::string_view name, const std::vector<T>& values
 {
     // What stands still has the hash that it had before anything could move, and scenes without
     // profiles that of older reports.
-    const bool later = name == "motion" || name == "turn" || name == "profiles";
+    const bool later =
+        name == "motion" || name == "turn" || name == "profiles" || name == "volumes";
     if (later && values.empty()) {
         return;
     }

@@ -96,7 +96,7 @@ void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, Contribution
         const SegmentKey segment = sample.segment(0, depth);
         const Encounter met = follow(sample, ray.origin, ray.direction, segment,
                                      {.from_camera = true, .vertices = depth});
-        if (!met.in_medium && !met.surface) {
+        if (met.is_nothing()) {
             const auto id = world_.lights().environment();
             const bool visible =
                 depth > 1 || options_.transport.background == Background::environment;

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -98,6 +99,34 @@ void check(const MaterialDesc& material, const std::string& item, std::size_t im
     });
 }
 
+void check_transform(const Mat4& m, const std::string& item)
+{
+    if (!all_finite(&m[0][0], 16)) {
+        fail(item, ": transform is not finite");
+    }
+    const float determinant = glm::determinant(Mat3(m));
+    if (!std::isnormal(determinant)) {
+        fail(item, ": transform has no inverse (determinant ", determinant, ")");
+    }
+}
+
+void check(const VolumeDesc& volume, const std::string& item)
+{
+    check_own_limits(item, volume);
+    check_transform(volume.world_from_grid, item);
+    const UVec3& size = volume.size;
+    const std::size_t voxels = std::size_t{size.x} * size.y * size.z;
+    constexpr std::uint32_t most = 1U << 15U;  // along each side
+    if (std::max({size.x, size.y, size.z}) > most || voxels == 0 ||
+        volume.density.size() != voxels) {
+        fail(item, ": ", size.x, " x ", size.y, " x ", size.z, " voxels, but ",
+             volume.density.size(), " densities");
+    }
+    for (std::size_t i = 0; i < voxels; ++i) {
+        check_limits(item, "density", volume.density[i], Limits::at_least(0.0f));
+    }
+}
+
 void check(const InstanceDesc& instance, const std::string& item, const SceneDesc& desc)
 {
     if (static_cast<std::size_t>(instance.mesh) >= desc.meshes.size()) {
@@ -108,14 +137,7 @@ void check(const InstanceDesc& instance, const std::string& item, const SceneDes
         fail(item, ": material ", static_cast<std::size_t>(instance.material), ", but there are ",
              desc.materials.size(), " materials");
     }
-    const Mat4& m = instance.world_from_object;
-    if (!all_finite(&m[0][0], 16)) {
-        fail(item, ": transform is not finite");
-    }
-    const float determinant = glm::determinant(Mat3(m));
-    if (!std::isnormal(determinant)) {
-        fail(item, ": transform has no inverse (determinant ", determinant, ")");
-    }
+    check_transform(instance.world_from_object, item);
 }
 
 /// What is traced must be within reach of rays, as they are single-precision numbers.
@@ -159,6 +181,9 @@ void validate(const SceneDesc& desc)
     }
     for (std::size_t i = 0; i < desc.instances.size(); ++i) {
         check(desc.instances[i], label("instance", i, desc.instances[i].name), desc);
+    }
+    for (std::size_t i = 0; i < desc.volumes.size(); ++i) {
+        check(desc.volumes[i], label("volume", i, desc.volumes[i].name));
     }
     if (desc.fog) {
         check_own_limits("fog", *desc.fog);

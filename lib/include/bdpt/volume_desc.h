@@ -1,0 +1,33 @@
+#pragma once
+
+#include <bdpt/fields.h>
+#include <bdpt/medium_desc.h>
+#include <bdpt/types.h>
+
+#include <string>
+#include <vector>
+
+namespace bdpt {
+
+/// A medium whose density varies in space, such as smoke or a cloud: a grid of voxels. It has no
+/// surface, and counts on top of whatever else is there.
+struct VolumeDesc {
+    std::string name{};
+    UVec3 size{0};               ///< voxels along x, y and z, > 0
+    std::vector<float> density;  ///< >= 0, at the centres of voxels, x runs fastest
+    /// Of coordinates in voxels: voxel (0, 0, 0) fills the unit cube. Affine and invertible.
+    Mat4 world_from_grid{1.0f};
+    float extinction = 1.0f;  ///< [1/m] where the density is 1, >= 0: absorption and scattering
+    Rgb albedo{1.0f};         ///< [0, 1]: the share of it that scatters
+    float anisotropy = 0.0f;  ///< g of Henyey and Greenstein, in (-1, 1): > 0 forwards
+};
+/// Fields of `VolumeDesc`, with names and limits.
+template <>
+inline constexpr auto fields<VolumeDesc> = all_fields(
+    Field{"name", &VolumeDesc::name}, Field{"size", &VolumeDesc::size},
+    Field{"density", &VolumeDesc::density}, Field{"transform", &VolumeDesc::world_from_grid},
+    Number{"extinction", &VolumeDesc::extinction, Limits::at_least(0.0f)},
+    Number{"albedo", &VolumeDesc::albedo, Limits::unit()},
+    Number{"anisotropy", &VolumeDesc::anisotropy, Limits{-most_anisotropy, most_anisotropy}});
+
+}  // namespace bdpt

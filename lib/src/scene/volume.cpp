@@ -1,0 +1,217 @@
+#include "scene/volume.h"
+
+#include "math/elementary.h"
+
+#include <glm/common.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace bdpt {
+
+Volume::Volume(const VolumeDesc& desc)
+    : desc_(desc),
+      grid_from_world_(glm::inverse(desc.world_from_grid)),
+      blocks_((desc.size + (block - 1)) / block)
+{
+    majorants_.resize(std::size_t{blocks_.x} * blocks_.y * blocks_.z);
+    // Between centres a density belongs to voxels on both sides.
+    const auto blocks_of = [](std::uint32_t i, std::uint32_t count) {
+        const std::uint32_t first = i == 0 ? 0 : (i - 1) / block;
+        return UVec3(first, std::min((i + 1) / block, count - 1), 0);
+    };
+    std::size_t i = 0;
+    for (std::uint32_t z = 0; z < desc.size.z; ++z) {
+        const UVec3 bz = blocks_of(z, blocks_.z);
+        for (std::uint32_t y = 0; y < desc.size.y; ++y) {
+            const UVec3 by = blocks_of(y, blocks_.y);
+            for (std::uint32_t x = 0; x < desc.size.x; ++x, ++i) {
+                const UVec3 bx = blocks_of(x, blocks_.x);
+                const float extinction = desc.extinction * desc.density[i];
+                for (std::uint32_t c = bz.x; c <= bz.y; ++c) {
+                    for (std::uint32_t b = by.x; b <= by.y; ++b) {
+                        for (std::uint32_t a = bx.x; a <= bx.y; ++a) {
+                            float& most =
+                                majorants_[(std::size_t{c} * blocks_.y + b) * blocks_.x + a];
+                            most = std::max(most, extinction);
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+float Volume::voxel(int x, int y, int z) const noexcept
+{
+    const auto inside = [](int i, std::uint32_t count) {
+        return i >= 0 && static_cast<std::uint32_t>(i) < count;
+    };
+    if (!inside(x, desc_.size.x) || !inside(y, desc_.size.y) || !inside(z, desc_.size.z)) {
+        return 0.0f;
+    }
+    return desc_
+        .density[(static_cast<std::size_t>(z) * desc_.size.y + static_cast<std::size_t>(y)) *
+                     desc_.size.x +
+                 static_cast<std::size_t>(x)];
+}
+
+float Volume::density_at(Vec3 in_grid) const noexcept
+{
+    if (!(in_grid.x >= 0.0f && in_grid.y >= 0.0f && in_grid.z >= 0.0f) ||
+        !(in_grid.x <= static_cast<float>(desc_.size.x) &&
+          in_grid.y <= static_cast<float>(desc_.size.y) &&
+          in_grid.z <= static_cast<float>(desc_.size.z))) {
+        return 0.0f;
+    }
+    const Vec3 p = in_grid - 0.5f;
+    const Vec3 low = floor(p);
+    const Vec3 t = p - low;
+    const int x = static_cast<int>(low.x);
+    const int y = static_cast<int>(low.y);
+    const int z = static_cast<int>(low.z);
+    const auto row = [&](int b, int c) {
+        return voxel(x, b, c) + t.x * (voxel(x + 1, b, c) - voxel(x, b, c));
+    };
+    const auto plane = [&](int c) { return row(y, c) + t.y * (row(y + 1, c) - row(y, c)); };
+    return plane(z) + t.z * (plane(z + 1) - plane(z));
+}
+
+float Volume::extinction(Vec3 p) const noexcept
+{
+    return desc_.extinction * density_at(Vec3(grid_from_world_ * Vec4(p, 1.0f)));
+}
+
+template <typename Visit>
+void Volume::for_each_collision(Vec3 origin, Vec3 direction, float distance, VolumeNoise& noise,
+                                const Visit& visit) const noexcept
+{
+    // In blocks; t stays in metres.
+    constexpr float per_block = 1.0f / static_cast<float>(block);
+    const Vec3 o = per_block * Vec3(grid_from_world_ * Vec4(origin, 1.0f));
+    const Vec3 d = per_block * Vec3(grid_from_world_ * Vec4(direction, 0.0f));
+    const Vec3 extent = per_block * Vec3(desc_.size);
+    float t = 0.0f;
+    float end = distance;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (d[axis] == 0.0f) {
+            end = o[axis] >= 0.0f && o[axis] <= extent[axis] ? end : -1.0f;
+            continue;
+        }
+        const float a = -o[axis] / d[axis];
+        const float b = (extent[axis] - o[axis]) / d[axis];
+        t = std::max(t, std::min(a, b));
+        end = std::min(end, std::max(a, b));
+    }
+    if (!(t < end)) {
+        return;
+    }
+    const Vec3 entry = o + t * d;
+    int cell[3];
+    for (int axis = 0; axis < 3; ++axis) {
+        const int last = static_cast<int>(blocks_[axis]) - 1;
+        cell[axis] = std::clamp(static_cast<int>(std::floor(entry[axis])), 0, last);
+    }
+    while (t < end) {
+        // Where the ray leaves the block, and across which side.
+        int side = 0;
+        float leave = std::numeric_limits<float>::infinity();
+        for (int axis = 0; axis < 3; ++axis) {
+            const float edge = static_cast<float>(cell[axis] + (d[axis] > 0.0f ? 1 : 0));
+            const float at = d[axis] == 0.0f ? leave : (edge - o[axis]) / d[axis];
+            if (at < leave) {
+                leave = at;
+                side = axis;
+            }
+        }
+        const float stop = std::min(std::max(leave, t), end);
+        const float majorant = majorants_[(static_cast<std::size_t>(cell[2]) * blocks_.y +
+                                           static_cast<std::size_t>(cell[1])) *
+                                              blocks_.x +
+                                          static_cast<std::size_t>(cell[0])];
+        // What is left to the next collision is as long whatever came before: each block draws
+        // anew.
+        while (majorant > 0.0f) {
+            t += -log_exact(1.0f - noise.next()) / majorant;
+            if (!(t < stop)) {
+                break;
+            }
+            const float here = extinction(origin + t * direction);
+            if (!visit(VolumeEvent{.distance = t, .extinction = here}, majorant)) {
+                return;
+            }
+        }
+        t = stop;
+        cell[side] += d[side] > 0.0f ? 1 : -1;
+        if (cell[side] < 0 || cell[side] >= static_cast<int>(blocks_[side])) {
+            return;
+        }
+    }
+}
+
+std::optional<VolumeEvent> Volume::draw_event(Vec3 origin, Vec3 direction, float distance,
+                                              VolumeNoise noise) const noexcept
+{
+    std::optional<VolumeEvent> event;
+    for_each_collision(origin, direction, distance, noise,
+                       [&](const VolumeEvent& at, float majorant) {
+                           if (noise.next() * majorant < at.extinction) {
+                               event = at;
+                           }
+                           return !event;
+                       });
+    return event;
+}
+
+float Volume::transmittance(Vec3 origin, Vec3 direction, float distance,
+                            VolumeNoise noise) const noexcept
+{
+    constexpr float low = 0.1f;  // where one in two is ended, and the other counts twice
+    float left = 1.0f;
+    for_each_collision(origin, direction, distance, noise,
+                       [&](const VolumeEvent& at, float majorant) {
+                           left *= std::max(0.0f, 1.0f - at.extinction / majorant);
+                           if (left < low) {
+                               left = noise.next() < 0.5f ? 0.0f : 2.0f * left;
+                           }
+                           return left > 0.0f;
+                       });
+    return left;
+}
+
+Volumes::Volumes(std::span<const VolumeDesc> descs)
+{
+    volumes_.reserve(descs.size());
+    for (const VolumeDesc& desc : descs) {
+        volumes_.emplace_back(desc);
+    }
+}
+
+std::optional<VolumeEvent> Volumes::draw_event(Vec3 origin, Vec3 direction, float distance,
+                                               SegmentKey segment) const noexcept
+{
+    std::optional<VolumeEvent> first;
+    for (std::uint32_t i = 0; i < volumes_.size(); ++i) {
+        auto event = volumes_[i].draw_event(origin, direction, first ? first->distance : distance,
+                                            VolumeNoise(segment, i));
+        if (event) {
+            event->volume = i;
+            first = event;
+        }
+    }
+    return first;
+}
+
+float Volumes::transmittance(Vec3 origin, Vec3 direction, float distance,
+                             SegmentKey segment) const noexcept
+{
+    float left = 1.0f;
+    for (std::uint32_t i = 0; i < volumes_.size() && left > 0.0f; ++i) {
+        left *= volumes_[i].transmittance(origin, direction, distance, VolumeNoise(segment, i));
+    }
+    return left;
+}
+
+}  // namespace bdpt

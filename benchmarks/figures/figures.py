@@ -125,6 +125,24 @@ def lamp_box():
     return tuple(cells)
 
 
+def lamp_box_short():
+    """Light subpaths that end within the box, and such that leave it by their second edge: one estimate of all."""
+    scene, whole = "lamp-box.gltf", depth(6)
+    cells = []
+    for light, where in ((0, "no edge"), (1, "1 edge: ends in the box"), (2, "2 edges: leaves it"), (3, "3 edges")):
+        limits = ("--max-camera-depth", "5", "--max-light-depth", str(light)) + whole
+        cells.append(Cell(where, scene, limits + strategies(light + 1, 6, lambda s, t: t > 1), 16, reference=whole))
+    return tuple(cells)
+
+
+def pinhole_or_lens():
+    """At equal samples. What time they take is a matter of lens_cost.py, which takes medians."""
+    views = (("pinhole", ("--lens-radius", "0")), ("lens", ()))
+    return tuple(Cell(f"{name}, {view}", "nine-spheres-dof.gltf", by(name) + depth(5) + options, 64,
+                      reference=depth(5) + options)
+                 for name in ("mis", "bdpt") for view, options in views)
+
+
 def light_paths():
     cells = []
     for scene in ("fourteen-specular.gltf", "cornell-spheres-hidden.gltf"):
@@ -204,6 +222,7 @@ FIGURES = {
     "greater-of-two": Figure("The greater of two estimates is biased; the weighted sum is not", 4, greater_of_two()),
     "single-scatter": Figure("One point of the camera joined to one of the light", 2, single_scatter()),
     "lamp-box": Figure("PT, NEE, MIS, end to end only and all connections: 2-3, 2-4, 3-3", 6, lamp_box()),
+    "lamp-box-short": Figure("Light subpaths too short to leave the lamp's box, and longer ones", 4, lamp_box_short()),
     "veach-plates": Figure("Veach's plates by BSDF sampling, light sampling and both", 4,
                            sweep("veach-plates.gltf", ("pt", "nee", "mis", "bdpt"), (16,), 2), exposure=-5.0),
     "fourteen-specular": Figure("PT and BDPT after 2, 10, 100, 1000 iterations", 4,
@@ -211,6 +230,7 @@ FIGURES = {
     "depth-of-field": Figure("A thin lens at equal time", 3, tuple(
         Cell(name, "nine-spheres-dof.gltf", by(name) + depth(5), seconds=20.0, reference=depth(5))
         for name in ("pt", "mis", "bdpt"))),
+    "pinhole-or-lens": Figure("A pinhole and a thin lens at equal samples", 4, pinhole_or_lens()),
     "light-paths": Figure("1, 2, 5, 10 light paths for each camera path, at equal samples, then at equal time", 4,
                           light_paths()),
     "hemisphere-light": Figure("Hemisphere (pt) against light sampling (nee), direct light", 4,

@@ -16,6 +16,7 @@ constexpr const char* footer = R"(Examples:
   bdpt verify room.glb --from 0,1.6,2 --look-at 0,1,0 --time 10m
   bdpt verify scene.gltf --size 64x64 --max-depth 8 --json
   bdpt verify scene.gltf --light-paths 0.25 --connections 2
+  bdpt verify scene.gltf --light-samples 4
 
 Renders the scene by pt, nee, mis, lt, bdpt and every strategy of bdpt, at low resolution with many
 independent samples, and tests whether they agree: for each path length, in the whole image and in
@@ -78,6 +79,7 @@ void add_how(CLI::App& command, VerifyWords& words)
         ->type_name("bdpt|auto")
         ->group(group);
     add_light_path_options(command, words.render.transport, group);
+    add_light_samples_option(command, words.render.transport.light_sampling, group);
 }
 
 /// The choice of light paths is bdpt's, unless it is left to auto.
@@ -133,6 +135,7 @@ VerifyArguments understand(const VerifyWords& words)
     }
     options.light_paths = result.stage.options.bidirectional.light_paths;
     options.connections = result.stage.options.bidirectional.connections;
+    options.light_samples = result.stage.options.sampling.light_samples;
     options.seed = result.stage.options.sampling.seed;
     options.threads = result.stage.options.system.threads;
     return result;

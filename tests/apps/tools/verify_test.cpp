@@ -3,6 +3,7 @@
 #include <bdpt/eval/verify/verify_options.h>
 #include <bdpt/eval/verify/verify_report.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <string>
@@ -116,6 +117,39 @@ TEST_CASE("verify: light paths are chosen by hand or by auto")
                          : report({"--light-paths", words[2], "--connections", words[3]}).first));
 }
 
+TEST_CASE("verify: light samples are those of the option, and agree with the rest")
+{
+    const Room room;
+    const auto report = [&](const Words& more, int code) {
+        Words words{"--json", "-q"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Outcome outcome = room.verify(words);
+        CAPTURE(outcome.out);
+        REQUIRE(outcome.exit_code == code);
+        return json::parse(outcome.out);
+    };
+    const Words short_run{"--time", "0.001s", "--bias", "0.001"};
+    const auto radiance = [&](const char* samples) {
+        Words words = short_run;
+        words.insert(words.end(), {"--light-samples", samples});
+        return report(words, 11)["integrators"];
+    };
+    const json one = radiance("1");
+    const json four = radiance("4");
+    CHECK(one == report(short_run, 11)["integrators"]);
+    for (const json& integrator : one) {
+        const std::string name = integrator["integrator"];
+        const auto same = std::find_if(four.begin(), four.end(), [&](const json& other) {
+            return other["integrator"] == name;
+        });
+        REQUIRE(same != four.end());
+        CAPTURE(name);
+        CHECK(((*same)["radiance"] == integrator["radiance"]) == (name == "pt" || name == "lt"));
+    }
+    const json passed = report({"--bias", "20", "--time", "1h", "--light-samples", "4"}, 0);
+    CHECK(passed["weights"]["wrong"] == 0);
+}
+
 TEST_CASE("verify: what makes no sense is refused")
 {
     const Room room;
@@ -125,7 +159,8 @@ TEST_CASE("verify: what makes no sense is refused")
           Words{"--max-depth", "65"}, Words{"--grid", "0"}, Words{"--size", "5000x4"},
           Words{"--size", "big"}, Words{"--seed", "-1"}, Words{"--fov", "200"},
           Words{"--integrator", "pt"}, Words{"--light-paths", "0"}, Words{"--light-paths", "-1"},
-          Words{"--connections", "x"}}) {
+          Words{"--connections", "x"}, Words{"--light-samples", "0"},
+          Words{"--light-samples", "1025"}, Words{"--light-samples", "2.5"}}) {
         CAPTURE(words.front(), words.back());
         const Outcome outcome = room.verify(words);
         CHECK(outcome.exit_code == 2);

@@ -67,6 +67,11 @@ void add_light_sampling_options(CLI::App& command, LightSamplingWords& words, co
     add_choice("--light-sampling", words.lights, names_of(light_samplings),
                "Choice of one light: power (by emitted power), tree (light tree: by estimated "
                "contribution to the point), auto (default: tree if there are many lights)");
+    add_light_samples_option(command, words, group);
+}
+
+void add_light_samples_option(CLI::App& command, LightSamplingWords& words, const char* group)
+{
     command
         .add_option("--light-samples", words.samples,
                     "Light samples at each vertex of a camera path (all integrators but lt), which "

@@ -22,6 +22,9 @@ struct LightSamplingWords {
 /// Describes --env-sampling, --light-sampling and --light-samples to the parser.
 void add_light_sampling_options(CLI::App& command, LightSamplingWords& words, const char* group);
 
+/// Describes --light-samples alone.
+void add_light_samples_option(CLI::App& command, LightSamplingWords& words, const char* group);
+
 /// `options` with what `words` say. Throws `OptionError` for what `integrator` cannot heed.
 [[nodiscard]] SamplingOptions with_light_sampling(const LightSamplingWords& words,
                                                   const std::string& integrator,

@@ -80,10 +80,10 @@ LengthSums& LengthSums::operator+=(const LengthSums& other)
     return *this;
 }
 
-PathSums::PathSums(const TileGrid& grid, int max_depth, double light_paths)
+PathSums::PathSums(const TileGrid& grid, int max_depth, SampleCounts counts)
     : grid_(grid),
       row_(max_depth),
-      light_paths_(light_paths),
+      counts_(counts),
       roulette_(max_depth),
       strategies_(grid.size() * row_.size()),
       lengths_(grid.size() * static_cast<std::size_t>(max_depth)),
@@ -193,7 +193,7 @@ void PathSums::add_to_length(LengthSums& sums, const PathContribution& path,
     const Finder next_event = n > 2 ? finder(1) : Finder{};
     // Light tracing has one light path for each pixel, whatever bdpt has.
     const auto from_one = [&](Finder of_all) {
-        return Finder{.share = of_all.share / light_paths_,
+        return Finder{.share = of_all.share / counts_.light_paths,
                       .greatest_weight = of_all.greatest_weight};
     };
     const Finder to_lens = from_one(finder(n - 1));

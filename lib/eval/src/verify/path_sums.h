@@ -91,11 +91,16 @@ struct LengthSums {
     LengthSums& operator+=(const LengthSums& other);
 };
 
+/// How many samples strategies of bdpt take for each camera path.
+struct SampleCounts {
+    double light_paths = 1.0;
+    int light_samples = 1;  ///< at each of its vertices
+};
+
 /// Sums over the paths that bdpt found in some samples. Not for several threads at once.
 class PathSums {
 public:
-    /// `light_paths`: of bdpt, for each camera path.
-    PathSums(const TileGrid& grid, int max_depth, double light_paths = 1.0);
+    PathSums(const TileGrid& grid, int max_depth, SampleCounts counts = {});
 
     /// Those with more than `max_depth` edges or values that are not finite are ignored. Knows its
     /// shares; weighed by the power heuristic.
@@ -132,15 +137,18 @@ private:
     void add_to_length(LengthSums& sums, const PathContribution& path,
                        const Measure& measure) const;
     /// By roulette, of a path of so many edges that the strategy with `s` light vertices finds.
+    /// Light samples of one vertex depend on each other, so they count as one that is as great as
+    /// all.
     [[nodiscard]] double greatest_weight(int edges, std::size_t s) const
     {
         const auto light = static_cast<int>(s);
-        return roulette_.greatest_weight({.s = light, .t = edges + 1 - light});
+        const int together = s == 1 && edges > 1 ? counts_.light_samples : 1;
+        return together * roulette_.greatest_weight({.s = light, .t = edges + 1 - light});
     }
 
     const TileGrid& grid_;
     StrategyRow row_;
-    double light_paths_;
+    SampleCounts counts_;
     Roulette roulette_;
     std::vector<StrategySums> strategies_;  // by tile, then by index
     std::vector<LengthSums> lengths_;       // by tile, then by length

@@ -33,6 +33,9 @@ RenderOptions render_options(const VerifyOptions& options, IntegratorKind integr
     result.transport.rr_survival = Roulette(options.max_depth).least_survival();
     // Sobol points of one sequence depend on each other; those of other seeds do not.
     result.sampling.samples = {.begin = 0, .end = samples_of(integrator, shortest)};
+    if (integrator != IntegratorKind::lt && integrator != IntegratorKind::pt) {
+        result.sampling.light_samples = options.light_samples;
+    }
     if (integrator == IntegratorKind::bdpt) {
         // Its strategies are judged one by one, and s = 1 alone needs all of the sky.
         result.sampling.environment = EnvironmentSampling::plain;
@@ -80,9 +83,10 @@ Batch render_batch(const Scene& scene, const CameraDesc& camera, const VerifyOpt
                    const TileGrid& grid, std::int64_t number)
 {
     const RadianceSums none(grid, options.max_depth);
-    Batch batch{.bdpt = PathSums(grid, options.max_depth, options.light_paths),
-                .others = {none, none, none, none},
-                .images = {}};
+    Batch batch{
+        .bdpt = PathSums(grid, options.max_depth, {options.light_paths, options.light_samples}),
+        .others = {none, none, none, none},
+        .images = {}};
     const int longest = options.max_depth;
     RenderControl to_bdpt;
     to_bdpt.on_path = [&](const PathContribution& path) { batch.bdpt.add(path); };

@@ -46,6 +46,8 @@ void check_options(const VerifyOptions& options)
             "the number of light paths must be more than 0 and at most 4096");
     require(options.connections.value_or(0.0) >= 0.0 && options.connections.value_or(0.0) <= 4096.0,
             "the number of connections must be in [0, 4096]");
+    require(options.light_samples >= 1 && options.light_samples <= 1024,
+            "the number of light samples must be in [1, 1024]");
     require(options.false_alarm > 0.0 && options.false_alarm < 1.0,
             "the chance of a false alarm must be between 0 and 1");
     require(options.detectable_bias > 0.0, "the bias to detect must be greater than 0");

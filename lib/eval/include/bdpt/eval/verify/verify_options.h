@@ -28,6 +28,9 @@ struct VerifyOptions {
     /// `BidirectionalOptions` has them.
     double light_paths = 1.0;
     std::optional<double> connections{};
+    /// Light samples at each vertex of a camera path, of all integrators but lt and pt, in [1,
+    /// 1024].
+    int light_samples = 1;
     /// Chance of `Verdict::fail` for a renderer without fault.
     double false_alarm = 1e-3;
     /// Errors of a strategy that change the mean of the image by this fraction must be found with

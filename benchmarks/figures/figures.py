@@ -171,11 +171,12 @@ def heuristics():
 
 
 def roulette():
-    """Paths of up to so many edges, with Russian roulette after three edges and without, at equal time."""
-    return tuple(Cell(f"{label}, {edges} edges", "cornell-box-hidden.gltf", by("mis") + more + depth(edges), seconds=4.0,
-                      reference=depth(edges))
-                 for label, more in (("roulette", ()), ("no roulette", ("--rr-start", "1000")))
-                 for edges in (4, 8, 16, 32))
+    """Paths of up to so many edges, with Russian roulette after three edges and without, at equal numbers of rays: the samples
+    are what --stats tells of rays, so that no other program on the machine has a say."""
+    scene = "cornell-box-hidden.gltf"
+    rows = (("roulette", (), (128, 128, 128, 128)), ("no roulette", ("--rr-start", "1000"), (117, 85, 65, 57)))
+    return tuple(Cell(f"{label}, {edges} edges", scene, by("mis") + more + depth(edges), spp, reference=depth(edges))
+                 for label, more, counts in rows for edges, spp in zip((4, 8, 16, 32), counts))
 
 
 def direct_indirect():
@@ -238,7 +239,7 @@ FIGURES = {
     "light-samples": Figure("1, 4, 16 light samples at each vertex, at equal samples, then at equal time", 3,
                             light_samples()),
     "heuristics": Figure("Five heuristics at equal samples", 5, heuristics()),
-    "roulette": Figure("With and without Russian roulette, at equal time", 4, roulette()),
+    "roulette": Figure("With and without Russian roulette, at equal numbers of rays", 4, roulette()),
     "direct-indirect": Figure("Direct only and indirect only", 3, direct_indirect()),
     "depths": Figure("Depth 0, 1, 2, 3, 100 of the reports", 5, tuple(
         Cell(f"depth {bounces}", "cornell-spheres.gltf", depth(bounces + 1), 64, reference=depth(bounces + 1))

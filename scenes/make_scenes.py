@@ -16,6 +16,7 @@ from hidden_light_scenes import HIDDEN_LIGHT_SCENES
 from layer_scenes import LAYER_SCENES
 from many_light_scenes import MANY_LIGHT_SCENES
 from materials import SOLID_GLASS, THIN_GLASS
+from media_scenes import MEDIA_SCENES
 from motion_scenes import MOTION_SCENES
 from shapes import box_quads, coil, flipped, height_field, quads, sphere
 from specular_scenes import SPECULAR_SCENES
@@ -294,6 +295,7 @@ SCENES = {
     **SPECULAR_SCENES,
     **LAYER_SCENES,
     **MANY_LIGHT_SCENES,
+    **MEDIA_SCENES,
     **MOTION_SCENES,
 }
 

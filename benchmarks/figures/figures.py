@@ -197,6 +197,15 @@ def denoised():
     return tuple(cells)
 
 
+def media():
+    """A row for each scene, at equal time."""
+    cells = []
+    for scene, options in (("fog-beam.gltf", ("--fog", "0.12") + depth(12)), ("tea-glass.gltf", depth(32)),
+                           ("candle.gltf", depth(64))):
+        cells += [Cell(name, scene, by(name) + options, seconds=4.0, reference=options) for name in ("mis", "bdpt", "auto")]
+    return tuple(cells)
+
+
 def profile():
     """Images with the shares of time, and below them the time of a sample in each pixel."""
     scene = "fourteen-specular.gltf"
@@ -251,6 +260,7 @@ FIGURES = {
         Cell("bdpt, 16 spp", "cornell-spheres-hidden.gltf", depth(6), 16, reference=depth(6)),
         Cell("bdpt, 50 s", "cornell-spheres-hidden.gltf", depth(6), seconds=50.0, reference=depth(6)))),
     "denoise": Figure("Denoised by Open Image Denoise, at equal time", 5, denoised()),
+    "media": Figure("Fog, tea and wax at equal time", 3, media()),
     "adaptive": Figure("Uniform and adaptive at equal samples, and how many each pixel took", 3, adaptive()),
     "profile": Figure("Where the time of a sample goes, by phase and by pixel", 5, profile()),
     "bvh": Figure("Rays per second with and without a BVH", 3, tuple(

@@ -19,7 +19,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import contest
 import peers
 import report
-from scene import NotShared
+from scene import Medium, NotShared
 
 CPU_SCENE = pathlib.Path(__file__).resolve().parents[2] / "scenes" / "cornell-box.gltf"
 CPU_SIZE, CPU_DEPTH = (512, 512), 11
@@ -30,6 +30,13 @@ def size(text):
     if not match or 0 in map(int, match.groups()):
         raise argparse.ArgumentTypeError(f"{text} is not a size like 64x64")
     return tuple(map(int, match.groups()))
+
+
+def fog(text):
+    numbers = [float(part) for part in text.split(",")]
+    if len(numbers) not in (1, 3) or not all(0 < number < float("inf") for number in numbers):
+        raise argparse.ArgumentTypeError(f"{text} is neither one number above 0 nor three")
+    return Medium(tuple(numbers * (3 // len(numbers))), (1.0, 1.0, 1.0))
 
 
 def positive(kind):
@@ -56,6 +63,7 @@ def arguments():
     parser.add_argument("--size", type=size, default=(64, 64), metavar="WxH", help="64x64")
     parser.add_argument("--max-depth", type=positive(int), default=32, metavar="N", help="longest path in edges; 32")
     parser.add_argument("--threads", type=positive(int), default=2, metavar="N", help="2")
+    parser.add_argument("--fog", type=fog, metavar="X|R,G,B", help="white fog in all scenes: its extinction [1/m]")
     parser.add_argument("--only", help="entries, with commas between: " + ",".join(e.name for e in peers.ENTRIES))
     parser.add_argument("--cpu", action="store_true", help="also CPU time for a sample per pixel, of the Cornell box")
     result = parser.parse_args()
@@ -94,7 +102,7 @@ def hold(options, file, entries, found, folder):
 
 def cpu_cost(options, entries, found, folder):
     """CPU seconds that each entry takes for a sample per pixel, with one thread."""
-    alone = dataclasses.replace(options, size=CPU_SIZE, max_depth=CPU_DEPTH, threads=1, seeds=1)
+    alone = dataclasses.replace(options, size=CPU_SIZE, max_depth=CPU_DEPTH, threads=1, seeds=1, fog=None)
     stage = contest.Stage(alone, CPU_SCENE, folder / "cpu")
     runs, skipped = contest.contest(stage, entries, found, lambda line: print(line, flush=True))
     return {"scene": stage.name, "width": CPU_SIZE[0], "height": CPU_SIZE[1], "max_depth": CPU_DEPTH,
@@ -111,7 +119,7 @@ def main():
     found, missing = find_peers(entries, args)
     entries = [entry for entry in entries if entry.peer == "bdpt" or entry.peer in found]
     options = contest.Options(args.bdpt, args.time, args.reference_time or 16 * args.time, args.seeds, args.size,
-                              args.max_depth, args.threads)
+                              args.max_depth, args.threads, args.fog)
     document = {"command": shlex.join(sys.argv), "machine": report.machine(),
                 "options": dataclasses.asdict(options), "notes": {e.name: e.note for e in entries if e.note},
                 "peers": {name: {"version": peer.version, "job": peer.job, "environment": peer.environment}

@@ -11,7 +11,7 @@ import subprocess
 import gltf_reader
 import gltf_writer
 from peers import RENDER_GRACE, Unavailable
-from scene import to_json
+from scene import Medium, to_json
 
 REFERENCE_SEED = 100000  # other numbers than any run
 BLAMELESS = 4.0  # standard errors that a channel's mean may be off
@@ -27,11 +27,20 @@ class Options:
     size: tuple  # (width, height)
     max_depth: int  # edges
     threads: int
+    fog: Medium = None
 
 
 def cpu_of_children():
     usage = resource.getrusage(resource.RUSAGE_CHILDREN)
     return usage.ru_utime + usage.ru_stime
+
+
+def fog_options(fog):
+    """Of `bdpt render`."""
+    if fog is None:
+        return ()
+    return ("--fog", ",".join(map(str, fog.extinction)), "--fog-albedo", ",".join(map(str, fog.albedo)), "--fog-anisotropy",
+            str(fog.anisotropy))
 
 
 def run_bdpt(options, gltf, integrator, seed, limit, output):
@@ -42,7 +51,7 @@ def run_bdpt(options, gltf, integrator, seed, limit, output):
     subprocess.run([options.bdpt, "render", str(gltf), "-o", str(output), "--integrator", integrator, "--size",
                     "{}x{}".format(*options.size), "--max-depth", str(options.max_depth), "--threads",
                     str(options.threads), "--seed", str(seed), *limit, "--stats", str(stats), "--env", "none",
-                    "--quiet"], check=True)
+                    *fog_options(options.fog), "--quiet"], check=True)
     cpu = cpu_of_children() - before
     told = json.loads(stats.read_text(encoding="utf-8"))
     stats.unlink()
@@ -63,7 +72,7 @@ class Stage:
     def __init__(self, options, file, folder):
         folder.mkdir(parents=True, exist_ok=True)
         self.options, self.folder, self.name = options, folder, file.stem
-        self.scene = gltf_reader.read(file)
+        self.scene = dataclasses.replace(gltf_reader.read(file), fog=options.fog)
         self.description, self.gltf = folder / "scene.json", folder / f"{file.stem}.gltf"
         self.description.write_text(to_json(self.scene), encoding="utf-8")
         gltf_writer.write(self.scene, self.gltf)
@@ -90,8 +99,11 @@ def contest(stage, entries, peers, tell):
     runs, skipped = {}, {}
     for entry in entries:
         unsupported_kinds = stage.scene and entry.unsupported_kinds(stage.scene)
+        lacking = stage.scene and entry.lacks(stage.scene)
         if unsupported_kinds:
             skipped[entry.name] = f"it does not show {unsupported_kinds}"
+        elif lacking:
+            skipped[entry.name] = f"it is for {lacking}"
         else:
             runs[entry.name] = []
     for seed in range(stage.options.seeds):

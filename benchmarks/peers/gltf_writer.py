@@ -12,8 +12,25 @@ from gltf_builder import Gltf
 MOST_VERTICES = 65535  # of one shape
 
 
+def multiscatter(albedo):
+    """The colour for which the fit of Kulla and Conty (2017) gives that albedo: s = 4.09712 + 4.20863 c - root(c), with
+    1 - s^2 = albedo, solved for c."""
+    known = 4.09712 - math.sqrt(1 - albedo)
+    # (known + 4.20863 c)^2 = 9.59217 + 41.6808 c + 17.7126 c^2, whose quadratic term nearly vanishes
+    a, b, c = 4.20863 ** 2 - 17.7126, 2 * 4.20863 * known - 41.6808, known * known - 9.59217
+    return min(max(2 * c / (math.sqrt(b * b - 4 * a * c) - b), 0.0), 1.0)
+
+
 def glass(material):
-    return {"transmission": {"transmissionFactor": 1}, "ior": {"ior": material.ior}, "volume": {"thicknessFactor": 1}}
+    """Its extensions."""
+    volume, scatter = {"thicknessFactor": 1}, {}
+    if material.inside:
+        distance = 1 / max(*material.inside.extinction, 1e-9)  # so that no colour is too dark
+        volume.update({"attenuationDistance": distance,
+                       "attenuationColor": [math.exp(-e * distance) for e in material.inside.extinction]})
+        scatter = {"volume_scatter": {"multiscatterColor": [multiscatter(a) for a in material.inside.albedo],
+                                      "scatterAnisotropy": material.inside.anisotropy}}
+    return {"transmission": {"transmissionFactor": 1}, "ior": {"ior": material.ior}, "volume": volume, **scatter}
 
 
 def add_material(gltf, material):

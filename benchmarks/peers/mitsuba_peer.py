@@ -1,4 +1,5 @@
-"""Mitsuba 3: `path`, and `ptracer` (light tracing). Colours are RGB, without spectra."""
+"""Mitsuba 3: `path`, `ptracer` (light tracing), and `volpath` and `volpathmis`, path tracing in media. Colours are RGB,
+without spectra."""
 
 import pathlib
 import tempfile
@@ -7,6 +8,8 @@ LANES = 1 << 20  # samples of one pass: what is computed at once, in memory that
 
 
 def bsdf(material):
+    if material.kind == "glass" and material.ior == 1:
+        return {"type": "null"}
     if material.kind == "glass":
         kind = {"type": "roughdielectric", "distribution": "ggx", "alpha": material.alpha} if material.alpha > 0 \
             else {"type": "dielectric"}
@@ -17,6 +20,21 @@ def bsdf(material):
     else:
         inner = {"type": "diffuse", "reflectance": {"type": "rgb", "value": list(material.color)}}
     return {"type": "twosided", "bsdf": inner}
+
+
+def medium(described):
+    scale = max(*described.extinction, 1e-9)
+    return {"type": "homogeneous", "scale": scale, "albedo": {"type": "rgb", "value": list(described.albedo)},
+            "sigma_t": {"type": "rgb", "value": [e / scale for e in described.extinction]},
+            "phase": {"type": "hg", "g": described.anisotropy}}
+
+
+def add_fog(result, scene):
+    """A sphere that light passes straight, with the fog within; bodies have it around them."""
+    result["fog"] = medium(scene.fog)
+    center, radius = scene.sphere()
+    result["extent of the fog"] = {"type": "sphere", "center": list(center), "radius": radius, "bsdf": {"type": "null"},
+                                   "interior": {"type": "ref", "id": "fog"}}
 
 
 def write_ply(mesh, path):
@@ -43,10 +61,16 @@ def description(mi, scene, job, folder):
             "sampler": {"type": "independent"},
         },
     }
+    if scene.fog:
+        add_fog(result, scene)
     for i, mesh in enumerate(scene.meshes):
         material, file = scene.materials[mesh.material], folder / f"{i}.ply"
         write_ply(mesh, file)
         shape = {"type": "ply", "filename": str(file), "face_normals": True, "bsdf": bsdf(material)}
+        if material.inside:
+            shape["interior"] = medium(material.inside)
+        if scene.fog and material.kind == "glass":
+            shape["exterior"] = {"type": "ref", "id": "fog"}
         if material.emission:
             shape["emitter"] = {"type": "area", "radiance": {"type": "rgb", "value": list(material.emission)}}
         result[f"mesh{i}"] = shape

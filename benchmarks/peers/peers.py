@@ -15,6 +15,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 PROBE_SECONDS = 120  # what starts takes a few; compiling is slow on busy machines
 RENDER_GRACE = 600  # [s] for loading and compiling, beyond the time to render
 SMOOTH = {"metal", "glass"}
+MEDIA = frozenset({"media"})
 
 
 class Unavailable(Exception):
@@ -28,27 +29,35 @@ class Entry:
     name: str
     peer: str  # of PEERS, or "bdpt"
     job: dict
-    cannot_show: frozenset = frozenset()  # kinds of surfaces that it does not show
+    cannot_show: frozenset = frozenset()  # kinds of surfaces that it does not show, and "media"
+    is_for: frozenset = frozenset()  # kinds of which a scene has one, or another entry does the same
     note: str = ""
 
     def unsupported_kinds(self, scene):
         """Why it cannot show a scene; empty if it can."""
         return ", ".join(sorted(self.cannot_show & scene.kinds()))
 
+    def lacks(self, scene):
+        """What a scene would need for it to be worth the time; empty if it is."""
+        return "" if not self.is_for or self.is_for & scene.kinds() else ", ".join(sorted(self.is_for))
+
 
 ENTRIES = (
     Entry("bdpt", "bdpt", {"integrator": "bdpt"}),
     Entry("bdpt-auto", "bdpt", {"integrator": "auto"}, note="which chooses path tracing, or its light paths and connections"),
     Entry("bdpt-mis", "bdpt", {"integrator": "mis"}, note="our path tracer"),
-    Entry("mitsuba-path", "mitsuba", {"integrator": "path"}),
-    Entry("mitsuba-ptracer", "mitsuba", {"integrator": "ptracer"}, frozenset(SMOOTH),
-          "light tracing: through a pinhole it does not show smooth metal and glass"),
-    Entry("luxcore-pathcpu", "luxcore", {"integrator": "PATHCPU", "roulette": False}, note="without Russian roulette"),
-    Entry("luxcore-bidircpu", "luxcore", {"integrator": "BIDIRCPU", "roulette": False},
+    Entry("mitsuba-path", "mitsuba", {"integrator": "path"}, MEDIA),
+    Entry("mitsuba-volpath", "mitsuba", {"integrator": "volpath"}, is_for=MEDIA, note="path tracing in media"),
+    Entry("mitsuba-volpathmis", "mitsuba", {"integrator": "volpathmis"}, is_for=MEDIA,
+          note="the same with weights over colours"),
+    Entry("mitsuba-ptracer", "mitsuba", {"integrator": "ptracer"}, MEDIA | SMOOTH,
+          note="light tracing: through a pinhole it does not show smooth metal and glass"),
+    Entry("luxcore-pathcpu", "luxcore", {"integrator": "PATHCPU", "roulette": False}, MEDIA, note="without Russian roulette"),
+    Entry("luxcore-bidircpu", "luxcore", {"integrator": "BIDIRCPU", "roulette": False}, MEDIA,
           note="without Russian roulette; no limit of the whole path"),
-    Entry("luxcore-bidircpu-rr", "luxcore", {"integrator": "BIDIRCPU", "roulette": True},
+    Entry("luxcore-bidircpu-rr", "luxcore", {"integrator": "BIDIRCPU", "roulette": True}, MEDIA,
           note="as it is by default: its Russian roulette is biased"),
-    Entry("cycles", "cycles", {"integrator": "path"}),
+    Entry("cycles", "cycles", {"integrator": "path"}, MEDIA),
 )
 PEERS = {"mitsuba": "mitsuba_peer", "luxcore": "luxcore_peer", "cycles": "cycles_peer"}  # -> adapter
 

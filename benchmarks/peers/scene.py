@@ -1,12 +1,23 @@
-"""What all renderers have in common: triangles, four kinds of surface, point lights, a pinhole camera. Linear Rec. 709;
-metres, nit and candela; right-handed, y up; a triangle's front is where its corners run anticlockwise."""
+"""What all renderers have in common: triangles, four kinds of surface, point lights, a pinhole camera; and media, which
+some have. Linear Rec. 709; metres, nit and candela; right-handed, y up; a triangle's front is where its corners run
+anticlockwise."""
 
 import dataclasses
 import json
+import math
 
 
 class NotShared(Exception):
     """The scene has something that not all renderers have, and that cannot be left out."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Medium:
+    """The same everywhere; Henyey and Greenstein's phase function."""
+
+    extinction: tuple  # absorption and scattering together [1/m]
+    albedo: tuple  # of a single scattering
+    anisotropy: float = 0.0  # above 0 is forwards
 
 
 @dataclasses.dataclass(frozen=True)
@@ -17,6 +28,7 @@ class Material:
     alpha: float = 0.0  # of the GGX distribution; 0 is perfectly smooth
     ior: float = 1.5  # of glass
     emission: tuple = None  # [nit], from the front only
+    inside: Medium = None  # of glass: what fills it; without one it is clear
 
 
 @dataclasses.dataclass(frozen=True)
@@ -53,11 +65,18 @@ class Scene:
     points: tuple
     camera: Camera
     changes: tuple  # what it shows differently from the file that it was read from, one sentence each
+    fog: Medium = None  # in the sphere around all meshes, but not within bodies
 
     def kinds(self):
-        """The kinds of its surfaces, like "diffuse" and "rough glass"."""
-        materials = (self.materials[mesh.material] for mesh in self.meshes)
-        return {("rough " if material.alpha > 0 else "") + material.kind for material in materials}
+        """The kinds of its surfaces, like "diffuse" and "rough glass", and "media" if there are some."""
+        materials = [self.materials[mesh.material] for mesh in self.meshes]
+        surfaces = {("rough " if material.alpha > 0 else "") + material.kind for material in materials}
+        return surfaces | ({"media"} if self.fog or any(material.inside for material in materials) else set())
+
+    def sphere(self):
+        """Centre and radius of the sphere around the bounding box of all meshes."""
+        low, high = ([pick(p[i] for mesh in self.meshes for p in mesh.positions) for i in range(3)] for pick in (min, max))
+        return tuple((a + b) / 2 for a, b in zip(low, high)), math.dist(low, high) / 2
 
 
 def to_json(scene):
@@ -68,10 +87,16 @@ def _tuples(value):
     return tuple(_tuples(item) for item in value) if isinstance(value, list) else value
 
 
+def _medium(item):
+    return Medium(**{key: _tuples(value) for key, value in item.items()}) if item else None
+
+
 def from_json(text):
     """The scene that `to_json` wrote."""
     data = {key: _tuples(value) for key, value in json.loads(text).items()}
-    data["materials"] = tuple(Material(**{k: _tuples(v) for k, v in item.items()}) for item in data["materials"])
+    data["materials"] = tuple(Material(**{**{k: _tuples(v) for k, v in item.items()}, "inside": _medium(item["inside"])})
+                              for item in data["materials"])
+    data["fog"] = _medium(data["fog"])
     data["meshes"] = tuple(Mesh(**{k: _tuples(v) for k, v in item.items()}) for item in data["meshes"])
     data["points"] = tuple(PointLight(**{k: _tuples(v) for k, v in item.items()}) for item in data["points"])
     data["camera"] = Camera(**{k: _tuples(v) for k, v in data["camera"].items()})

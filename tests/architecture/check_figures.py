@@ -12,9 +12,10 @@ sys.dont_write_bytecode = True
 
 
 def options_of(help_text):
-    """Option -> its values where the help lists them (a|b|c), "" for flags, else None."""
+    """Option -> its values where the help lists them (a|b|c; X|R,G,B is no list), "" for flags, else None."""
     found = re.findall(r"^  (?:-\w,)?(--[\w-]+)(?: ([^\s]+))?", help_text, flags=re.M)
-    return {name: set(values.split("|")) if "|" in values else None if values else "" for name, values in found}
+    return {name: set(values.split("|")) if re.fullmatch(r"[a-z0-9|-]+", values) and "|" in values
+            else None if values else "" for name, values in found}
 
 
 def pairs_of(words, known):

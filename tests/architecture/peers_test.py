@@ -26,7 +26,7 @@ import luxcore_peer
 import mitsuba_peer
 import peers
 import report
-from scene import NotShared, from_json, to_json
+from scene import Medium, NotShared, from_json, to_json
 
 BDPT = sys.argv.pop(1) if len(sys.argv) > 1 else None
 REFUSED = {"night-market": "spot light", "orthographic": "perspective", "room-environment": "no light",
@@ -122,10 +122,36 @@ class Reader(unittest.TestCase):
         self.assertEqual(described.kinds(), {"diffuse", "glass", "rough glass", "rough metal"})
 
 
+    def test_media(self):
+        described = scene("tea-glass")
+        tea = next(material for material in described.materials if material.name == "tea").inside
+        for value, color in zip(tea.extinction, (0.78, 0.33, 0.08)):
+            self.assertAlmostEqual(math.exp(-0.03 * value), color)
+        self.assertEqual(tea.anisotropy, 0.6)
+        self.assertEqual(sorted(tea.albedo, reverse=True), list(tea.albedo))
+        glass = next(material for material in described.materials if material.name == "glass")
+        self.assertIsNone(glass.inside)
+        self.assertNotIn("tea is clear", described.changes)
+        self.assertIn("media", described.kinds())
+        self.assertNotIn("media", scene("glass-rough").kinds())
+        self.assertIn("wax is left out: not all renderers have it", scene("candle").changes)
+
+    def test_sphere_of_the_fog(self):
+        center, radius = scene("furnace").sphere()
+        self.assertEqual(center, (0, 0, 0))
+        self.assertAlmostEqual(radius, math.sqrt(3))
+
+
 class Writer(unittest.TestCase):
+    def test_albedo_is_that_of_the_colour(self):
+        for color in (0.0, 0.01, 0.3, 0.7, 0.99):
+            albedo = gltf_reader.medium({}, {"multiscatterColor": (color,) * 3}).albedo[0]
+            self.assertAlmostEqual(gltf_writer.multiscatter(albedo), color, places=6)
+        self.assertAlmostEqual(gltf_reader.medium({}, {"multiscatterColor": (0.5,)}).albedo[0], 0.9117088, places=6)
+
     def test_what_is_written_is_read_again(self):
         with tempfile.TemporaryDirectory() as name:
-            for stem in ("glass-rough", "room-point", "door-ajar"):
+            for stem in ("glass-rough", "room-point", "door-ajar", "tea-glass"):
                 file = pathlib.Path(name) / f"{stem}.gltf"
                 first = scene(stem)
                 gltf_writer.write(first, file)
@@ -136,6 +162,10 @@ class Writer(unittest.TestCase):
                     self.assertEqual((a.name, a.kind, a.color, a.ior), (b.name, b.kind, b.color, b.ior))
                     self.assertAlmostEqual(a.alpha, b.alpha, places=6)
                     self.assertEqual(bool(a.emission), bool(b.emission))
+                    self.assertEqual(bool(a.inside), bool(b.inside))
+                    if a.inside:
+                        for x, y in zip(a.inside.extinction + a.inside.albedo, b.inside.extinction + b.inside.albedo):
+                            self.assertAlmostEqual(x, y, delta=2e-6 * max(1, x))
                 for mesh, copy in zip(first.meshes, again.meshes):
                     self.assertLess(max(abs(x - y) for p, q in zip(mesh.positions, copy.positions)
                                         for x, y in zip(p, q)), 1e-6)
@@ -170,6 +200,29 @@ class Adapters(unittest.TestCase):
         values = luxcore_peer.material_properties("m", lamp)
         self.assertEqual(values["scene.materials.m.type"], "matte")
         self.assertEqual(values["scene.materials.m.emission"], list(lamp.emission))
+
+    def test_media_of_mitsuba(self):
+        described = mitsuba_peer.medium(Medium((2.0, 4.0, 1.0), (0.9, 0.8, 0.7), 0.3))
+        self.assertEqual((described["scale"], described["sigma_t"]["value"]), (4.0, [0.5, 1.0, 0.25]))
+        self.assertEqual((described["albedo"]["value"], described["phase"]["g"]), ([0.9, 0.8, 0.7], 0.3))
+        tea = next(material for material in scene("tea-glass").materials if material.name == "tea")
+        self.assertEqual(mitsuba_peer.bsdf(dataclasses.replace(tea, ior=1)), {"type": "null"})
+        self.assertEqual(mitsuba_peer.bsdf(tea)["type"], "dielectric")
+        result = {}
+        mitsuba_peer.add_fog(result, dataclasses.replace(scene("furnace"), fog=Medium((1, 1, 1), (1, 1, 1))))
+        extent = next(item for item in result.values() if item["type"] == "sphere")
+        self.assertEqual(extent["interior"], {"type": "ref", "id": "fog"})
+
+    def test_who_has_media(self):
+        names = {entry.name for entry in peers.ENTRIES if "media" not in entry.cannot_show}
+        self.assertEqual(names, {"bdpt", "bdpt-auto", "bdpt-mis", "mitsuba-volpath", "mitsuba-volpathmis"})
+        volpath = next(entry for entry in peers.ENTRIES if entry.name == "mitsuba-volpath")
+        self.assertEqual((volpath.lacks(scene("cornell-box")), volpath.lacks(scene("tea-glass"))), ("media", ""))
+
+    def test_fog_of_bdpt(self):
+        self.assertEqual(contest.fog_options(None), ())
+        self.assertEqual(contest.fog_options(Medium((1, 2, 3), (1, 0.5, 1), 0.1)),
+                         ("--fog", "1,2,3", "--fog-albedo", "1,0.5,1", "--fog-anisotropy", "0.1"))
 
     def test_camera_of_luxcore(self):
         """Its images are a row too low, so its window is moved; the field of view is vertical."""

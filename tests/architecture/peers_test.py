@@ -208,10 +208,19 @@ class Adapters(unittest.TestCase):
         tea = next(material for material in scene("tea-glass").materials if material.name == "tea")
         self.assertEqual(mitsuba_peer.bsdf(dataclasses.replace(tea, ior=1)), {"type": "null"})
         self.assertEqual(mitsuba_peer.bsdf(tea)["type"], "dielectric")
-        result = {}
-        mitsuba_peer.add_fog(result, dataclasses.replace(scene("furnace"), fog=Medium((1, 1, 1), (1, 1, 1))))
-        extent = next(item for item in result.values() if item["type"] == "sphere")
-        self.assertEqual(extent["interior"], {"type": "ref", "id": "fog"})
+
+    def test_bodies_in_fog_of_mitsuba(self):
+        described = dataclasses.replace(scene("tea-glass"), fog=Medium((1, 1, 1), (1, 1, 1)))
+        mi = types.SimpleNamespace(ScalarTransform4f=lambda: types.SimpleNamespace(look_at=lambda *places: places))
+        with tempfile.TemporaryDirectory() as folder:
+            result = mitsuba_peer.description(mi, described, JOB, pathlib.Path(folder))
+        fog = {"type": "ref", "id": "fog"}
+        extent = next(item for item in result.values() if isinstance(item, dict) and item["type"] == "sphere")
+        self.assertEqual((extent["interior"], extent["radius"]), (fog, described.sphere()[1]))
+        for i, mesh in enumerate(described.meshes):
+            shape, name = result[f"mesh{i}"], described.materials[mesh.material].name
+            self.assertEqual(shape.get("exterior"), fog if name in ("glass", "tea") else None)
+            self.assertEqual("interior" in shape, name == "tea")
 
     def test_who_has_media(self):
         names = {entry.name for entry in peers.ENTRIES if "media" not in entry.cannot_show}

@@ -80,6 +80,18 @@ std::optional<Vec3> before(const PlacedMesh& placed, std::uint32_t triangle)
     return offset_origin(middle.p, middle.error, normal / length, normal);
 }
 
+/// One of `count` triangles: each of a small mesh, else triangles that follow no pattern of the
+/// mesh. Equal steps would meet the same ring of a turned one all the time.
+std::uint32_t probed(std::size_t probe, std::uint32_t count)
+{
+    if (count <= most_probes) {
+        return static_cast<std::uint32_t>(probe) % count;
+    }
+    constexpr std::uint32_t golden_ratio_32 = 0x9e3779b9U;
+    const std::uint32_t place = static_cast<std::uint32_t>(probe) * golden_ratio_32;
+    return static_cast<std::uint32_t>(std::uint64_t{place} * count >> 32U);
+}
+
 }  // namespace
 
 EnclosingVolumes::EnclosingVolumes(std::span<const PlacedMesh> placed,
@@ -167,7 +179,7 @@ EnclosingVolumes::Set EnclosingVolumes::containing(std::uint32_t instance) const
     const std::uint32_t count = mesh.triangle_count();
     std::optional<Set> common;
     for (std::size_t probe = 0; probe < most_probes && count > 0; ++probe) {
-        const auto triangle = static_cast<std::uint32_t>(probe * count / most_probes);
+        const std::uint32_t triangle = probed(probe, count);
         const std::optional<Vec3> p = before(mesh, triangle);
         if (!p) {
             continue;

@@ -205,6 +205,34 @@ TEST_CASE("what lies in a body only partly keeps air around it", "[bodies]")
     CHECK(top.end.media.ahead == MediumId::clear);
 }
 
+TEST_CASE("a turned mesh that stands in a body is not within it", "[bodies]")
+{
+    // Each sector has a triangle of the bottom, which is in the water, two of the side, and one of
+    // the top.
+    constexpr unsigned sectors = 64;
+    MeshDesc stem;
+    stem.positions = {{0.0f, -0.2f, 0.0f}, {0.0f, 3.0f, 0.0f}};
+    for (unsigned i = 0; i < sectors; ++i) {
+        const float turn = 6.2831853f * static_cast<float>(i) / sectors;
+        for (const float y : {-0.2f, 3.0f}) {
+            stem.positions.emplace_back(0.3f * std::cos(turn), y, -0.3f * std::sin(turn));
+        }
+        const unsigned a = 2 + 2 * i;
+        const unsigned b = 2 + 2 * ((i + 1) % sectors);
+        stem.triangles.insert(stem.triangles.end(),
+                              {{0, b, a}, {a, b, b + 1}, {a, b + 1, a + 1}, {1, a + 1, b + 1}});
+    }
+    SceneBuilder builder;
+    builder.cube({}, 1.0f, medium(of_outer, 1.33f));
+    builder.place(builder.add_mesh(std::move(stem)), medium(of_inner, 1.5f), Mat4(1.0f));
+    const World world(std::move(builder.desc));
+    CHECK(world.warnings().empty());
+    const auto top = world.intersect({.p = {0.1f, 4.0f, 0.1f}}, {0, -1, 0}, {});
+    REQUIRE(top.has_value());
+    CHECK(top->end.p.y == Approx(3.0f));
+    CHECK(top->end.media.ahead == MediumId::clear);
+}
+
 TEST_CASE("of too many bodies it is said that air is around them", "[bodies]")
 {
     const auto count_warnings = [](std::size_t bodies) {

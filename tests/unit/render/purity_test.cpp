@@ -112,6 +112,12 @@ TEST_CASE("the same bits in media, for any threads, tiles, parts and crops", "[p
     milk.volume_scatter = {.color = Rgb(0.9f), .anisotropy = 0.4f};
     builder.sphere({0.3f, -0.5f, 0.2f}, 0.4f, milk, 16);
     builder.desc.fog = MediumDesc{.extinction = {0.2f, 0.4f, 0.8f}, .albedo = {0.9f, 0.8f, 0.7f}};
+    VolumeDesc smoke;
+    smoke.size = {2, 2, 2};
+    smoke.density = {1, 0, 2, 0.5f, 3, 1, 0, 1};
+    smoke.world_from_grid = Mat4(0.6f);
+    smoke.world_from_grid[3] = Vec4(-0.8f, -0.5f, -0.5f, 1.0f);
+    builder.desc.volumes.push_back(smoke);
     const Scene scene(std::move(builder.desc));
     for (const auto kind : {IntegratorKind::mis, IntegratorKind::lt, IntegratorKind::bdpt,
                             IntegratorKind::vcm, IntegratorKind::automatic}) {

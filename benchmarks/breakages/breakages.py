@@ -37,7 +37,7 @@ BREAKAGES = (
     Breakage("media choose distances by all colours and weigh them by one", "lib/src/scene/media.cpp",
              ".pass = mean(left)", ".pass = left.r", options=FOG),
     Breakage("phase functions sample backwards", "lib/src/material/models/henyey_greenstein.cpp",
-             ".wi = {sine * c, sine * s, -along}", ".wi = {sine * c, sine * s, along}", options=FOG),
+             ".wi = {sine * c, sine * s, z}", ".wi = {sine * c, sine * s, -z}", options=FOG),
     Breakage("a join lacks 1/d^2", CONNECT, "f_y.f_cos * y.beta * (1.0f / distance_squared)",
              "f_y.f_cos * y.beta"),
     Breakage("the longest light subpath is not joined", BIDIRECTIONAL,

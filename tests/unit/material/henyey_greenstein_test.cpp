@@ -88,6 +88,28 @@ TEST_CASE("phase functions sample what they say, and scatter all of it", "[media
     }
 }
 
+TEST_CASE("the sharpest phase functions have the density that they sample with", "[media]")
+{
+    // Nearly all light stays within a hundredth of a degree.
+    const Vec3 wo(0.0f, 0.0f, 1.0f);
+    for (const float g : {-most_anisotropy, 0.999f, most_anisotropy}) {
+        const HenyeyGreenstein phase(Rgb(1.0f), g);
+        double inverse = 0.0;  // the mean of 1 / density is the solid angle of all directions
+        constexpr int count = 100000;
+        for (int i = 0; i < count; ++i) {
+            const Vec2 u((static_cast<float>(i) + 0.5f) / count, 0.3f);
+            const auto sampled = phase.sample(wo, 0.0f, u, TransportMode::radiance);
+            REQUIRE(sampled.has_value());
+            const float density =
+                phase.eval(wo, sampled->wi, TransportMode::radiance).pdf_fwd.value;
+            CAPTURE(g, u.x);
+            REQUIRE(density == Approx(sampled->pdf_fwd.value).epsilon(1e-3));
+            inverse += 1.0 / static_cast<double>(density) / count;
+        }
+        CHECK(inverse == Approx(12.566370614).epsilon(0.02));
+    }
+}
+
 TEST_CASE("bodies scatter by the multi-scatter colour of the draft", "[media]")
 {
     MaterialDesc wax;

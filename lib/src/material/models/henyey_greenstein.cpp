@@ -2,39 +2,41 @@
 
 #include "math/elementary.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <cmath>
 
 namespace bdpt {
 
-float HenyeyGreenstein::phase(float cosine) const noexcept
+float HenyeyGreenstein::phase(float from_peak) const noexcept
 {
-    const float g = anisotropy_;
-    // >= (1 - |g|)^2 but for rounding.
-    const float d =
-        std::max(1.0f + g * g + 2.0f * g * cosine, (1.0f - std::abs(g)) * (1.0f - std::abs(g)));
+    const float g = std::abs(anisotropy_);
+    const float d = (1.0f - g) * (1.0f - g) + 2.0f * g * from_peak;
     return 0.25f * inv_pi * (1.0f - g * g) / (d * std::sqrt(d));
 }
 
 BsdfEval HenyeyGreenstein::eval(Vec3 wo, Vec3 wi, TransportMode /*mode*/) const noexcept
 {
-    const float density = phase(wo.x * wi.x + wo.y * wi.y + wo.z * wi.z);
+    // The peak is at -wo, or at wo. One minus the cosine from there would have no digits left.
+    const Vec3 offset = anisotropy_ < 0.0f ? wi - wo : wi + wo;
+    const float density = phase(0.5f * dot(offset, offset));
     return {.f_cos = scattering_ * density, .pdf_fwd = {density}, .pdf_rev = {density}};
 }
 
 std::optional<BsdfSample> HenyeyGreenstein::sample(Vec3 /*wo*/, float /*u_lobe*/, Vec2 u,
                                                    TransportMode /*mode*/) const noexcept
 {
-    const float g = anisotropy_;
-    float along = 1.0f - 2.0f * u.x;  // the cosine to where the light was going
-    if (std::abs(g) > 1e-3f) {
-        const float q = (1.0f - g * g) / (1.0f + g - 2.0f * g * u.x);
-        along = std::clamp((1.0f + g * g - q * q) / (2.0f * g), -1.0f, 1.0f);
-    }
-    const float sine = std::sqrt(std::max(0.0f, 1.0f - along * along));
+    const float g = std::abs(anisotropy_);
+    const float divisor = 1.0f + g - 2.0f * g * u.x;
+    const float q = (1.0f - g * g) / divisor;
+    // The inverse of the distribution, solved for what is left of 1 at the peak.
+    const float from_peak = std::min((1.0f - g) * u.x * (q + 1.0f - g) / divisor, 2.0f);
+    const float sine = std::sqrt(from_peak * (2.0f - from_peak));
+    const float z = anisotropy_ < 0.0f ? 1.0f - from_peak : from_peak - 1.0f;
     const auto [s, c] = sin_cos(2.0f * pi * u.y);
-    const float density = phase(-along);
-    return BsdfSample{.wi = {sine * c, sine * s, -along},
+    const float density = phase(from_peak);
+    return BsdfSample{.wi = {sine * c, sine * s, z},
                       .weight = scattering_,
                       .pdf_fwd = {density},
                       .pdf_rev = {density}};

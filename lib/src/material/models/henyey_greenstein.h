@@ -22,8 +22,8 @@ public:
     [[nodiscard]] Rgb base_color() const noexcept { return Rgb(1.0f); }
 
 private:
-    /// Of the cosine between wo and wi [1/sr].
-    [[nodiscard]] float phase(float cosine) const noexcept;
+    /// [1/sr], by one minus the cosine between wi and the direction that is scattered to most.
+    [[nodiscard]] float phase(float from_peak) const noexcept;
 
     Rgb scattering_;
     float anisotropy_;

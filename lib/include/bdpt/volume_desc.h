@@ -10,7 +10,8 @@
 namespace bdpt {
 
 /// A medium whose density varies in space, such as smoke or a cloud: a grid of voxels. It has no
-/// surface, and counts on top of whatever else is there.
+/// surface, and counts on top of whatever else is there. The greatest density times the extinction
+/// times the length of the grid's diagonal is at most 1e5.
 struct VolumeDesc {
     std::string name{};
     UVec3 size{0};               ///< voxels along x, y and z, > 0

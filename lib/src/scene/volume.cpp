@@ -133,11 +133,14 @@ void Volume::for_each_collision(Vec3 origin, Vec3 direction, float distance, Vol
                                           static_cast<std::size_t>(cell[0])];
         // What is left to the next collision is as long whatever came before: each block draws
         // anew.
+        // In double, for a step may be less than a float can tell so far from the origin.
+        double at = static_cast<double>(t);
         while (majorant > 0.0f) {
-            t += -log_exact(1.0f - noise.next()) / majorant;
-            if (!(t < stop)) {
+            at += static_cast<double>(-log_exact(1.0f - noise.next()) / majorant);
+            if (!(at < static_cast<double>(stop))) {
                 break;
             }
+            t = static_cast<float>(at);
             const float here = extinction(origin + t * direction);
             if (!visit(VolumeEvent{.distance = t, .extinction = here}, majorant)) {
                 return;

@@ -200,6 +200,12 @@ TEST_CASE("lights and images", "[validate]")
     check_refused("volume 0 \"smoke\": albedo is 2", volume([](VolumeDesc& v) { v.albedo.g = 2; }));
     check_refused("volume 0 \"smoke\": anisotropy is 1",
                   volume([](VolumeDesc& v) { v.anisotropy = 1; }));
+    check_refused("volume 0 \"smoke\": its greatest extinction",
+                  volume([](VolumeDesc& v) { v.extinction = 1e38f; }));
+    check_refused("volume 0 \"smoke\": its greatest extinction",
+                  volume([](VolumeDesc& v) { v.density[0] = 1e6f; }));
+    check_refused("volume 0 \"smoke\": reaches",
+                  volume([](VolumeDesc& v) { v.world_from_grid[3].x = 1e30f; }));
     check_refused("volume 0 \"smoke\": transform has no inverse",
                   volume([](VolumeDesc& v) { v.world_from_grid[0] = Vec4(0.0f); }));
     check_refused("image 0: 2 x 1 texels with 4 bytes",

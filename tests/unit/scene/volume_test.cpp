@@ -171,4 +171,17 @@ TEST_CASE("of several volumes a walk is scattered by the first", "[volume]")
     CHECK(volumes.transmittance({-1, 3.5f, 0.5f}, {1, 0, 0}, 100.0f, key(0)) == 1.0f);
 }
 
+TEST_CASE("rays from far away come to the end of a block that is dense in one corner", "[volume]")
+{
+    // Steps of a thousandth of a metre, where floats are two metres apart.
+    VolumeDesc desc;
+    desc.size = {8, 8, 8};
+    desc.density.assign(512, 0.0f);
+    desc.density[0] = 1000.0f;
+    desc.world_from_grid = glm::translate(Mat4(1.0f), Vec3(2e7f, 0, 0));
+    const Volumes volumes({&desc, 1});
+    CHECK(volumes.transmittance({0, 6.5f, 6.5f}, {1, 0, 0}, 1e8f, key(0)) == 1.0f);
+    CHECK_FALSE(volumes.draw_event({0, 6.5f, 6.5f}, {1, 0, 0}, 1e8f, key(0)));
+}
+
 }  // namespace bdpt

@@ -122,8 +122,18 @@ void check(const VolumeDesc& volume, const std::string& item)
         fail(item, ": ", size.x, " x ", size.y, " x ", size.z, " voxels, but ",
              volume.density.size(), " densities");
     }
+    double densest = 0.0;
     for (std::size_t i = 0; i < voxels; ++i) {
         check_limits(item, "density", volume.density[i], Limits::at_least(0.0f));
+        densest = std::max(densest, static_cast<double>(volume.density[i]));
+    }
+    // Rays stop so many times on their way through it.
+    constexpr double most_depth = 1e5;
+    const glm::dvec3 diagonal = glm::dmat3(volume.world_from_grid) * glm::dvec3(size);
+    const double depth = densest * static_cast<double>(volume.extinction) * glm::length(diagonal);
+    if (!(depth <= most_depth)) {
+        fail(item, ": its greatest extinction, all along its diagonal, is an optical depth of ",
+             depth, ", but must be at most ", most_depth);
     }
 }
 
@@ -154,6 +164,13 @@ void check_coordinates(const SceneDesc& desc, float reach)
                                            instance.world_from_object);
         if (!(extent <= reach)) {
             fail(label("instance", i, instance.name), ": reaches ", extent, limit_text(reach));
+        }
+    }
+    for (std::size_t i = 0; i < desc.volumes.size(); ++i) {
+        const VolumeDesc& volume = desc.volumes[i];
+        const float extent = placed_extent(Vec3(volume.size), volume.world_from_grid);
+        if (!(extent <= reach)) {
+            fail(label("volume", i, volume.name), ": reaches ", extent, limit_text(reach));
         }
     }
 }

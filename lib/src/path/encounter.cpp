@@ -18,6 +18,7 @@ void pass_media(SampleContext& sample, const SegmentEnd& origin, Vec3 direction,
         end = sample.world.end_at(*met.surface, direction, segment.time);
         distance = glm::distance(end.p, origin.p);
     }
+    met.fog = media.fog_between(origin, end, direction, distance);
     if (media.scatter(origin, end, direction)) {
         const auto vertex = static_cast<std::uint32_t>(2 * place.vertices);
         sample.sampler.start(SampleUse::flight, vertex + (place.from_camera ? 0U : 1U));

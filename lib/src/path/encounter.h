@@ -13,6 +13,7 @@ struct Encounter {
     std::optional<MediumEvent> in_medium;
     std::optional<VolumeEvent> in_volume;
     std::optional<RayHit> surface;      ///< of the ray, whether or not it gets there
+    std::optional<FogSpan> fog;         ///< on the way there, scattered or not
     Flight flight;                      ///< to where it ends
     MediumId around = MediumId::clear;  ///< of a point in a volume
 

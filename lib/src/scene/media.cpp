@@ -78,7 +78,7 @@ MediumId Media::along(const SegmentEnd& a, const SegmentEnd& b, Vec3 w) const no
     return one != MediumId::clear ? one : medium_towards(b, -w);
 }
 
-Media::Span Media::filled(MediumId medium, Vec3 from, Vec3 w, float distance) const noexcept
+FogSpan Media::filled(MediumId medium, Vec3 from, Vec3 w, float distance) const noexcept
 {
     if (medium != fog_) {
         return {0.0f, distance};
@@ -102,7 +102,7 @@ Flight Media::flight_through(const SegmentEnd& a, const SegmentEnd& b, Vec3 w,
                              float distance) const noexcept
 {
     const auto depth = [&](MediumId medium) {
-        const Span span = filled(medium, a.p, w, distance);
+        const FogSpan span = filled(medium, a.p, w, distance);
         return (*this)[medium].extinction * (span.end - span.begin);
     };
     const MediumId id = scatter(a, b, w) ? scatterer(a, b, w) : MediumId::clear;
@@ -114,11 +114,21 @@ Flight Media::flight_through(const SegmentEnd& a, const SegmentEnd& b, Vec3 w,
     return {.transmittance = left, .pass = mean(left), .stop = mean((*this)[id].extinction * left)};
 }
 
+std::optional<FogSpan> Media::fog_between(const SegmentEnd& a, const SegmentEnd& b, Vec3 w,
+                                          float distance) const noexcept
+{
+    if (fog_ == MediumId::clear || !scatter(a, b, w) || scatterer(a, b, w) != fog_) {
+        return std::nullopt;
+    }
+    const FogSpan span = filled(fog_, a.p, w, distance);
+    return span.begin < span.end ? std::optional(span) : std::nullopt;
+}
+
 std::optional<MediumEvent> Media::draw_event(const SegmentEnd& a, const SegmentEnd& b, Vec3 w,
                                              float distance, Vec2 u) const noexcept
 {
     const MediumId id = scatterer(a, b, w);
-    const Span span = filled(id, a.p, w, distance);
+    const FogSpan span = filled(id, a.p, w, distance);
     const int channel = std::min(static_cast<int>(3.0f * u.y), 2);
     const float extinction = (*this)[id].extinction[channel];
     const float way = -log_exact(1.0f - u.x);

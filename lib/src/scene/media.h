@@ -28,6 +28,12 @@ struct MediumEvent {
     MediumId medium = MediumId::clear;
 };
 
+/// The part of a segment that fog fills [m].
+struct FogSpan {
+    float begin = 0.0f;
+    float end = 0.0f;  ///< > begin
+};
+
 /// The media of a scene.
 ///
 /// The medium of a segment is what lies at its ends on the side where it runs. Should the ends
@@ -63,6 +69,10 @@ public:
     {
         return any_scatters_ && scatterer(a, b, w) != MediumId::clear;
     }
+    /// Where fog may scatter light there; nothing in bodies, and where it scatters none.
+    [[nodiscard]] std::optional<FogSpan> fog_between(const SegmentEnd& a, const SegmentEnd& b,
+                                                     Vec3 w, float distance) const noexcept;
+    [[nodiscard]] MediumId fog() const { return fog_; }
     /// Where a walk is scattered by chance; none if it gets to `b`. `w` is unit, and `scatter`
     /// true.
     [[nodiscard]] std::optional<MediumEvent> draw_event(const SegmentEnd& a, const SegmentEnd& b,
@@ -70,16 +80,12 @@ public:
                                                         Vec2 u) const noexcept;
 
 private:
-    struct Span {
-        float begin = 0.0f;
-        float end = 0.0f;
-    };
     [[nodiscard]] Flight flight_through(const SegmentEnd& a, const SegmentEnd& b, Vec3 w,
                                         float distance) const noexcept;
     [[nodiscard]] MediumId scatterer(const SegmentEnd& a, const SegmentEnd& b,
                                      Vec3 w) const noexcept;
     /// What part of the way a medium fills.
-    [[nodiscard]] Span filled(MediumId medium, Vec3 from, Vec3 w, float distance) const noexcept;
+    [[nodiscard]] FogSpan filled(MediumId medium, Vec3 from, Vec3 w, float distance) const noexcept;
 
     std::vector<Medium> media_{Medium{}};  // by id
     bool any_scatters_ = false;

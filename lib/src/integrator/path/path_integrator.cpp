@@ -15,6 +15,13 @@
 
 namespace bdpt {
 
+/// How a path came to a point of fog.
+struct PathIntegrator::FogArrival {
+    FogSegment fog;
+    float distance = 0.0f;
+    float pdf = 0.0f;  ///< of being scattered there [1/m]
+};
+
 struct PathIntegrator::Ray {
     SegmentEnd origin;
     Vec3 direction{0.0f};
@@ -22,6 +29,13 @@ struct PathIntegrator::Ray {
     /// Light sampling at the origin, which is that receiver, could have found what this ray hits.
     bool competes = false;
     LightSampleContext receiver{};
+    std::optional<FogArrival> arrival{};  ///< at the origin, if that is a point of fog
+};
+
+struct PathIntegrator::LightConnection {
+    Rgb value{0.0f};         ///< over the density of the point, the light given
+    float light_pdf = 0.0f;  ///< that density, of directions; 1 for a delta light
+    float bsdf_pdf = 0.0f;   ///< of a BSDF sample hitting the point, in `mis`
 };
 
 PathIntegrator::PathIntegrator(const World& world, const MovingCamera& camera,
@@ -38,7 +52,11 @@ PathIntegrator::PathIntegrator(const World& world, const MovingCamera& camera,
                            .lights = options.sampling.lights,
                            .samples = options.sampling.light_samples},
       light_samples_(static_cast<float>(options.sampling.light_samples))
-{}
+{
+    if (options.integrator != IntegratorKind::pt && world.media().fog() != MediumId::clear) {
+        fog_sampling_.emplace(world, options.sampling.lights);
+    }
+}
 
 RenderStats PathIntegrator::render_tile(const Tile& tile, SampleRange samples,
                                         const Films& films) const
@@ -96,6 +114,17 @@ void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, Contribution
         const SegmentKey segment = sample.segment(0, depth);
         const Encounter met = follow(sample, ray.origin, ray.direction, segment,
                                      {.from_camera = true, .vertices = depth});
+        std::optional<FogArrival> arrival;
+        if (met.fog && fog_sampling_) {
+            const FogSegment fog{ray.origin.p, ray.direction, *met.fog};
+            if (depth < options_.transport.max_depth && depth + 1 >= options_.transport.min_depth) {
+                const PhaseScope scope(sample.clock, Phase::connect);
+                add({.s = 1, .t = depth + 1}, beta * sample_fog(sample, ray, fog, depth));
+            }
+            if (met.in_medium) {
+                arrival = {fog, met.in_medium->distance, met.flight.stop};
+            }
+        }
         if (met.is_nothing()) {
             const auto id = world_.lights().environment();
             const bool visible =
@@ -135,7 +164,7 @@ void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, Contribution
         const auto vertex = static_cast<std::uint32_t>(depth + 1);
         if (point.bsdf.connectible() && depth + 1 >= options_.transport.min_depth) {
             const PhaseScope scope(sample.clock, Phase::connect);
-            add({.s = 1, .t = depth + 1}, beta * sample_lights(sample, point, depth));
+            add({.s = 1, .t = depth + 1}, beta * sample_lights(sample, point, arrival, depth));
         }
         sampler.start(SampleUse::camera_walk, vertex);
         const Vec2 u_direction = sampler.next_2d();
@@ -146,6 +175,7 @@ void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, Contribution
             break;
         }
         ray.origin = point.end;
+        ray.arrival = arrival;
         ray.direction = scattered->wi;
         ray.pdf = scattered->pdf_fwd;
         ray.competes = !scattered->delta && options_.integrator != IntegratorKind::pt;
@@ -167,34 +197,10 @@ void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, Contribution
     }
 }
 
-float PathIntegrator::light_weight(float light_pdf, float bsdf_pdf) const
+float PathIntegrator::fog_odds(const std::optional<FogArrival>& arrival, LightId light) const
 {
-    if (options_.integrator != IntegratorKind::mis) {
-        return 1.0f;  // nee; and pt, which takes the lights that no BSDF sample can hit
-    }
-    const float ratio = bsdf_pdf / light_pdf;
-    switch (options_.transport.heuristic) {
-        case Heuristic::balance:
-            return 1.0f / (1.0f + ratio);
-        case Heuristic::power:
-            return 1.0f / (1.0f + ratio * ratio);
-        case Heuristic::cutoff:
-            return ratio > 10.0f ? 0.0f : ratio < 0.1f ? 1.0f : 1.0f / (1.0f + ratio);
-        case Heuristic::maximum:
-            return ratio > 1.0f ? 0.0f : 1.0f;
-        case Heuristic::uniform:
-            return ratio > 0.0f ? 0.5f : 1.0f;
-    }
-    return 0.0f;
-}
-
-float PathIntegrator::bsdf_weight(float bsdf_pdf, float light_pdf) const
-{
-    if (light_pdf == 0.0f) {
-        return 1.0f;
-    }
-    return options_.integrator == IntegratorKind::nee ? 0.0f
-                                                      : 1.0f - light_weight(light_pdf, bsdf_pdf);
+    return arrival ? fog_sampling_->pdf(arrival->fog, light, arrival->distance) / arrival->pdf
+                   : 0.0f;
 }
 
 Rgb PathIntegrator::emission(const Ray& ray, LightId light, const LightPoint& hit, Rgb radiance,
@@ -206,55 +212,105 @@ Rgb PathIntegrator::emission(const Ray& ray, LightId light, const LightPoint& hi
     const LightSet& lights = world_.lights();
     const float probability =
         lights.context_probability(light, ray.receiver, next_event_sampling_.lights);
-    const AreaPdf pdf =
-        lights[light].pdf_incident(ray.origin.p, hit, next_event_sampling_.environments) *
-        (probability * light_samples_);
-    if (lights[light].is_infinite()) {
-        return radiance * bsdf_weight(ray.pdf.value * probability_of_flight, pdf.value);
+    const float pdf =
+        lights[light].pdf_incident(ray.origin.p, hit, next_event_sampling_.environments).value;
+    const float by_light = pdf * (probability * light_samples_);
+    const float by_fog = pdf * fog_odds(ray.arrival, light);
+    if (options_.integrator == IntegratorKind::nee) {
+        return by_light + by_fog > 0.0f ? Rgb(0.0f) : radiance;
     }
     const Vec3 along = hit.p - ray.origin.p;
-    const AreaPdf used = to_area(ray.pdf, std::abs(dot(hit.ng, ray.direction)), dot(along, along));
-    return radiance * bsdf_weight(used.value * probability_of_flight, pdf.value);
+    const float by_bsdf =
+        probability_of_flight *
+        (lights[light].is_infinite()
+             ? ray.pdf.value
+             : to_area(ray.pdf, std::abs(dot(hit.ng, ray.direction)), dot(along, along)).value);
+    return radiance * weight({by_light, by_bsdf, by_fog}, LightFinder::bsdf_sample);
 }
 
-Rgb PathIntegrator::sample_lights(SampleContext& sample, const SurfacePoint& point, int depth) const
+Rgb PathIntegrator::sample_lights(SampleContext& sample, const SurfacePoint& point,
+                                  const std::optional<FogArrival>& arrival, int depth) const
 {
     sample.sampler.start(SampleUse::next_event, static_cast<std::uint32_t>(depth + 1));
     const Vec2 u = sample.sampler.next_2d();
     const auto count = static_cast<std::uint32_t>(next_event_sampling_.samples);
-    Rgb sum = sample_light(sample, point, depth, u);
+    Rgb sum = sample_light(sample, point, arrival, depth, u);
     for (std::uint32_t i = 1; i < count; ++i) {
-        sum += sample_light(sample, point, depth, shifted_point(u, i, count));
+        sum += sample_light(sample, point, arrival, depth, shifted_point(u, i, count));
     }
     return sum / light_samples_;
 }
 
-Rgb PathIntegrator::sample_light(SampleContext& sample, const SurfacePoint& point, int depth,
-                                 Vec2 u) const
+Rgb PathIntegrator::sample_light(SampleContext& sample, const SurfacePoint& point,
+                                 const std::optional<FogArrival>& arrival, int depth, Vec2 u) const
 {
     Sampler& sampler = sample.sampler;
-    const auto draw_fine = [&sampler] { return sampler.next_fine(); };
     const auto receiver = [&point] {
         return LightSampleContext{.p = point.end.p, .normal = point.bsdf.opaque_normal()};
     };
-    const auto choice =
-        world_.lights().choose_for_context(receiver, u, draw_fine, next_event_sampling_.lights);
+    const auto choice = world_.lights().choose_for_context(
+        receiver, u, [&sampler] { return sampler.next_fine(); }, next_event_sampling_.lights);
     if (!choice) {
         return Rgb(0.0f);
     }
-    const Light& light = world_.lights()[choice->id];
-    if (options_.integrator == IntegratorKind::pt && !light.is_delta()) {
+    const auto found = connect(sample, point, choice->id, choice->u, depth);
+    if (!found) {
         return Rgb(0.0f);
     }
-    const auto incident = light.sample_incident(point.end.p, choice->u,
-                                                next_event_sampling_.environments, sample.time);
-    if (!incident) {
+    const LightDensities3 densities{found->light_pdf * (choice->probability * light_samples_),
+                                    found->bsdf_pdf,
+                                    found->light_pdf * fog_odds(arrival, choice->id)};
+    return found->value / choice->probability * weight(densities, LightFinder::light_sample);
+}
+
+Rgb PathIntegrator::sample_fog(SampleContext& sample, const Ray& ray, const FogSegment& fog,
+                               int depth) const
+{
+    Sampler& sampler = sample.sampler;
+    sampler.start(SampleUse::fog, static_cast<std::uint32_t>(depth));
+    const Vec2 u_light = sampler.next_2d();
+    const float u_distance = sampler.next_1d();
+    const auto chosen =
+        fog_sampling_->sample(fog, u_light, u_distance, [&sampler] { return sampler.next_fine(); });
+    if (!chosen) {
         return Rgb(0.0f);
+    }
+    const SurfacePoint point = world_.medium_point(
+        ray.origin, ray.direction, {.distance = chosen->distance, .medium = world_.media().fog()});
+    const auto found = connect(sample, point, chosen->light, chosen->u, depth);
+    if (!found) {
+        return Rgb(0.0f);
+    }
+    const Flight flight =
+        world_.media().flight(ray.origin, point.end, ray.direction, chosen->distance);
+    const float through = world_.volumes().transmittance(
+        ray.origin.p, ray.direction, chosen->distance, sample.segment(0, depth));
+    const float probability = world_.lights().context_probability(
+        chosen->light, LightSampleContext{.p = point.end.p}, next_event_sampling_.lights);
+    const LightDensities3 densities{flight.stop * found->light_pdf * (probability * light_samples_),
+                                    flight.stop * found->bsdf_pdf, chosen->pdf * found->light_pdf};
+    return found->value * flight.transmittance *
+           (through / chosen->pdf * weight(densities, LightFinder::fog_sample));
+}
+
+std::optional<PathIntegrator::LightConnection> PathIntegrator::connect(SampleContext& sample,
+                                                                       const SurfacePoint& point,
+                                                                       LightId id, Vec2 u,
+                                                                       int depth) const
+{
+    const Light& light = world_.lights()[id];
+    if (options_.integrator == IntegratorKind::pt && !light.is_delta()) {
+        return std::nullopt;
+    }
+    const auto incident =
+        light.sample_incident(point.end.p, u, next_event_sampling_.environments, sample.time);
+    if (!incident) {
+        return std::nullopt;
     }
     const BsdfEval f = point.bsdf.eval(incident->wi, TransportMode::radiance);
-    Rgb value = f.f_cos * incident->weight / choice->probability;
+    const Rgb value = f.f_cos * incident->weight;
     if (is_black(value)) {
-        return Rgb(0.0f);
+        return std::nullopt;
     }
     ++sample.rays.shadow;
     const SegmentKey segment = sample.segment(1, depth + 1);
@@ -262,16 +318,12 @@ Rgb PathIntegrator::sample_light(SampleContext& sample, const SurfacePoint& poin
                             ? world_.flight_to_infinity(point.end, incident->wi, segment)
                             : world_.flight(point.end, incident->end, segment);
     if (!flight) {
-        return Rgb(0.0f);
+        return std::nullopt;
     }
-    value *= flight->transmittance;
-    if (light.is_delta()) {
-        return value;
-    }
-    sample.enter(Phase::weigh);
-    return value *
-           light_weight(incident->pdf_solid_angle.value * (choice->probability * light_samples_),
-                        f.pdf_fwd.value * flight->pass);
+    const bool can_be_hit = options_.integrator == IntegratorKind::mis && !light.is_delta();
+    return LightConnection{.value = value * flight->transmittance,
+                           .light_pdf = incident->pdf_solid_angle.value,
+                           .bsdf_pdf = can_be_hit ? f.pdf_fwd.value * flight->pass : 0.0f};
 }
 
 }  // namespace bdpt

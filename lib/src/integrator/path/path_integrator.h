@@ -3,12 +3,17 @@
 #include "film/pixel_filter.h"
 #include "integrator/contribution_sink.h"
 #include "integrator/integrator.h"
+#include "integrator/path/light_shares.h"
+#include "path/fog_sampling.h"
+
+#include <optional>
 
 namespace bdpt {
 
 /// Path tracing from the camera. `pt` finds lights by BSDF sampling alone, but for delta lights,
 /// which no such sample can hit; `mis` weighs BSDF sampling and light sampling [Veach 1997, ch. 9];
-/// `nee` takes light sampling and drops what BSDF sampling finds that it could have found.
+/// `nee` takes light sampling and drops what BSDF sampling finds that it could have found. In fog
+/// both choose points for the lights, too (`FogSampling`).
 class PathIntegrator final : public Integrator {
 public:
     PathIntegrator(const World& world, const MovingCamera& camera, const RenderOptions& options);
@@ -17,6 +22,8 @@ public:
 
 private:
     struct Ray;
+    struct FogArrival;
+    struct LightConnection;
     void add_sample(int x, int y, const ScheduledSample& scheduled, const Films& films,
                     ContributionSink& sink, RenderStats& stats) const;
     void trace_path(SampleContext& sample, Vec2 raster, ContributionSink& sink) const;
@@ -25,16 +32,27 @@ private:
     [[nodiscard]] Rgb emission(const Ray& ray, LightId light, const LightPoint& hit, Rgb radiance,
                                float probability_of_flight) const;
     /// Next-event estimation at the point, which is vertex `depth` + 1 of the path: the mean of
-    /// its light samples.
+    /// its light samples. `arrival` is set if it is a point of fog.
     [[nodiscard]] Rgb sample_lights(SampleContext& sample, const SurfacePoint& point,
-                                    int depth) const;
+                                    const std::optional<FogArrival>& arrival, int depth) const;
     /// One of them, by the random point `u`.
-    [[nodiscard]] Rgb sample_light(SampleContext& sample, const SurfacePoint& point, int depth,
+    [[nodiscard]] Rgb sample_light(SampleContext& sample, const SurfacePoint& point,
+                                   const std::optional<FogArrival>& arrival, int depth,
                                    Vec2 u) const;
-    /// Weights of a light sample and of a BSDF sample that find the same point of a light, by their
-    /// densities.
-    [[nodiscard]] float light_weight(float light_pdf, float bsdf_pdf) const;
-    [[nodiscard]] float bsdf_weight(float bsdf_pdf, float light_pdf) const;
+    /// Next-event estimation at a point of the fog on the ray, chosen for the light.
+    [[nodiscard]] Rgb sample_fog(SampleContext& sample, const Ray& ray, const FogSegment& fog,
+                                 int depth) const;
+    /// Light from a point of the light, chosen by `u`; nothing if none arrives.
+    [[nodiscard]] std::optional<LightConnection> connect(SampleContext& sample,
+                                                         const SurfacePoint& point, LightId light,
+                                                         Vec2 u, int depth) const;
+    /// How much more often `FogSampling` finds the light at the point of fog than a walk comes
+    /// there.
+    [[nodiscard]] float fog_odds(const std::optional<FogArrival>& arrival, LightId light) const;
+    [[nodiscard]] float weight(const LightDensities3& densities, LightFinder used) const
+    {
+        return mis_weight(densities, used, options_.transport.heuristic);
+    }
 
     const World& world_;
     const MovingCamera& camera_;
@@ -43,6 +61,7 @@ private:
     PixelFilter filter_;
     NextEventSampling next_event_sampling_;
     float light_samples_;  // of these
+    std::optional<FogSampling> fog_sampling_;
 };
 
 }  // namespace bdpt

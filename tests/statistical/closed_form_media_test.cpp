@@ -81,6 +81,7 @@ TEST_CASE("a volume of even density is a medium", "[closed-form][media]")
     volume.size = {6, 6, 6};
     volume.density.assign(216, 0.7f);
     volume.world_from_grid = glm::translate(Mat4(1.0f), Vec3(-3.0f));
+    volume.extinction = {0.5f, 1.0f, 1.5f};
     volume.anisotropy = 0.5f;
     fog.desc.volumes.push_back(volume);
     const Scene white(fog.desc);
@@ -88,7 +89,9 @@ TEST_CASE("a volume of even density is a medium", "[closed-form][media]")
     const Scene black(std::move(fog.desc));
     const CameraDesc camera = camera_at({0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -1.0f}, 0.002f);
     // Half a voxel on the border goes linearly to half of the density.
-    const double through = std::exp(-0.7 * (2.5 + 0.5 * 0.75));
+    const double depth = 0.7 * (2.5 + 0.5 * 0.75);
+    const double through =
+        (std::exp(-0.5 * depth) + std::exp(-depth) + std::exp(-1.5 * depth)) / 3.0;
     for (const auto kind :
          {IntegratorKind::pt, IntegratorKind::nee, IntegratorKind::mis, IntegratorKind::bdpt}) {
         check_mean(black, camera, options(kind, 3), through, 0.02);

@@ -106,7 +106,7 @@ EqualityCase cloud()
     }
     volume.world_from_grid =
         glm::scale(glm::translate(Mat4(1.0f), Vec3(-0.8f, -0.7f, -0.6f)), Vec3(0.14f));
-    volume.extinction = 3.0f;
+    volume.extinction = {2.0f, 3.0f, 4.0f};
     volume.albedo = {0.9f, 0.7f, 0.5f};
     volume.anisotropy = 0.4f;
     builder.desc.volumes.push_back(std::move(volume));

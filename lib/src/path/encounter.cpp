@@ -32,7 +32,9 @@ void pass_media(SampleContext& sample, const SegmentEnd& origin, Vec3 direction,
     }
     const Volumes& volumes = sample.world.volumes();
     if (volumes.any()) {
-        met.in_volume = volumes.draw_event(origin.p, direction, distance, segment);
+        const VolumePassage passage = volumes.walk(origin.p, direction, distance, segment);
+        met.in_volume = passage.event;
+        met.volume_weight = passage.weight;
     }
     if (met.in_volume) {
         met.in_medium.reset();

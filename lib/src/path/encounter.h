@@ -12,6 +12,7 @@ namespace bdpt {
 struct Encounter {
     std::optional<MediumEvent> in_medium;
     std::optional<VolumeEvent> in_volume;
+    Rgb volume_weight{1.0f};            ///< of `VolumePassage`
     std::optional<RayHit> surface;      ///< of the ray, whether or not it gets there
     std::optional<FogSpan> fog;         ///< on the way there, scattered or not
     Flight flight;                      ///< to where it ends
@@ -20,11 +21,10 @@ struct Encounter {
     /// Probability of getting there, or its density along the ray.
     /// Volumes are left out: what they let through, their extinction, too.
     [[nodiscard]] float probability() const { return flight.to(in_medium.has_value()); }
-    /// What a throughput is multiplied by. Walks get through volumes by chance, as often as light.
+    /// What a throughput is multiplied by.
     [[nodiscard]] Rgb weight() const
     {
-        const Rgb weight = flight.transmittance / probability();
-        return in_volume ? weight / in_volume->extinction : weight;
+        return flight.transmittance / probability() * volume_weight;
     }
     [[nodiscard]] bool is_nothing() const { return !in_medium && !in_volume && !surface; }
     [[nodiscard]] VertexKind kind() const

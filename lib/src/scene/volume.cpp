@@ -1,6 +1,7 @@
 #include "scene/volume.h"
 
 #include "math/elementary.h"
+#include "math/rgb.h"
 
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
@@ -14,7 +15,9 @@ namespace bdpt {
 Volume::Volume(const VolumeDesc& desc)
     : desc_(desc),
       grid_from_world_(glm::inverse(desc.world_from_grid)),
-      blocks_((desc.size + (block - 1)) / block)
+      blocks_((desc.size + (block - 1)) / block),
+      most_extinction_(max_component(desc.extinction)),
+      channel_shares_(most_extinction_ > 0.0f ? desc.extinction / most_extinction_ : Rgb(1.0f))
 {
     majorants_.resize(std::size_t{blocks_.x} * blocks_.y * blocks_.z);
     // Between centres a density belongs to voxels on both sides.
@@ -29,13 +32,13 @@ Volume::Volume(const VolumeDesc& desc)
             const UVec3 by = blocks_of(y, blocks_.y);
             for (std::uint32_t x = 0; x < desc.size.x; ++x, ++i) {
                 const UVec3 bx = blocks_of(x, blocks_.x);
-                const float extinction = desc.extinction * desc.density[i];
+                const float density = desc.density[i];
                 for (std::uint32_t c = bz.x; c <= bz.y; ++c) {
                     for (std::uint32_t b = by.x; b <= by.y; ++b) {
                         for (std::uint32_t a = bx.x; a <= bx.y; ++a) {
                             float& most =
                                 majorants_[(std::size_t{c} * blocks_.y + b) * blocks_.x + a];
-                            most = std::max(most, extinction);
+                            most = std::max(most, density);
                         }
                     }
                 }
@@ -77,11 +80,6 @@ float Volume::density_at(Vec3 in_grid) const noexcept
     };
     const auto plane = [&](int c) { return row(y, c) + t.y * (row(y + 1, c) - row(y, c)); };
     return plane(z) + t.z * (plane(z + 1) - plane(z));
-}
-
-float Volume::extinction(Vec3 p) const noexcept
-{
-    return desc_.extinction * density_at(Vec3(grid_from_world_ * Vec4(p, 1.0f)));
 }
 
 template <typename Visit>
@@ -131,18 +129,20 @@ void Volume::for_each_collision(Vec3 origin, Vec3 direction, float distance, Vol
                                            static_cast<std::size_t>(cell[1])) *
                                               blocks_.x +
                                           static_cast<std::size_t>(cell[0])];
+        const float rate = majorant * most_extinction_;
         // What is left to the next collision is as long whatever came before: each block draws
         // anew.
         // In double, for a step may be less than a float can tell so far from the origin.
         double at = static_cast<double>(t);
-        while (majorant > 0.0f) {
-            at += static_cast<double>(-log_exact(1.0f - noise.next()) / majorant);
+        while (rate > 0.0f) {
+            at += static_cast<double>(-log_exact(1.0f - noise.next()) / rate);
             if (!(at < static_cast<double>(stop))) {
                 break;
             }
             t = static_cast<float>(at);
-            const float here = extinction(origin + t * direction);
-            if (!visit(VolumeEvent{.distance = t, .extinction = here}, majorant)) {
+            const float here = density(origin + t * direction);
+            if (!visit(VolumeEvent{.distance = t, .density = here},
+                       here / majorant * channel_shares_)) {
                 return;
             }
         }
@@ -155,32 +155,45 @@ void Volume::for_each_collision(Vec3 origin, Vec3 direction, float distance, Vol
 }
 
 std::optional<VolumeEvent> Volume::draw_event(Vec3 origin, Vec3 direction, float distance,
-                                              VolumeNoise noise) const noexcept
+                                              int channel, VolumeNoise noise) const noexcept
 {
     std::optional<VolumeEvent> event;
-    for_each_collision(origin, direction, distance, noise,
-                       [&](const VolumeEvent& at, float majorant) {
-                           if (noise.next() * majorant < at.extinction) {
-                               event = at;
-                           }
-                           return !event;
-                       });
+    for_each_collision(origin, direction, distance, noise, [&](const VolumeEvent& at, Rgb share) {
+        if (noise.next() < share[channel]) {
+            event = at;
+        }
+        return !event;
+    });
     return event;
 }
 
-float Volume::transmittance(Vec3 origin, Vec3 direction, float distance,
-                            VolumeNoise noise) const noexcept
+Rgb Volume::pass_odds(Vec3 origin, Vec3 direction, float distance, VolumeNoise noise) const noexcept
+{
+    Rgb odds(1.0f);
+    for_each_collision(origin, direction, distance, noise, [&](const VolumeEvent& at, Rgb share) {
+        static_cast<void>(noise.next());  // what `draw_event` decides by
+        if (at.distance >= distance) {
+            return false;
+        }
+        odds *= max(1.0f - share, Rgb(0.0f));
+        odds /= max_component(odds);  // or many of them would leave the range of floats
+        return true;
+    });
+    return odds;
+}
+
+Rgb Volume::transmittance(Vec3 origin, Vec3 direction, float distance,
+                          VolumeNoise noise) const noexcept
 {
     constexpr float low = 0.1f;  // where one in two is ended, and the other counts twice
-    float left = 1.0f;
-    for_each_collision(origin, direction, distance, noise,
-                       [&](const VolumeEvent& at, float majorant) {
-                           left *= std::max(0.0f, 1.0f - at.extinction / majorant);
-                           if (left < low) {
-                               left = noise.next() < 0.5f ? 0.0f : 2.0f * left;
-                           }
-                           return left > 0.0f;
-                       });
+    Rgb left(1.0f);
+    for_each_collision(origin, direction, distance, noise, [&](const VolumeEvent&, Rgb share) {
+        left *= max(1.0f - share, Rgb(0.0f));
+        if (max_component(left) < low) {
+            left = noise.next() < 0.5f ? Rgb(0.0f) : 2.0f * left;
+        }
+        return !is_black(left);
+    });
     return left;
 }
 
@@ -189,29 +202,53 @@ Volumes::Volumes(std::span<const VolumeDesc> descs)
     volumes_.reserve(descs.size());
     for (const VolumeDesc& desc : descs) {
         volumes_.emplace_back(desc);
+        are_grey_ = are_grey_ && volumes_.back().is_grey();
     }
 }
 
-std::optional<VolumeEvent> Volumes::draw_event(Vec3 origin, Vec3 direction, float distance,
-                                               SegmentKey segment) const noexcept
+VolumePassage Volumes::walk(Vec3 origin, Vec3 direction, float distance,
+                            SegmentKey segment) const noexcept
 {
-    std::optional<VolumeEvent> first;
+    // A number of its own, beside those of the volumes.
+    const float u = VolumeNoise(segment, static_cast<std::uint32_t>(volumes_.size())).next();
+    const int channel = std::min(static_cast<int>(3.0f * u), 2);
+    VolumePassage passage;
+    auto& first = passage.event;
     for (std::uint32_t i = 0; i < volumes_.size(); ++i) {
         auto event = volumes_[i].draw_event(origin, direction, first ? first->distance : distance,
-                                            VolumeNoise(segment, i));
+                                            channel, VolumeNoise(segment, i));
         if (event) {
             event->volume = i;
             first = event;
         }
     }
-    return first;
+    if (!are_grey_) {
+        passage.weight = colour_weight(origin, direction, distance, first, segment);
+    } else if (first) {
+        passage.weight = 1.0f / volumes_[first->volume].extinction(first->density);
+    }
+    return passage;
 }
 
-float Volumes::transmittance(Vec3 origin, Vec3 direction, float distance,
-                             SegmentKey segment) const noexcept
+/// What gets through, over the mean of what the channels' walks make of it.
+Rgb Volumes::colour_weight(Vec3 origin, Vec3 direction, float distance,
+                           const std::optional<VolumeEvent>& event,
+                           SegmentKey segment) const noexcept
 {
-    float left = 1.0f;
-    for (std::uint32_t i = 0; i < volumes_.size() && left > 0.0f; ++i) {
+    Rgb odds(1.0f);
+    for (std::uint32_t i = 0; i < volumes_.size(); ++i) {
+        odds *= volumes_[i].pass_odds(origin, direction, event ? event->distance : distance,
+                                      VolumeNoise(segment, i));
+    }
+    const Rgb found = event ? odds * volumes_[event->volume].extinction(event->density) : odds;
+    return odds * (3.0f / (found.r + found.g + found.b));
+}
+
+Rgb Volumes::transmittance(Vec3 origin, Vec3 direction, float distance,
+                           SegmentKey segment) const noexcept
+{
+    Rgb left(1.0f);
+    for (std::uint32_t i = 0; i < volumes_.size() && !is_black(left); ++i) {
         left *= volumes_[i].transmittance(origin, direction, distance, VolumeNoise(segment, i));
     }
     return left;

@@ -14,9 +14,17 @@ namespace bdpt {
 
 /// Where a ray is scattered in a volume.
 struct VolumeEvent {
-    float distance = 0.0f;    ///< [m]
-    float extinction = 0.0f;  ///< there [1/m], > 0
+    float distance = 0.0f;  ///< [m]
+    float density = 0.0f;   ///< there, > 0
     std::uint32_t volume = 0;
+};
+
+/// What a walk met in volumes.
+struct VolumePassage {
+    std::optional<VolumeEvent> event;
+    /// What its throughput is multiplied by. Light gets through as often as walks do, so for grey
+    /// extinction that is 1, or 1 over the extinction where it is scattered.
+    Rgb weight{1.0f};
 };
 
 /// The random numbers of one segment in one volume: a sequence of its own.
@@ -41,14 +49,29 @@ class Volume {
 public:
     explicit Volume(const VolumeDesc& desc);
 
-    /// Of a world point [1/m]: trilinear between the centres of voxels, zero outside of the grid.
-    [[nodiscard]] float extinction(Vec3 p) const noexcept;
-    /// Delta tracking: how far a walk gets before it is scattered, if it is; `direction` is unit.
+    /// Of a world point: trilinear between the centres of voxels, zero outside of the grid.
+    [[nodiscard]] float density(Vec3 p) const noexcept
+    {
+        return density_at(Vec3(grid_from_world_ * Vec4(p, 1.0f)));
+    }
+    /// [1/m]
+    [[nodiscard]] Rgb extinction(float density) const { return density * desc_.extinction; }
+    /// Delta tracking by one channel's extinction: how far a walk gets before it is scattered, if
+    /// it is; `direction` is unit.
     [[nodiscard]] std::optional<VolumeEvent> draw_event(Vec3 origin, Vec3 direction, float distance,
+                                                        int channel,
                                                         VolumeNoise noise) const noexcept;
+    /// For each channel the probability that a walk with the same noise is not scattered before
+    /// `distance`; their ratios are what counts.
+    [[nodiscard]] Rgb pass_odds(Vec3 origin, Vec3 direction, float distance,
+                                VolumeNoise noise) const noexcept;
     /// Ratio tracking: an unbiased estimate of what gets through, >= 0.
-    [[nodiscard]] float transmittance(Vec3 origin, Vec3 direction, float distance,
-                                      VolumeNoise noise) const noexcept;
+    [[nodiscard]] Rgb transmittance(Vec3 origin, Vec3 direction, float distance,
+                                    VolumeNoise noise) const noexcept;
+    [[nodiscard]] bool is_grey() const
+    {
+        return desc_.extinction.r == desc_.extinction.g && desc_.extinction.r == desc_.extinction.b;
+    }
     [[nodiscard]] Rgb albedo() const { return desc_.albedo; }
     [[nodiscard]] float anisotropy() const { return desc_.anisotropy; }
 
@@ -57,9 +80,9 @@ private:
 
     [[nodiscard]] float density_at(Vec3 in_grid) const noexcept;
     [[nodiscard]] float voxel(int x, int y, int z) const noexcept;
-    /// Calls `visit(point, majorant)` at points along the ray that are as frequent as if the
-    /// extinction were the majorant of its block, until that returns false. `point` has a distance
-    /// and the extinction there.
+    /// Calls `visit(point, share)` at points along the ray that are as frequent as if the density
+    /// were the majorant of its block and each channel had the greatest extinction of the three,
+    /// until that returns false. `share` is for each channel its part of that extinction.
     template <typename Visit>
     void for_each_collision(Vec3 origin, Vec3 direction, float distance, VolumeNoise& noise,
                             const Visit& visit) const noexcept;
@@ -67,7 +90,9 @@ private:
     const VolumeDesc& desc_;
     Mat4 grid_from_world_;
     UVec3 blocks_;
-    std::vector<float> majorants_;  // of extinction [1/m], by block, x fastest
+    float most_extinction_;         // of the channels [1/m], where the density is 1
+    Rgb channel_shares_;            // of it
+    std::vector<float> majorants_;  // of the density, by block, x fastest
 };
 
 /// The volumes of a scene, each by itself: what a ray passes it passes through all.
@@ -79,14 +104,21 @@ public:
 
     [[nodiscard]] bool any() const { return !volumes_.empty(); }
     [[nodiscard]] const Volume& operator[](std::uint32_t i) const { return volumes_[i]; }
-    /// The first event of all.
-    [[nodiscard]] std::optional<VolumeEvent> draw_event(Vec3 origin, Vec3 direction, float distance,
-                                                        SegmentKey segment) const noexcept;
-    [[nodiscard]] float transmittance(Vec3 origin, Vec3 direction, float distance,
-                                      SegmentKey segment) const noexcept;
+    /// A walk to the first event of all. One channel, drawn by chance, decides how far it gets, and
+    /// the walks of all three are weighed by the balance heuristic [Miller et al. 2019, "A
+    /// Null-Scattering Path Integral Formulation of Light Transport", sec. 5.2].
+    [[nodiscard]] VolumePassage walk(Vec3 origin, Vec3 direction, float distance,
+                                     SegmentKey segment) const noexcept;
+    [[nodiscard]] Rgb transmittance(Vec3 origin, Vec3 direction, float distance,
+                                    SegmentKey segment) const noexcept;
 
 private:
+    [[nodiscard]] Rgb colour_weight(Vec3 origin, Vec3 direction, float distance,
+                                    const std::optional<VolumeEvent>& event,
+                                    SegmentKey segment) const noexcept;
+
     std::vector<Volume> volumes_;
+    bool are_grey_ = true;
 };
 
 }  // namespace bdpt

@@ -202,7 +202,7 @@ SurfacePoint World::volume_point(const SegmentEnd& from, Vec3 direction, const V
     const Volume& volume = volumes_[event.volume];
     return scattering_point(
         from.p + event.distance * direction, direction, around,
-        HenyeyGreenstein(event.extinction * volume.albedo(), volume.anisotropy()));
+        HenyeyGreenstein(volume.extinction(event.density) * volume.albedo(), volume.anisotropy()));
 }
 
 std::optional<Flight> World::flight(const SegmentEnd& a, const SegmentEnd& b,

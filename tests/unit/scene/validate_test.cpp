@@ -196,12 +196,12 @@ TEST_CASE("lights and images", "[validate]")
     check_refused("volume 0 \"smoke\": density is -1",
                   volume([](VolumeDesc& v) { v.density[1] = -1.0f; }));
     check_refused("volume 0 \"smoke\": extinction is inf",
-                  volume([](VolumeDesc& v) { v.extinction = infinite; }));
+                  volume([](VolumeDesc& v) { v.extinction.g = infinite; }));
     check_refused("volume 0 \"smoke\": albedo is 2", volume([](VolumeDesc& v) { v.albedo.g = 2; }));
     check_refused("volume 0 \"smoke\": anisotropy is 1",
                   volume([](VolumeDesc& v) { v.anisotropy = 1; }));
     check_refused("volume 0 \"smoke\": its greatest extinction",
-                  volume([](VolumeDesc& v) { v.extinction = 1e38f; }));
+                  volume([](VolumeDesc& v) { v.extinction.g = 1e38f; }));
     check_refused("volume 0 \"smoke\": its greatest extinction",
                   volume([](VolumeDesc& v) { v.density[0] = 1e6f; }));
     check_refused("volume 0 \"smoke\": reaches",

@@ -31,7 +31,7 @@ VolumeDesc smoke()
     desc.world_from_grid = glm::scale(
         glm::rotate(glm::translate(Mat4(1.0f), Vec3(0.3f, -0.2f, 0.1f)), 0.7f, Vec3(1, 2, 3)),
         Vec3(0.1f, 0.12f, 0.2f));
-    desc.extinction = 0.8f;
+    desc.extinction = {0.8f, 0.5f, 1.2f};
     return desc;
 }
 
@@ -40,17 +40,43 @@ SegmentKey key(int i)
     return Sampler(SamplerKind::independent, 3, i, 0, 0).segment_key(0, 1);
 }
 
-/// The optical depth, by many steps.
-double depth_of(const Volume& volume, Vec3 origin, Vec3 direction, double length)
+/// The transmittance, by many steps.
+glm::dvec3 left_of(const Volume& volume, Vec3 origin, Vec3 direction, double length)
 {
     constexpr int steps = 20000;
     double sum = 0.0;
     for (int i = 0; i < steps; ++i) {
         const auto t = static_cast<float>(length * (i + 0.5) / steps);
-        sum += static_cast<double>(volume.extinction(origin + t * direction)) * length / steps;
+        sum += static_cast<double>(volume.density(origin + t * direction)) * length / steps;
     }
-    return sum;
+    return exp(-sum * glm::dvec3(volume.extinction(1.0f)));
 }
+
+/// The mean of many estimates, and its standard error, for each channel.
+class Mean {
+public:
+    void add(glm::dvec3 x)
+    {
+        sum_ += x;
+        squares_ += x * x;
+        ++count_;
+    }
+    void check(glm::dvec3 expected) const
+    {
+        const glm::dvec3 mean = sum_ / count_;
+        for (int c = 0; c < 3; ++c) {
+            const double variance = squares_[c] / count_ - mean[c] * mean[c];
+            const double error = std::sqrt(std::max(1e-12, variance) / count_);
+            CAPTURE(c, expected[c], mean[c], error);
+            CHECK(std::abs(mean[c] - expected[c]) < 4.5 * error + 1e-4);
+        }
+    }
+
+private:
+    glm::dvec3 sum_{0.0};
+    glm::dvec3 squares_{0.0};
+    double count_ = 0.0;
+};
 
 struct Ray {
     Vec3 origin;
@@ -79,15 +105,16 @@ TEST_CASE("densities are those of voxels at their centres, and linear between", 
     VolumeDesc desc;
     desc.size = {2, 1, 1};
     desc.density = {1.0f, 3.0f};
-    desc.extinction = 2.0f;
+    desc.extinction = {2.0f, 1.0f, 0.0f};
     const Volume volume(desc);
-    CHECK(volume.extinction({0.5f, 0.5f, 0.5f}) == 2.0f);
-    CHECK(volume.extinction({1.5f, 0.5f, 0.5f}) == 6.0f);
-    CHECK(volume.extinction({1.0f, 0.5f, 0.5f}) == Approx(4.0f));
-    CHECK(volume.extinction({0.25f, 0.5f, 0.5f}) == Approx(1.5f));  // towards nothing
-    CHECK(volume.extinction({0.5f, 0.5f, 0.25f}) == Approx(1.5f));
-    CHECK(volume.extinction({-0.01f, 0.5f, 0.5f}) == 0.0f);
-    CHECK(volume.extinction({0.5f, 1.01f, 0.5f}) == 0.0f);
+    CHECK(volume.density({0.5f, 0.5f, 0.5f}) == 1.0f);
+    CHECK(volume.density({1.5f, 0.5f, 0.5f}) == 3.0f);
+    CHECK(volume.density({1.0f, 0.5f, 0.5f}) == Approx(2.0f));
+    CHECK(volume.density({0.25f, 0.5f, 0.5f}) == Approx(0.75f));  // towards nothing
+    CHECK(volume.density({0.5f, 0.5f, 0.25f}) == Approx(0.75f));
+    CHECK(volume.density({-0.01f, 0.5f, 0.5f}) == 0.0f);
+    CHECK(volume.density({0.5f, 1.01f, 0.5f}) == 0.0f);
+    CHECK(volume.extinction(3.0f) == Rgb(6.0f, 3.0f, 0.0f));
 }
 
 TEST_CASE("ratio tracking lets through what the optical depth says", "[volume]")
@@ -96,55 +123,91 @@ TEST_CASE("ratio tracking lets through what the optical depth says", "[volume]")
     const Volumes volumes({&desc, 1});
     int opaque = 0;
     for (const Ray& ray : rays(desc)) {
-        const double expected = std::exp(
-            -depth_of(volumes[0], ray.origin, ray.direction, static_cast<double>(ray.length)));
-        double sum = 0.0;
-        double squares = 0.0;
-        constexpr int count = 40000;
-        for (int i = 0; i < count; ++i) {
-            const auto left = static_cast<double>(
-                volumes.transmittance(ray.origin, ray.direction, ray.length, key(i)));
-            REQUIRE(left >= 0.0);
-            sum += left;
-            squares += left * left;
+        const glm::dvec3 expected =
+            left_of(volumes[0], ray.origin, ray.direction, static_cast<double>(ray.length));
+        Mean mean;
+        for (int i = 0; i < 40000; ++i) {
+            const Rgb left = volumes.transmittance(ray.origin, ray.direction, ray.length, key(i));
+            REQUIRE(left.r >= 0.0f);
+            mean.add(glm::dvec3(left));
         }
-        const double mean = sum / count;
-        const double error = std::sqrt(std::max(1e-12, squares / count - mean * mean) / count);
-        CAPTURE(expected, mean, error);
-        CHECK(std::abs(mean - expected) < 4.0 * error + 1e-4);
-        opaque += expected < 0.5 ? 1 : 0;
+        mean.check(expected);
+        opaque += expected.r < 0.5 ? 1 : 0;
     }
     CHECK(opaque >= 2);
 }
 
 TEST_CASE("delta tracking stops where the extinction is, and gets through as often", "[volume]")
 {
-    const VolumeDesc desc = smoke();
-    const Volumes volumes({&desc, 1});
-    for (const Ray& ray : rays(desc)) {
-        constexpr int count = 40000;
-        constexpr int bins = 10;
-        double expected_before = 1.0;
-        std::vector<double> counts(bins + 1);
-        for (int i = 0; i < count; ++i) {
-            const auto event = volumes.draw_event(ray.origin, ray.direction, ray.length, key(i));
-            if (event) {
-                REQUIRE(event->distance < ray.length);
-                REQUIRE(event->extinction ==
-                        volumes[0].extinction(ray.origin + event->distance * ray.direction));
+    // Grey and coloured: what walks bring is what light loses, in all channels.
+    VolumeDesc grey = smoke();
+    grey.extinction = Rgb(0.8f);
+    VolumeDesc red = smoke();
+    red.extinction = {0.9f, 0.0f, 0.3f};
+    for (const VolumeDesc& desc : {grey, smoke(), red}) {
+        const Volumes volumes({&desc, 1});
+        for (const Ray& ray : rays(desc)) {
+            constexpr std::size_t bins = 10;
+            std::vector<Mean> found(bins + 1);
+            for (int i = 0; i < 40000; ++i) {
+                const VolumePassage walk =
+                    volumes.walk(ray.origin, ray.direction, ray.length, key(i));
+                std::size_t bin = bins;
+                glm::dvec3 value(walk.weight);
+                if (walk.event) {
+                    REQUIRE(walk.event->distance < ray.length);
+                    const float density = walk.event->density;
+                    REQUIRE(density ==
+                            volumes[0].density(ray.origin + walk.event->distance * ray.direction));
+                    bin = static_cast<std::size_t>(walk.event->distance / ray.length * bins);
+                    value *= glm::dvec3(volumes[0].extinction(density));
+                }
+                REQUIRE(value.r <= 3.001);
+                REQUIRE(value.g <= 3.001);
+                REQUIRE(value.b <= 3.001);
+                for (std::size_t b = 0; b <= bins; ++b) {
+                    found[b].add(b == bin ? value : glm::dvec3(0.0));
+                }
             }
-            counts[event ? static_cast<std::size_t>(event->distance / ray.length * bins) : bins] +=
-                1.0 / count;
+            glm::dvec3 before(1.0);
+            for (std::size_t b = 0; b < bins; ++b) {
+                const double end =
+                    static_cast<double>(ray.length) * static_cast<double>(b + 1) / bins;
+                const glm::dvec3 left = left_of(volumes[0], ray.origin, ray.direction, end);
+                CAPTURE(b, ray.length);
+                found[b].check(before - left);
+                before = left;
+            }
+            found[bins].check(before);
         }
-        for (int i = 0; i < bins; ++i) {
-            const double end = static_cast<double>(ray.length) * (i + 1) / bins;
-            const double left = std::exp(-depth_of(volumes[0], ray.origin, ray.direction, end));
-            const double share = std::max(0.0, expected_before - left);
-            CAPTURE(i, share);
-            CHECK(std::abs(counts[static_cast<std::size_t>(i)] - share) <
-                  4.5 * std::sqrt(share / count) + 1e-3);
-            expected_before = left;
+    }
+}
+
+TEST_CASE("walks through volumes of other colours bring what both let through", "[volume]")
+{
+    VolumeDesc red = smoke();
+    red.extinction = {0.6f, 0.1f, 0.2f};
+    VolumeDesc blue = smoke();
+    blue.extinction = {0.1f, 0.3f, 0.7f};
+    blue.world_from_grid = glm::translate(blue.world_from_grid, Vec3(3, -2, 1));
+    const std::vector<VolumeDesc> both{red, blue};
+    const Volumes volumes(both);
+    for (const Ray& ray : rays(red)) {
+        const auto length = static_cast<double>(ray.length);
+        const glm::dvec3 left = left_of(volumes[0], ray.origin, ray.direction, length) *
+                                left_of(volumes[1], ray.origin, ray.direction, length);
+        Mean through;
+        Mean scattered;
+        for (int i = 0; i < 40000; ++i) {
+            const VolumePassage walk = volumes.walk(ray.origin, ray.direction, ray.length, key(i));
+            const glm::dvec3 weight(walk.weight);
+            through.add(walk.event ? glm::dvec3(0.0) : weight);
+            scattered.add(walk.event ? weight * glm::dvec3(volumes[walk.event->volume].extinction(
+                                                    walk.event->density))
+                                     : glm::dvec3(0.0));
         }
+        through.check(left);
+        scattered.check(1.0 - left);
     }
 }
 
@@ -153,22 +216,22 @@ TEST_CASE("of several volumes a walk is scattered by the first", "[volume]")
     VolumeDesc thin;
     thin.size = {1, 1, 1};
     thin.density = {1.0f};
-    thin.extinction = 1e-3f;
+    thin.extinction = Rgb(1e-3f);
     VolumeDesc dense = thin;
-    dense.extinction = 1e4f;
+    dense.extinction = Rgb(1e4f);
     dense.world_from_grid = glm::translate(Mat4(1.0f), Vec3(2, 0, 0));
     const std::vector<VolumeDesc> both{thin, dense};
     const Volumes volumes(both);
     int first = 0;
     for (int i = 0; i < 2000; ++i) {
-        const auto event = volumes.draw_event({-1, 0.5f, 0.5f}, {1, 0, 0}, 100.0f, key(i));
+        const auto event = volumes.walk({-1, 0.5f, 0.5f}, {1, 0, 0}, 100.0f, key(i)).event;
         REQUIRE(event.has_value());
         first += event->volume == 0 ? 1 : 0;
         CHECK((event->volume == 0) == (event->distance <= 2.0f));
     }
     CHECK(first < 20);
-    CHECK(volumes.transmittance({-1, 0.5f, 0.5f}, {1, 0, 0}, 100.0f, key(0)) == 0.0f);
-    CHECK(volumes.transmittance({-1, 3.5f, 0.5f}, {1, 0, 0}, 100.0f, key(0)) == 1.0f);
+    CHECK(volumes.transmittance({-1, 0.5f, 0.5f}, {1, 0, 0}, 100.0f, key(0)) == Rgb(0.0f));
+    CHECK(volumes.transmittance({-1, 3.5f, 0.5f}, {1, 0, 0}, 100.0f, key(0)) == Rgb(1.0f));
 }
 
 TEST_CASE("rays from far away come to the end of a block that is dense in one corner", "[volume]")
@@ -180,8 +243,8 @@ TEST_CASE("rays from far away come to the end of a block that is dense in one co
     desc.density[0] = 1000.0f;
     desc.world_from_grid = glm::translate(Mat4(1.0f), Vec3(2e7f, 0, 0));
     const Volumes volumes({&desc, 1});
-    CHECK(volumes.transmittance({0, 6.5f, 6.5f}, {1, 0, 0}, 1e8f, key(0)) == 1.0f);
-    CHECK_FALSE(volumes.draw_event({0, 6.5f, 6.5f}, {1, 0, 0}, 1e8f, key(0)));
+    CHECK(volumes.transmittance({0, 6.5f, 6.5f}, {1, 0, 0}, 1e8f, key(0)) == Rgb(1.0f));
+    CHECK_FALSE(volumes.walk({0, 6.5f, 6.5f}, {1, 0, 0}, 1e8f, key(0)).event);
 }
 
 }  // namespace bdpt

@@ -283,14 +283,14 @@ Rgb PathIntegrator::sample_fog(SampleContext& sample, const Ray& ray, const FogS
     }
     const Flight flight =
         world_.media().flight(ray.origin, point.end, ray.direction, chosen->distance);
-    const float through = world_.volumes().transmittance(
-        ray.origin.p, ray.direction, chosen->distance, sample.segment(0, depth));
+    const Rgb through = world_.volumes().transmittance(ray.origin.p, ray.direction,
+                                                       chosen->distance, sample.segment(0, depth));
     const float probability = world_.lights().context_probability(
         chosen->light, LightSampleContext{.p = point.end.p}, next_event_sampling_.lights);
     const LightDensities3 densities{flight.stop * found->light_pdf * (probability * light_samples_),
                                     flight.stop * found->bsdf_pdf, chosen->pdf * found->light_pdf};
-    return found->value * flight.transmittance *
-           (through / chosen->pdf * weight(densities, LightFinder::fog_sample));
+    return found->value * flight.transmittance * through *
+           (weight(densities, LightFinder::fog_sample) / chosen->pdf);
 }
 
 std::optional<PathIntegrator::LightConnection> PathIntegrator::connect(SampleContext& sample,

@@ -1,6 +1,7 @@
 #include "scene/checks/validate.h"
 
 #include "geometry/coordinate_limit.h"
+#include "math/rgb.h"
 #include "scene/checks/check_motion.h"
 #include "scene/checks/check_texels.h"
 #include "scene/checks/validate_lights.h"
@@ -130,7 +131,8 @@ void check(const VolumeDesc& volume, const std::string& item)
     // Rays stop so many times on their way through it.
     constexpr double most_depth = 1e5;
     const glm::dvec3 diagonal = glm::dmat3(volume.world_from_grid) * glm::dvec3(size);
-    const double depth = densest * static_cast<double>(volume.extinction) * glm::length(diagonal);
+    const double depth =
+        densest * static_cast<double>(max_component(volume.extinction)) * glm::length(diagonal);
     if (!(depth <= most_depth)) {
         fail(item, ": its greatest extinction, all along its diagonal, is an optical depth of ",
              depth, ", but must be at most ", most_depth);

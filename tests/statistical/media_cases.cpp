@@ -91,6 +91,28 @@ EqualityCase lens_in_fog()
     return result;
 }
 
+/// So many that a tree chooses among them, at finite places and at infinity, beside a sheet that
+/// lets half of all rays pass.
+EqualityCase lamps_in_fog()
+{
+    SceneBuilder builder = lit_room();
+    for (int i = 0; i < 4; ++i) {
+        const Vec3 p(0.4f * static_cast<float>(i) - 0.6f, 0.2f, i % 2 == 0 ? 0.3f : -0.3f);
+        builder.light(
+            PointLightDesc{.position = p, .intensity = Rgb(0.3f), .radius = i == 3 ? 0.0f : 0.1f});
+    }
+    builder.light(
+        DirectionalLightDesc{.direction = {0.2f, -0.3f, -1.0f}, .illuminance = Rgb(2.0f)});
+    MaterialDesc sheet = lambertian(Rgb(0.6f));
+    sheet.alpha_mode = AlphaMode::blend;
+    sheet.base_color.a = 0.5f;
+    sheet.double_sided = true;
+    builder.quad({-0.8f, -0.4f, 0.6f}, {0.1f, -0.4f, 0.6f}, {0.1f, 0.5f, 0.6f}, {-0.8f, 0.5f, 0.6f},
+                 sheet);
+    builder.desc.fog = mist;
+    return of("lamps in fog", std::move(builder));
+}
+
 /// A cloud that is denser in the middle, beside fog and a body within it.
 EqualityCase cloud()
 {
@@ -118,7 +140,7 @@ EqualityCase cloud()
 
 std::vector<EqualityCase> media_cases()
 {
-    return {fog(), fog_under_sky(), bodies(), lens_in_fog(), cloud()};
+    return {fog(), lamps_in_fog(), fog_under_sky(), bodies(), lens_in_fog(), cloud()};
 }
 
 }  // namespace bdpt::test

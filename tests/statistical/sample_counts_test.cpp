@@ -45,7 +45,8 @@ TEST_CASE("several light samples agree with one", "[equality]")
     const auto more = many_light_cases();
     cases.insert(cases.end(), more.begin(), more.end());
     for (std::size_t i = 0; i < cases.size(); i += 4) {
-        const EqualityCase& test = cases[i];
+        const bool in_fog = i == 0;  // where there are three ways to a lamp
+        const EqualityCase test = in_fog ? media_cases().front() : cases[i];
         const Scene scene(test.scene);
         const std::uint64_t seed = 470000 + 10 * i;
         TileMeans one(scene, test.camera, options(test, IntegratorKind::mis, seed));

@@ -33,6 +33,10 @@ public:
     /// `world` must outlive this.
     FogSampling(const World& world, LightSampling lights);
 
+    /// How many samples are worth their time on each segment, in (0, 1]: among many lights the one
+    /// that is chosen is seldom the one that matters.
+    [[nodiscard]] float samples() const { return lights_.uses_tree(sampling_) ? 0.25f : 1.0f; }
+
     /// `u_light`, `u_distance` in [0, 1), `draw_fine()` as for `LightSet::choose_for_context`.
     template <typename DrawFine>
     [[nodiscard]] std::optional<FogSample> sample(const FogSegment& fog, Vec2 u_light,

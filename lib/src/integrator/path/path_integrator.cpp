@@ -199,7 +199,8 @@ void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, Contribution
 
 float PathIntegrator::fog_odds(const std::optional<FogArrival>& arrival, LightId light) const
 {
-    return arrival ? fog_sampling_->pdf(arrival->fog, light, arrival->distance) / arrival->pdf
+    return arrival ? fog_sampling_->samples() *
+                         fog_sampling_->pdf(arrival->fog, light, arrival->distance) / arrival->pdf
                    : 0.0f;
 }
 
@@ -270,6 +271,10 @@ Rgb PathIntegrator::sample_fog(SampleContext& sample, const Ray& ray, const FogS
     sampler.start(SampleUse::fog, static_cast<std::uint32_t>(depth));
     const Vec2 u_light = sampler.next_2d();
     const float u_distance = sampler.next_1d();
+    const float samples = fog_sampling_->samples();
+    if (sampler.next_1d() >= samples) {
+        return Rgb(0.0f);
+    }
     const auto chosen =
         fog_sampling_->sample(fog, u_light, u_distance, [&sampler] { return sampler.next_fine(); });
     if (!chosen) {
@@ -288,9 +293,10 @@ Rgb PathIntegrator::sample_fog(SampleContext& sample, const Ray& ray, const FogS
     const float probability = world_.lights().context_probability(
         chosen->light, LightSampleContext{.p = point.end.p}, next_event_sampling_.lights);
     const LightDensities3 densities{flight.stop * found->light_pdf * (probability * light_samples_),
-                                    flight.stop * found->bsdf_pdf, chosen->pdf * found->light_pdf};
+                                    flight.stop * found->bsdf_pdf,
+                                    samples * chosen->pdf * found->light_pdf};
     return found->value * flight.transmittance * through *
-           (weight(densities, LightFinder::fog_sample) / chosen->pdf);
+           (weight(densities, LightFinder::fog_sample) / (samples * chosen->pdf));
 }
 
 std::optional<PathIntegrator::LightConnection> PathIntegrator::connect(SampleContext& sample,

@@ -84,12 +84,12 @@ TEST_CASE("a volume of even density is a medium", "[closed-form][media]")
     volume.extinction = {0.5f, 1.0f, 1.5f};
     volume.anisotropy = 0.5f;
     fog.desc.volumes.push_back(volume);
-    const Scene white(fog.desc);
     fog.desc.volumes.front().albedo = Rgb(0.0f);
     const Scene black(fog.desc);
+    // Thinner, as long paths of other colours than white have no end of noise.
     fog.desc.volumes.front().albedo = Rgb(1.0f);
-    fog.desc.volumes.front().extinction *= 0.25f;
-    const Scene thin(std::move(fog.desc));
+    fog.desc.volumes.front().extinction *= 0.5f;
+    const Scene white(std::move(fog.desc));
     const CameraDesc camera = camera_at({0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -1.0f}, 0.002f);
     // Half a voxel on the border goes linearly to half of the density.
     const double depth = 0.7 * (2.5 + 0.5 * 0.75);
@@ -98,8 +98,7 @@ TEST_CASE("a volume of even density is a medium", "[closed-form][media]")
     for (const auto kind :
          {IntegratorKind::pt, IntegratorKind::nee, IntegratorKind::mis, IntegratorKind::bdpt}) {
         check_mean(black, camera, options(kind, 3), through, 0.02);
-        const bool is_bdpt = kind == IntegratorKind::bdpt;
-        check_mean(is_bdpt ? thin : white, camera, options(kind, is_bdpt ? 12 : 60), 1.0, 0.02);
+        check_mean(white, camera, options(kind, kind == IntegratorKind::bdpt ? 16 : 40), 1.0, 0.02);
     }
 }
 

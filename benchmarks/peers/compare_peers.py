@@ -32,11 +32,11 @@ def size(text):
     return tuple(map(int, match.groups()))
 
 
-def fog(text):
+def extinction(text):
     numbers = [float(part) for part in text.split(",")]
     if len(numbers) not in (1, 3) or not all(0 < number < float("inf") for number in numbers):
         raise argparse.ArgumentTypeError(f"{text} is neither one number above 0 nor three")
-    return Medium(tuple(numbers * (3 // len(numbers))), (1.0, 1.0, 1.0))
+    return tuple(numbers * (3 // len(numbers)))
 
 
 def positive(kind):
@@ -63,7 +63,11 @@ def arguments():
     parser.add_argument("--size", type=size, default=(64, 64), metavar="WxH", help="64x64")
     parser.add_argument("--max-depth", type=positive(int), default=32, metavar="N", help="longest path in edges; 32")
     parser.add_argument("--threads", type=positive(int), default=2, metavar="N", help="2")
-    parser.add_argument("--fog", type=fog, metavar="X|R,G,B", help="white fog in all scenes: its extinction [1/m]")
+    parser.add_argument("--fog", type=extinction, metavar="X|R,G,B", help="white fog in all scenes: its extinction [1/m]")
+    parser.add_argument("--volume", type=pathlib.Path, metavar="FILE", help="white smoke in all scenes: an OpenVDB file, "
+                        "which takes the Python module pyopenvdb to read")
+    parser.add_argument("--volume-extinction", type=extinction, default=(1.0, 1.0, 1.0), metavar="X|R,G,B",
+                        help="where its density is 1 [1/m]; 1")
     parser.add_argument("--only", help="entries, with commas between: " + ",".join(e.name for e in peers.ENTRIES))
     parser.add_argument("--cpu", action="store_true", help="also CPU time for a sample per pixel, of the Cornell box")
     result = parser.parse_args()
@@ -73,6 +77,8 @@ def arguments():
         parser.error(f"no such entry: {', '.join(sorted(wrong))}")
     if result.max_depth < 2:
         parser.error("--max-depth is at least 2: Cycles has no shorter paths")
+    if result.fog and result.volume:
+        parser.error("--fog and --volume do not go together: Mitsuba's media exclude each other")
     return result
 
 
@@ -102,7 +108,8 @@ def hold(options, file, entries, found, folder):
 
 def cpu_cost(options, entries, found, folder):
     """CPU seconds that each entry takes for a sample per pixel, with one thread."""
-    alone = dataclasses.replace(options, size=CPU_SIZE, max_depth=CPU_DEPTH, threads=1, seeds=1, fog=None)
+    alone = dataclasses.replace(options, size=CPU_SIZE, max_depth=CPU_DEPTH, threads=1, seeds=1, fog=None,
+                                volume=None)
     stage = contest.Stage(alone, CPU_SCENE, folder / "cpu")
     runs, skipped = contest.contest(stage, entries, found, lambda line: print(line, flush=True))
     return {"scene": stage.name, "width": CPU_SIZE[0], "height": CPU_SIZE[1], "max_depth": CPU_DEPTH,
@@ -119,7 +126,8 @@ def main():
     found, missing = find_peers(entries, args)
     entries = [entry for entry in entries if entry.peer == "bdpt" or entry.peer in found]
     options = contest.Options(args.bdpt, args.time, args.reference_time or 16 * args.time, args.seeds, args.size,
-                              args.max_depth, args.threads, args.fog)
+                              args.max_depth, args.threads, args.fog and Medium(args.fog, (1.0, 1.0, 1.0)),
+                              args.volume and str(args.volume.resolve()), args.volume_extinction)
     document = {"command": shlex.join(sys.argv), "machine": report.machine(),
                 "options": dataclasses.asdict(options), "notes": {e.name: e.note for e in entries if e.note},
                 "peers": {name: {"version": peer.version, "job": peer.job, "environment": peer.environment}

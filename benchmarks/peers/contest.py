@@ -10,6 +10,7 @@ import subprocess
 
 import gltf_reader
 import gltf_writer
+import vdb_reader
 from peers import RENDER_GRACE, Unavailable
 from scene import Medium, to_json
 
@@ -28,6 +29,8 @@ class Options:
     max_depth: int  # edges
     threads: int
     fog: Medium = None
+    volume: str = None  # an OpenVDB file
+    volume_extinction: tuple = (1.0, 1.0, 1.0)
 
 
 def cpu_of_children():
@@ -43,7 +46,11 @@ def fog_options(fog):
             str(fog.anisotropy))
 
 
-def run_bdpt(options, gltf, integrator, seed, limit, output):
+def volume_options(volume):
+    return ("--volume", volume.file, "--volume-extinction", ",".join(map(str, volume.extinction))) if volume else ()
+
+
+def run_bdpt(options, gltf, volume, integrator, seed, limit, output):
     """Renders until `limit`, an option and its value. What it tells is as by a worker, but its CPU time is that of the
     whole process."""
     stats = output.with_suffix(".stats.json")
@@ -51,7 +58,7 @@ def run_bdpt(options, gltf, integrator, seed, limit, output):
     subprocess.run([options.bdpt, "render", str(gltf), "-o", str(output), "--integrator", integrator, "--size",
                     "{}x{}".format(*options.size), "--max-depth", str(options.max_depth), "--threads",
                     str(options.threads), "--seed", str(seed), *limit, "--stats", str(stats), "--env", "none",
-                    *fog_options(options.fog), "--quiet"], check=True)
+                    *fog_options(options.fog), *volume_options(volume), "--quiet"], check=True)
     cpu = cpu_of_children() - before
     told = json.loads(stats.read_text(encoding="utf-8"))
     stats.unlink()
@@ -72,7 +79,8 @@ class Stage:
     def __init__(self, options, file, folder):
         folder.mkdir(parents=True, exist_ok=True)
         self.options, self.folder, self.name = options, folder, file.stem
-        self.scene = dataclasses.replace(gltf_reader.read(file), fog=options.fog)
+        volume = options.volume and vdb_reader.read(options.volume, options.volume_extinction, folder.resolve())
+        self.scene = dataclasses.replace(gltf_reader.read(file), fog=options.fog, volume=volume)
         self.description, self.gltf = folder / "scene.json", folder / f"{file.stem}.gltf"
         self.description.write_text(to_json(self.scene), encoding="utf-8")
         gltf_writer.write(self.scene, self.gltf)
@@ -80,14 +88,15 @@ class Stage:
     def make_reference(self):
         self.reference = self.folder / "reference.exr"
         limit = ("--time", f"{self.options.reference_seconds}s")
-        self.reference_run = run_bdpt(self.options, self.gltf, "bdpt", REFERENCE_SEED, limit, self.reference)
+        self.reference_run = run_bdpt(self.options, self.gltf, self.scene.volume, "bdpt", REFERENCE_SEED, limit,
+                                      self.reference)
 
     def run(self, entry, peer, seed, output):
         """One image by one entry. Raises Unavailable."""
         options = self.options
         if entry.peer == "bdpt":
             limit = ("--time", f"{options.seconds}s")
-            return run_bdpt(options, self.gltf, entry.job["integrator"], seed, limit, output)
+            return run_bdpt(options, self.gltf, self.scene.volume, entry.job["integrator"], seed, limit, output)
         job = {**entry.job, "scene": str(self.description), "width": options.size[0], "height": options.size[1],
                "max_depth": options.max_depth, "threads": options.threads, "seed": seed, "seconds": options.seconds,
                "output": str(output)}

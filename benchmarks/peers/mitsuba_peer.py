@@ -37,6 +37,21 @@ def add_fog(result, scene):
                                    "interior": {"type": "ref", "id": "fog"}}
 
 
+def add_volume(mi, result, volume):
+    """Densities in a box that light passes straight."""
+    import numpy
+    densities = numpy.load(volume.densities).transpose(2, 1, 0)[..., None]
+    densities = densities * numpy.array(volume.extinction, dtype=numpy.float32)
+    transform = mi.ScalarTransform4f
+    box = transform([list(row) for row in volume.world_from_grid]) @ transform().scale(list(volume.size))
+    grid = {"type": "gridvolume", "grid": mi.VolumeGrid(numpy.ascontiguousarray(densities)), "to_world": box, "raw": True,
+            "filter_type": "trilinear", "wrap_mode": "clamp"}
+    result["extent of the volume"] = {
+        "type": "cube", "to_world": box @ transform().translate([0.5, 0.5, 0.5]) @ transform().scale([0.5, 0.5, 0.5]),
+        "bsdf": {"type": "null"},
+        "interior": {"type": "heterogeneous", "sigma_t": grid, "albedo": 1.0, "phase": {"type": "isotropic"}}}
+
+
 def write_ply(mesh, path):
     lines = ["ply", "format ascii 1.0", f"element vertex {len(mesh.positions)}",
              *(f"property float {c}" for c in "xyz"), f"element face {len(mesh.triangles)}", "property list uchar int vertex_indices", "end_header",
@@ -63,6 +78,8 @@ def description(mi, scene, job, folder):
     }
     if scene.fog:
         add_fog(result, scene)
+    if scene.volume:
+        add_volume(mi, result, scene.volume)
     for i, mesh in enumerate(scene.meshes):
         material, file = scene.materials[mesh.material], folder / f"{i}.ply"
         write_ply(mesh, file)

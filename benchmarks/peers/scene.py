@@ -21,6 +21,17 @@ class Medium:
 
 
 @dataclasses.dataclass(frozen=True)
+class Volume:
+    """White smoke, of any density, on top of whatever else is there."""
+
+    file: str  # OpenVDB's
+    densities: str  # the same as a NumPy file, by x, y, z
+    size: tuple  # voxels
+    world_from_grid: tuple  # rows of a matrix; voxel (0, 0, 0) fills the unit cube
+    extinction: tuple  # [1/m] where the density is 1
+
+
+@dataclasses.dataclass(frozen=True)
 class Material:
     name: str
     kind: str  # "diffuse"; "metal", which reflects all light, of any angle and colour; "glass", which is clear
@@ -66,12 +77,13 @@ class Scene:
     camera: Camera
     changes: tuple  # what it shows differently from the file that it was read from, one sentence each
     fog: Medium = None  # in the sphere around all meshes, but not within bodies
+    volume: Volume = None
 
     def kinds(self):
         """The kinds of its surfaces, like "diffuse" and "rough glass", and "media" if there are some."""
         materials = [self.materials[mesh.material] for mesh in self.meshes]
         surfaces = {("rough " if material.alpha > 0 else "") + material.kind for material in materials}
-        return surfaces | ({"media"} if self.fog or any(material.inside for material in materials) else set())
+        return surfaces | ({"media"} if self.fog or self.volume or any(material.inside for material in materials) else set())
 
     def sphere(self):
         """Centre and radius of the sphere around the bounding box of all meshes."""
@@ -97,6 +109,7 @@ def from_json(text):
     data["materials"] = tuple(Material(**{**{k: _tuples(v) for k, v in item.items()}, "inside": _medium(item["inside"])})
                               for item in data["materials"])
     data["fog"] = _medium(data["fog"])
+    data["volume"] = Volume(**{k: _tuples(v) for k, v in data["volume"].items()}) if data["volume"] else None
     data["meshes"] = tuple(Mesh(**{k: _tuples(v) for k, v in item.items()}) for item in data["meshes"])
     data["points"] = tuple(PointLight(**{k: _tuples(v) for k, v in item.items()}) for item in data["points"])
     data["camera"] = Camera(**{k: _tuples(v) for k, v in data["camera"].items()})

@@ -1,5 +1,5 @@
 # cpack -G DEB, in the build folder: bdpt (the command, the libraries, man pages, completions, documents),
-# bdpt-openimageio (the module that reads TIFF images), libbdpt-dev (headers, and what CMake and pkg-config need)
+# bdpt-openimageio (the module that reads TIFF images), bdpt-openvdb (the program that reads volumes), libbdpt-dev (headers, and what CMake and pkg-config need)
 # and, if the Python package is built with Debian's Python, python3-bdpt.
 if(NOT BUILD_SHARED_LIBS OR NOT BDPT_BUILD_APPS)
   return()
@@ -23,7 +23,7 @@ The command bdpt renders glTF 2.0 scenes to OpenEXR and PNG images, alone or
 on a farm, and compares integrators. Its libraries do the same for programs.")
 # Packages of the libraries that ours are linked to, found by dpkg-shlibdeps.
 set(CPACK_DEBIAN_BDPT_RUNTIME_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_BDPT_RUNTIME_PACKAGE_SUGGESTS bdpt-openimageio)
+set(CPACK_DEBIAN_BDPT_RUNTIME_PACKAGE_SUGGESTS "bdpt-openimageio, bdpt-openvdb")
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS
     "${CMAKE_BINARY_DIR}/lib;${CMAKE_BINARY_DIR}/lib/io;${CMAKE_BINARY_DIR}/lib/eval")
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
@@ -36,6 +36,18 @@ set(CPACK_DEBIAN_BDPT_OPENIMAGEIO_DESCRIPTION
 "TIFF environments for the renderer bdpt
 The module by which bdpt reads TIFF images as environments. OpenEXR and
 Radiance HDR images are read without it.")
+
+if(BDPT_HAS_OPENVDB)
+  list(APPEND CPACK_COMPONENTS_ALL bdpt_openvdb)
+  set(CPACK_DEBIAN_BDPT_OPENVDB_PACKAGE_NAME bdpt-openvdb)
+  set(CPACK_DEBIAN_BDPT_OPENVDB_PACKAGE_SECTION graphics)
+  set(CPACK_DEBIAN_BDPT_OPENVDB_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_BDPT_OPENVDB_PACKAGE_DEPENDS "bdpt (= ${PROJECT_VERSION})")
+  set(CPACK_DEBIAN_BDPT_OPENVDB_DESCRIPTION
+"OpenVDB volumes for the renderer bdpt
+The program by which bdpt reads OpenVDB files, as smoke and clouds, in a
+process of its own.")
+endif()
 
 set(CPACK_DEBIAN_BDPT_DEVELOPMENT_PACKAGE_NAME libbdpt-dev)
 set(CPACK_DEBIAN_BDPT_DEVELOPMENT_PACKAGE_SECTION libdevel)

@@ -20,6 +20,7 @@ find_path(BDPT_XXHASH_INCLUDE_DIR xxhash.h REQUIRED)
 
 set(BDPT_HAS_DRACO OFF)
 set(BDPT_HAS_MESHOPT OFF)
+set(BDPT_HAS_OPENVDB OFF)
 if(BDPT_BUILD_IO)
   find_package(OpenEXR CONFIG REQUIRED)
   find_package(Imath CONFIG REQUIRED)
@@ -46,6 +47,35 @@ if(BDPT_BUILD_IO)
     endif()
   endif()
   message(STATUS "Compressed meshes: Draco ${BDPT_HAS_DRACO}, meshoptimizer ${BDPT_HAS_MESHOPT}")
+
+  # Volumes: without it such files are refused by name. Its header says what it was built with, and is
+  # tried, as it needs headers of Boost that packages of OpenVDB do not bring.
+  if(BDPT_WITH_OPENVDB)
+    find_path(BDPT_OPENVDB_INCLUDE_DIR openvdb/openvdb.h)
+    find_library(BDPT_OPENVDB_LIBRARY openvdb)
+    if(BDPT_OPENVDB_INCLUDE_DIR AND BDPT_OPENVDB_LIBRARY)
+      add_library(bdpt_openvdb INTERFACE IMPORTED)
+      target_include_directories(bdpt_openvdb SYSTEM INTERFACE "${BDPT_OPENVDB_INCLUDE_DIR}")
+      target_link_libraries(bdpt_openvdb INTERFACE "${BDPT_OPENVDB_LIBRARY}" TBB::tbb Imath::Imath)
+      # Its templates hold variables, which must be those of the library.
+      target_compile_options(bdpt_openvdb INTERFACE -fvisibility=default -fno-visibility-inlines-hidden)
+      include(CheckCXXSourceCompiles)
+      set(CMAKE_REQUIRED_LIBRARIES bdpt_openvdb)
+      set(CMAKE_REQUIRED_FLAGS "-std=c++20")
+      check_cxx_source_compiles("
+        #include <openvdb/openvdb.h>
+        int main() { openvdb::initialize(); }" BDPT_OPENVDB_COMPILES)
+      unset(CMAKE_REQUIRED_LIBRARIES)
+      unset(CMAKE_REQUIRED_FLAGS)
+      if(BDPT_OPENVDB_COMPILES)
+        set(BDPT_HAS_OPENVDB ON)
+      else()
+        message(STATUS "OpenVDB is here, but does not compile: are there headers of Boost (libboost-dev)?")
+        unset(BDPT_OPENVDB_COMPILES CACHE)  # the next time there may be
+      endif()
+    endif()
+  endif()
+  message(STATUS "Volumes: OpenVDB ${BDPT_HAS_OPENVDB}")
 
   find_package(OpenImageIO CONFIG REQUIRED)
   # Debian's package exports include directories that its dependencies do not install.

@@ -37,10 +37,15 @@ if(BDPT_BUILD_IO)
   set_property(TARGET bdpt_io APPEND PROPERTY INSTALL_RPATH "$ORIGIN")
   install(DIRECTORY lib/io/include/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
           COMPONENT bdpt_development FILES_MATCHING PATTERN "*.h")
-  # bdpt_io looks for it there: lib/io/src/image/linear/oiio_library.cpp
+  # bdpt_io looks for it there: lib/io/src/file/companion.cpp
   # A component of its own: it brings OpenImageIO with 260 libraries, and all else works without it.
+  # So is the reader of volumes.
   install(TARGETS bdpt_oiio LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/bdpt"
           COMPONENT bdpt_openimageio)
+  if(BDPT_HAS_OPENVDB)
+    install(TARGETS bdpt_vdb_reader RUNTIME DESTINATION "${CMAKE_INSTALL_LIBDIR}/bdpt"
+            COMPONENT bdpt_openvdb)
+  endif()
 endif()
 
 if(BDPT_BUILD_EVAL)

@@ -1,6 +1,7 @@
 # Reading: glTF scenes, textures, environment maps.
 target_sources(bdpt_io PRIVATE
   # files, JSON, what loading may spend
+  src/file/companion.cpp
   src/file/data_budget.cpp
   src/file/file_kind.cpp
   src/file/json_parser.cpp
@@ -36,6 +37,10 @@ target_sources(bdpt_io PRIVATE
   src/ies/ies_file.cpp
   src/ies/ies_numbers.cpp
   src/ies/ies_profile.cpp
+  # volumes: OpenVDB, by a process of its own
+  src/volume/child_process.cpp
+  src/volume/vdb_file.cpp
+  src/volume/volume.cpp
   # glTF, each folder including those above it only. What a document must be before any library sees it
   src/gltf/checks/animations.cpp
   src/gltf/checks/glb.cpp
@@ -123,7 +128,28 @@ bdpt_compile_options(bdpt_oiio)
 target_include_directories(bdpt_oiio PRIVATE src)
 target_link_libraries(bdpt_oiio PRIVATE OpenImageIO::OpenImageIO)
 add_dependencies(bdpt_io bdpt_oiio)
-# Where it is looked for, relative to what holds the code: beside it in the build tree and in bdpt/
+
+# OpenVDB lives in a program, which is started for each file of volumes (src/volume/vdb_reply.h).
+if(BDPT_HAS_OPENVDB)
+  add_executable(bdpt_vdb_reader
+    src/vdb_reader/dense_densities.cpp
+    src/vdb_reader/grid_choice.cpp
+    src/vdb_reader/main.cpp
+    src/vdb_reader/whole_file.cpp)
+  set_target_properties(bdpt_vdb_reader PROPERTIES OUTPUT_NAME bdpt-read-vdb)
+  bdpt_compile_options(bdpt_vdb_reader)
+  target_include_directories(bdpt_vdb_reader PRIVATE src)
+  target_link_libraries(bdpt_vdb_reader PRIVATE bdpt_openvdb
+    $<TARGET_PROPERTY:bdpt,INTERFACE_LINK_LIBRARIES>)
+  target_include_directories(bdpt_vdb_reader PRIVATE
+    $<TARGET_PROPERTY:bdpt,INTERFACE_INCLUDE_DIRECTORIES>)
+  if(BDPT_SANITIZE)
+    target_compile_definitions(bdpt_vdb_reader PRIVATE BDPT_SANITIZED)
+  endif()
+  add_dependencies(bdpt_io bdpt_vdb_reader)
+endif()
+
+# Where both are looked for, relative to what holds the code: beside it in the build tree and in bdpt/
 # when installed. A static library ends up in a program that may lie anywhere.
 set(folders [["."]] [["bdpt"]])
 if(NOT BUILD_SHARED_LIBS)
@@ -132,5 +158,5 @@ if(NOT BUILD_SHARED_LIBS)
        "\"$<TARGET_FILE_DIR:bdpt_oiio>\"")
 endif()
 list(JOIN folders "," folders)
-set_source_files_properties(src/image/linear/oiio_library.cpp PROPERTIES
-  COMPILE_DEFINITIONS "BDPT_OIIO_FOLDERS=${folders}")
+set_source_files_properties(src/file/companion.cpp PROPERTIES
+  COMPILE_DEFINITIONS "BDPT_COMPANION_FOLDERS=${folders}")

@@ -21,7 +21,7 @@ std::vector<Limit> list(const io::ReadLimits& limits)
 {
     const auto& [file_bytes, buffer_bytes, json_bytes, json_depth, json_values, nodes, node_depth,
                  instances, mesh_bytes, triangles, image_side, image_bytes, texture_bytes,
-                 compression_ratio, memory_bytes] = limits;
+                 volume_bytes, volume_seconds, compression_ratio, memory_bytes] = limits;
     return {{"file_bytes", file_bytes, "bytes of one file"},
             {"buffer_bytes", buffer_bytes, "bytes of all buffers of a scene"},
             {"json_bytes", json_bytes, "bytes of the JSON text, data URIs included"},
@@ -35,6 +35,8 @@ std::vector<Limit> list(const io::ReadLimits& limits)
             {"image_side", static_cast<std::uint64_t>(image_side), "pixels a side of an image"},
             {"image_bytes", image_bytes, "bytes of one image, decoded"},
             {"texture_bytes", texture_bytes, "bytes of all images, decoded"},
+            {"volume_bytes", volume_bytes, "bytes of the densities of a volume"},
+            {"volume_seconds", volume_seconds, "seconds of a processor to read a volume"},
             {"compression_ratio", compression_ratio, "decoded over encoded size"},
             {"memory_bytes", memory_bytes, "bytes of all that a scene takes, as estimated"}};
 }

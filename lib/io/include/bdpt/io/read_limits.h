@@ -24,6 +24,9 @@ struct ReadLimits {
     int image_side = 16384;                                ///< [pixels]
     std::uint64_t image_bytes = std::uint64_t{2} << 30;    ///< of one image, decoded
     std::uint64_t texture_bytes = std::uint64_t{8} << 30;  ///< of all images together, decoded
+    std::uint64_t volume_bytes = std::uint64_t{4} << 30;   ///< of the densities of one volume
+    /// Time of a processor in which a volume has to be read; broken files may want all there is.
+    std::uint64_t volume_seconds = 300;
     /// Decoded over encoded size of an image. Images of less than 64 MiB are not asked.
     std::uint64_t compression_ratio = 1000;
     /// Of buffers, vertices, images and what rays are traced with, together, as estimated while a
@@ -37,7 +40,7 @@ struct ReadLimits {
     ReadLimits limits;
     for (std::uint64_t* limit :
          {&limits.file_bytes, &limits.buffer_bytes, &limits.json_bytes, &limits.mesh_bytes,
-          &limits.image_bytes, &limits.texture_bytes, &limits.memory_bytes}) {
+          &limits.image_bytes, &limits.texture_bytes, &limits.volume_bytes, &limits.memory_bytes}) {
         *limit = std::min(*limit, bytes);
     }
     return limits;

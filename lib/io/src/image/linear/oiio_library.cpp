@@ -1,5 +1,7 @@
 #include "image/linear/oiio_library.h"
 
+#include "file/companion.h"
+
 #include <bdpt/error.h>
 
 #include <dlfcn.h>
@@ -8,8 +10,6 @@
 #include <array>
 #include <filesystem>
 #include <stdexcept>
-#include <string>
-#include <vector>
 
 namespace bdpt::io {
 
@@ -17,53 +17,16 @@ namespace {
 
 constexpr const char* module_name = "libbdpt_oiio.so";
 
-/// The folder of the program or library that holds this code.
-std::filesystem::path own_folder()
-{
-    Dl_info info{};
-    if (dladdr(reinterpret_cast<const void*>(&own_folder), &info) == 0 ||
-        info.dli_fname == nullptr) {
-        return {};
-    }
-    std::error_code error;
-    // For a program it may be the word it was called by, so ask the system.
-    const std::filesystem::path named = std::filesystem::weakly_canonical(info.dli_fname, error);
-    if (!error && std::filesystem::exists(named, error)) {
-        return named.parent_path();
-    }
-    return std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
-}
-
-/// Where the module may be, the most likely place first.
-std::vector<std::filesystem::path> candidates()
-{
-    const std::filesystem::path here = own_folder();
-    std::vector<std::filesystem::path> files;
-    for (const char* folder : {BDPT_OIIO_FOLDERS}) {
-        files.push_back(here / folder / module_name);  // `folder` alone where it is absolute
-    }
-    return files;
-}
-
 void* load_module()
 {
-    std::string tried;
-    for (const std::filesystem::path& file : candidates()) {
-        std::error_code error;
-        if (!std::filesystem::exists(file, error)) {
-            tried += (tried.empty() ? "" : ", ") + file.lexically_normal().string();
-            continue;
-        }
-        // It stays: OpenImageIO cannot be unloaded safely.
-        void* module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
-        if (module == nullptr) {
-            throw Error(ErrorCode::unsupported,
-                        fmt::format("{} cannot be loaded: {}", file.string(), dlerror()));
-        }
-        return module;
+    const std::filesystem::path file = companion_file(module_name);
+    // It stays: OpenImageIO cannot be unloaded safely.
+    void* module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+    if (module == nullptr) {
+        throw Error(ErrorCode::unsupported,
+                    fmt::format("{} cannot be loaded: {}", file.string(), dlerror()));
     }
-    throw Error(ErrorCode::unsupported,
-                fmt::format("{} is not there (tried {})", module_name, tried));
+    return module;
 }
 
 template <typename Function>

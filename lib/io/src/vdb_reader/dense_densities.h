@@ -1,0 +1,23 @@
+#pragma once
+
+#include "volume/vdb_reply.h"
+
+#include <openvdb/openvdb.h>
+
+#include <cstdint>
+#include <functional>
+#include <span>
+
+namespace bdpt::vdb {
+
+/// Where the densities of `grid` lie: in the box of its active voxels, and one voxel around it.
+/// Throws `Error` (invalid_input) if it has none, if its background is not 0, or if they take more
+/// than `most_bytes`.
+[[nodiscard]] io::VdbReply header_of(const openvdb::GridBase& grid, std::uint64_t most_bytes);
+
+/// Gives these densities to `write` in pieces, x fastest. Throws `Error` (invalid_input) before it
+/// gives one away that is negative, infinite or NaN.
+void write_densities(const openvdb::GridBase& grid, const io::VdbReply& header,
+                     const std::function<void(std::span<const float>)>& write);
+
+}  // namespace bdpt::vdb

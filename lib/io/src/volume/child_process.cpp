@@ -1,0 +1,180 @@
+#include "volume/child_process.h"
+
+#include <bdpt/error.h>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <string_view>
+#include <system_error>
+
+namespace bdpt::io {
+
+namespace {
+
+[[noreturn]] void fail(std::string_view what, int error)
+{
+    throw Error(ErrorCode::unsupported,
+                fmt::format("{}: {}", what, std::generic_category().message(error)));
+}
+
+/// `descriptor` under a number that no standard stream has.
+int above_streams(int descriptor)
+{
+    if (descriptor < 0 || descriptor > STDERR_FILENO) {
+        return descriptor;
+    }
+    const int other = ::fcntl(descriptor, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+    ::close(descriptor);
+    return other;
+}
+
+/// Where the standard streams of a new process go; it gets no other descriptor.
+class Streams {
+public:
+    Streams(int output, int errors)
+    {
+        posix_spawn_file_actions_init(&actions_);
+        posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+        posix_spawn_file_actions_adddup2(&actions_, output, STDOUT_FILENO);
+        posix_spawn_file_actions_adddup2(&actions_, errors, STDERR_FILENO);
+        posix_spawn_file_actions_addclosefrom_np(&actions_, STDERR_FILENO + 1);
+    }
+    ~Streams() { posix_spawn_file_actions_destroy(&actions_); }
+    Streams(const Streams&) = delete;
+    Streams& operator=(const Streams&) = delete;
+
+    [[nodiscard]] const posix_spawn_file_actions_t* get() const { return &actions_; }
+
+private:
+    posix_spawn_file_actions_t actions_{};
+};
+
+/// A new process ends when nobody reads what it writes, and when its time is over, whatever this
+/// one does about such signals.
+class Signals {
+public:
+    Signals()
+    {
+        posix_spawnattr_init(&attributes_);
+        sigset_t none;
+        sigemptyset(&none);
+        posix_spawnattr_setsigmask(&attributes_, &none);
+        sigset_t ends;
+        sigemptyset(&ends);
+        sigaddset(&ends, SIGPIPE);
+        sigaddset(&ends, SIGXCPU);
+        posix_spawnattr_setsigdefault(&attributes_, &ends);
+        posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+    }
+    ~Signals() { posix_spawnattr_destroy(&attributes_); }
+    Signals(const Signals&) = delete;
+    Signals& operator=(const Signals&) = delete;
+
+    [[nodiscard]] const posix_spawnattr_t* get() const { return &attributes_; }
+
+private:
+    posix_spawnattr_t attributes_{};
+};
+
+/// The last line of what is in the file, or of its first bytes if they are many.
+std::string last_line(int file)
+{
+    std::string text(16384, '\0');
+    const ssize_t size = ::pread(file, text.data(), text.size(), 0);
+    text.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
+    while (!text.empty() && text.back() == '\n') {
+        text.pop_back();
+    }
+    return text.substr(text.rfind('\n') + 1);
+}
+
+}  // namespace
+
+void Descriptor::close()
+{
+    if (number_ >= 0) {
+        ::close(number_);
+        number_ = -1;
+    }
+}
+
+ChildProcess::ChildProcess(const std::filesystem::path& program,
+                           const std::vector<std::string>& arguments)
+    : output_(-1), errors_(above_streams(::memfd_create("errors", MFD_CLOEXEC)))
+{
+    std::array<int, 2> ends{};
+    if (errors_.number() < 0 || ::pipe2(ends.data(), O_CLOEXEC) != 0) {
+        fail("no pipe to a new process", errno);
+    }
+    output_.adopt(above_streams(ends[0]));
+    const Descriptor input(above_streams(ends[1]));
+    if (output_.number() < 0 || input.number() < 0) {
+        fail("no pipe to a new process", errno);
+    }
+    std::vector<std::string> words{program.string()};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> argv;
+    for (std::string& word : words) {
+        argv.push_back(word.data());
+    }
+    argv.push_back(nullptr);
+    const Streams streams(input.number(), errors_.number());
+    const int error =
+        ::posix_spawn(&id_, program.c_str(), streams.get(), Signals().get(), argv.data(), environ);
+    if (error != 0) {
+        id_ = -1;
+        fail(program.string() + " cannot be started", error);
+    }
+}
+
+ChildProcess::~ChildProcess()
+{
+    if (id_ > 0) {
+        ::kill(id_, SIGKILL);
+        static_cast<void>(wait());
+    }
+}
+
+std::size_t ChildProcess::read(void* bytes, std::size_t size)
+{
+    std::size_t done = 0;
+    while (done < size) {
+        const ssize_t count =
+            ::read(output_.number(), static_cast<char*>(bytes) + done, size - done);
+        if (count > 0) {
+            done += static_cast<std::size_t>(count);
+        } else if (count == 0 || errno != EINTR) {
+            break;
+        }
+    }
+    return done;
+}
+
+ProcessEnd ChildProcess::wait()
+{
+    output_.close();  // if it writes more than anybody reads, it ends
+    int status = 0;
+    pid_t ended = -1;
+    do {
+        ended = ::waitpid(id_, &status, 0);
+    } while (ended < 0 && errno == EINTR);
+    const bool known = ended == id_;  // not where SIGCHLD is ignored
+    id_ = -1;
+    ProcessEnd end{.message = last_line(errors_.number())};
+    if (known && WIFEXITED(status)) {
+        end.exit_code = WEXITSTATUS(status);
+    } else if (known && WIFSIGNALED(status)) {
+        end.signal = WTERMSIG(status);
+    }
+    return end;
+}
+
+}  // namespace bdpt::io

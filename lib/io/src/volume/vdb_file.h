@@ -1,0 +1,22 @@
+#pragma once
+
+#include "volume/vdb_reply.h"
+
+#include <bdpt/io/volume.h>
+
+#include <filesystem>
+#include <vector>
+
+namespace bdpt::io {
+
+/// A grid as it lies in a file.
+struct VdbGrid {
+    VdbReply header;
+    std::vector<float> density;  ///< >= 0, x fastest
+};
+
+/// Reads a grid of an OpenVDB file, by a process of its own. Throws `Error` as `load_volume` does,
+/// without the name of the file.
+[[nodiscard]] VdbGrid read_vdb(const std::filesystem::path& file, const VolumeOptions& options);
+
+}  // namespace bdpt::io

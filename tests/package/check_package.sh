@@ -86,6 +86,13 @@ run_without_module() {
   [[ $said == "bdpt: error: $sky: TIFF images are read by OpenImageIO: libbdpt_oiio.so is not there (tried "*
   ]] || fail "another error"
   [[ ! -e $slim/out.png ]] || fail "an image without its environment"
+  code=0
+  said=$("$slim/bin/bdpt" "${words[@]}" --volume "$SOURCE/scenes/smoke.vdb" 2>&1) || code=$?
+  printf '%s\n' "$said"
+  [[ $code == 5 && $(wc -l <<<"$said") == 1 ]] || fail "exit code $code"
+  [[ $said == "bdpt: error: "*"smoke.vdb: OpenVDB files are read by a program of its own: bdpt-read-vdb is not there (tried "*
+  ]] || fail "another error"
+  [[ ! -e $slim/out.png ]] || fail "an image without its volume"
 }
 
 use_find_package() {
@@ -181,7 +188,7 @@ make_debian_packages() {
   depends=$(dpkg-deb -f $command Depends)
   [[ $depends == *libembree*libtbb* && $depends != *openimageio* ]] || fail "bdpt depends on: $depends"
   # shellcheck disable=SC2086
-  [[ $(dpkg-deb -f $command Suggests) == bdpt-openimageio ]] || fail "bdpt suggests something else"
+  [[ $(dpkg-deb -f $command Suggests) == "bdpt-openimageio, bdpt-openvdb" ]] || fail "bdpt suggests something else"
   # shellcheck disable=SC2086
   depends=$(dpkg-deb -f $module Depends)
   [[ $depends == *"bdpt (= $VERSION)"* && $depends == *libopenimageio* ]] \
@@ -196,6 +203,7 @@ make_debian_packages() {
   [[ -z $(find "$folder/unpacked" -name '*oiio*') ]] || fail "the module is in the package bdpt"
   # shellcheck disable=SC2086
   dpkg-deb -x $module "$folder/unpacked"
+  check_volume_package "$folder"
   expect_version "$folder/unpacked/usr/bin/bdpt" --version
   local file
   for file in share/man/man1/bdpt-render.1 share/bash-completion/completions/bdpt \
@@ -205,6 +213,23 @@ make_debian_packages() {
     [[ -s $folder/unpacked/usr/$file ]] || fail "no $file"
   done
   check_python_package "$folder"
+}
+
+# bdpt-openvdb, where the build has OpenVDB.
+check_volume_package() {
+  local folder=$1 packages depends
+  packages=("$folder"/bdpt-openvdb_"${VERSION}"_*.deb)
+  if [[ $OPENVDB != 1 ]]; then
+    [[ ! -e ${packages[0]} ]] || fail "a package that has nothing"
+    return
+  fi
+  depends=$(dpkg-deb -f "${packages[0]}" Depends)
+  [[ $depends == *"bdpt (= $VERSION)"* && $depends == *libopenvdb* ]] || fail "bdpt-openvdb depends on: $depends"
+  [[ -z $(find "$folder/unpacked" -name 'bdpt-read-vdb') ]] || fail "the reader of volumes is in another package"
+  dpkg-deb -x "${packages[0]}" "$folder/unpacked"
+  [[ -x $(find "$folder/unpacked" -name 'bdpt-read-vdb') ]] || fail "bdpt-openvdb has no program"
+  "$folder/unpacked/usr/bin/bdpt" render "$SOURCE/scenes/cornell-box.gltf" --volume "$SOURCE/scenes/smoke.vdb" \
+    -o "$folder/smoke.png" --size 16x16 --spp 1 --quiet
 }
 
 # python3-bdpt, with the Python it is built for. Another Python than Debian's makes no package.

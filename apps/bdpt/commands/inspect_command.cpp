@@ -49,7 +49,8 @@ int run_inspect(const InspectArguments& arguments)
     const RenderArguments& what = arguments.stage;
     if (arguments.directions) {
         check_outputs(std::array{*arguments.directions},
-                      std::array{what.file, std::filesystem::path(what.environment.value_or(""))});
+                      std::array{what.file, std::filesystem::path(what.environment.value_or("")),
+                                 what.volume ? what.volume->file : std::filesystem::path()});
     }
     // stdout has the report alone.
     Console console(Format::text, what.verbosity);

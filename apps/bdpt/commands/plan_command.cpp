@@ -164,6 +164,9 @@ void check_files(const PlanArguments& arguments)
     if (arguments.render.environment) {
         inputs.emplace_back(*arguments.render.environment);
     }
+    if (arguments.render.volume) {
+        inputs.push_back(arguments.render.volume->file);
+    }
     check_outputs(arguments.render.outputs, inputs);
     if (arguments.render.strategies) {
         inputs.insert(inputs.end(), arguments.render.outputs.begin(),
@@ -183,6 +186,9 @@ Plan plan_of(const PlanArguments& arguments, const fs::path& folder, const Rende
               .merge_options = arguments.merge_options};
     if (asked.environment && *asked.environment != "none" && *asked.environment != "default") {
         plan.environment = planned_path(*asked.environment, folder);
+    }
+    if (asked.volume) {
+        plan.volume = planned_path(asked.volume->file, folder);
     }
     for (const fs::path& output : asked.outputs) {
         plan.outputs.push_back(planned_path(output, folder));

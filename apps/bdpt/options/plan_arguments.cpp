@@ -80,8 +80,8 @@ std::vector<std::string> render_options(const CLI::App& command)
             words.push_back(word);
         }
     }
-    return without(std::move(words),
-                   {"--env", "--rates", "--adaptive", "--spp", "--samples", "--threads"});
+    return without(std::move(words), {"--env", "--volume", "--rates", "--adaptive", "--spp",
+                                      "--samples", "--threads"});
 }
 
 bool names_no_file(const std::optional<std::string>& environment)

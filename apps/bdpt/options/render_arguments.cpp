@@ -27,6 +27,7 @@ constexpr const char* footer = R"(Examples:
   bdpt render hall.glb -o out.exr --spp 4096 --part out.part.exr
   bdpt render lamp.glb -o lamp.exr --spp 1024 --adaptive
   bdpt render walk.glb -o walk.####.exr --frames 1:48 --fps 24
+  bdpt render hall.glb -o out.png --volume smoke.vdb --volume-extinction 20
   bdpt render model.glb -o out.png --env sky.hdr --from 3,2,4 --look-at 0,1,0 --fov 40
 
 A file without a camera is framed as a whole, one without light gets a soft sky (and a lamp, if it
@@ -276,6 +277,7 @@ void add_view_options(CLI::App& command, RenderWords& words)
         ->group(group);
     add_environment_options(command, words.environment_change, group);
     add_fog_options(command, words.fog, group);
+    add_volume_options(command, words.volume, group);
     command
         .add_option("--texture-filter", words.texture_filter,
                     "Texture filter: bilinear (default) or mip (mip maps: faster for large "
@@ -360,15 +362,15 @@ RenderArguments understand(const RenderWords& words)
         words.texture_filter == "mip" ? TextureFilter::mip_mapped : TextureFilter::bilinear;
     result.environment_change = understand(words.environment_change);
     result.fog = understand(words.fog);
+    result.volume = understand(words.volume);
     result.display = understand(words.display);
     if (result.display.backdrop) {
         result.options.transport.background = Background::none;
         result.options.film.aovs.insert(Aov::alpha);
     }
     result.options = with_ground(words.ground, result.options);
-    if (result.fog && result.options.film.aovs.contains(Aov::shadow)) {
-        reject("--fog", *words.fog.extinction, "no --ground shadow beside it");
-    }
+    check_beside_ground("--fog", words.fog.extinction, result.options);
+    check_beside_ground("--volume", words.volume.file, result.options);
     result.denoise = understand(words.denoise);
     if (result.denoise) {
         result.options.film.aovs.insert(Aov::albedo);

@@ -25,6 +25,7 @@
 #include "options/groups/sequence_arguments.h"
 #include "options/groups/strategy_arguments.h"
 #include "options/groups/transport_arguments.h"
+#include "options/groups/volume_arguments.h"
 #include "options/part_arguments.h"
 #include "options/values/view.h"
 #include "options/values/viewer_address.h"
@@ -57,6 +58,7 @@ struct RenderWords {
     std::string texture_filter = "bilinear";
     EnvironmentWords environment_change;
     FogWords fog;
+    VolumeWords volume;
     DisplayWords display;
     DenoiseWords denoise;
     int threads = 0;
@@ -94,6 +96,7 @@ struct RenderArguments {
     TextureFilter texture_filter = TextureFilter::bilinear;
     EnvironmentChange environment_change;  ///< of whichever environment it is
     std::optional<MediumDesc> fog;         ///< around all bodies, if any
+    std::optional<VolumeChoice> volume;    ///< in the scene, if any
     DisplayArguments display;
     std::optional<DenoiseArguments> denoise;  ///< if images are to be denoised
     io::ExrChannelType channel_type = io::ExrChannelType::single_float;

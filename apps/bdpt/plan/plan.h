@@ -37,6 +37,7 @@ struct PlanTask {
 struct Plan {
     std::filesystem::path scene;
     std::optional<std::filesystem::path> environment{};  ///< the file of --env
+    std::optional<std::filesystem::path> volume{};       ///< the file of --volume
     std::optional<std::filesystem::path> rates{};  ///< the file of --rates, in the plan's folder
     std::vector<std::string> render_options{};     ///< further words of bdpt render, alike for all
     std::vector<std::string> merge_options{};      ///< words of bdpt merge

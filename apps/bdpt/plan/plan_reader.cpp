@@ -83,6 +83,9 @@ Plan read(const ordered_json& json)
     if (!json.at("environment").is_null()) {
         plan.environment = json.at("environment").get<std::string>();
     }
+    if (json.contains("volume")) {
+        plan.volume = json.at("volume").get<std::string>();
+    }
     if (json.contains("rates")) {
         plan.rates = json.at("rates").get<std::string>();
     }

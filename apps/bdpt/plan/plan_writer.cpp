@@ -74,6 +74,9 @@ std::string to_text(const Plan& plan)
     if (plan.environment) {
         json["environment"] = plan.environment->string();
     }
+    if (plan.volume) {
+        json["volume"] = plan.volume->string();
+    }
     if (plan.strategies) {
         json["strategies"] = plan.strategies->string();
     }

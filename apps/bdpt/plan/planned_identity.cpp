@@ -84,6 +84,11 @@ Identity identity_of_files(const RenderArguments& asked)
         result.components.push_back(
             file_component("--env " + file.filename().string(), io::hash_of_file(file)));
     }
+    if (asked.volume) {
+        const std::filesystem::path& file = asked.volume->file;
+        result.components.push_back(
+            file_component("--volume " + file.filename().string(), io::hash_of_file(file)));
+    }
     return result;
 }
 

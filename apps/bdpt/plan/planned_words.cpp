@@ -154,6 +154,9 @@ std::vector<std::string> shared_words(const Plan& plan, const fs::path& file)
     if (plan.environment) {
         result.push_back("--env=" + resolved(*plan.environment, file).string());
     }
+    if (plan.volume) {
+        result.push_back("--volume=" + resolved(*plan.volume, file).string());
+    }
     if (plan.rates) {
         result.push_back("--rates=" + resolved(*plan.rates, file).string());
     }

@@ -26,6 +26,9 @@ std::vector<std::filesystem::path> check_files(const RenderArguments& arguments)
     if (arguments.environment) {
         taken.emplace_back(*arguments.environment);
     }
+    if (arguments.volume) {
+        taken.push_back(arguments.volume->file);
+    }
     if (arguments.rates && arguments.rates->file) {
         taken.push_back(*arguments.rates->file);
     }

@@ -42,6 +42,20 @@ ordered_json view_json(const CameraDesc& camera)
     return view;
 }
 
+ordered_json volume_json(const VolumeChoice& volume)
+{
+    const io::VolumeOptions& options = volume.options;
+    ordered_json json{{"file", one_line(volume.file.string())}};
+    if (options.grid) {
+        json["grid"] = one_line(*options.grid);
+    }
+    json["extinction"] = to_json(options.extinction);
+    json["albedo"] = to_json(options.albedo);
+    json["anisotropy"] = options.anisotropy;
+    json["up"] = options.up == io::UpAxis::z ? "z" : "y";
+    return json;
+}
+
 ordered_json rates_json(const RenderArguments& arguments)
 {
     const SampleRates& rates = *arguments.options.sampling.rates;
@@ -77,6 +91,9 @@ ordered_json settings_of(const RenderArguments& arguments, const PreparedScene& 
         settings["fog"] = {{"extinction", to_json(arguments.fog->extinction)},
                            {"albedo", to_json(arguments.fog->albedo)},
                            {"anisotropy", arguments.fog->anisotropy}};
+    }
+    if (arguments.volume) {
+        settings["volume"] = volume_json(*arguments.volume);
     }
     if (arguments.display.backdrop) {
         settings["background"] = backdrop_text(*arguments.display.backdrop);

@@ -4,6 +4,7 @@
 #include <bdpt/error.h>
 #include <bdpt/framing.h>
 #include <bdpt/io/environment.h>
+#include <bdpt/io/volume.h>
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -166,6 +167,26 @@ std::optional<CameraDesc> camera_in_file(const std::vector<CameraDesc>& cameras,
     return camera;
 }
 
+std::vector<VolumeDesc> load_volumes(const RenderArguments& arguments)
+{
+    std::vector<VolumeDesc> volumes;
+    if (arguments.volume) {
+        io::VolumeOptions options = arguments.volume->options;
+        options.limits = arguments.scene.limits;
+        volumes.push_back(io::load_volume(arguments.volume->file, options));
+    }
+    return volumes;
+}
+
+/// `options` with the memory that `volumes` leave; they have less than all of it.
+io::GltfOptions beside(const std::vector<VolumeDesc>& volumes, io::GltfOptions options)
+{
+    for (const VolumeDesc& volume : volumes) {
+        options.limits.memory_bytes -= volume.density.size() * sizeof(float);
+    }
+    return options;
+}
+
 }  // namespace
 
 PreparedScene prepare_scene(const RenderArguments& arguments,
@@ -173,7 +194,8 @@ PreparedScene prepare_scene(const RenderArguments& arguments,
 {
     const auto start = std::chrono::steady_clock::now();
     const std::string file = arguments.file.string();
-    io::LoadedScene loaded = io::load_gltf(arguments.file, arguments.scene);
+    std::vector<VolumeDesc> volumes = load_volumes(arguments);
+    io::LoadedScene loaded = io::load_gltf(arguments.file, beside(volumes, arguments.scene));
 
     std::vector<std::string> warnings;
     for (const std::string& warning : loaded.warnings) {
@@ -192,6 +214,7 @@ PreparedScene prepare_scene(const RenderArguments& arguments,
 
     loaded.scene.texture_filter = arguments.texture_filter;
     loaded.scene.fog = arguments.fog;
+    loaded.scene.volumes = std::move(volumes);
     LitScene lit = add_environment(std::move(loaded.scene), arguments);
     const bool only_emitters = lit.desc.lights.empty() && has_light(lit.desc);
     const auto loading_end = std::chrono::steady_clock::now();

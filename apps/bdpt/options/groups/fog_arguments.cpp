@@ -5,24 +5,9 @@
 #include <CLI/CLI.hpp>
 
 #include "options/arguments.h"
+#include "options/values/medium_values.h"
 
 namespace bdpt::app {
-namespace {
-
-/// One number for all channels, or three.
-Rgb color_of(const char* option, const std::string& text, float most, const std::string& expected)
-{
-    const std::optional<float> grey = parse_float(text);
-    const std::optional<Vec3> color = grey ? Vec3(*grey) : parse_vec3(text);
-    for (int channel = 0; channel < 3; ++channel) {
-        if (!color || !((*color)[channel] >= 0.0f && (*color)[channel] <= most)) {
-            reject(option, text, expected);
-        }
-    }
-    return *color;
-}
-
-}  // namespace
 
 void add_fog_options(CLI::App& command, FogWords& words, const char* group)
 {
@@ -56,19 +41,13 @@ std::optional<MediumDesc> understand(const FogWords& words)
         }
         return std::nullopt;
     }
-    constexpr float most_extinction = 1e6f;
     MediumDesc fog{.extinction = color_of("--fog", *words.extinction, most_extinction,
                                           "a number per metre from 0 to 1000000, or three")};
     if (words.albedo) {
-        fog.albedo = color_of("--fog-albedo", *words.albedo, 1.0f, "a number in [0, 1], or three");
+        fog.albedo = albedo_of("--fog-albedo", *words.albedo);
     }
     if (words.anisotropy) {
-        constexpr auto most = static_cast<double>(most_anisotropy);
-        if (!(*words.anisotropy >= -most && *words.anisotropy <= most)) {
-            reject("--fog-anisotropy", fmt::format("{}", *words.anisotropy),
-                   fmt::format("a number from {:.4f} to {:.4f}", -most, most));
-        }
-        fog.anisotropy = static_cast<float>(*words.anisotropy);
+        fog.anisotropy = anisotropy_of("--fog-anisotropy", *words.anisotropy);
     }
     return fog;
 }

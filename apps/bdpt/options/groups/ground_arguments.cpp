@@ -52,4 +52,12 @@ RenderOptions with_ground(const GroundWords& words, RenderOptions options)
     return options;
 }
 
+void check_beside_ground(const char* option, const std::optional<std::string>& word,
+                         const RenderOptions& options)
+{
+    if (word && options.film.aovs.contains(Aov::shadow)) {
+        reject(option, *word, "no --ground shadow beside it");
+    }
+}
+
 }  // namespace bdpt::app

@@ -23,4 +23,9 @@ void add_ground_options(CLI::App& command, GroundWords& words, const char* group
 /// `options`, whose background is known, with what `words` say. Throws `OptionError`.
 [[nodiscard]] RenderOptions with_ground(const GroundWords& words, RenderOptions options);
 
+/// Throws `OptionError` where `word` is given for `option`, which a shadow on the ground cannot be
+/// seen through: `options` are those of `with_ground`.
+void check_beside_ground(const char* option, const std::optional<std::string>& word,
+                         const RenderOptions& options);
+
 }  // namespace bdpt::app

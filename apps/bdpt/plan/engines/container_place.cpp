@@ -33,6 +33,9 @@ ContainerPlace container_place(const Plan& plan, const fs::path& folder)
     if (plan.environment) {
         include(*plan.environment);
     }
+    if (plan.volume) {
+        include(*plan.volume);
+    }
     for (const fs::path& output : plan.outputs) {
         include(output);
     }

@@ -108,7 +108,7 @@ TEST_CASE("options about volumes that make no sense are refused", "[volume]")
 
 #ifdef BDPT_HAS_OPENVDB
 
-TEST_CASE("--volume puts smoke into a scene", "[volume]")
+TEST_CASE("smoke comes into a scene by --volume", "[volume]")
 {
     const Room room;
     const auto clear = room.pixels({});

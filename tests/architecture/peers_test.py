@@ -303,7 +303,7 @@ class Judgement(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             stage = contest.Stage(options, ROOT / "scenes" / "cornell-box.gltf", pathlib.Path(folder))
             stage.reference = stage.folder / "reference.exr"
-            stage.reference_run = contest.run_bdpt(options, stage.gltf, "bdpt", contest.REFERENCE_SEED,
+            stage.reference_run = contest.run_bdpt(options, stage.gltf, None, "bdpt", contest.REFERENCE_SEED,
                                                    ("--spp", "256"), stage.reference)
             runs = {}
             for name, integrator, depth in (("bdpt", "bdpt", 16), ("bdpt-mis", "mis", 16), ("short", "bdpt", 2)):
@@ -311,7 +311,7 @@ class Judgement(unittest.TestCase):
                 runs[name] = []
                 for seed in range(3):
                     image = stage.folder / name / f"{seed}.exr"
-                    told = contest.run_bdpt(dataclasses.replace(options, max_depth=depth), stage.gltf, integrator, seed,
+                    told = contest.run_bdpt(dataclasses.replace(options, max_depth=depth), stage.gltf, None, integrator, seed,
                                             ("--spp", "16"), image)
                     runs[name].append({**told, "picture": str(image)})
             entries = contest.judge(stage, runs)["entries"]

@@ -1,6 +1,6 @@
 # cpack -G DEB, in the build folder: bdpt (the command, the libraries, man pages, completions, documents),
-# bdpt-openimageio (the module that reads TIFF images), bdpt-openvdb (the program that reads volumes), libbdpt-dev (headers, and what CMake and pkg-config need)
-# and, if the Python package is built with Debian's Python, python3-bdpt.
+# bdpt-openimageio (the module that reads TIFF images), bdpt-openvdb (the program that reads volumes), libbdpt-dev
+# (headers, and what CMake and pkg-config need) and, if the Python package is built with Debian's Python, python3-bdpt.
 if(NOT BUILD_SHARED_LIBS OR NOT BDPT_BUILD_APPS)
   return()
 endif()
@@ -9,6 +9,7 @@ set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME bdpt)
 set(CPACK_PACKAGE_CONTACT "${BDPT_PACKAGE_CONTACT}")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # or all packages would have it before their own first line
 set(CPACK_STRIP_FILES ON)
 set(CPACK_COMPONENTS_ALL bdpt_runtime bdpt_openimageio bdpt_development)
 set(CPACK_DEB_COMPONENT_INSTALL ON)

@@ -86,6 +86,13 @@ install(FILES LICENSE README.md CHANGELOG.md DESTINATION "${CMAKE_INSTALL_DOCDIR
         COMPONENT bdpt_runtime)
 install(FILES LICENSE RENAME copyright DESTINATION "${CMAKE_INSTALL_DOCDIR}"
         COMPONENT bdpt_runtime)  # where Debian looks for it
+# The same of each other package.
+set(packages bdpt-openimageio bdpt-openvdb libbdpt-dev)
+set(components bdpt_openimageio bdpt_openvdb bdpt_development)
+foreach(package component IN ZIP_LISTS packages components)
+  install(FILES LICENSE RENAME copyright DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/${package}"
+          COMPONENT ${component} EXCLUDE_FROM_ALL)
+endforeach()
 install(DIRECTORY docs DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT bdpt_runtime
         FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.svg")
 if(BDPT_BUILD_PYTHON AND BDPT_BUILD_APPS)

@@ -213,6 +213,19 @@ make_debian_packages() {
     [[ -s $folder/unpacked/usr/$file ]] || fail "no $file"
   done
   check_python_package "$folder"
+  check_descriptions "$folder"
+}
+
+# Each package says what it is, and under what licence.
+check_descriptions() {
+  local package name line
+  for package in "$1"/*_"${VERSION}"_*.deb; do
+    name=$(dpkg-deb -f "$package" Package)
+    cmp "$SOURCE/LICENSE" "$1/unpacked/usr/share/doc/$name/copyright" || fail "no copyright in $package"
+    dpkg-deb -f "$package" Description | head -n 1
+  done > "$1/descriptions"
+  line=$(sort "$1/descriptions" | uniq -d)
+  [[ -z $line ]] || fail "several packages are called: $line"
 }
 
 # bdpt-openvdb, where the build has OpenVDB.

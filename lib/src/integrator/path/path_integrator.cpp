@@ -226,7 +226,7 @@ Rgb PathIntegrator::emission(const Ray& ray, LightId light, const LightPoint& hi
         (lights[light].is_infinite()
              ? ray.pdf.value
              : to_area(ray.pdf, std::abs(dot(hit.ng, ray.direction)), dot(along, along)).value);
-    return radiance * weight({by_light, by_bsdf, by_fog}, LightFinder::bsdf_sample);
+    return radiance * weight({by_light, by_bsdf, by_fog}, LightTechnique::bsdf_sample);
 }
 
 Rgb PathIntegrator::sample_lights(SampleContext& sample, const SurfacePoint& point,
@@ -258,10 +258,10 @@ Rgb PathIntegrator::sample_light(SampleContext& sample, const SurfacePoint& poin
     if (!found) {
         return Rgb(0.0f);
     }
-    const LightDensities3 densities{found->light_pdf * (choice->probability * light_samples_),
-                                    found->bsdf_pdf,
-                                    found->light_pdf * fog_odds(arrival, choice->id)};
-    return found->value / choice->probability * weight(densities, LightFinder::light_sample);
+    const TechniqueDensities densities{found->light_pdf * (choice->probability * light_samples_),
+                                       found->bsdf_pdf,
+                                       found->light_pdf * fog_odds(arrival, choice->id)};
+    return found->value / choice->probability * weight(densities, LightTechnique::light_sample);
 }
 
 Rgb PathIntegrator::sample_fog(SampleContext& sample, const Ray& ray, const FogSegment& fog,
@@ -292,11 +292,11 @@ Rgb PathIntegrator::sample_fog(SampleContext& sample, const Ray& ray, const FogS
                                                        chosen->distance, sample.segment(0, depth));
     const float probability = world_.lights().context_probability(
         chosen->light, LightSampleContext{.p = point.end.p}, next_event_sampling_.lights);
-    const LightDensities3 densities{flight.stop * found->light_pdf * (probability * light_samples_),
-                                    flight.stop * found->bsdf_pdf,
-                                    samples * chosen->pdf * found->light_pdf};
+    const TechniqueDensities densities{
+        flight.stop * found->light_pdf * (probability * light_samples_),
+        flight.stop * found->bsdf_pdf, samples * chosen->pdf * found->light_pdf};
     return found->value * flight.transmittance * through *
-           (weight(densities, LightFinder::fog_sample) / (samples * chosen->pdf));
+           (weight(densities, LightTechnique::fog_sample) / (samples * chosen->pdf));
 }
 
 std::optional<PathIntegrator::LightConnection> PathIntegrator::connect(SampleContext& sample,

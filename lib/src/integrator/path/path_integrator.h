@@ -3,7 +3,7 @@
 #include "film/pixel_filter.h"
 #include "integrator/contribution_sink.h"
 #include "integrator/integrator.h"
-#include "integrator/path/light_shares.h"
+#include "integrator/path/light_techniques.h"
 #include "path/fog_sampling.h"
 
 #include <optional>
@@ -49,7 +49,7 @@ private:
     /// How much more often `FogSampling` finds the light at the point of fog than a walk comes
     /// there.
     [[nodiscard]] float fog_odds(const std::optional<FogArrival>& arrival, LightId light) const;
-    [[nodiscard]] float weight(const LightDensities3& densities, LightFinder used) const
+    [[nodiscard]] float weight(const TechniqueDensities& densities, LightTechnique used) const
     {
         return mis_weight(densities, used, options_.transport.heuristic);
     }

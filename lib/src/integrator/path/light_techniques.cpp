@@ -1,10 +1,10 @@
-#include "integrator/path/light_shares.h"
+#include "integrator/path/light_techniques.h"
 
 #include <algorithm>
 
 namespace bdpt {
 
-float mis_weight(const LightDensities3& densities, LightFinder used, Heuristic heuristic)
+float mis_weight(const TechniqueDensities& densities, LightTechnique used, Heuristic heuristic)
 {
     const float own = densities[static_cast<std::size_t>(used)];
     if (!(own > 0.0f)) {

@@ -1,4 +1,4 @@
-#include "integrator/path/light_shares.h"
+#include "integrator/path/light_techniques.h"
 
 #include "catch.hpp"
 
@@ -8,8 +8,8 @@
 namespace bdpt {
 namespace {
 
-constexpr LightFinder finders[] = {LightFinder::light_sample, LightFinder::bsdf_sample,
-                                   LightFinder::fog_sample};
+constexpr LightTechnique techniques[] = {LightTechnique::light_sample, LightTechnique::bsdf_sample,
+                                         LightTechnique::fog_sample};
 
 }  // namespace
 
@@ -20,13 +20,13 @@ TEST_CASE("weights of the ways to find a light add up to one", "[mis]")
     for (const Heuristic heuristic : {Heuristic::balance, Heuristic::power, Heuristic::cutoff,
                                       Heuristic::maximum, Heuristic::uniform}) {
         for (int i = 0; i < 1000; ++i) {
-            LightDensities3 densities{};
+            TechniqueDensities densities{};
             for (float& d : densities) {
                 d = engine() % 3U == 0 ? 0.0f : density(engine);
             }
             densities[engine() % 3U] = i % 5 == 0 ? densities[0] : density(engine);  // ties, too
             float sum = 0.0f;
-            for (const LightFinder used : finders) {
+            for (const LightTechnique used : techniques) {
                 sum += mis_weight(densities, used, heuristic);
             }
             const bool any = densities[0] + densities[1] + densities[2] > 0.0f;
@@ -37,9 +37,9 @@ TEST_CASE("weights of the ways to find a light add up to one", "[mis]")
 
 TEST_CASE("weights of the ways to find a light are those of Veach", "[mis]")
 {
-    const LightDensities3 densities{1.0f, 3.0f, 0.2f};
+    const TechniqueDensities densities{1.0f, 3.0f, 0.2f};
     const auto weight = [&](Heuristic heuristic) {
-        return mis_weight(densities, LightFinder::light_sample, heuristic);
+        return mis_weight(densities, LightTechnique::light_sample, heuristic);
     };
     CHECK(weight(Heuristic::balance) == Approx(1.0 / 4.2));
     CHECK(weight(Heuristic::power) == Approx(1.0 / 10.04));
@@ -50,9 +50,9 @@ TEST_CASE("weights of the ways to find a light are those of Veach", "[mis]")
 
 TEST_CASE("a lamp so small that its density is infinite is found by light samples alone", "[mis]")
 {
-    const LightDensities3 densities{std::numeric_limits<float>::infinity(), 2.0f, 0.0f};
-    CHECK(mis_weight(densities, LightFinder::light_sample, Heuristic::power) == 1.0f);
-    CHECK(mis_weight(densities, LightFinder::bsdf_sample, Heuristic::power) == 0.0f);
+    const TechniqueDensities densities{std::numeric_limits<float>::infinity(), 2.0f, 0.0f};
+    CHECK(mis_weight(densities, LightTechnique::light_sample, Heuristic::power) == 1.0f);
+    CHECK(mis_weight(densities, LightTechnique::bsdf_sample, Heuristic::power) == 0.0f);
 }
 
 }  // namespace bdpt

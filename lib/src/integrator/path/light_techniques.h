@@ -8,18 +8,18 @@
 namespace bdpt {
 
 /// How a camera path comes to a point of a light from its vertex before that.
-enum class LightFinder : std::size_t {
+enum class LightTechnique : std::size_t {
     light_sample,  ///< next-event estimation at the vertex
     bsdf_sample,   ///< the ray that goes on from the vertex hits the light
     fog_sample     ///< the vertex itself was chosen for the light, in fog
 };
 
 /// How often each finds it: densities in one measure times numbers of samples, >= 0; by
-/// `LightFinder`.
-using LightDensities3 = std::array<float, 3>;
+/// `LightTechnique`.
+using TechniqueDensities = std::array<float, 3>;
 
 /// The weight of the one in use [Veach 1997, sec. 9.2]. Those of all add up to one.
-[[nodiscard]] float mis_weight(const LightDensities3& densities, LightFinder used,
+[[nodiscard]] float mis_weight(const TechniqueDensities& densities, LightTechnique used,
                                Heuristic heuristic);
 
 }  // namespace bdpt

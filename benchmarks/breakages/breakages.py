@@ -15,7 +15,7 @@ class Breakage:
     options: tuple = ()  # of `bdpt verify`
 
 
-BIDIRECTIONAL = "lib/src/integrator/bidirectional/bidirectional_integrator.cpp"
+JOINER = "lib/src/integrator/bidirectional/path_joiner.cpp"
 CONNECT = "lib/src/path/connect.cpp"
 WALK = "lib/src/path/random_walk.cpp"
 SUMS = "lib/src/path/weight_sums.cpp"
@@ -30,7 +30,8 @@ FOG = ("--fog", "0.3,0.6,1.2", "--fog-anisotropy", "0.5", "--max-depth", "4")
 INSIDE_GLASS = ("--from", "1.05,0.29,0.3", "--look-at", "1.05,1.5,0.31", "--fov", "90")
 
 BREAKAGES = (
-    Breakage("walks in media leave out the probability of their flight", WALK, "pdf * met.probability();", "pdf;",
+    Breakage("walks in media leave out the probability of their flight", WALK,
+             "pdf_of_point(cosine, distance_squared) * met.probability();", "pdf_of_point(cosine, distance_squared);",
              options=FOG),
     Breakage("reverse densities take points of media for surfaces", "lib/src/path/path_vertex.h",
              "flight.to(vertex.kind == VertexKind::medium)", "flight.to(false)", options=FOG),
@@ -40,14 +41,14 @@ BREAKAGES = (
              ".wi = {sine * c, sine * s, z}", ".wi = {sine * c, sine * s, -z}", options=FOG),
     Breakage("a join lacks 1/d^2", CONNECT, "f_y.f_cos * y.beta * (1.0f / distance_squared)",
              "f_y.f_cos * y.beta"),
-    Breakage("the longest light subpath is not joined", BIDIRECTIONAL,
+    Breakage("the longest light subpath is not joined", JOINER,
              "options_.transport.max_depth + 1 - t);", "options_.transport.max_depth - t);"),
-    Breakage("splats begin at s = 3", BIDIRECTIONAL,
-             "for (int s = 2; s <= longest_s; ++s) {\n        if (!strategies_.uses(s, 1)",
-             "for (int s = 3; s <= longest_s; ++s) {\n        if (!strategies_.uses(s, 1)"),
+    Breakage("splats begin at s = 3", JOINER,
+             "for (int s = 2; s <= longest_s; ++s) {\n        if (strategies_.uses(s, 1)",
+             "for (int s = 3; s <= longest_s; ++s) {\n        if (strategies_.uses(s, 1)"),
     Breakage("survivors of roulette are not worth more", WALK, "    beta /= survival;\n", ""),
-    Breakage("area densities of walks lack the cosine", WALK, ": to_area(step.pdf, cosine, distance_squared);\n    vert",
-             ": to_area(step.pdf, 1.0f, distance_squared);\n    vert"),
+    Breakage("area densities of walks lack the cosine", "lib/src/path/walk_step.h",
+             ": to_area(pdf, cosine, distance_squared);", ": to_area(pdf, 1.0f, distance_squared);"),
     Breakage("reverse densities of walks are halved", WALK,
              "scattered->pdf_rev.value * previous.area_per_solid_angle",
              "0.5f * scattered->pdf_rev.value * previous.area_per_solid_angle", "cornell-box-hidden.gltf"),
@@ -74,18 +75,18 @@ BREAKAGES = (
     Breakage("weights forget next-event estimation", SUMS,
              "s == 1 ? light_samples_ * raise(quotient(x0.pdf_next_event, x0.pdf_fwd))", "s == 1 ? joins_",
              "veach-plates.gltf"),
-    Breakage("weights count the next join to the camera path twice", SUMS,
-             "(camera_term(joinable(camera[t - 2]), t - 1) +",
-             "(2.0 * camera_term(joinable(camera[t - 2]), t - 1) +"),
-    Breakage("weights count lenses that are hit twice", SUMS, "lens_term(neighbor, camera[0])",
-             "2.0 * lens_term(neighbor, camera[0])", options=WIDE_LENS),
+    Breakage("weights count joins to earlier camera vertices twice", SUMS,
+             "ratio * (camera_term(joins && joinable(camera[k - 1]), k) +",
+             "ratio * (2.0 * camera_term(joins && joinable(camera[k - 1]), k) +"),
+    Breakage("weights count lenses that are hit twice", SUMS, "? ratio * splats_ :",
+             "? 2.0 * ratio * splats_ :", options=WIDE_LENS),
     Breakage("weights take connections for as many as light paths", SUMS, "joins_(raise(strategies.connections()))",
              "joins_(raise(strategies.light_paths()))", options=SHARED),
     Breakage("the fraction of a connection is dropped", CACHE,
              "std::floor(before + counts_.connections) - std::floor(before)", "std::floor(counts_.connections)",
              options=SHARED),
-    Breakage("splats of shared light paths count as those of own ones", BIDIRECTIONAL,
-             "{.s = s, .t = 1}, *splat, strategies_.count(s, 1),", "{.s = s, .t = 1}, *splat, 1.0f,", options=SHARED),
+    Breakage("splats of shared light paths count as those of own ones", JOINER,
+             "strategy, *found, strategies_.count(strategy.s, strategy.t),", "strategy, *found, 1.0f,", options=SHARED),
     Breakage("shadow rays to infinity meet nothing", "lib/src/scene/world.cpp",
              "if (embree_->occluded({.origin = offset_origin(a.p, a.error, a.ng, direction),\n"
              "                           .direction = direction,",

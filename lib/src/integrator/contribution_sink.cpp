@@ -46,24 +46,24 @@ void ContributionSink::add(const SampleContext& sample, Strategy strategy,
     }
 }
 
-void ContributionSink::splat(SampleContext& sample, Strategy strategy, const Splat& splat,
+void ContributionSink::splat(SampleContext& sample, Strategy strategy, const Contribution& found,
                              float count, std::uint32_t dimension)
 {
     sample.enter(Phase::splat);
-    SplatTarget target{.raster = splat.raster};
+    SplatTarget target{.raster = found.raster};
     if (!filter_.is_pixel()) {
         sample.sampler.start(SampleUse::film, dimension);
-        target = filter_.choose_pixel(splat.raster, sample.sampler.next_2d());
+        target = filter_.choose_pixel(found.raster, sample.sampler.next_2d());
     }
-    const Rgb unweighted = unweighted_of(sample, splat.contribution);
-    const Rgb weighted = target.weight * splat.contribution.weight / count * unweighted;
+    const Rgb unweighted = unweighted_of(sample, found);
+    const Rgb weighted = target.weight * found.weight / count * unweighted;
     if (films_.film != nullptr) {
         films_.film->prefetch_splat(target.raster, index_);
     }
     splats_.push_back({.raster = target.raster, .radiance = weighted});
     if (!films_.strategies.empty() || films_.on_path) [[unlikely]] {
         report(strategy, target.raster, scale_.splat * weighted,
-               scale_.splat * target.weight / count * unweighted, splat.contribution.weight);
+               scale_.splat * target.weight / count * unweighted, found.weight);
     }
 }
 

@@ -32,9 +32,9 @@ public:
     /// A contribution to that pixel; the strategy takes `count` samples for each camera path.
     void add(const SampleContext& sample, Strategy strategy, const Contribution& found,
              float count);
-    /// A contribution to the pixel at `splat.raster`, or to one near it by the pixel filter;
+    /// A contribution to the pixel at `found.raster`, or to one near it by the pixel filter;
     /// `dimension` tells the splats of one light path apart.
-    void splat(SampleContext& sample, Strategy strategy, const Splat& splat, float count,
+    void splat(SampleContext& sample, Strategy strategy, const Contribution& found, float count,
                std::uint32_t dimension);
     /// Adds the sample to the film.
     void end_sample();

@@ -11,15 +11,12 @@
 namespace bdpt {
 namespace {
 
-const PathVertex& before_last(std::span<const PathVertex> path)
+/// Density at the neighbour of the end of `path` of being sampled from there, whose density of
+/// directions is given; none if there is no neighbour.
+AreaPdf at_neighbor(SolidAnglePdf pdf, std::span<const PathVertex> path)
 {
-    return path[path.size() - 2];
-}
-
-/// Density of sampling `neighbor` in the direction whose density is given.
-AreaPdf at_neighbor(SolidAnglePdf pdf, const PathVertex& neighbor)
-{
-    return {pdf.value * neighbor.area_per_solid_angle};
+    return path.size() < 2 ? AreaPdf{}
+                           : AreaPdf{pdf.value * path[path.size() - 2].area_per_solid_angle};
 }
 
 /// Density of sampling `end` from a point at squared distance `distance_squared`; `w` joins them.
@@ -28,8 +25,8 @@ AreaPdf at_end(SolidAnglePdf pdf, const SegmentEnd& end, Vec3 w, float distance_
     return to_area(pdf, abs_cosine(end, w), distance_squared);
 }
 
-/// The flight between a vertex and one next to it on a path, or a light at infinity.
-Flight flight_between(const World& world, const PathVertex& vertex, const PathVertex& other)
+/// The flight between a vertex and the one that a walk went on to, or a light at infinity.
+Flight walked_flight(const World& world, const PathVertex& vertex, const PathVertex& other)
 {
     if (!world.media().any()) {
         return {};
@@ -40,6 +37,95 @@ Flight flight_between(const World& world, const PathVertex& vertex, const PathVe
     }
     const Vec3 along = other.end.p - vertex.end.p;
     return world.media().flight(vertex.end, other.end, along, std::sqrt(dot(along, along)));
+}
+
+/// The flight between the ends of a join, unless something is in the way.
+std::optional<Flight> joining_flight(const SampleContext& sample, std::span<const PathVertex> light,
+                                     std::span<const PathVertex> camera)
+{
+    const PathVertex& y = light.back();
+    const PathVertex& z = camera.back();
+    const SegmentKey segment =
+        sample.segment(static_cast<int>(light.size()), static_cast<int>(camera.size()));
+    ++sample.rays.shadow;
+    if (camera.size() == 1) {
+        sample.rays.shadow_to_lens += light.size() > 1 ? 1U : 0U;
+        return sample.world.flight(y.end, z.end, segment);
+    }
+    sample.rays.shadow_interior += light.size() > 1 ? 1U : 0U;
+    return y.kind == VertexKind::infinite ? sample.world.flight_to_infinity(z.end, y.end.p, segment)
+                                          : sample.world.flight(z.end, y.end, segment);
+}
+
+/// Joins the ends of a light and a camera path: `value` is what comes through if nothing is in the
+/// way, `densities()` are those of the join, without the flight between its ends.
+template <typename Densities>
+std::optional<Contribution> join(const SampleContext& sample, std::span<const PathVertex> light,
+                                 std::span<const PathVertex> camera, Rgb value,
+                                 PathWeigher& weigher, const Densities& densities)
+{
+    if (is_black(value)) {
+        return std::nullopt;
+    }
+    const auto flight = joining_flight(sample, light, camera);
+    if (!flight || is_black(value *= flight->transmittance)) {
+        return std::nullopt;
+    }
+    sample.enter(Phase::weigh);
+    const PathVertex& y = light.back();
+    const PathVertex& z = camera.back();
+    JoinDensities join = densities();
+    join.light_at_camera_end = join.light_at_camera_end * probability_to(z, *flight);
+    join.camera_at_light_end = join.camera_at_light_end * probability_to(y, *flight);
+    return Contribution{.unweighted = value,
+                        .weight = weigher.weight(light, camera, join),
+                        .dispersed = y.dispersed || z.dispersed};
+}
+
+/// A fresh point of a light, and the vertex that it makes.
+struct FreshLight {
+    IncidentSample incident;
+    float probability = 0.0f;  ///< of choosing the light
+    PathVertex x0;
+};
+
+/// Of the light that was chosen, for a receiver at `p`.
+std::optional<FreshLight> sample_light(const SampleContext& sample,
+                                       const LightSet::ChoiceAndNumbers& choice, Vec3 p,
+                                       EnvironmentSampling environments)
+{
+    const Light& light = sample.world.lights()[choice.id];
+    const auto incident = light.sample_incident(p, choice.u, environments, sample.time);
+    if (!incident) {
+        return std::nullopt;
+    }
+    FreshLight fresh{.incident = *incident, .probability = choice.probability, .x0 = {}};
+    fresh.x0.light = choice.id;
+    if (light.is_infinite()) {
+        fresh.x0.kind = VertexKind::infinite;
+        fresh.x0.end.p = incident->wi;
+    } else {
+        fresh.x0.kind = VertexKind::light;
+        fresh.x0.end = incident->end;
+        fresh.x0.barycentrics = incident->barycentrics;
+    }
+    return fresh;
+}
+
+/// The random point on the lens of the strategy with `s` light vertices.
+Vec2 random_lens_point(SampleContext& sample, std::size_t s)
+{
+    sample.sampler.start(SampleUse::lens, static_cast<std::uint32_t>(s));
+    return sample.camera.has_finite_lens() ? sample.sampler.next_2d() : Vec2(0.0f);
+}
+
+PathVertex lens_vertex(const LensSample& to_lens)
+{
+    PathVertex lens;
+    lens.kind = VertexKind::camera;
+    lens.end = to_lens.lens;
+    lens.pdf_fwd = to_lens.pdf_lens;
+    return lens;
 }
 
 }  // namespace
@@ -53,19 +139,17 @@ std::optional<Contribution> hit_light(const SampleContext& sample,
         return std::nullopt;
     }
     sample.enter(Phase::weigh);
-    const PathVertex& x1 = before_last(camera);
+    const PathVertex& x1 = camera[camera.size() - 2];
     const LightDensities densities = light_densities(sample, x0, x1.end);
-    const Flight flight = flight_between(sample.world, x1, x0);
-    return Contribution{
-        .unweighted = value,
-        .weight = weigher.weight(
-            {}, camera,
-            {.light_at_camera_end = densities.emit,
-             .light_at_camera_neighbor = densities.to_next * probability_to(x1, flight),
-             .camera_at_light_end = {},
-             .camera_at_light_neighbor = {},
-             .next_event = next_event_density(sample, x0, x1, weigher.next_event_sampling())}),
-        .dispersed = x0.dispersed};
+    const float arrival = probability_to(x1, walked_flight(sample.world, x1, x0));
+    const float weight = weigher.weight(
+        {}, camera,
+        {.light_at_camera_end = densities.emit,
+         .light_at_camera_neighbor = densities.to_next * arrival,
+         .camera_at_light_end = {},
+         .camera_at_light_neighbor = {},
+         .next_event = next_event_density(sample, x0, x1, weigher.next_event_sampling())});
+    return Contribution{.unweighted = value, .weight = weight, .dispersed = x0.dispersed};
 }
 
 Vec2 first_light_sample(SampleContext& sample, int t)
@@ -78,199 +162,110 @@ std::optional<Contribution> connect_to_light(SampleContext& sample,
                                              std::span<const PathVertex> camera, Vec2 u,
                                              PathWeigher& weigher)
 {
-    const World& world = sample.world;
-    Sampler& sampler = sample.sampler;
     const PathVertex& z = camera.back();
     if (!scatters(z.kind) || !z.connectible) {
         return std::nullopt;
     }
     const NextEventSampling sampling = weigher.next_event_sampling();
-    const auto choice = world.lights().choose_for_context(
-        [&z] { return light_sample_context(z); }, u, [&sampler] { return sampler.next_fine(); },
-        sampling.lights);
-    if (!choice) {
+    const auto choice = sample.world.lights().choose_for_context(
+        [&z] { return light_sample_context(z); }, u,
+        [&sample] { return sample.sampler.next_fine(); }, sampling.lights);
+    auto fresh =
+        choice ? sample_light(sample, *choice, z.end.p, sampling.environments) : std::nullopt;
+    if (!fresh) {
         return std::nullopt;
     }
-    const Light& light = world.lights()[choice->id];
-    const auto incident =
-        light.sample_incident(z.end.p, choice->u, sampling.environments, sample.time);
-    if (!incident) {
-        return std::nullopt;
-    }
-    const BsdfEval f = z.bsdf->eval(incident->wi, TransportMode::radiance);
-    Rgb value = z.beta * f.f_cos * incident->weight / choice->probability;
-    if (is_black(value)) {
-        return std::nullopt;
-    }
-    PathVertex x0;
-    x0.light = choice->id;
-    if (light.is_infinite()) {
-        x0.kind = VertexKind::infinite;
-        x0.end.p = incident->wi;
-    } else {
-        x0.kind = VertexKind::light;
-        x0.end = incident->end;
-        x0.barycentrics = incident->barycentrics;
-    }
-    ++sample.rays.shadow;
-    const SegmentKey segment = sample.segment(1, static_cast<int>(camera.size()));
-    const auto flight = light.is_infinite() ? world.flight_to_infinity(z.end, incident->wi, segment)
-                                            : world.flight(z.end, x0.end, segment);
-    if (!flight || is_black(value *= flight->transmittance)) {
-        return std::nullopt;
-    }
-    sample.enter(Phase::weigh);
-    const LightDensities densities = light_densities(sample, x0, z.end);
-    x0.pdf_fwd = densities.emit;
-    const AreaPdf from_camera =
-        light.is_infinite()
-            ? AreaPdf{f.pdf_fwd.value}
-            : at_end(f.pdf_fwd, x0.end, incident->wi, incident->distance * incident->distance);
-    return Contribution{
-        .unweighted = value,
-        .weight =
-            weigher.weight(std::span(&x0, 1), camera,
-                           {.light_at_camera_end = densities.to_next * probability_to(z, *flight),
-                            .light_at_camera_neighbor = at_neighbor(f.pdf_rev, before_last(camera)),
-                            .camera_at_light_end = from_camera * flight->pass,
-                            .camera_at_light_neighbor = {},
-                            .next_event = incident->pdf * choice->probability}),
-        .dispersed = z.dispersed};
+    const IncidentSample& incident = fresh->incident;
+    PathVertex& x0 = fresh->x0;
+    const BsdfEval f = z.bsdf->eval(incident.wi, TransportMode::radiance);
+    const Rgb value = z.beta * f.f_cos * incident.weight / fresh->probability;
+    return join(sample, std::span(&x0, 1), camera, value, weigher, [&] {
+        const LightDensities densities = light_densities(sample, x0, z.end);
+        x0.pdf_fwd = densities.emit;
+        return JoinDensities{
+            .light_at_camera_end = densities.to_next,
+            .light_at_camera_neighbor = at_neighbor(f.pdf_rev, camera),
+            .camera_at_light_end =
+                x0.kind == VertexKind::infinite
+                    ? AreaPdf{f.pdf_fwd.value}
+                    : at_end(f.pdf_fwd, x0.end, incident.wi, incident.distance * incident.distance),
+            .camera_at_light_neighbor = {},
+            .next_event = incident.pdf * fresh->probability};
+    });
 }
 
-std::optional<Splat> connect_light_to_lens(SampleContext& sample, PathWeigher& weigher)
+std::optional<Contribution> connect_light_to_lens(SampleContext& sample, PathWeigher& weigher)
 {
-    const World& world = sample.world;
-    const Camera& camera = sample.camera;
-    Sampler& sampler = sample.sampler;
-    sampler.start(SampleUse::lens, 1);
-    const Vec2 u_lens = camera.has_finite_lens() ? sampler.next_2d() : Vec2(0.0f);
     // The lens is the receiver; where on it is settled before the light is chosen.
-    const SegmentEnd receiver = camera.generate_ray(Vec2(0.0f), u_lens).lens;
-    sampler.start(SampleUse::next_event, 1);
-    const Vec2 u = sampler.next_2d();
-    const auto choice = world.lights().choose_for_context(
-        LightSampleContext{.p = receiver.p}, u, [&sampler] { return sampler.next_fine(); },
+    const Vec2 u_lens = random_lens_point(sample, 1);
+    const Vec3 receiver = sample.camera.generate_ray(Vec2(0.0f), u_lens).lens.p;
+    const Vec2 u = first_light_sample(sample, 1);
+    const LightSet& lights = sample.world.lights();
+    const auto choice = lights.choose_for_context(
+        LightSampleContext{.p = receiver}, u, [&sample] { return sample.sampler.next_fine(); },
         weigher.next_event_sampling().lights);
-    if (!choice || !can_be_seen_directly(world.lights()[choice->id], camera)) {
+    auto fresh = choice && can_be_seen_directly(lights[choice->id], sample.camera)
+                     ? sample_light(sample, *choice, receiver, EnvironmentSampling::plain)
+                     : std::nullopt;
+    if (!fresh) {
         return std::nullopt;
     }
-    const auto incident = world.lights()[choice->id].sample_incident(
-        receiver.p, choice->u, EnvironmentSampling::plain, sample.time);
-    if (!incident) {
-        return std::nullopt;
-    }
-    const auto to_lens = camera.sample_lens(incident->end.p, u_lens);
+    const IncidentSample& incident = fresh->incident;
+    PathVertex& x0 = fresh->x0;
+    const auto to_lens = sample.camera.sample_lens(x0.end.p, u_lens);
     if (!to_lens) {
         return std::nullopt;
     }
-    Rgb value = incident->weight * (to_lens->pdf_direction.value / choice->probability);
-    if (is_black(value)) {
-        return std::nullopt;
+    const PathVertex lens = lens_vertex(*to_lens);
+    const Rgb value = incident.weight * (to_lens->pdf_direction.value / fresh->probability);
+    auto found = join(sample, std::span(&x0, 1), std::span(&lens, 1), value, weigher, [&] {
+        const LightDensities densities = light_densities(sample, x0, lens.end);
+        x0.pdf_fwd = densities.emit;
+        return JoinDensities{
+            .light_at_camera_end = densities.to_next,
+            .light_at_camera_neighbor = {},
+            .camera_at_light_end = at_end(to_lens->pdf_direction, x0.end, to_lens->wi,
+                                          incident.distance * incident.distance),
+            .camera_at_light_neighbor = {},
+            .next_event = incident.pdf * fresh->probability};
+    });
+    if (found) {
+        found->raster = to_lens->raster;
     }
-    ++sample.rays.shadow;
-    const auto flight = world.flight(incident->end, to_lens->lens, sample.segment(1, 1));
-    if (!flight || is_black(value *= flight->transmittance)) {
-        return std::nullopt;
-    }
-    sample.enter(Phase::weigh);
-    PathVertex x0;
-    x0.light = choice->id;
-    x0.kind = VertexKind::light;
-    x0.end = incident->end;
-    x0.barycentrics = incident->barycentrics;
-    const LightDensities densities = light_densities(sample, x0, to_lens->lens);
-    x0.pdf_fwd = densities.emit;
-    PathVertex lens;
-    lens.kind = VertexKind::camera;
-    lens.end = to_lens->lens;
-    lens.pdf_fwd = to_lens->pdf_lens;
-    const float distance_squared = incident->distance * incident->distance;
-    const float weight = weigher.weight(
-        std::span(&x0, 1), std::span(&lens, 1),
-        {.light_at_camera_end = densities.to_next * flight->pass,
-         .light_at_camera_neighbor = {},
-         .camera_at_light_end =
-             at_end(to_lens->pdf_direction, x0.end, to_lens->wi, distance_squared) * flight->pass,
-         .camera_at_light_neighbor = {},
-         .next_event = incident->pdf * choice->probability});
-    return Splat{.contribution = {.unweighted = value, .weight = weight, .dispersed = false},
-                 .raster = to_lens->raster};
+    return found;
 }
 
-std::optional<Splat> connect_to_lens(SampleContext& sample, std::span<const PathVertex> light,
-                                     PathWeigher& weigher)
+std::optional<Contribution> connect_to_lens(SampleContext& sample,
+                                            std::span<const PathVertex> light, PathWeigher& weigher)
 {
-    const Camera& camera = sample.camera;
-    Sampler& sampler = sample.sampler;
     const PathVertex& y = light.back();
     if (!y.connectible) {
         return std::nullopt;
     }
-    sampler.start(SampleUse::lens, static_cast<std::uint32_t>(light.size()));
-    const Vec2 u_lens = camera.has_finite_lens() ? sampler.next_2d() : Vec2(0.0f);
-    const auto to_lens = camera.sample_lens(y.end.p, u_lens);
+    const auto to_lens =
+        sample.camera.sample_lens(y.end.p, random_lens_point(sample, light.size()));
     if (!to_lens) {
         return std::nullopt;
     }
+    const PathVertex lens = lens_vertex(*to_lens);
     const BsdfEval f = y.bsdf->eval(to_lens->wi, TransportMode::importance);
-    Rgb value = y.beta * f.f_cos * to_lens->weight;
-    if (is_black(value)) {
-        return std::nullopt;
+    const Rgb value = y.beta * f.f_cos * to_lens->weight;
+    auto found = join(sample, light, std::span(&lens, 1), value, weigher, [&] {
+        const float distance_squared = to_lens->distance * to_lens->distance;
+        return JoinDensities{
+            .light_at_camera_end = at_end(f.pdf_fwd, lens.end, to_lens->wi, distance_squared),
+            .light_at_camera_neighbor = {},
+            .camera_at_light_end =
+                to_lens->pdf_plane
+                    ? to_area(*to_lens->pdf_plane, abs_cosine(y.end, to_lens->wi))
+                    : at_end(to_lens->pdf_direction, y.end, to_lens->wi, distance_squared),
+            .camera_at_light_neighbor = at_neighbor(f.pdf_rev, light),
+            .next_event = light[0].pdf_next_event};
+    });
+    if (found) {
+        found->raster = to_lens->raster;
     }
-    ++sample.rays.shadow;
-    ++sample.rays.shadow_to_lens;
-    const auto flight = sample.world.flight(y.end, to_lens->lens,
-                                            sample.segment(static_cast<int>(light.size()), 1));
-    if (!flight || is_black(value *= flight->transmittance)) {
-        return std::nullopt;
-    }
-    sample.enter(Phase::weigh);
-    const float distance_squared = to_lens->distance * to_lens->distance;
-    const float cosine = abs_cosine(y.end, to_lens->wi);
-    PathVertex lens;
-    lens.kind = VertexKind::camera;
-    lens.end = to_lens->lens;
-    lens.pdf_fwd = to_lens->pdf_lens;
-    const float weight = weigher.weight(
-        light, std::span(&lens, 1),
-        {.light_at_camera_end =
-             at_end(f.pdf_fwd, lens.end, to_lens->wi, distance_squared) * flight->pass,
-         .light_at_camera_neighbor = {},
-         .camera_at_light_end =
-             (to_lens->pdf_plane ? to_area(*to_lens->pdf_plane, cosine)
-                                 : to_area(to_lens->pdf_direction, cosine, distance_squared)) *
-             probability_to(y, *flight),
-         .camera_at_light_neighbor = at_neighbor(f.pdf_rev, before_last(light)),
-         .next_event = light[0].pdf_next_event});
-    return Splat{.contribution = {.unweighted = value, .weight = weight, .dispersed = y.dispersed},
-                 .raster = to_lens->raster};
-}
-
-std::optional<Splat> hit_lens(const SampleContext& sample, const Subpath& light_path,
-                              const LensCrossing& crossing, PathWeigher& weigher)
-{
-    const Rgb value = crossing.lens.beta * crossing.importance;
-    if (is_black(value)) {
-        return std::nullopt;
-    }
-    sample.enter(Phase::weigh);
-    const auto light = light_path.first(crossing.light_vertices);
-    const AreaPdf next_event =
-        light.size() > 1
-            ? light[0].pdf_next_event
-            : next_event_density(sample, light[0], crossing.lens, weigher.next_event_sampling());
-    const AreaPdf neighbor = light.size() > 1 ? before_last(light).pdf_rev : AreaPdf{};
-    const float weight = weigher.weight_of_hit(light, crossing.lens,
-                                               {.light_at_camera_end = crossing.lens.pdf_rev,
-                                                .light_at_camera_neighbor = {},
-                                                .camera_at_light_end = crossing.camera_at_light_end,
-                                                .camera_at_light_neighbor = neighbor,
-                                                .next_event = next_event});
-    return Splat{.contribution = {.unweighted = value,
-                                  .weight = weight,
-                                  .dispersed = light.back().dispersed},
-                 .raster = crossing.raster};
+    return found;
 }
 
 std::optional<Contribution> connect_interior(const SampleContext& sample,
@@ -294,31 +289,15 @@ std::optional<Contribution> connect_interior(const SampleContext& sample,
         return std::nullopt;
     }
     const BsdfEval f_y = y.bsdf->eval(-wi, TransportMode::importance);
-    Rgb value = z.beta * f_z.f_cos * f_y.f_cos * y.beta * (1.0f / distance_squared);
-    if (is_black(value)) {
-        return std::nullopt;
-    }
-    ++sample.rays.shadow;
-    ++sample.rays.shadow_interior;
-    const auto flight = sample.world.flight(
-        z.end, y.end,
-        sample.segment(static_cast<int>(light.size()), static_cast<int>(camera.size())));
-    if (!flight || is_black(value *= flight->transmittance)) {
-        return std::nullopt;
-    }
-    sample.enter(Phase::weigh);
-    return Contribution{
-        .unweighted = value,
-        .weight = weigher.weight(
-            light, camera,
-            {.light_at_camera_end =
-                 at_end(f_y.pdf_fwd, z.end, wi, distance_squared) * probability_to(z, *flight),
-             .light_at_camera_neighbor = at_neighbor(f_z.pdf_rev, before_last(camera)),
-             .camera_at_light_end =
-                 at_end(f_z.pdf_fwd, y.end, wi, distance_squared) * probability_to(y, *flight),
-             .camera_at_light_neighbor = at_neighbor(f_y.pdf_rev, before_last(light)),
-             .next_event = light[0].pdf_next_event}),
-        .dispersed = y.dispersed || z.dispersed};
+    const Rgb value = z.beta * f_z.f_cos * f_y.f_cos * y.beta * (1.0f / distance_squared);
+    return join(sample, light, camera, value, weigher, [&] {
+        return JoinDensities{
+            .light_at_camera_end = at_end(f_y.pdf_fwd, z.end, wi, distance_squared),
+            .light_at_camera_neighbor = at_neighbor(f_z.pdf_rev, camera),
+            .camera_at_light_end = at_end(f_z.pdf_fwd, y.end, wi, distance_squared),
+            .camera_at_light_neighbor = at_neighbor(f_y.pdf_rev, light),
+            .next_event = light[0].pdf_next_event};
+    });
 }
 
 }  // namespace bdpt

@@ -9,20 +9,15 @@
 
 namespace bdpt {
 
-// The six ways to complete a path. They begin in Phase::connect, and one that finds something ends
-// in Phase::weigh.
+// Five ways to complete a path; lens_crossing.h and merge.h have two more. They begin in
+// Phase::connect, and one that finds something ends in Phase::weigh.
 
 /// What one strategy found.
 struct Contribution {
     Rgb unweighted{0.0f};
     float weight = 1.0f;     ///< by MIS
     bool dispersed = false;  ///< a vertex of the path disperses
-};
-
-/// The same for the strategies whose pixel is not known beforehand.
-struct Splat {
-    Contribution contribution;
-    Vec2 raster{0.0f};
+    Vec2 raster{0.0f};       ///< where on the film, of t <= 1
 };
 
 /// s = 0: the camera subpath of at least two vertices ends on a light by chance.
@@ -40,18 +35,14 @@ struct Splat {
                                                            Vec2 u, PathWeigher& weigher);
 
 /// s = t = 1: a fresh point of a light is seen through a fresh point of the lens.
-[[nodiscard]] std::optional<Splat> connect_light_to_lens(SampleContext& sample,
-                                                         PathWeigher& weigher);
+[[nodiscard]] std::optional<Contribution> connect_light_to_lens(SampleContext& sample,
+                                                                PathWeigher& weigher);
 
 /// t = 1, s >= 2: the last of at least two light vertices is seen through a fresh point of the
 /// lens.
-[[nodiscard]] std::optional<Splat> connect_to_lens(SampleContext& sample,
-                                                   std::span<const PathVertex> light,
-                                                   PathWeigher& weigher);
-
-/// t = 0: the light subpath crosses the lens by chance.
-[[nodiscard]] std::optional<Splat> hit_lens(const SampleContext& sample, const Subpath& light_path,
-                                            const LensCrossing& crossing, PathWeigher& weigher);
+[[nodiscard]] std::optional<Contribution> connect_to_lens(SampleContext& sample,
+                                                          std::span<const PathVertex> light,
+                                                          PathWeigher& weigher);
 
 /// s >= 2, t >= 2: the last vertices of both subpaths see each other.
 [[nodiscard]] std::optional<Contribution> connect_interior(const SampleContext& sample,

@@ -5,7 +5,7 @@
 
 namespace bdpt {
 
-/// The seventh way to complete a path, beside those of connect.h: the last of at least two light
+/// One more way to complete a path than those of connect.h: the last of at least two light
 /// vertices counts as the last of at least two camera vertices, which is not farther away than
 /// `merging.radius`. For each camera path `merging.light_paths` samples are taken. Begins in
 /// Phase::connect and ends in Phase::weigh if it finds something.

@@ -3,6 +3,7 @@
 #include "math/rgb.h"
 #include "path/densities.h"
 #include "path/encounter.h"
+#include "path/lens_crossing.h"
 
 #include <glm/geometric.hpp>
 
@@ -13,19 +14,9 @@
 namespace bdpt {
 namespace {
 
-/// The state of a walk that is about to look for its next vertex.
-struct Step {
-    Vec3 direction{0.0f};
-    Rgb beta{1.0f};
-    SolidAnglePdf pdf;
-    /// Set for the first step from a light at infinity, which has no density of directions.
-    std::optional<PlanarPdf> pdf_plane;
-    /// Where the ray starts: the last vertex, or the edge of the scene.
-    const SegmentEnd* origin = nullptr;
-};
-
 /// Camera walks end on the environment, which light walks cannot see.
-void append_environment(const World& world, const Step& step, const Encounter& met, Subpath& path)
+void append_environment(const World& world, const WalkStep& step, const Encounter& met,
+                        Subpath& path)
 {
     const auto id = world.lights().environment();
     if (!id) {
@@ -43,7 +34,7 @@ void append_environment(const World& world, const Step& step, const Encounter& m
     vertex.pdf_fwd = {step.pdf.value * met.probability()};
 }
 
-void append_point(const SurfacePoint& point, float distance_squared, const Step& step,
+void append_point(const SurfacePoint& point, float distance_squared, const WalkStep& step,
                   const Encounter& met, Subpath& path)
 {
     PathVertex& previous = path.back();
@@ -59,9 +50,7 @@ void append_point(const SurfacePoint& point, float distance_squared, const Step&
     vertex.dispersed = previous.dispersed || point.disperses;
     vertex.opacity = point.opacity;
     const float cosine = abs_cosine(point.end, step.direction);
-    const AreaPdf pdf = step.pdf_plane ? to_area(*step.pdf_plane, cosine)
-                                       : to_area(step.pdf, cosine, distance_squared);
-    vertex.pdf_fwd = pdf * met.probability();
+    vertex.pdf_fwd = step.pdf_of_point(cosine, distance_squared) * met.probability();
     const float cosine_before = abs_cosine(previous.end, step.direction);
     previous.area_per_solid_angle =
         previous.kind == VertexKind::infinite
@@ -78,40 +67,6 @@ struct Walk {
 
     [[nodiscard]] bool from_camera() const { return mode == TransportMode::radiance; }
 };
-
-/// Records that `step` crosses the lens before it ends, after `free_distance`.
-void look_for_lens(const SampleContext& sample, const Step& step, float free_distance,
-                   Subpath& path)
-{
-    const auto hit = sample.camera.hit_lens(step.origin->p, step.direction);
-    if (!hit || hit->distance >= free_distance || hit->distance * hit->distance < coincident) {
-        return;
-    }
-    const float distance_squared = hit->distance * hit->distance;
-    const float cosine = std::abs(dot(hit->lens.ng, step.direction));
-    const PathVertex& last = path.back();
-    const Flight flight =
-        sample.world.media().flight(*step.origin, hit->lens, step.direction, hit->distance);
-    LensCrossing crossing;
-    crossing.light_vertices = path.size();
-    crossing.raster = hit->raster;
-    crossing.importance = hit->importance;
-    crossing.camera_at_light_end =
-        last.kind == VertexKind::infinite
-            ? AreaPdf{hit->pdf_direction.value * flight.pass}
-            : AreaPdf{hit->pdf_direction.value * abs_cosine(last.end, step.direction) /
-                      distance_squared * probability_to(last, flight)};
-    PathVertex& lens = crossing.lens;
-    lens.kind = VertexKind::camera;
-    lens.end = hit->lens;
-    lens.beta = step.beta * (flight.transmittance / flight.pass);
-    // Both densities of the lens: as the walk found it, and as a camera path starts.
-    lens.pdf_rev = (step.pdf_plane ? to_area(*step.pdf_plane, cosine)
-                                   : to_area(step.pdf, cosine, distance_squared)) *
-                   flight.pass;
-    lens.pdf_fwd = hit->pdf_lens;
-    path.add_crossing(crossing);
-}
 
 /// Ends a walk by chance in proportion to what it has lost since its throughput was `full`, but
 /// lets it go on with a probability of at least `least`. The survivors are worth more in return; no
@@ -130,7 +85,7 @@ bool survives(Rgb& beta, Rgb full, float least, Sampler& sampler)
 }
 
 /// What was met, in the place of the next vertex of `path`; null if that is nothing.
-const SurfacePoint* shade(const SampleContext& sample, const Step& step, const Encounter& met,
+const SurfacePoint* shade(const SampleContext& sample, const WalkStep& step, const Encounter& met,
                           SegmentKey segment, Subpath& path)
 {
     if (met.is_nothing()) {
@@ -142,7 +97,7 @@ const SurfacePoint* shade(const SampleContext& sample, const Step& step, const E
 }
 
 /// Goes on from the first vertex until the path is full, leaves the scene or is absorbed.
-void walk(SampleContext& sample, const Walk& rules, Step step, Subpath& path)
+void walk(SampleContext& sample, const Walk& rules, WalkStep step, Subpath& path)
 {
     Rgb full = step.beta;  // what roulette compares with
     const bool watches_lens = !rules.from_camera() && sample.camera.has_finite_lens();
@@ -266,11 +221,11 @@ void trace_light_subpath(SampleContext& sample, const WalkLimits& limits,
     start.barycentrics = emitted->barycentrics;
     start.pdf_fwd = emitted->pdf_position * choice->probability;
 
-    Step step{.direction = emitted->direction,
-              .beta = emitted->weight / choice->probability,
-              .pdf = emitted->pdf_direction,
-              .pdf_plane = std::nullopt,
-              .origin = &emitted->end};
+    WalkStep step{.direction = emitted->direction,
+                  .beta = emitted->weight / choice->probability,
+                  .pdf = emitted->pdf_direction,
+                  .pdf_plane = std::nullopt,
+                  .origin = &emitted->end};
     if (infinite) {
         step.pdf_plane = world.bounding_sphere().pdf_disk();
     }

@@ -40,32 +40,13 @@ double WeightSums::raise(double ratio) const
 
 // Below, every divisor is a density that a walk really sampled, so it is never zero.
 
-/// s >= 2
+/// What strategies count for that join light paths (s >= 2) to the first `t` camera vertices.
 double WeightSums::camera_term(bool joins, std::size_t t) const
 {
     return !joins ? 0.0 : t == 1 ? splats_ : joins_;
 }
 
-double WeightSums::merge_term(const PathVertex& vertex, AreaPdf pdf, bool joins) const
-{
-    return joins && vertex.kind == VertexKind::surface
-               ? raise(merge_weight_ * static_cast<double>(vertex.opacity * pdf.value))
-               : 0.0;
-}
-
-/// t = 0
-double WeightSums::lens_term(AreaPdf from_light, const PathVertex& lens) const
-{
-    return finite_lens_ ? raise(quotient(from_light, lens.pdf_fwd)) * splats_ : 0.0;
-}
-
-/// s = 0
-double WeightSums::hit_term(AreaPdf from_camera, const PathVertex& x0) const
-{
-    return world_.lights()[*x0.light].is_delta() ? 0.0 : raise(quotient(from_camera, x0.pdf_fwd));
-}
-
-/// t >= 2
+/// The same of camera paths (t >= 2) to the first `s` vertices of the light path from `x0`.
 double WeightSums::light_term(const PathVertex& x0, bool joins, std::size_t s) const
 {
     return !joins   ? 0.0
@@ -73,57 +54,71 @@ double WeightSums::light_term(const PathVertex& x0, bool joins, std::size_t s) c
                     : joins_;
 }
 
+/// What merging at `vertex` counts for, relative to sampling it once, with the density `pdf`.
+double WeightSums::merge_term(const PathVertex& vertex, AreaPdf pdf, bool joins) const
+{
+    return joins && vertex.kind == VertexKind::surface
+               ? raise(merge_weight_ * static_cast<double>(vertex.opacity * pdf.value))
+               : 0.0;
+}
+
+double WeightSums::camera_sum(std::span<const PathVertex> camera, std::size_t k, AreaPdf pdf_rev,
+                              bool joins, double before) const
+{
+    const PathVertex& z = camera[k];
+    const double ratio = raise(quotient(pdf_rev, z.pdf_fwd));
+    if (k == 0) {  // t = 0
+        return finite_lens_ ? ratio * splats_ : 0.0;
+    }
+    return ratio * (camera_term(joins && joinable(camera[k - 1]), k) +
+                    merge_term(z, z.pdf_fwd, joins) + before);
+}
+
+double WeightSums::light_sum(std::span<const PathVertex> light, std::size_t k, AreaPdf pdf_rev,
+                             bool joins, double before) const
+{
+    const PathVertex& y = light[k];
+    const double ratio = raise(quotient(pdf_rev, y.pdf_fwd));
+    if (k == 0) {  // s = 0
+        return world_.lights()[*y.light].is_delta() ? 0.0 : ratio;
+    }
+    return ratio * (light_term(light[0], joins && joinable(light[k - 1]), k) +
+                    merge_term(y, y.pdf_fwd, joins) + before);
+}
+
 void WeightSums::sum_camera_path(std::span<PathVertex> path) const
 {
     // The last two vertices get their densities from the joins.
+    double before = 0.0;
     for (std::size_t k = 0; k + 2 < path.size(); ++k) {
-        PathVertex& z = path[k];
-        z.sum = k == 0 ? lens_term(z.pdf_rev, z)
-                       : raise(quotient(z.pdf_rev, z.pdf_fwd)) *
-                             (camera_term(joinable(z) && joinable(path[k - 1]), k) +
-                              merge_term(z, z.pdf_fwd, joinable(z)) + path[k - 1].sum);
+        before = camera_sum(path, k, path[k].pdf_rev, joinable(path[k]), before);
+        path[k].sum = before;
     }
 }
 
 void WeightSums::sum_light_path(std::span<PathVertex> path) const
 {
+    double before = 0.0;
     for (std::size_t k = 0; k + 2 < path.size(); ++k) {
-        PathVertex& y = path[k];
-        if (k == 0) {
-            y.sum = hit_term(y.pdf_rev, y);
-            continue;
-        }
-        y.sum = raise(quotient(y.pdf_rev, y.pdf_fwd)) *
-                (light_term(path[0], joinable(y) && joinable(path[k - 1]), k) +
-                 merge_term(y, y.pdf_fwd, joinable(y)) + path[k - 1].sum);
+        before = light_sum(path, k, path[k].pdf_rev, joinable(path[k]), before);
+        path[k].sum = before;
     }
 }
 
-double WeightSums::beyond_camera_end(std::span<const PathVertex> camera, AreaPdf neighbor) const
+double WeightSums::beyond_camera_end(std::span<const PathVertex> camera, AreaPdf pdf_rev) const
 {
     const std::size_t t = camera.size();
-    if (t == 1) {
-        return 0.0;
-    }
-    if (t == 2) {
-        return lens_term(neighbor, camera[0]);
-    }
-    const PathVertex& z = camera[t - 2];
-    return raise(quotient(neighbor, z.pdf_fwd)) *
-           (camera_term(joinable(z) && joinable(camera[t - 3]), t - 2) +
-            merge_term(z, z.pdf_fwd, joinable(z)) + camera[t - 3].sum);
+    return t < 2 ? 0.0
+                 : camera_sum(camera, t - 2, pdf_rev, joinable(camera[t - 2]),
+                              t > 2 ? camera[t - 3].sum : 0.0);
 }
 
-double WeightSums::beyond_light_end(std::span<const PathVertex> light, AreaPdf neighbor) const
+double WeightSums::beyond_light_end(std::span<const PathVertex> light, AreaPdf pdf_rev) const
 {
     const std::size_t s = light.size();
-    if (s == 2) {
-        return hit_term(neighbor, light[0]);
-    }
-    const PathVertex& y = light[s - 2];
-    return raise(quotient(neighbor, y.pdf_fwd)) *
-           (light_term(light[0], joinable(y) && joinable(light[s - 3]), s - 2) +
-            merge_term(y, y.pdf_fwd, joinable(y)) + light[s - 3].sum);
+    return s < 2 ? 0.0
+                 : light_sum(light, s - 2, pdf_rev, joinable(light[s - 2]),
+                             s > 2 ? light[s - 3].sum : 0.0);
 }
 
 float WeightSums::weight(std::span<const PathVertex> light, std::span<const PathVertex> camera,
@@ -131,27 +126,21 @@ float WeightSums::weight(std::span<const PathVertex> light, std::span<const Path
 {
     const std::size_t s = light.size();
     const std::size_t t = camera.size();
-    const PathVertex& end = camera.back();
     const double beyond = beyond_camera_end(camera, join.light_at_camera_neighbor);
     if (s == 0) {
+        const PathVertex& x0 = camera.back();
         const double next_event =
-            joinable(camera[t - 2]) ? light_samples_ * raise(quotient(join.next_event, end.pdf_fwd))
+            joinable(camera[t - 2]) ? light_samples_ * raise(quotient(join.next_event, x0.pdf_fwd))
                                     : 0.0;
         const double others =
-            next_event + raise(quotient(join.light_at_camera_end, end.pdf_fwd)) * beyond;
+            next_event + raise(quotient(join.light_at_camera_end, x0.pdf_fwd)) * beyond;
         return static_cast<float>(1.0 / (1.0 + others));
     }
-    const double camera_side = t == 1 ? lens_term(join.light_at_camera_end, end)
-                                      : raise(quotient(join.light_at_camera_end, end.pdf_fwd)) *
-                                            (camera_term(joinable(camera[t - 2]), t - 1) +
-                                             merge_term(end, end.pdf_fwd, true) + beyond);
+    const double camera_side = camera_sum(camera, t - 1, join.light_at_camera_end, true, beyond);
     if (s >= 2) {
         const double own = t == 1 ? splats_ : joins_;
-        const PathVertex& y = light[s - 1];
-        const double light_side =
-            raise(quotient(join.camera_at_light_end, y.pdf_fwd)) *
-            (light_term(light[0], joinable(light[s - 2]), s - 1) + merge_term(y, y.pdf_fwd, true) +
-             beyond_light_end(light, join.camera_at_light_neighbor));
+        const double light_side = light_sum(light, s - 1, join.camera_at_light_end, true,
+                                            beyond_light_end(light, join.camera_at_light_neighbor));
         return static_cast<float>(own / (own + camera_side + light_side));
     }
     const bool delta = world_.lights()[*light[0].light].is_delta();

@@ -46,28 +46,24 @@ public:
                                         const JoinDensities& join) const;
 
 private:
-    [[nodiscard]] double raise(double ratio) const;
-    /// What the join to the first `t` camera vertices counts for, if it can be made.
-    [[nodiscard]] double camera_term(bool joins, std::size_t t) const;
-    /// The same to the first `s` vertices of the light path that starts at `x0`.
-    [[nodiscard]] double light_term(const PathVertex& x0, bool joins, std::size_t s) const;
-    /// What merging at `vertex` counts for, if it can merge, relative to sampling it once, with the
-    /// density `pdf`.
-    [[nodiscard]] double merge_term(const PathVertex& vertex, AreaPdf pdf, bool joins) const;
-    [[nodiscard]] double lens_term(AreaPdf from_light, const PathVertex& lens) const;
-    [[nodiscard]] double hit_term(AreaPdf from_camera, const PathVertex& x0) const;
-    /// Of the strategies that take more than the end from the camera subpath; `neighbor` is the
-    /// density of z_{t-2} as sampled from there.
-    [[nodiscard]] double beyond_camera_end(std::span<const PathVertex> camera,
-                                           AreaPdf neighbor) const;
-    /// The same from the light subpath of at least two vertices; `neighbor` is that of y_{s-2}.
-    [[nodiscard]] double beyond_light_end(std::span<const PathVertex> light,
-                                          AreaPdf neighbor) const;
-
     // The sum of vertex k of a subpath: over all strategies that sample it from the other side, and
     // any number of vertices before it, what the heuristic makes of count times density, relative
     // to sampling them from this side. Strategies that merge at one of these vertices sample it
-    // from both sides.
+    // from both sides. `pdf_rev` is its density from the other side; `joins`: can a strategy join
+    // there; `before` is the sum of vertex k - 1.
+    [[nodiscard]] double camera_sum(std::span<const PathVertex> camera, std::size_t k,
+                                    AreaPdf pdf_rev, bool joins, double before) const;
+    [[nodiscard]] double light_sum(std::span<const PathVertex> light, std::size_t k,
+                                   AreaPdf pdf_rev, bool joins, double before) const;
+    /// That of the vertex before the end of a subpath; 0 if there is none.
+    [[nodiscard]] double beyond_camera_end(std::span<const PathVertex> camera,
+                                           AreaPdf pdf_rev) const;
+    [[nodiscard]] double beyond_light_end(std::span<const PathVertex> light, AreaPdf pdf_rev) const;
+
+    [[nodiscard]] double raise(double ratio) const;
+    [[nodiscard]] double camera_term(bool joins, std::size_t t) const;
+    [[nodiscard]] double light_term(const PathVertex& x0, bool joins, std::size_t s) const;
+    [[nodiscard]] double merge_term(const PathVertex& vertex, AreaPdf pdf, bool joins) const;
 
     const World& world_;
     bool squares_;

@@ -74,7 +74,7 @@ std::vector<float> weights_of(SampleContext sample, const Subpath& light_path,
     }
     for (int s = 2; s <= std::min(light_path.size(), max_depth); ++s) {
         const auto splat = connect_to_lens(sample, light_path.first(s), weigher);
-        add(splat ? std::optional(splat->contribution) : std::nullopt);
+        add(splat);
     }
     return weights;
 }

@@ -3,7 +3,7 @@
 #include "film/pixel_filter.h"
 #include "integrator/bidirectional/light_path_cache.h"
 #include "integrator/bidirectional/light_vertex_grid.h"
-#include "integrator/contribution_sink.h"
+#include "integrator/bidirectional/path_joiner.h"
 #include "integrator/integrator.h"
 #include "path/merging.h"
 #include "path/random_walk.h"
@@ -12,11 +12,11 @@ namespace bdpt {
 
 class SampleTimer;
 
-/// Bidirectional path tracing [Veach 1997, ch. 10]: each sample joins every prefix of a camera
-/// subpath to every prefix of one or more light subpaths. Light tracing is the same with the
-/// strategies t <= 1 alone. Light paths belong to one camera path, or to all of a sample index:
-/// then each camera path is joined to a few of them. Vertex connection and merging [Georgiev et al.
-/// 2012] also merges each camera path with the vertices of all of them.
+/// Bidirectional path tracing [Veach 1997, ch. 10]: gives each sample its camera path and the light
+/// paths that `PathJoiner` joins it to. Light tracing is the same with the strategies t <= 1 alone.
+/// Light paths belong to one camera path, or to all of a sample index: then each camera path is
+/// joined to a few of them. Vertex connection and merging [Georgiev et al. 2012] also merges each
+/// camera path with the vertices of all of them.
 class BidirectionalIntegrator final : public Integrator {
 public:
     BidirectionalIntegrator(const World& world, const MovingCamera& camera,
@@ -33,20 +33,10 @@ private:
     /// The storage of one thread.
     struct Scratch;
 
-    [[nodiscard]] Scratch make_scratch(const Films& films) const;
+    /// Of each camera path, where it has light paths of its own.
+    [[nodiscard]] int own_light_paths() const;
     void trace_light_path(SampleContext& sample, Scratch& scratch) const;
     void add_sample(int x, int y, const ScheduledSample& scheduled, PhaseClock* clock,
-                    Scratch& scratch) const;
-    /// Is a path of one edge to `x0` left out?
-    [[nodiscard]] bool is_background(const PathVertex& x0) const;
-    /// s <= 1: what the camera path brings by itself.
-    void join_camera_path(SampleContext& sample, Scratch& scratch) const;
-    void join_to_lights(SampleContext& sample, std::span<const PathVertex> camera,
-                        Scratch& scratch) const;
-    /// t <= 1: what the light path brings to any pixel.
-    void join_light_path(SampleContext& sample, Scratch& scratch) const;
-    /// s >= 2, t >= 2
-    void join_paths(const SampleContext& sample, std::span<const PathVertex> light,
                     Scratch& scratch) const;
     void merge_paths(const SampleContext& sample, Scratch& scratch) const;
 

@@ -1,0 +1,104 @@
+#include "integrator/bidirectional/path_joiner.h"
+
+#include "math/shifted_points.h"
+#include "path/lens_crossing.h"
+
+#include <algorithm>
+
+namespace bdpt {
+
+bool PathJoiner::is_background(const SampleContext& sample, const PathVertex& x0) const
+{
+    return options_.transport.background == Background::none && x0.kind == VertexKind::infinite &&
+           x0.light == sample.world.lights().environment();
+}
+
+void PathJoiner::join_camera_path(SampleContext& sample, Subpath& path)
+{
+    sample.enter(Phase::weigh);
+    weigher_.begin_camera_path(path.all());
+    sample.enter(Phase::connect);
+    for (int t = 2; t <= path.size(); ++t) {
+        const auto camera = path.first(t);
+        if (strategies_.uses(0, t) && !(t == 2 && is_background(sample, camera.back()))) {
+            if (const auto found = hit_light(sample, camera, weigher_)) {
+                sink_.add(sample, {.s = 0, .t = t}, *found, strategies_.count(0, t));
+                sample.enter(Phase::connect);
+            }
+        }
+        if (t <= options_.transport.max_depth && strategies_.uses(1, t)) {
+            join_to_lights(sample, camera);
+        }
+    }
+    if (strategies_.uses(1, 1) && sample.camera.is_perspective()) {
+        if (const auto found = connect_light_to_lens(sample, weigher_)) {
+            sink_.splat(sample, {.s = 1, .t = 1}, *found, strategies_.count(1, 1), 1);
+            sample.enter(Phase::connect);
+        }
+    }
+}
+
+void PathJoiner::join_to_lights(SampleContext& sample, std::span<const PathVertex> camera)
+{
+    if (!scatters(camera.back().kind) || !camera.back().connectible) {
+        return;
+    }
+    const auto t = static_cast<int>(camera.size());
+    const auto count = static_cast<std::uint32_t>(strategies_.next_event_sampling().samples);
+    const Vec2 first = first_light_sample(sample, t);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const Vec2 u = i == 0 ? first : shifted_point(first, i, count);
+        if (const auto found = connect_to_light(sample, camera, u, weigher_)) {
+            sink_.add(sample, {.s = 1, .t = t}, *found, strategies_.count(1, t));
+            sample.enter(Phase::connect);
+        }
+    }
+}
+
+void PathJoiner::join_light_path(SampleContext& sample, Subpath& path)
+{
+    sample.enter(Phase::weigh);
+    weigher_.begin_light_path(path.all());
+    sample.enter(Phase::connect);
+    const auto deliver = [&](const std::optional<Contribution>& found, Strategy strategy) {
+        if (found) {
+            sink_.splat(sample, strategy, *found, strategies_.count(strategy.s, strategy.t),
+                        static_cast<std::uint32_t>(2 * strategy.s + (strategy.t == 0 ? 1 : 0)));
+            sample.enter(Phase::connect);
+        }
+    };
+    const int longest_s = std::min(path.size(), options_.transport.max_depth);
+    for (int s = 2; s <= longest_s; ++s) {
+        if (strategies_.uses(s, 1)) {
+            deliver(connect_to_lens(sample, path.first(s), weigher_), {.s = s, .t = 1});
+        }
+    }
+    for (const LensCrossing& crossing : path.crossings()) {
+        const int s = crossing.light_vertices + 1;
+        if (s <= options_.transport.max_depth + 1 && strategies_.uses(s, 0) &&
+            !(s == 2 && is_background(sample, path[0]))) {
+            deliver(hit_lens(sample, path, crossing, weigher_), {.s = s, .t = 0});
+        }
+    }
+}
+
+void PathJoiner::join_paths(const SampleContext& sample, std::span<const PathVertex> light,
+                            const Subpath& camera)
+{
+    for (int t = 2; t <= camera.size(); ++t) {
+        const int longest_s =
+            std::min(static_cast<int>(light.size()), options_.transport.max_depth + 1 - t);
+        for (int s = 2; s <= longest_s; ++s) {
+            if (!strategies_.uses(s, t)) {
+                continue;
+            }
+            if (const auto found = connect_interior(
+                    sample, light.first(static_cast<std::size_t>(s)), camera.first(t), weigher_)) {
+                sink_.add(sample, {.s = s, .t = t}, *found, strategies_.count(s, t));
+                sample.enter(Phase::connect);
+            }
+        }
+    }
+}
+
+}  // namespace bdpt

@@ -129,8 +129,9 @@ std::vector<std::string> with_planned_words(std::vector<std::string> words)
     return render ? render_words(words, plan, *file) : merge_words(words, plan, *file);
 }
 
-const PlanTask& task_of(const Plan& plan, const std::filesystem::path& file, std::string number)
+const PlanTask& task_of(const Plan& plan, const fs::path& file, const std::string& asked)
 {
+    std::string number = asked;
     constexpr std::string_view variable = "env:";
     if (number.starts_with(variable)) {
         const char* value = std::getenv(number.c_str() + variable.size());

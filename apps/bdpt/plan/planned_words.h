@@ -13,10 +13,10 @@ namespace bdpt::app {
 /// does, and usage for words that say other things than the plan.
 [[nodiscard]] std::vector<std::string> with_planned_words(std::vector<std::string> words);
 
-/// Task `number` of `plan`, which is in `file`: its index, or "env:NAME" where that is in the
-/// environment. Throws `OptionError`.
+/// The task of `plan`, which is in `file`, that is asked for: by its index, or by "env:NAME" where
+/// that is in the environment. Throws `OptionError`.
 [[nodiscard]] const PlanTask& task_of(const Plan& plan, const std::filesystem::path& file,
-                                      std::string number);
+                                      const std::string& asked);
 
 /// What comes behind `bdpt render` for all tasks of `plan`, which is in `file`: the scene and the
 /// options, without samples and files that are written.

@@ -262,7 +262,8 @@ Bytes read_source(const tinygltf::Model& model, const std::string& uri, int buff
 const tinygltf::Value& light_of(const tinygltf::Model& model, const char* extension,
                                 std::size_t index)
 {
-    return model.extensions.at(extension).Get("lights").Get(static_cast<int>(index));
+    // tinygltf's own index is signed in some versions.
+    return model.extensions.at(extension).Get("lights").Get<tinygltf::Value::Array>().at(index);
 }
 
 tinygltf::Model build_model(CheckedGltf checked, std::span<const std::size_t> played)

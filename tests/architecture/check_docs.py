@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Fails when a document points to a file that is not there, docs/gltf.md states other extensions than the reader
-knows, or the index of decisions lacks one or has another title: check_docs.py ROOT."""
+knows, the index of decisions lacks one or has another title, or what docs/architecture.md says must be read to know the
+estimator is no longer short: check_docs.py ROOT."""
 
 import pathlib
 import re
@@ -51,13 +52,33 @@ def index_differences(root):
     return errors, len(decided)
 
 
+MOST_CODE = 1000  # lines of the estimator
+
+
+def estimator_errors(root):
+    """The table of files in docs/architecture.md that make up the estimator, and their lines of code: all but blank
+    lines and comments."""
+    page = "docs/architecture.md"
+    section = (root / page).read_text(encoding="utf-8").partition("## The estimator\n")[2].partition("\n## ")[0]
+    files = [root / "lib/src" / name for name in re.findall(r"`([\w/]+\.(?:h|cpp))`", section.partition("\n\nBeside")[0])]
+    errors = [f"{page}: no such file: {file.relative_to(root)}" for file in files if not file.exists()]
+    if not files or errors:
+        return errors or [f"{page}: names no files of the estimator"], 0
+    lines = [line.strip() for file in files for line in file.read_text(encoding="utf-8").splitlines()]
+    code = sum(1 for line in lines if line and not line.startswith("//"))
+    if code >= MOST_CODE:
+        errors.append(f"{page}: the estimator has {code} lines of code, which must be fewer than {MOST_CODE}")
+    return errors, code
+
+
 def main():
     root = pathlib.Path(sys.argv[1]).resolve()
     link_errors, links = broken_links(root)
     extension_errors, extensions = extension_differences(root)
     index_errors, decisions = index_differences(root)
-    errors = link_errors + extension_errors + index_errors
-    print("\n".join(errors) or f"{links} links, {extensions} extensions and {decisions} decisions are right")
+    code_errors, code = estimator_errors(root)
+    errors = link_errors + extension_errors + index_errors + code_errors
+    print("\n".join(errors) or f"{links} links, {extensions} extensions, {decisions} decisions and {code} lines are right")
     sys.exit(bool(errors))
 
 

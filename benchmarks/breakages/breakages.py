@@ -78,6 +78,8 @@ BREAKAGES = (
     Breakage("weights count joins to earlier camera vertices twice", SUMS,
              "ratio * (camera_term(joins && joinable(camera[k - 1]), k) +",
              "ratio * (2.0 * camera_term(joins && joinable(camera[k - 1]), k) +"),
+    Breakage("weights of joins forget merging", SUMS, "merge_term(z, z.pdf_fwd, joins) + before", "0.0 + before",
+             options=("--integrator", "vcm", "--max-depth", "4")),
     Breakage("weights count lenses that are hit twice", SUMS, "? ratio * splats_ :",
              "? 2.0 * ratio * splats_ :", options=WIDE_LENS),
     Breakage("weights take connections for as many as light paths", SUMS, "joins_(raise(strategies.connections()))",

@@ -17,6 +17,7 @@ constexpr const char* footer = R"(Examples:
   bdpt verify scene.gltf --size 64x64 --max-depth 8 --json
   bdpt verify scene.gltf --light-paths 0.25 --connections 2
   bdpt verify scene.gltf --light-samples 4
+  bdpt verify scene.gltf --integrator vcm --merge-radius 0.01
 
 Renders the scene by pt, nee, mis, lt, bdpt and every strategy of bdpt, at low resolution with many
 independent samples, and tests whether they agree: for each path length, in the whole image and in
@@ -74,11 +75,14 @@ void add_how(CLI::App& command, VerifyWords& words)
     command
         .add_option("--integrator", words.render.transport.integrator,
                     "What is verified: bdpt (default), or auto: bdpt with the light paths and "
-                    "connections that auto chooses for the scene")
-        ->check(CLI::IsMember({"bdpt", "auto"}))
-        ->type_name("bdpt|auto")
+                    "connections that auto chooses for the scene, or vcm: beside bdpt its image, "
+                    "which is right if --merge-radius is small enough")
+        ->check(CLI::IsMember({"bdpt", "auto", "vcm"}))
+        ->type_name("bdpt|auto|vcm")
         ->group(group);
     add_light_path_options(command, words.render.transport, group);
+    add_merge_radius_option(command, words.render.transport, group,
+                            eval::VerifyOptions::small_merge_radius);
     add_light_samples_option(command, words.render.transport.light_sampling, group);
 }
 
@@ -135,6 +139,10 @@ VerifyArguments understand(const VerifyWords& words)
     }
     options.light_paths = result.stage.options.bidirectional.light_paths;
     options.connections = result.stage.options.bidirectional.connections;
+    if (result.stage.options.integrator == IntegratorKind::vcm) {
+        options.merge_radius =
+            words.render.transport.merge_radius.value_or(eval::VerifyOptions::small_merge_radius);
+    }
     options.light_samples = result.stage.options.sampling.light_samples;
     options.seed = result.stage.options.sampling.seed;
     options.threads = result.stage.options.system.threads;

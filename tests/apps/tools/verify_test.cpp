@@ -117,6 +117,29 @@ TEST_CASE("verify: light paths are chosen by hand or by auto")
                          : report({"--light-paths", words[2], "--connections", words[3]}).first));
 }
 
+TEST_CASE("verify: vcm is judged beside the rest if it is asked for")
+{
+    const Room room;
+    const auto integrators = [&](const Words& more) {
+        Words words{"--time", "0.001s", "--json", "--bias", "0.001", "-q"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Outcome outcome = room.verify(words);
+        CAPTURE(outcome.err);
+        REQUIRE(outcome.exit_code == 11);
+        return json::parse(outcome.out)["integrators"];
+    };
+    const json without = integrators({});
+    const json by_default = integrators({"--integrator", "vcm"});
+    REQUIRE(by_default.size() == without.size() + 1);
+    CHECK(by_default.back()["integrator"] == "vcm");
+    CHECK(by_default.back()["radiance"] > 0.0);
+    for (std::size_t i = 0; i < without.size(); ++i) {
+        CHECK(by_default[i] == without[i]);
+    }
+    CHECK(integrators({"--integrator", "vcm", "--merge-radius", "0.02"}) == by_default);
+    CHECK(integrators({"--integrator", "vcm", "--merge-radius", "0.03"}) != by_default);
+}
+
 TEST_CASE("verify: light samples are those of the option, and agree with the rest")
 {
     const Room room;
@@ -153,14 +176,27 @@ TEST_CASE("verify: light samples are those of the option, and agree with the res
 TEST_CASE("verify: what makes no sense is refused")
 {
     const Room room;
-    for (const Words& words :
-         {Words{"--bias", "0"}, Words{"--bias", "101"}, Words{"--bias", "x"},
-          Words{"--false-alarm", "-1"}, Words{"--time", "soon"}, Words{"--max-depth", "0"},
-          Words{"--max-depth", "65"}, Words{"--grid", "0"}, Words{"--size", "5000x4"},
-          Words{"--size", "big"}, Words{"--seed", "-1"}, Words{"--fov", "200"},
-          Words{"--integrator", "pt"}, Words{"--light-paths", "0"}, Words{"--light-paths", "-1"},
-          Words{"--connections", "x"}, Words{"--light-samples", "0"},
-          Words{"--light-samples", "1025"}, Words{"--light-samples", "2.5"}}) {
+    for (const Words& words : {Words{"--bias", "0"},
+                               Words{"--bias", "101"},
+                               Words{"--bias", "x"},
+                               Words{"--false-alarm", "-1"},
+                               Words{"--time", "soon"},
+                               Words{"--max-depth", "0"},
+                               Words{"--max-depth", "65"},
+                               Words{"--grid", "0"},
+                               Words{"--size", "5000x4"},
+                               Words{"--size", "big"},
+                               Words{"--seed", "-1"},
+                               Words{"--fov", "200"},
+                               Words{"--integrator", "pt"},
+                               Words{"--light-paths", "0"},
+                               Words{"--light-paths", "-1"},
+                               Words{"--connections", "x"},
+                               Words{"--light-samples", "0"},
+                               Words{"--light-samples", "1025"},
+                               Words{"--light-samples", "2.5"},
+                               Words{"--merge-radius", "0.1"},
+                               Words{"--merge-radius", "2", "--integrator", "vcm"}}) {
         CAPTURE(words.front(), words.back());
         const Outcome outcome = room.verify(words);
         CHECK(outcome.exit_code == 2);
@@ -192,6 +228,7 @@ TEST_CASE("verify: the text says what has failed, and where")
     report.strategies = {{.strategy = {.s = 0, .t = 2}, .whole = sound, .tiles = {sound, wrong}}};
     report.integrators = {
         {.integrator = IntegratorKind::lt, .edges = 1, .whole = wrong, .tiles = {sound, sound}}};
+    report.images.resize(5);
     report.images[2].integrator = IntegratorKind::nee;
     report.images[2].defects = {
         .invalid = 3, .saturated = 0, .first_invalid = FilmDefects::Place{4, 5, 6}};

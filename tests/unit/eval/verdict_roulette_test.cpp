@@ -132,7 +132,7 @@ TEST_CASE("survivors of roulette are no false alarm")
     int alarms = 0;
     for (std::uint64_t seed = 0; seed < runs; ++seed) {
         test::Random random(7000 + seed);
-        Evidence evidence(grid, edges);
+        Evidence evidence(grid, edges, 4);
         for (int i = 0; i < 24; ++i) {
             evidence.add(batch_with_roulette(random, 1.0 / Roulette::most_weight));
         }
@@ -146,8 +146,8 @@ TEST_CASE("a strategy that is wrong fails although roulette thins it")
 {
     const VerifyOptions options = toy_options();
     test::Random random(7);
-    Evidence sound(grid, edges);
-    Evidence wrong(grid, edges);
+    Evidence sound(grid, edges, 4);
+    Evidence wrong(grid, edges, 4);
     for (int i = 0; i < 200; ++i) {
         sound.add(batch_with_roulette(random, 0.25));
         // Survivors are not worth as much as they should be.

@@ -32,7 +32,7 @@ VerifyOptions toy_options(double false_alarm = 1e-3)
 Evidence gather(const ToyFault& fault, int batches, std::uint64_t seed = 1)
 {
     ToyLight toy(seed, fault);
-    Evidence evidence(grid, 2);
+    Evidence evidence(grid, 2, 4);
     for (int i = 0; i < batches; ++i) {
         evidence.add(toy.batch(grid));
     }
@@ -199,7 +199,7 @@ TEST_CASE("defects and lost light fail")
 {
     const auto with = [](const ImageCheck& check) {
         ToyLight toy(1, {});
-        Evidence evidence(grid, 2);
+        Evidence evidence(grid, 2, 4);
         for (int i = 0; i < 2; ++i) {
             Batch batch = toy.batch(grid);
             batch.images[3] = i == 1 ? check : ImageCheck{};
@@ -223,7 +223,7 @@ TEST_CASE("light that only one strategy can make is at stake, or unchecked")
 {
     // Of two edges, made by s = 0 alone (path tracers see it), or by s = 2 alone (they do not).
     for (const int s : {0, 2}) {
-        Evidence evidence(grid, 2);
+        Evidence evidence(grid, 2, 4);
         for (int i = 0; i < 4; ++i) {
             const RadianceSums none(grid, 2);
             Batch batch{
@@ -258,7 +258,7 @@ TEST_CASE("rare samples count as far as they have not been seen")
     const std::array<float, 4> shares{share, 1.0f - share, 0.0f, 0.0f};
     const float squares = share * share + (1.0f - share) * (1.0f - share);
     const auto error_of_pt = [&](bool seen) {
-        Evidence evidence(grid, 2);
+        Evidence evidence(grid, 2, 4);
         for (int i = 0; i < batches; ++i) {
             const RadianceSums none(grid, 2);
             Batch batch{

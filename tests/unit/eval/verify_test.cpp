@@ -96,6 +96,37 @@ TEST_CASE("verify passes with shared light paths and any number of connections")
     }
 }
 
+TEST_CASE("verify judges vcm: right with a small merge radius, blurred with a great one")
+{
+    const Scene scene = stage();
+    const auto verdict = [&](double radius, std::int64_t batches) {
+        VerifyOptions how = options(batches);
+        how.detectable_bias = 0.2;
+        how.merge_radius = radius;
+        VerifyReport report = verify(scene, camera(), how);
+        CHECK(report.images.size() == 6);
+        CHECK(report.images.back().integrator == IntegratorKind::vcm);
+        return report;
+    };
+    const auto fails_for_vcm_alone = [](const VerifyReport& report) {
+        bool vcm = false;
+        bool others = false;
+        for (const IntegratorFinding& finding : report.integrators) {
+            (finding.integrator == IntegratorKind::vcm ? vcm : others) |=
+                fails(finding.whole, report);
+        }
+        return vcm && !others;
+    };
+    const VerifyReport small = verdict(VerifyOptions::small_merge_radius, 4096);
+    INFO(text_of(small));
+    CHECK(small.verdict == Verdict::pass);
+    CHECK(small.images.back().radiance > 0.0);
+    const VerifyReport great = verdict(0.3, 32);
+    INFO(text_of(great));
+    CHECK(great.verdict == Verdict::fail);
+    CHECK(fails_for_vcm_alone(great));
+}
+
 TEST_CASE("verify gives the same bits for any number of threads")
 {
     const Scene scene = stage();
@@ -150,6 +181,8 @@ TEST_CASE("verify refuses options out of range")
     CHECK(refused([](VerifyOptions& o) { o.seconds = 0.0; }));
     CHECK(refused([](VerifyOptions& o) { o.most_batches = 1; }));
     CHECK(refused([](VerifyOptions& o) { o.threads = -1; }));
+    CHECK(refused([](VerifyOptions& o) { o.merge_radius = 1.1; }));
+    CHECK(refused([](VerifyOptions& o) { o.merge_radius = -0.1; }));
 }
 
 TEST_CASE("the report is JSON")

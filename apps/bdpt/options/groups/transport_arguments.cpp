@@ -223,6 +223,20 @@ void add_light_path_options(CLI::App& command, TransportWords& words, const char
         ->group(group);
 }
 
+void add_merge_radius_option(CLI::App& command, TransportWords& words, const char* group,
+                             double standard)
+{
+    command
+        .add_option("--merge-radius", words.merge_radius,
+                    fmt::format("How close to a camera vertex light vertices are merged with it "
+                                "(vcm), as a fraction of the radius of the scene's bounding "
+                                "sphere; 0: not at all. Blurs light by so much. Default: {}",
+                                standard))
+        ->check(number(0.0, 1.0))
+        ->type_name("F")
+        ->group(group);
+}
+
 void add_transport_options(CLI::App& command, TransportWords& words)
 {
     const auto group = "How to render";
@@ -241,15 +255,7 @@ void add_transport_options(CLI::App& command, TransportWords& words)
     add_limits(command, words, group);
     add_light_path_options(command, words, group);
     const BidirectionalOptions standard;
-    command
-        .add_option("--merge-radius", words.merge_radius,
-                    fmt::format("How close to a camera vertex light vertices are merged with it "
-                                "(vcm), as a fraction of the radius of the scene's bounding "
-                                "sphere; 0: not at all. Blurs light by so much. Default: {}",
-                                standard.merge_radius))
-        ->check(number(0.0, 1.0))
-        ->type_name("F")
-        ->group(group);
+    add_merge_radius_option(command, words, group, standard.merge_radius);
     command
         .add_option("--merge-alpha", words.merge_alpha,
                     fmt::format("How slowly that radius shrinks (vcm), above 0 and up to 1: sample "

@@ -38,6 +38,9 @@ struct TransportWords {
 
 /// --light-paths and --connections.
 void add_light_path_options(CLI::App& command, TransportWords& words, const char* group);
+/// --merge-radius, whose default is `standard`.
+void add_merge_radius_option(CLI::App& command, TransportWords& words, const char* group,
+                             double standard);
 /// These and all others.
 void add_transport_options(CLI::App& command, TransportWords& words);
 

@@ -39,6 +39,8 @@ const SecondMoment& second_moment(const LengthSums& sums, IntegratorKind integra
             return sums.nee;
         case IntegratorKind::mis:
             return sums.mis;
+        case IntegratorKind::vcm:
+            return sums.all.second_moment;
         default:
             return sums.lt;
     }
@@ -69,8 +71,13 @@ MeanComparison compare_integrator(const Evidence& evidence, std::size_t cell, in
     const LengthEvidence& length = evidence.length(cell, edges);
     const IntegratorKind kind = other_integrators[integrator];
     const bool from_light = kind == IntegratorKind::lt;
-    const ReachSums& reach = from_light ? length.sums.from_light : length.sums.from_camera;
-    const Moments& expected = from_light ? length.from_light : length.from_camera;
+    const bool all = kind == IntegratorKind::vcm;
+    const ReachSums& reach = all          ? length.sums.all
+                             : from_light ? length.sums.from_light
+                                          : length.sums.from_camera;
+    const Moments& expected = all          ? length.radiance
+                              : from_light ? length.from_light
+                                           : length.from_camera;
     const Moments& found = length.others[integrator];
     const double variance = squared_error(found) + squared_error(expected);
     const double samples = evidence.bdpt_samples_in(cell);

@@ -15,9 +15,10 @@ ImageCheck& ImageCheck::operator+=(const ImageCheck& later)
     return *this;
 }
 
-Evidence::Evidence(const TileGrid& grid, int max_depth)
+Evidence::Evidence(const TileGrid& grid, int max_depth, std::size_t others)
     : grid_(grid),
       row_(max_depth),
+      others_(others),
       strategies_((grid.size() + 1) * row_.size()),
       lengths_((grid.size() + 1) * static_cast<std::size_t>(max_depth)),
       finders_(row_.pairs())
@@ -63,8 +64,8 @@ void Evidence::add_strategies(const Batch& batch)
 void Evidence::add_lengths(const Batch& batch)
 {
     struct OtherSums {
-        std::array<double, 4> radiance{};
-        std::array<SecondMoment, 4> seen{};
+        std::array<double, other_integrators.size()> radiance{};
+        std::array<SecondMoment, other_integrators.size()> seen{};
     };
     const auto add = [&](std::size_t cell, int edges, const LengthSums& sums,
                          const OtherSums& others) {
@@ -72,10 +73,10 @@ void Evidence::add_lengths(const Batch& batch)
                                             static_cast<std::size_t>(edges - 1)];
         const double samples = bdpt_samples * pixels(cell);
         evidence.sums += sums;
-        evidence.radiance.add(sums.radiance / samples);
+        evidence.radiance.add(sums.all.radiance / samples);
         evidence.from_camera.add(sums.from_camera.radiance / samples);
         evidence.from_light.add(sums.from_light.radiance / samples);
-        for (std::size_t i = 0; i < other_integrators.size(); ++i) {
+        for (std::size_t i = 0; i < others_; ++i) {
             evidence.others[i].add(others.radiance[i] /
                                    (samples_of(other_integrators[i], edges) * pixels(cell)));
             evidence.seen[i] += others.seen[i];
@@ -86,7 +87,7 @@ void Evidence::add_lengths(const Batch& batch)
         OtherSums all_others;
         for (std::size_t tile = 0; tile < grid_.size(); ++tile) {
             OtherSums others;
-            for (std::size_t i = 0; i < other_integrators.size(); ++i) {
+            for (std::size_t i = 0; i < others_; ++i) {
                 others.radiance[i] = batch.others[i].at(tile, edges);
                 others.seen[i] = batch.others[i].seen(tile, edges);
                 all_others.radiance[i] += others.radiance[i];
@@ -101,17 +102,17 @@ void Evidence::add_lengths(const Batch& batch)
 
 void Evidence::add_images(const Batch& batch)
 {
-    std::array<double, 5> sums{};
+    PerImage<double> sums{};
     for (std::size_t tile = 0; tile < grid_.size(); ++tile) {
         for (int edges = 1; edges <= row_.max_depth(); ++edges) {
-            sums[0] += batch.bdpt.length(tile, edges).radiance / bdpt_samples;
-            for (std::size_t i = 0; i < batch.others.size(); ++i) {
+            sums[0] += batch.bdpt.length(tile, edges).all.radiance / bdpt_samples;
+            for (std::size_t i = 0; i < others_; ++i) {
                 sums[i + 1] +=
                     batch.others[i].at(tile, edges) / samples_of(other_integrators[i], edges);
             }
         }
     }
-    for (std::size_t i = 0; i < sums.size(); ++i) {
+    for (std::size_t i = 0; i <= others_; ++i) {
         images_[i].add(sums[i] / grid_.pixels());
         checks_[i] += batch.images[i];
     }

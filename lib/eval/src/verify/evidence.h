@@ -14,9 +14,16 @@
 
 namespace bdpt::eval {
 
-/// Those that are held against bdpt.
-constexpr std::array<IntegratorKind, 4> other_integrators{IntegratorKind::pt, IntegratorKind::nee,
-                                                          IntegratorKind::mis, IntegratorKind::lt};
+/// Those that are held against bdpt, vcm only if it is asked for.
+constexpr std::array<IntegratorKind, 5> other_integrators{IntegratorKind::pt, IntegratorKind::nee,
+                                                          IntegratorKind::mis, IntegratorKind::lt,
+                                                          IntegratorKind::vcm};
+
+/// How many of them, from the first.
+[[nodiscard]] inline std::size_t count_of_others(const VerifyOptions& options)
+{
+    return options.merge_radius ? other_integrators.size() : other_integrators.size() - 1;
+}
 
 /// Samples a pixel that a batch takes of paths of this length.
 [[nodiscard]] constexpr int samples_of(IntegratorKind integrator, int edges)
@@ -36,11 +43,14 @@ struct ImageCheck {
     ImageCheck& operator+=(const ImageCheck& later);
 };
 
+template <typename T>
+using PerImage = std::array<T, 1 + other_integrators.size()>;
+
 /// One batch: independent samples of all integrators.
 struct Batch {
     PathSums bdpt;
-    std::array<RadianceSums, 4> others;  ///< in the order of `other_integrators`
-    std::array<ImageCheck, 5> images;    ///< bdpt, then in that order
+    std::vector<RadianceSums> others;  ///< in the order of `other_integrators`
+    PerImage<ImageCheck> images;       ///< bdpt, then in that order
 };
 
 /// What many batches say about a strategy in a tile or in the whole image.
@@ -53,21 +63,23 @@ struct LengthEvidence {
     Moments radiance;
     Moments from_camera;
     Moments from_light;
-    std::array<Moments, 4> others;
-    std::array<SecondMoment, 4> seen;  ///< of the samples of `others`
+    std::array<Moments, other_integrators.size()> others;
+    std::array<SecondMoment, other_integrators.size()> seen;  ///< of the samples of `others`
     LengthSums sums;
 };
 
 /// All batches together, by cell: the tiles, then the whole image.
 class Evidence {
 public:
-    Evidence(const TileGrid& grid, int max_depth);
+    /// Batches have sums of the first `others` of `other_integrators`.
+    Evidence(const TileGrid& grid, int max_depth, std::size_t others);
 
     void add(const Batch& batch);
 
     [[nodiscard]] const TileGrid& grid() const { return grid_; }
     [[nodiscard]] const StrategyRow& row() const { return row_; }
     [[nodiscard]] std::size_t whole() const { return grid_.size(); }
+    [[nodiscard]] std::size_t others() const { return others_; }
     [[nodiscard]] std::int64_t batches() const { return batches_; }
     [[nodiscard]] const StrategyEvidence& strategy(std::size_t cell, std::size_t index) const
     {
@@ -84,8 +96,8 @@ public:
         return finders_[row_.pair(edges, u, finder)];
     }
     /// Over all lengths: bdpt, then `other_integrators`.
-    [[nodiscard]] const std::array<Moments, 5>& images() const { return images_; }
-    [[nodiscard]] const std::array<ImageCheck, 5>& checks() const { return checks_; }
+    [[nodiscard]] const PerImage<Moments>& images() const { return images_; }
+    [[nodiscard]] const PerImage<ImageCheck>& checks() const { return checks_; }
     [[nodiscard]] const WeightFinding& weights() const { return weights_; }
     /// Pixels of a cell.
     [[nodiscard]] double pixels(std::size_t cell) const
@@ -106,12 +118,13 @@ private:
 
     const TileGrid& grid_;
     StrategyRow row_;
+    std::size_t others_;
     std::int64_t batches_ = 0;
     std::vector<StrategyEvidence> strategies_;  // by cell, then by index
     std::vector<LengthEvidence> lengths_;       // by cell, then by length
     std::vector<double> finders_;               // by pair
-    std::array<Moments, 5> images_;
-    std::array<ImageCheck, 5> checks_;
+    PerImage<Moments> images_;
+    PerImage<ImageCheck> checks_;
     WeightFinding weights_;
 };
 

@@ -70,7 +70,7 @@ ReachSums& ReachSums::operator+=(const ReachSums& other)
 
 LengthSums& LengthSums::operator+=(const LengthSums& other)
 {
-    radiance += other.radiance;
+    all += other.all;
     from_camera += other.from_camera;
     from_light += other.from_light;
     pt += other.pt;
@@ -200,12 +200,12 @@ void PathSums::add_to_length(LengthSums& sums, const PathContribution& path,
     const Finder hit_lens = from_one(finder(n));
     const double weighted = measure.weighted;
     const double all = measure.all;
-    sums.radiance += weighted;
     const auto reach = [&](ReachSums& reached) {
         reached.radiance += weighted;
         reached.second_moment.add(measure.largest, weighted * measure.moment);
         reached.seen.add(measure.largest, square(weighted));
     };
+    reach(sums.all);
     if (hit.share > 0.0 || next_event.share > 0.0) {
         reach(sums.from_camera);
         add_pair(sums.pt, weighted, all, hit.share > 0.0 ? hit : next_event, {});

@@ -79,7 +79,7 @@ struct ReachSums {
 
 /// What the paths of bdpt of one length say about the other integrators in one tile.
 struct LengthSums {
-    double radiance = 0.0;
+    ReachSums all;          ///< vcm can make them
     ReachSums from_camera;  ///< pt, nee and mis can make them
     ReachSums from_light;   ///< lt can make them
     /// Of a sample of the integrators themselves, estimated from the paths of bdpt.

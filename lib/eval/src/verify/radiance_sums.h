@@ -38,6 +38,12 @@ public:
         }
     }
 
+    /// Of an integrator that does not tell its paths: all that it brought to a tile.
+    void add_tile(std::size_t tile, int edges, double radiance)
+    {
+        sums_[index(tile, edges)] += radiance;
+    }
+
     [[nodiscard]] double at(std::size_t tile, int edges) const { return sums_[index(tile, edges)]; }
     /// Of single paths.
     [[nodiscard]] const SecondMoment& seen(std::size_t tile, int edges) const

@@ -39,8 +39,11 @@ RenderOptions render_options(const VerifyOptions& options, IntegratorKind integr
     if (integrator == IntegratorKind::bdpt) {
         // Its strategies are judged one by one, and s = 1 alone needs all of the sky.
         result.sampling.environment = EnvironmentSampling::plain;
+    }
+    if (integrator == IntegratorKind::bdpt || integrator == IntegratorKind::vcm) {
         result.bidirectional.light_paths = options.light_paths;
         result.bidirectional.connections = options.connections;
+        result.bidirectional.merge_radius = options.merge_radius.value_or(0.0);
     }
     result.system.threads = 1;
     result.sampling.seed =
@@ -48,18 +51,25 @@ RenderOptions render_options(const VerifyOptions& options, IntegratorKind integr
     return result;
 }
 
-/// The sum of a tile's pixels in the film's image against what its paths add up to.
-double lost(const Image& image, const PixelRect& tile, double sum, double samples)
+/// The mean channel of the tile's pixels, summed.
+double sum_of_pixels(const Image& image, const PixelRect& tile)
 {
-    double pixels = 0.0;
+    double sum = 0.0;
     for (int y = tile.y0; y < tile.y1; ++y) {
         for (int x = tile.x0; x < tile.x1; ++x) {
             const Rgb& c = image.at(x, y);
-            pixels +=
+            sum +=
                 (static_cast<double>(c.r) + static_cast<double>(c.g) + static_cast<double>(c.b)) /
                 3.0;
         }
     }
+    return sum;
+}
+
+/// The sum of a tile's pixels in the film's image against what its paths add up to.
+double lost(const Image& image, const PixelRect& tile, double sum, double samples)
+{
+    const double pixels = sum_of_pixels(image, tile);
     const double difference = std::abs(pixels - sum / samples);
     return difference > 0.0 ? difference / std::max(std::abs(pixels), std::abs(sum / samples))
                             : 0.0;
@@ -77,6 +87,26 @@ ImageCheck check_image(const Film& film, const TileGrid& grid, const SumOfTile& 
     return check;
 }
 
+/// The image of vcm, one render for each length: paths that merge are not told one by one.
+ImageCheck render_merged(const Scene& scene, const CameraDesc& camera, const VerifyOptions& options,
+                         const TileGrid& grid, std::int64_t number, RadianceSums& sums)
+{
+    ImageCheck check;
+    for (int edges = 1; edges <= options.max_depth; ++edges) {
+        const Film film = render(scene, camera,
+                                 render_options(options, IntegratorKind::vcm, number, edges, edges))
+                              .film;
+        const Image image = film.develop();
+        for (std::size_t tile = 0; tile < grid.size(); ++tile) {
+            sums.add_tile(tile, edges,
+                          sum_of_pixels(image, grid.tiles()[tile]) *
+                              static_cast<double>(film.sample_count()));
+        }
+        check += {.defects = film.defects(), .lost = 0.0};
+    }
+    return check;
+}
+
 }  // namespace
 
 Batch render_batch(const Scene& scene, const CameraDesc& camera, const VerifyOptions& options,
@@ -85,7 +115,7 @@ Batch render_batch(const Scene& scene, const CameraDesc& camera, const VerifyOpt
     const RadianceSums none(grid, options.max_depth);
     Batch batch{
         .bdpt = PathSums(grid, options.max_depth, {options.light_paths, options.light_samples}),
-        .others = {none, none, none, none},
+        .others = std::vector<RadianceSums>(count_of_others(options), none),
         .images = {}};
     const int longest = options.max_depth;
     RenderControl to_bdpt;
@@ -95,14 +125,18 @@ Batch render_batch(const Scene& scene, const CameraDesc& camera, const VerifyOpt
     batch.images[0] = check_image(bdpt.film, grid, [&](std::size_t tile) {
         double sum = 0.0;
         for (int edges = 1; edges <= longest; ++edges) {
-            sum += batch.bdpt.length(tile, edges).radiance;
+            sum += batch.bdpt.length(tile, edges).all.radiance;
         }
         return sum;
     });
-    for (std::size_t i = 0; i < other_integrators.size(); ++i) {
+    for (std::size_t i = 0; i < batch.others.size(); ++i) {
         const IntegratorKind kind = other_integrators[i];
         RadianceSums& sums = batch.others[i];
         ImageCheck& check = batch.images[i + 1];
+        if (kind == IntegratorKind::vcm) {
+            check = render_merged(scene, camera, options, grid, number, sums);
+            continue;
+        }
         RenderControl to_sums;
         to_sums.on_path = [&](const PathContribution& path) { sums.add(path); };
         // Lengths that take the same number of samples are rendered together.

@@ -13,7 +13,7 @@ namespace {
 LengthFinding describe_length(const Evidence& evidence, int edges)
 {
     const LengthEvidence& length = evidence.length(evidence.whole(), edges);
-    const double all = length.sums.radiance;
+    const double all = length.sums.all.radiance;
     const auto part = [all](double radiance) {
         return all > 0.0 ? std::min(radiance / all, 1.0) : 1.0;
     };
@@ -29,7 +29,7 @@ StrategyFinding describe_strategy(const Evidence& evidence, Strategy strategy)
     const std::size_t index = evidence.row().index(strategy);
     const std::size_t whole = evidence.whole();
     const StrategySums& sums = evidence.strategy(whole, index).sums;
-    const double all = evidence.length(whole, strategy.s + strategy.t - 1).sums.radiance;
+    const double all = evidence.length(whole, strategy.s + strategy.t - 1).sums.all.radiance;
     const double samples = evidence.bdpt_samples_in(whole);
     StrategyFinding result{.strategy = strategy,
                            .blind = all > 0.0 ? std::clamp(1.0 - sums.reach / all, 0.0, 1.0) : 0.0,
@@ -123,13 +123,14 @@ VerifyReport judge(const Evidence& evidence, const VerifyOptions& options)
     report.false_alarm = options.false_alarm;
     report.tiles = evidence.grid().tiles();
     report.weights = evidence.weights();
-    for (std::size_t i = 0; i < report.images.size(); ++i) {
+    for (std::size_t i = 0; i <= evidence.others(); ++i) {
         const Moments& image = evidence.images()[i];
-        report.images[i] = {.integrator = i == 0 ? IntegratorKind::bdpt : other_integrators[i - 1],
-                            .radiance = image.mean(),
-                            .error = image.standard_error(),
-                            .defects = evidence.checks()[i].defects,
-                            .lost = evidence.checks()[i].lost};
+        report.images.push_back(
+            {.integrator = i == 0 ? IntegratorKind::bdpt : other_integrators[i - 1],
+             .radiance = image.mean(),
+             .error = image.standard_error(),
+             .defects = evidence.checks()[i].defects,
+             .lost = evidence.checks()[i].lost});
     }
     report.radiance = report.images[0].radiance;
     double unchecked = 0.0;
@@ -141,7 +142,7 @@ VerifyReport judge(const Evidence& evidence, const VerifyOptions& options)
             unchecked +=
                 evidence.strategy(evidence.whole(), evidence.row().index(strategy)).sums.unchecked;
         }
-        for (std::size_t i = 0; i < other_integrators.size(); ++i) {
+        for (std::size_t i = 0; i < evidence.others(); ++i) {
             report.integrators.push_back(describe_integrator(evidence, edges, i));
         }
     }

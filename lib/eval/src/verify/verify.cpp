@@ -46,6 +46,8 @@ void check_options(const VerifyOptions& options)
             "the number of light paths must be more than 0 and at most 4096");
     require(options.connections.value_or(0.0) >= 0.0 && options.connections.value_or(0.0) <= 4096.0,
             "the number of connections must be in [0, 4096]");
+    require(options.merge_radius.value_or(0.0) >= 0.0 && options.merge_radius.value_or(0.0) <= 1.0,
+            "the merge radius must be in [0, 1]");
     require(options.light_samples >= 1 && options.light_samples <= 1024,
             "the number of light samples must be in [1, 1024]");
     require(options.false_alarm > 0.0 && options.false_alarm < 1.0,
@@ -70,7 +72,7 @@ VerifyReport verify(const Scene& scene, const CameraDesc& camera, const VerifyOp
     check_options(options);
     const auto start = std::chrono::steady_clock::now();
     const TileGrid grid(options.width, options.height, options.grid);
-    Evidence evidence(grid, options.max_depth);
+    Evidence evidence(grid, options.max_depth, count_of_others(options));
     const int threads =
         options.threads > 0 ? options.threads : tbb::this_task_arena::max_concurrency();
     // More threads than cores are allowed only while somebody asks for them.

@@ -12,7 +12,7 @@ namespace bdpt::eval {
 /// on them, for mis is the one to check what only one strategy of bdpt can make.
 constexpr int bdpt_samples = 32;
 constexpr int mis_samples = 64;    ///< of mis
-constexpr int other_samples = 16;  ///< of pt, nee and lt
+constexpr int other_samples = 16;  ///< of pt, nee, lt and vcm
 /// Of pt for paths of one edge: a single ray each, and lamps that are seen are often small.
 constexpr int direct_samples = 64;
 
@@ -28,6 +28,11 @@ struct VerifyOptions {
     /// `BidirectionalOptions` has them.
     double light_paths = 1.0;
     std::optional<double> connections{};
+    /// If there is one, `vcm` is held against bdpt as well, with that
+    /// `BidirectionalOptions::merge_radius`: its image is right in the limit of none.
+    std::optional<double> merge_radius{};
+    /// Merging has a good part of the light of 32 x 32 pixels then, and blurs little.
+    static constexpr double small_merge_radius = 0.02;
     /// Light samples at each vertex of a camera path, of all integrators but lt and pt, in [1,
     /// 1024].
     int light_samples = 1;

@@ -4,7 +4,6 @@
 #include <bdpt/pixel_rect.h>
 #include <bdpt/render_options.h>
 
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -98,7 +97,7 @@ struct VerifyReport {
     double unchecked = 0.0;
     double false_alarm = 0.0;  ///< that was allowed
     std::vector<PixelRect> tiles;
-    std::array<ImageFinding, 5> images;  ///< bdpt, pt, nee, mis, lt
+    std::vector<ImageFinding> images;  ///< bdpt, pt, nee, mis, lt, and vcm if it was asked for
     WeightFinding weights;
     std::vector<LengthFinding> lengths;
     std::vector<StrategyFinding> strategies;

@@ -64,7 +64,7 @@ TEST_CASE("layers of another size are refused by the denoiser")
     const io::Denoiser denoiser(BDPT_FAKE_OIDN);
     const Layer albedo = layer("albedo", 0.25f, 3);
     REQUIRE_THROWS_WITH(denoiser.denoise({.image = noisy, .albedo = &albedo}),
-                        Catch::Contains("albedo") && Catch::Contains("3 x 1"));
+                        ContainsSubstring("albedo") && ContainsSubstring("3 x 1"));
 }
 
 TEST_CASE("a denoiser is found in a folder")

@@ -117,44 +117,46 @@ float Camera::depth(Vec3 scene_point) const
 
 std::optional<LensSample> Camera::sample_lens(Vec3 scene_point, Vec2 u_lens) const
 {
+    std::optional<LensSample> sampled;  // made where it is returned
     const Vec3 local = to_local(scene_point - position_);
     if (!(local.z < 0.0f)) {
-        return std::nullopt;
+        return sampled;
     }
     if (!perspective_) {
         const Vec2 ndc = Vec2(local.x, -local.y) / half_extent_;
         const Vec2 raster = 0.5f * (ndc + 1.0f) * film_size_;
         if (!is_visible(raster)) {
-            return std::nullopt;
+            return sampled;
         }
-        const PlanarPdf pdf_plane{1.0f / film_area_};
-        return LensSample{.lens = lens_end({local.x, local.y, 0.0f}),
-                          .wi = world_from_camera_[2],
-                          .distance = -local.z,
-                          .raster = raster,
-                          .weight = pdf_plane.value,
-                          .pdf_lens = pdf_lens_,
-                          .pdf_direction = {},
-                          .pdf_plane = pdf_plane};
+        sampled.emplace();
+        sampled->lens = lens_end({local.x, local.y, 0.0f});
+        sampled->wi = world_from_camera_[2];
+        sampled->distance = -local.z;
+        sampled->raster = raster;
+        sampled->pdf_lens = pdf_lens_;
+        sampled->pdf_plane = PlanarPdf{1.0f / film_area_};
+        sampled->weight = sampled->pdf_plane->value;
+        return sampled;
     }
     const Vec3 lens = lens_point(u_lens);
     const Vec3 d = local - lens;
     const Vec2 raster = raster_of(lens, d);
     if (!is_visible(raster)) {
-        return std::nullopt;
+        return sampled;
     }
     const float distance = std::sqrt(dot(d, d));
     const SolidAnglePdf pdf_direction = pdf_of(distance / -d.z);
     // We = 1 / (A pi r^2 cos^4) [Pharr et al. 2016, sec. 16.1.1], so We cos is the density of
     // direction times that of the lens point.
-    return LensSample{.lens = lens_end(lens),
-                      .wi = world_from_camera_ * (-d * (1.0f / distance)),
-                      .distance = distance,
-                      .raster = raster,
-                      .weight = pdf_direction.value / (distance * distance),
-                      .pdf_lens = pdf_lens_,
-                      .pdf_direction = pdf_direction,
-                      .pdf_plane = std::nullopt};
+    sampled.emplace();
+    sampled->lens = lens_end(lens);
+    sampled->wi = world_from_camera_ * (-d * (1.0f / distance));
+    sampled->distance = distance;
+    sampled->raster = raster;
+    sampled->weight = pdf_direction.value / (distance * distance);
+    sampled->pdf_lens = pdf_lens_;
+    sampled->pdf_direction = pdf_direction;
+    return sampled;
 }
 
 std::optional<LensHit> Camera::hit_lens(Vec3 origin, Vec3 direction) const

@@ -71,9 +71,11 @@ void filter_hit(const RTCFilterFunctionNArguments* args)
     const bool shared = hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
     const std::uint32_t instance = shared ? hit.instID[0] : hit.geomID;
     const Ray& ray = embree::ray_of(args->context);
+    TriangleHit at;
+    placed[instance].hit(hit.primID, ray, at);
     if (rule.passes(rule.owner, {.instance = instance,
                                  .triangle = hit.primID,
-                                 .barycentrics = placed[instance].hit(hit.primID, ray).barycentrics,
+                                 .barycentrics = at.barycentrics,
                                  .segment = ray.segment})) {
         args->valid[0] = 0;
     }
@@ -283,8 +285,9 @@ std::string EmbreeScene::embree_version() const
 
 std::optional<RayHit> EmbreeScene::intersect(const Ray& ray) const noexcept
 {
+    std::optional<RayHit> found;  // made where it is returned
     if (!state_->can_trace(ray)) [[unlikely]] {
-        return std::nullopt;
+        return found;
     }
     RTCRayHit query;  // Embree writes the rest of a hit
     query.ray = to_embree(ray);
@@ -293,19 +296,20 @@ std::optional<RayHit> EmbreeScene::intersect(const Ray& ray) const noexcept
     embree::intersect(state_->top.get(), query, ray);
     const RTCHit& hit = query.hit;
     if (hit.geomID == RTC_INVALID_GEOMETRY_ID) {
-        return std::nullopt;
+        return found;
     }
+    found.emplace();
     const bool shared = hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
     const std::uint32_t instance = shared ? hit.instID[0] : hit.geomID;
     if (instance >= state_->placed.size()) {
-        RayHit on_sphere;
-        on_sphere.at.ng = {hit.Ng_x, hit.Ng_y, hit.Ng_z};
-        on_sphere.sphere = hit.primID;
-        return on_sphere;
+        found->at.ng = {hit.Ng_x, hit.Ng_y, hit.Ng_z};
+        found->sphere = hit.primID;
+        return found;
     }
-    return RayHit{.instance = instance,
-                  .triangle = hit.primID,
-                  .at = state_->placed[instance].hit(hit.primID, ray)};
+    found->instance = instance;
+    found->triangle = hit.primID;
+    state_->placed[instance].hit(hit.primID, ray, found->at);
+    return found;
 }
 
 bool EmbreeScene::occluded(const Ray& ray) const noexcept

@@ -184,10 +184,10 @@ BoundedPoint PlacedMesh::unsettled_point(std::uint32_t triangle, Vec2 barycentri
     return StillTriangle(corners, front_sign(), error).point(barycentrics);
 }
 
-TriangleHit PlacedMesh::unsettled_hit(std::uint32_t triangle, const Ray& ray) const
+void PlacedMesh::unsettled_hit(std::uint32_t triangle, const Ray& ray, TriangleHit& at) const
 {
     const auto [corners, error] = moment(triangle, ray.segment.time);
-    return StillTriangle(corners, front_sign(), error).hit(ray);
+    StillTriangle(corners, front_sign(), error).hit(ray, at);
 }
 
 Vec3 PlacedMesh::area_normal(std::uint32_t triangle, float time) const

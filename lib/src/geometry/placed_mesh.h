@@ -86,9 +86,13 @@ public:
     }
     /// Where the line of the ray crosses the plane of the triangle. Embree knows it too, but from
     /// reciprocals that CPUs of different makers approximate differently; this is the same on all.
-    [[nodiscard]] TriangleHit hit(std::uint32_t triangle, const Ray& ray) const
+    void hit(std::uint32_t triangle, const Ray& ray, TriangleHit& at) const
     {
-        return settled_.empty() ? unsettled_hit(triangle, ray) : settled_[triangle].hit(ray);
+        if (settled_.empty()) {
+            unsettled_hit(triangle, ray, at);
+        } else {
+            settled_[triangle].hit(ray, at);
+        }
     }
     /// Front normal from the corners, in the world, unnormalised; its length is twice the area.
     [[nodiscard]] Vec3 area_normal(std::uint32_t triangle, float time) const;
@@ -122,7 +126,7 @@ private:
     [[nodiscard]] Moment still_moment(std::uint32_t triangle) const;
     [[nodiscard]] BoundedPoint unsettled_point(std::uint32_t triangle, Vec2 barycentrics,
                                                float time) const;
-    [[nodiscard]] TriangleHit unsettled_hit(std::uint32_t triangle, const Ray& ray) const;
+    void unsettled_hit(std::uint32_t triangle, const Ray& ray, TriangleHit& at) const;
 
     template <typename T>
     [[nodiscard]] T interpolate(const std::vector<T>& values, std::uint32_t triangle,

@@ -40,13 +40,14 @@ struct alignas(64) StillTriangle {
     }
     /// Where the line of the ray crosses the plane [Moeller and Trumbore 1997, "Fast, Minimum
     /// Storage Ray/Triangle Intersection"].
-    [[nodiscard, gnu::always_inline]] inline TriangleHit hit(const Ray& ray) const
+    [[gnu::always_inline]] inline void hit(const Ray& ray, TriangleHit& at) const
     {
         const float determinant = twice_area * dot(ng, ray.direction);
         const Vec3 moment = cross(ray.origin - corner, ray.direction);
         const float scale = determinant == 0.0f ? 0.0f : 1.0f / determinant;  // seen from the side
-        const Vec2 barycentrics{-dot(moment, to_c) * scale, dot(moment, to_b) * scale};
-        return {.barycentrics = barycentrics, .ng = ng, .point = point(barycentrics)};
+        at.barycentrics = {-dot(moment, to_c) * scale, dot(moment, to_b) * scale};
+        at.ng = ng;
+        at.point = point(at.barycentrics);
     }
 };
 

@@ -1,6 +1,7 @@
 #include "light/triangle_light.h"
 
 #include "geometry/length.h"
+#include "math/blank.h"
 #include "math/elementary.h"
 #include "math/frame.h"
 #include "math/rgb.h"
@@ -106,9 +107,10 @@ std::optional<IncidentSample> TriangleLight::sample_incident(Vec3 receiver, Vec2
                                                              EnvironmentSampling /*sampling*/,
                                                              float time) const
 {
+    std::optional<IncidentSample> sampled;  // made where it is returned
     const Facing facing = this->facing(time);
     if (!(facing.area > 0.0f)) {
-        return std::nullopt;
+        return sampled;
     }
     const Point from = point(u, facing, time);
     const Vec3 to_light = from.end.p - receiver;
@@ -119,17 +121,22 @@ std::optional<IncidentSample> TriangleLight::sample_incident(Vec3 receiver, Vec2
     const float cosine = dot(from.end.ng, -wi);
     const bool dark_side = cosine < 0.0f && !material_->emits_from_both_sides();
     if (!(distance_squared > 0.0f) || cosine == 0.0f || dark_side) {
-        return std::nullopt;
+        return sampled;
     }
     const float area_per_solid_angle = distance_squared / std::abs(cosine);
     const float geometry = std::abs(cosine) * (inverse_distance * inverse_distance);
-    return IncidentSample{.end = from.end,
-                          .barycentrics = from.barycentrics,
-                          .wi = wi,
-                          .distance = distance,
-                          .weight = from.radiance * (geometry * from.inverse_pdf),
-                          .pdf = from.pdf,
-                          .pdf_solid_angle = {from.pdf.value * area_per_solid_angle}};
+    sampled.emplace(blank<IncidentSample>);
+    sampled->end.p = from.end.p;
+    sampled->end.error = from.end.error;
+    sampled->end.ng = from.end.ng;
+    sampled->end.media = from.end.media;
+    sampled->barycentrics = from.barycentrics;
+    sampled->wi = wi;
+    sampled->distance = distance;
+    sampled->weight = from.radiance * (geometry * from.inverse_pdf);
+    sampled->pdf = from.pdf;
+    sampled->pdf_solid_angle = {from.pdf.value * area_per_solid_angle};
+    return sampled;
 }
 
 AreaPdf TriangleLight::pdf_position(Vec2 barycentrics, const Facing& at) const

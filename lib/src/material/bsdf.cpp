@@ -38,18 +38,16 @@ std::optional<BsdfSample> Bsdf::sample(float u_lobe, Vec2 u, TransportMode mode)
     }
     return visit([&](const auto& model) -> std::optional<BsdfSample> {
         std::optional<BsdfSample> sampled = model.sample(local_wo_, u_lobe, u, mode);
-        if (!sampled) {
-            return std::nullopt;
-        }
-        const float local_cos = height(model, sampled->wi);
-        sampled->wi = shading_.to_world(sampled->wi);
-        const Cosines cosines{dot(sampled->wi, ng_), local_cos};
-        if (!cosines.agree()) {
-            return std::nullopt;
-        }
-        if (mode == TransportMode::importance) {
-            const float ratio_i = cosines.ratio();
-            sampled->weight *= ratio_i / ratio_o_;
+        if (sampled) {
+            const float local_cos = height(model, sampled->wi);
+            sampled->wi = shading_.to_world(sampled->wi);
+            const Cosines cosines{dot(sampled->wi, ng_), local_cos};
+            if (!cosines.agree()) {
+                sampled.reset();
+            } else if (mode == TransportMode::importance) {
+                const float ratio_i = cosines.ratio();
+                sampled->weight *= ratio_i / ratio_o_;
+            }
         }
         return sampled;
     });

@@ -1,5 +1,6 @@
 #include "path/connect.h"
 
+#include "math/blank.h"
 #include "math/rgb.h"
 #include "path/densities.h"
 
@@ -82,34 +83,20 @@ std::optional<Contribution> join(const SampleContext& sample, std::span<const Pa
                         .dispersed = y.dispersed || z.dispersed};
 }
 
-/// A fresh point of a light, and the vertex that it makes.
-struct FreshLight {
-    IncidentSample incident;
-    float probability = 0.0f;  ///< of choosing the light
-    PathVertex x0;
-};
-
-/// Of the light that was chosen, for a receiver at `p`.
-std::optional<FreshLight> sample_light(const SampleContext& sample,
-                                       const LightSet::ChoiceAndNumbers& choice, Vec3 p,
-                                       EnvironmentSampling environments)
+/// The vertex at a fresh point of light `id`.
+PathVertex light_vertex(const World& world, LightId id, const IncidentSample& incident)
 {
-    const Light& light = sample.world.lights()[choice.id];
-    const auto incident = light.sample_incident(p, choice.u, environments, sample.time);
-    if (!incident) {
-        return std::nullopt;
-    }
-    FreshLight fresh{.incident = *incident, .probability = choice.probability, .x0 = {}};
-    fresh.x0.light = choice.id;
-    if (light.is_infinite()) {
-        fresh.x0.kind = VertexKind::infinite;
-        fresh.x0.end.p = incident->wi;
+    PathVertex x0 = blank<PathVertex>;
+    x0.light = id;
+    if (world.lights()[id].is_infinite()) {
+        x0.kind = VertexKind::infinite;
+        x0.end.p = incident.wi;
     } else {
-        fresh.x0.kind = VertexKind::light;
-        fresh.x0.end = incident->end;
-        fresh.x0.barycentrics = incident->barycentrics;
+        x0.kind = VertexKind::light;
+        x0.end = incident.end;
+        x0.barycentrics = incident.barycentrics;
     }
-    return fresh;
+    return x0;
 }
 
 /// The random point on the lens of the strategy with `s` light vertices.
@@ -121,7 +108,7 @@ Vec2 random_lens_point(SampleContext& sample, std::size_t s)
 
 PathVertex lens_vertex(const LensSample& to_lens)
 {
-    PathVertex lens;
+    PathVertex lens = blank<PathVertex>;
     lens.kind = VertexKind::camera;
     lens.end = to_lens.lens;
     lens.pdf_fwd = to_lens.pdf_lens;
@@ -170,27 +157,32 @@ std::optional<Contribution> connect_to_light(SampleContext& sample,
     const auto choice = sample.world.lights().choose_for_context(
         [&z] { return light_sample_context(z); }, u,
         [&sample] { return sample.sampler.next_fine(); }, sampling.lights);
-    auto fresh =
-        choice ? sample_light(sample, *choice, z.end.p, sampling.environments) : std::nullopt;
-    if (!fresh) {
+    if (!choice) {
         return std::nullopt;
     }
-    const IncidentSample& incident = fresh->incident;
-    PathVertex& x0 = fresh->x0;
-    const BsdfEval f = z.bsdf->eval(incident.wi, TransportMode::radiance);
-    const Rgb value = z.beta * f.f_cos * incident.weight / fresh->probability;
+    const auto incident = sample.world.lights()[choice->id].sample_incident(
+        z.end.p, choice->u, sampling.environments, sample.time);
+    if (!incident) {
+        return std::nullopt;
+    }
+    const BsdfEval f = z.bsdf->eval(incident->wi, TransportMode::radiance);
+    const Rgb value = z.beta * f.f_cos * incident->weight / choice->probability;
+    if (is_black(value)) {
+        return std::nullopt;
+    }
+    PathVertex x0 = light_vertex(sample.world, choice->id, *incident);
     return join(sample, std::span(&x0, 1), camera, value, weigher, [&] {
         const LightDensities densities = light_densities(sample, x0, z.end);
         x0.pdf_fwd = densities.emit;
         return JoinDensities{
             .light_at_camera_end = densities.to_next,
             .light_at_camera_neighbor = at_neighbor(f.pdf_rev, camera),
-            .camera_at_light_end =
-                x0.kind == VertexKind::infinite
-                    ? AreaPdf{f.pdf_fwd.value}
-                    : at_end(f.pdf_fwd, x0.end, incident.wi, incident.distance * incident.distance),
+            .camera_at_light_end = x0.kind == VertexKind::infinite
+                                       ? AreaPdf{f.pdf_fwd.value}
+                                       : at_end(f.pdf_fwd, x0.end, incident->wi,
+                                                incident->distance * incident->distance),
             .camera_at_light_neighbor = {},
-            .next_event = incident.pdf * fresh->probability};
+            .next_event = incident->pdf * choice->probability};
     });
 }
 
@@ -204,20 +196,21 @@ std::optional<Contribution> connect_light_to_lens(SampleContext& sample, PathWei
     const auto choice = lights.choose_for_context(
         LightSampleContext{.p = receiver}, u, [&sample] { return sample.sampler.next_fine(); },
         weigher.next_event_sampling().lights);
-    auto fresh = choice && can_be_seen_directly(lights[choice->id], sample.camera)
-                     ? sample_light(sample, *choice, receiver, EnvironmentSampling::plain)
-                     : std::nullopt;
-    if (!fresh) {
+    if (!choice || !can_be_seen_directly(lights[choice->id], sample.camera)) {
         return std::nullopt;
     }
-    const IncidentSample& incident = fresh->incident;
-    PathVertex& x0 = fresh->x0;
-    const auto to_lens = sample.camera.sample_lens(x0.end.p, u_lens);
+    const auto incident = lights[choice->id].sample_incident(
+        receiver, choice->u, EnvironmentSampling::plain, sample.time);
+    if (!incident) {
+        return std::nullopt;
+    }
+    const auto to_lens = sample.camera.sample_lens(incident->end.p, u_lens);
     if (!to_lens) {
         return std::nullopt;
     }
+    PathVertex x0 = light_vertex(sample.world, choice->id, *incident);
     const PathVertex lens = lens_vertex(*to_lens);
-    const Rgb value = incident.weight * (to_lens->pdf_direction.value / fresh->probability);
+    const Rgb value = incident->weight * (to_lens->pdf_direction.value / choice->probability);
     auto found = join(sample, std::span(&x0, 1), std::span(&lens, 1), value, weigher, [&] {
         const LightDensities densities = light_densities(sample, x0, lens.end);
         x0.pdf_fwd = densities.emit;
@@ -225,9 +218,9 @@ std::optional<Contribution> connect_light_to_lens(SampleContext& sample, PathWei
             .light_at_camera_end = densities.to_next,
             .light_at_camera_neighbor = {},
             .camera_at_light_end = at_end(to_lens->pdf_direction, x0.end, to_lens->wi,
-                                          incident.distance * incident.distance),
+                                          incident->distance * incident->distance),
             .camera_at_light_neighbor = {},
-            .next_event = incident.pdf * fresh->probability};
+            .next_event = incident->pdf * choice->probability};
     });
     if (found) {
         found->raster = to_lens->raster;

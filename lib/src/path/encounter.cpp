@@ -50,8 +50,7 @@ void pass_media(SampleContext& sample, const SegmentEnd& origin, Vec3 direction,
 Encounter follow(SampleContext& sample, const SegmentEnd& origin, Vec3 direction,
                  SegmentKey segment, const WalkPlace& place)
 {
-    Encounter met;
-    met.surface = sample.world.first_hit(origin, direction, segment);
+    Encounter met([&] { return sample.world.first_hit(origin, direction, segment); });
     if (sample.world.media().any() || sample.world.volumes().any()) {
         pass_media(sample, origin, direction, segment, place, met);
     }

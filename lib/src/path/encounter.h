@@ -10,6 +10,11 @@ namespace bdpt {
 /// What a ray comes to first: a point where a medium or a volume scatters it, a surface, or
 /// nothing.
 struct Encounter {
+    /// With the surface alone, which `find_surface()` finds.
+    template <typename FindSurface>
+    explicit Encounter(const FindSurface& find_surface) : surface(find_surface())
+    {}
+
     std::optional<MediumEvent> in_medium;
     std::optional<VolumeEvent> in_volume;
     Rgb volume_weight{1.0f};            ///< of `VolumePassage`

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "math/blank.h"
 #include "path/path_vertex.h"
 
 #include <cstddef>
@@ -39,7 +40,7 @@ public:
     PathVertex& append()
     {
         PathVertex& vertex = vertices_[size_++];
-        vertex = PathVertex{};
+        vertex = blank<PathVertex>;
         return vertex;
     }
     /// Where the surface of the next vertex is put by `make()`, without a copy. There must be room.

@@ -109,10 +109,11 @@ SurfacePoint World::sphere_point(const RayHit& hit, Vec3 direction, float time) 
     const LightId id = lights_->of_sphere(hit.sphere);
     const auto& light = std::get<SphereLight>((*lights_)[id].model());
     const bool outside = dot(hit.at.ng, direction) < 0.0f;
-    return {.end = end_at(hit, direction, time),
-            .bsdf = Bsdf(),
-            .emission = outside ? light.radiance(-direction, time) : Rgb(0.0f),
-            .light = id};
+    SurfacePoint result;
+    result.end = end_at(hit, direction, time);
+    result.emission = outside ? light.radiance(-direction, time) : Rgb(0.0f);
+    result.light = id;
+    return result;
 }
 
 /// The BSDF where something varies over the surface: textures, vertex colours, tangents.
@@ -146,25 +147,29 @@ SurfacePoint World::mesh_point(const RayHit& hit, Vec3 direction, SegmentKey seg
     const PlacedMesh& mesh = placed_[hit.instance];
     const Material& material = material_of(hit.instance);
 
-    const Vec3 ng = hit.at.ng != Vec3(0.0f) ? hit.at.ng : -direction;
+    const Vec3 wo = -direction;
+    // By components, which stay in registers.
+    const bool has_area = hit.at.ng != Vec3(0.0f);
+    const Vec3 ng(has_area ? hit.at.ng.x : wo.x, has_area ? hit.at.ng.y : wo.y,
+                  has_area ? hit.at.ng.z : wo.z);
     Vec3 ns = ng;
     if (!mesh.mesh().normals.empty()) {
         ns = mesh.shading_normal(hit.triangle, hit.at.barycentrics, segment.time);
         const float side = dot(ns, ng);
         ns = side > 0.0f ? ns : side < 0.0f ? -ns : ng;
     }
-    const Vec3 wo = -direction;
     const bool even = material.is_even() && mesh.mesh().colors.empty();
-    SurfacePoint result{.end = {.p = hit.at.point.p,
-                                .error = hit.at.point.error,
-                                .ng = ng,
-                                .media = material.media()},
-                        .bsdf = even ? material.even_bsdf(ng, ns, wo)
-                                     : varying_bsdf(hit, {ng, ns}, wo, segment, pixel),
-                        .emission = Rgb(0.0f),
-                        .light = lights_->of_triangle(hit.instance, hit.triangle),
-                        .barycentrics = hit.at.barycentrics,
-                        .disperses = material.disperses()};
+    SurfacePoint result([&] {
+        return even ? material.even_bsdf(ng, ns, wo)
+                    : varying_bsdf(hit, {ng, ns}, wo, segment, pixel);
+    });
+    result.end.p = hit.at.point.p;
+    result.end.error = hit.at.point.error;
+    result.end.ng = ng;
+    result.end.media = material.media();
+    result.light = lights_->of_triangle(hit.instance, hit.triangle);
+    result.barycentrics = hit.at.barycentrics;
+    result.disperses = material.disperses();
     if (result.light && (dot(ng, direction) < 0.0f || material.emits_from_both_sides())) {
         result.emission = material.emission(texture_point(mesh, hit.triangle, hit.at.barycentrics));
     }

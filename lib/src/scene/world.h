@@ -26,6 +26,12 @@ namespace bdpt {
 
 /// A point on a surface, or in a medium, with everything a path needs to go on from it.
 struct SurfacePoint {
+    SurfacePoint() = default;
+    /// With the BSDF that `make_bsdf()` makes in its place, at no place yet.
+    template <typename MakeBsdf>
+    explicit SurfacePoint(const MakeBsdf& make_bsdf) : bsdf(make_bsdf())
+    {}
+
     SegmentEnd end;
     Bsdf bsdf;
     Rgb emission{0.0f};            ///< radiance towards where the ray came from [nit]

@@ -20,19 +20,16 @@ public:
     [[nodiscard]] std::optional<BsdfSample> sample(Vec3 wo, float /*u_lobe*/, Vec2 u,
                                                    TransportMode /*mode*/) const noexcept
     {
-        if (grazes(wo)) {
-            return std::nullopt;
+        std::optional<BsdfSample> sampled;
+        const Vec3 wi = square_to_cosine_hemisphere(u);
+        if (!grazes(wo) && !grazes(wi)) {
+            sampled.emplace();
+            sampled->wi = Vec3(wi.x, wi.y, std::copysign(wi.z, wo.z));
+            sampled->weight = base_color_;
+            sampled->pdf_fwd = cosine_hemisphere_pdf(wi.z);
+            sampled->pdf_rev = cosine_hemisphere_pdf(std::abs(wo.z));
         }
-        Vec3 wi = square_to_cosine_hemisphere(u);
-        if (grazes(wi)) {
-            return std::nullopt;
-        }
-        const SolidAnglePdf pdf = cosine_hemisphere_pdf(wi.z);
-        wi.z = std::copysign(wi.z, wo.z);
-        return BsdfSample{.wi = wi,
-                          .weight = base_color_,
-                          .pdf_fwd = pdf,
-                          .pdf_rev = cosine_hemisphere_pdf(std::abs(wo.z))};
+        return sampled;
     }
     [[nodiscard]] bool has_smooth_lobe() const noexcept { return true; }
     [[nodiscard]] bool transmits() const noexcept { return false; }

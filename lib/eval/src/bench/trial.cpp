@@ -81,17 +81,20 @@ TrialSetup make_setup(const BenchScene& scene, const RenderOptions& options,
 
 std::optional<std::int64_t> samples_in(const TrialSetup& setup, double seconds)
 {
+    Checkpoint start;
+    const TrialSetup chosen = with_choice(setup, start);
+    const double left = seconds - start.cpu_seconds;
     std::int64_t samples = 2;
-    auto timed = render_range(setup, {.begin = 0, .end = samples});
-    while (timed && timed->cpu_seconds < seconds / 6.0 && samples < most_samples) {
+    auto timed = render_range(chosen, {.begin = 0, .end = samples});
+    while (timed && timed->cpu_seconds < left / 6.0 && samples < most_samples) {
         samples *= 2;
-        timed = render_range(setup, {.begin = 0, .end = samples});
+        timed = render_range(chosen, {.begin = 0, .end = samples});
     }
     if (!timed) {
         return std::nullopt;
     }
     const double fitting =
-        static_cast<double>(samples) * seconds / std::max(timed->cpu_seconds, least_seconds);
+        static_cast<double>(samples) * left / std::max(timed->cpu_seconds, least_seconds);
     const double most = static_cast<double>(most_samples);
     return 2 * static_cast<std::int64_t>(std::clamp(fitting, 2.0, most) / 2.0);
 }

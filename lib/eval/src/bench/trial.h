@@ -28,7 +28,7 @@ struct TrialSetup {
 inline constexpr std::int64_t most_samples = std::int64_t{1} << 20;
 
 /// How many samples, an even number, take about `seconds` of CPU time: from renders that grow until
-/// one takes a good part of it. None if stopped.
+/// one takes a good part of it. What a choice of the integrator takes counts once. None if stopped.
 [[nodiscard]] std::optional<std::int64_t> samples_in(const TrialSetup& setup, double seconds);
 
 /// A render of `samples` samples from the first on; none if stopped.

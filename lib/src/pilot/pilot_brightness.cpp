@@ -33,19 +33,21 @@ std::vector<double> averaged(const PilotGrid& grid, const std::vector<double>& v
 PilotBrightness::PilotBrightness(const PilotGrid& grid, std::span<const PilotRow> rows)
     : share_of_splat_(1.0 / (PilotRow::samples_of_cell * around))
 {
-    camera_.reserve(grid.cells());
+    std::vector<double> camera;
+    camera.reserve(grid.cells());
     std::vector<double> splats(grid.cells());
     for (const PilotRow& row : rows) {
         for (const PilotCell& cell : row.cells()) {
-            camera_.push_back(cell.mean);
+            camera.push_back(cell.mean);
         }
         for (const PilotSplat& splat : row.splats()) {
             splats[splat.cell] += splat.shares.splat_mean() / PilotRow::samples_of_cell;
         }
     }
     for (std::size_t i = 0; i < grid.cells(); ++i) {
-        average_ += (camera_[i] + splats[i]) / static_cast<double>(grid.cells());
+        average_ += (camera[i] + splats[i]) / static_cast<double>(grid.cells());
     }
+    camera_ = averaged(grid, camera);
     splats_ = averaged(grid, splats);
 }
 

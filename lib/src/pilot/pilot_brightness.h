@@ -7,7 +7,9 @@
 
 namespace bdpt {
 
-/// How bright the image is in each cell, by what a pilot found: errors are relative to it.
+/// How bright the image is in each cell and those around it, by what a pilot found: errors are
+/// relative to it. A cell alone has too few samples: where they happen to be dark, errors that
+/// splats bring would count far too much.
 class PilotBrightness {
 public:
     PilotBrightness(const PilotGrid& grid, std::span<const PilotRow> rows);
@@ -24,8 +26,8 @@ public:
 private:
     [[nodiscard]] double scale_of(std::size_t cell, double less) const;
 
-    std::vector<double> camera_;  ///< by camera paths, of the pixel of the cell [nit]
-    std::vector<double> splats_;  ///< by splats, of the cell and those around it [nit]
+    std::vector<double> camera_;  ///< by camera paths [nit]
+    std::vector<double> splats_;  ///< by splats [nit]
     double share_of_splat_;       ///< of one splat in these
     double average_ = 0.0;        ///< of the image [nit]
 };

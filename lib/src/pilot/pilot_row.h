@@ -25,7 +25,8 @@ struct PilotSplat {
 /// The cells of one row of a pilot's grid.
 class PilotRow {
 public:
-    static constexpr int samples_of_cell = 4;
+    /// The fewest from which the square of a mean can be told.
+    static constexpr int samples_of_cell = 2;
 
     /// `integrator` has `PathShares::pilot_light_paths` of its own for each camera path.
     void render(const Integrator& integrator, const PilotGrid& grid, Heuristic heuristic, int row);

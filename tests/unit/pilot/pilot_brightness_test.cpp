@@ -1,0 +1,85 @@
+#include "pilot/pilot_brightness.h"
+
+#include "catch.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdlib>
+#include <vector>
+
+namespace bdpt::test {
+namespace {
+
+constexpr int side = 5;  // of so few pixels each has a cell
+constexpr int middle = 2;
+constexpr float radiance = 9.0f;
+constexpr double average = 9.0 / (side * side);
+constexpr double floor_of_squares = 0.01 * average * average;
+
+/// Finds light in the middle of the image alone, along one path a sample.
+class Lamp final : public Integrator {
+public:
+    explicit Lamp(Strategy strategy) : strategy_(strategy)
+    {
+        shares_[static_cast<std::size_t>(strategy.s)] = 1.0f;
+    }
+    RenderStats render_tile(const Tile& tile, SampleRange /*samples*/,
+                            const Films& films) const override
+    {
+        if (tile.x_begin == middle && tile.y_begin == middle) {
+            films.on_path({.strategy = strategy_,
+                           .light_path = 0,
+                           .raster = Vec2(middle + 0.5f),
+                           .unweighted = Rgb(radiance),
+                           .weight = 1.0f,
+                           .shares = shares_});
+        }
+        return {};
+    }
+
+private:
+    Strategy strategy_;
+    std::array<float, 5> shares_{};
+};
+
+std::vector<PilotRow> rows_of(const Lamp& lamp, const PilotGrid& grid)
+{
+    std::vector<PilotRow> rows(static_cast<std::size_t>(grid.rows()));
+    for (int row = 0; row < grid.rows(); ++row) {
+        rows[static_cast<std::size_t>(row)].render(lamp, grid, Heuristic::power, row);
+    }
+    return rows;
+}
+
+}  // namespace
+
+TEST_CASE("errors of a pilot are relative to the brightness of the cells around", "[pilot]")
+{
+    const PilotGrid grid(side, side);
+    for (const Strategy strategy : {Strategy{.s = 1, .t = 3}, Strategy{.s = 3, .t = 1}}) {
+        CAPTURE(strategy.s);
+        const std::vector<PilotRow> rows = rows_of(Lamp(strategy), grid);
+        const PilotBrightness brightness(grid, rows);
+        for (int y = 0; y < side; ++y) {
+            for (int x = 0; x < side; ++x) {
+                const bool near = std::abs(x - middle) <= 1 && std::abs(y - middle) <= 1;
+                const double mean = near ? 1.0 : 0.0;
+                CHECK(brightness.scale(grid.index(x, y)) ==
+                      Approx(1.0 / (mean * mean + floor_of_squares)));
+            }
+        }
+    }
+}
+
+TEST_CASE("a splat does not count for its own place", "[pilot]")
+{
+    const PilotGrid grid(side, side);
+    const std::vector<PilotRow> rows = rows_of(Lamp({.s = 3, .t = 1}), grid);
+    const PilotBrightness brightness(grid, rows);
+    const auto& splats = rows[middle].splats();
+    REQUIRE(splats.size() == PilotRow::samples_of_cell);
+    const double others = 1.0 - 1.0 / PilotRow::samples_of_cell;
+    CHECK(brightness.scale(splats.front()) == Approx(1.0 / (others * others + floor_of_squares)));
+}
+
+}  // namespace bdpt::test

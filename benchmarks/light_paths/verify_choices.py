@@ -12,7 +12,7 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-CHOICES = [(n, c) for n in (1 / 16, 1 / 4) for c in (0.25, 1, 2, 3)] + [
+CHOICES = [(1 / 16, 5)] + [(n, c) for n in (1 / 16, 1 / 4) for c in (0.25, 1, 2, 3)] + [
     (n, c) for n in (0.5, 1) for c in (0.25, 1, 2)] + [(n, c) for n in (2, 4) for c in (0.25, 1)]
 VERDICTS = {0: "passed", 10: "failed", 11: "inconclusive"}
 

@@ -141,15 +141,16 @@ use_pkg_config() {
   [[ -s out.exr ]] || fail "the program in the README wrote no image"
 }
 
-# Builds the core alone, as quickly as compilers can. What was built before is kept. The libraries for
-# files, the command and the tests must not even be looked for.
+# Builds the core alone, as quickly as compilers can: many files as one, as some projects build all that
+# they have. What was built before is kept. The libraries for files, the command and the tests must not
+# even be looked for.
 use_add_subdirectory() {
   local unneeded=() package
   for package in OpenImageIO OpenEXR Imath PNG JPEG WebP nlohmann_json fmt CLI11 Catch2 Python3 benchmark; do
     unneeded+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON")
   done
   build_consumer "$WORK/add_subdirectory" -DBDPT_SOURCE="$SOURCE" -DCMAKE_BUILD_TYPE= \
-    -DCMAKE_CXX_FLAGS=-O0 "${unneeded[@]}"
+    -DCMAKE_CXX_FLAGS=-O0 -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=32 "${unneeded[@]}"
   expect_version "$WORK/add_subdirectory/render_box"
 }
 

@@ -62,6 +62,9 @@ TEST_CASE("each tile counts, not only that with the greatest z", "[statistics]")
     TileMeans near = means_of(little);
     const MeanComparison close = compare_means(near, 1.0, quick);
     CHECK(close.found_bias == Approx(1e-4).epsilon(0.02));
+    CHECK(close.batches == 32);
+    // Student's t with 31 degrees of freedom: one tail of 0.0000125.
+    CHECK(close.critical_z == Approx(4.947).epsilon(1e-3));
 
     // The left half is off by little and has no noise; the right one is off by half, with noise, so
     // that its z is less.

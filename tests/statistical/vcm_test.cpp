@@ -154,13 +154,13 @@ TEST_CASE("merging is biased by its radius, and less so as that shrinks", "[vcm]
             .max_depth = 2};
         const Scene scene(test.scene);
         TileMeans mis(scene, test.camera, options(test, IntegratorKind::mis, ++seed));
-        mis.refine(100);
+        mis.refine_to(100);
         const auto bias = [&](double radius, double alpha) {
             RenderOptions merging = merging_alone(options(test, IntegratorKind::vcm, ++seed));
             merging.bidirectional.merge_radius = radius / std::sqrt(2.0);  // of the sphere
             merging.bidirectional.merge_alpha = alpha;
             TileMeans vcm(scene, test.camera, merging);
-            vcm.refine(200);
+            vcm.refine_to(200);
             double found = 0.0;
             double expected = 0.0;
             double variance = 0.0;

@@ -9,6 +9,7 @@ namespace bdpt::test {
 namespace {
 
 constexpr double ninety_percent = 1.2816;  // quantile of the normal distribution
+constexpr int first_batches = 32;
 
 /// Two-sided quantile of the normal distribution at tail probability `p`, by bisection.
 double critical_value(double p)
@@ -22,19 +23,42 @@ double critical_value(double p)
     return low;
 }
 
+/// The same of Student's t distribution, from that of the normal one [Abramowitz and Stegun 1964,
+/// 26.7.5]. With 32 batches a normal quantile would raise six false alarms for one that is
+/// promised.
+double critical_t(double z, double degrees_of_freedom)
+{
+    const double n = degrees_of_freedom;
+    const double z2 = z * z;
+    return z * (1.0 + (z2 + 1.0) / (4.0 * n) + ((5.0 * z2 + 16.0) * z2 + 3.0) / (96.0 * n * n) +
+                (((3.0 * z2 + 19.0) * z2 + 17.0) * z2 - 15.0) / (384.0 * n * n * n));
+}
+
 /// What is compared in one cell.
 struct Cell {
     double difference;
-    double error;  // standard error of the difference
-    double size;   // what a relative bias refers to
+    double error;               // standard error of the difference
+    double size;                // what a relative bias refers to
+    double degrees_of_freedom;  // of `error`
 };
+
+/// The degrees of freedom of the standard error of a difference [Welch 1947].
+double degrees_of_freedom(const Moments& x, const Moments& y)
+{
+    const double a = std::pow(x.standard_error(), 2);
+    const double b = std::pow(y.standard_error(), 2);
+    const double spread =
+        a * a / static_cast<double>(x.count() - 1) + b * b / static_cast<double>(y.count() - 1);
+    return spread > 0.0 ? (a + b) * (a + b) / spread
+                        : static_cast<double>(std::min(x.count(), y.count()) - 1);
+}
 
 MeanComparison compare_cells(const std::function<Cell(std::size_t)>& cell,
                              const Sharpness& sharpness)
 {
     const double each = 1.0 - std::pow(1.0 - sharpness.false_alarm, 1.0 / TileMeans::cells);
-    MeanComparison result;
-    result.critical_z = critical_value(each);
+    const double normal = critical_value(each);
+    MeanComparison result{.equal = true};
     std::size_t black = 0;
     for (std::size_t i = 0; i < TileMeans::cells; ++i) {
         const Cell c = cell(i);
@@ -47,41 +71,63 @@ MeanComparison compare_cells(const std::function<Cell(std::size_t)>& cell,
             continue;
         }
         const double z = std::abs(c.difference) / std::max(c.error, 1e-7 * c.size);
-        if (z > result.critical_z) {
+        const double critical = critical_t(normal, c.degrees_of_freedom);
+        result.critical_z = std::max(result.critical_z, critical);
+        if (z > critical) {
+            result.equal = false;
             result.found_bias = std::max(result.found_bias, std::abs(c.difference) / c.size);
         }
         if (z > result.worst_z) {
             result.worst_z = z;
             result.worst_bias = c.difference / c.size;
         }
-        result.detectable_bias = std::max(result.detectable_bias,
-                                          (result.critical_z + ninety_percent) * c.error / c.size);
+        result.detectable_bias =
+            std::max(result.detectable_bias, (critical + ninety_percent) * c.error / c.size);
     }
     if (black == TileMeans::cells) {
         result.detectable_bias = std::max(result.detectable_bias, 1.0);  // nothing can be found
     }
-    result.equal = result.worst_z <= result.critical_z;
     result.sharp_enough = result.detectable_bias <= sharpness.detectable_bias;
     return result;
 }
 
-MeanComparison refine_until_sharp(const std::function<MeanComparison()>& compare,
-                                  const std::function<int(int)>& refine, const Sharpness& sharpness)
+/// The means of both together, or 0 where those are not above 0.
+std::array<double, TileMeans::cells> common_means(const TileMeans& a, const TileMeans& b)
 {
-    int batches = refine(32);
-    for (;;) {
-        MeanComparison result = compare();
-        result.batches = batches;
-        if (result.sharp_enough || batches >= sharpness.max_batches) {
-            return result;
-        }
-        // The error falls with the root of the number of batches; a little more than that needs.
-        const double ratio = result.detectable_bias / sharpness.detectable_bias;
-        const int wanted = static_cast<int>(1.1 * ratio * ratio * batches) + 1;
-        batches =
-            refine(std::clamp(wanted, batches + 8, std::min(4 * batches, sharpness.max_batches)) -
-                   batches);
+    std::array<double, TileMeans::cells> means{};
+    for (std::size_t i = 0; i < means.size(); ++i) {
+        means[i] = std::max(0.0, 0.5 * (a.cell_moments()[i].mean() + b.cell_moments()[i].mean()));
     }
+    return means;
+}
+
+/// Renders what `wanted` lacks: no more than four times what there is, as errors are estimates, nor
+/// more than `most`. Each cell gets a quarter of what the noisiest gets: rare light that was seen
+/// there may be in the others too. False if there is all of that already.
+bool refine(TileMeans& means, const std::array<int, TileMeans::cells>& wanted, int most)
+{
+    std::array<int, TileMeans::cells> next{};
+    bool more = false;
+    for (std::size_t i = 0; i < next.size(); ++i) {
+        const int have = static_cast<int>(means.cell_moments()[i].count());
+        next[i] = have;
+        if (wanted[i] > have && have < most) {
+            next[i] = std::min({std::max(wanted[i], have + 8), 4 * have, most});
+            more = true;
+        }
+    }
+    const int least = *std::max_element(next.begin(), next.end()) / 4;
+    for (int& batches : next) {
+        batches = std::max(batches, least);
+    }
+    means.refine_to(next);
+    return more;
+}
+
+/// The standard error that is aimed at, relative to the mean: a little less than is needed.
+double wanted_error(const MeanComparison& result, const Sharpness& sharpness)
+{
+    return sharpness.detectable_bias / (result.critical_z + ninety_percent) / std::sqrt(1.1);
 }
 
 }  // namespace
@@ -95,85 +141,58 @@ std::string MeanComparison::text() const
     return out.str();
 }
 
-TileMeans::TileMeans(const Scene& scene, const CameraDesc& camera, RenderOptions options,
-                     SamplerKind sampler)
-    : scene_(scene), camera_(camera), options_(options)
-{
-    options_.sampling.sampler = sampler;
-    options_.film.width = side;
-    options_.film.height = side;
-}
-
-RenderOptions TileMeans::options_of_batch(int batch) const
-{
-    RenderOptions options = options_;
-    if (options_.sampling.sampler == SamplerKind::sobol) {
-        options.sampling.samples = {.begin = 0, .end = 8};
-        options.sampling.seed = options_.sampling.seed << 32U | static_cast<std::uint32_t>(batch);
-    } else {
-        options.sampling.samples = {.begin = batch, .end = batch + 1};
-    }
-    return options;
-}
-
-void TileMeans::refine(int batches)
-{
-    for (int batch = 0; batch < batches; ++batch, ++batches_) {
-        const Image image = render(scene_, camera_, options_of_batch(batches_)).film.develop();
-        std::array<double, cells> sums{};
-        for (int y = 0; y < side; ++y) {
-            for (int x = 0; x < side; ++x) {
-                const int tile = y * grid / side * grid + x * grid / side;
-                const Rgb& pixel = image.at(x, y);
-                sums[static_cast<std::size_t>(tile)] +=
-                    static_cast<double>(pixel.r + pixel.g + pixel.b) / 3.0;
-            }
-        }
-        constexpr double pixels = static_cast<double>(side * side) / (grid * grid);
-        for (std::size_t i = 0; i < cells; ++i) {
-            moments_[i].add(sums[i] / pixels);
-        }
-    }
-}
-
 MeanComparison compare_means(TileMeans& a, TileMeans& b, const Sharpness& sharpness)
 {
-    const auto compare = [&] {
-        return compare_cells(
+    a.refine_to(first_batches);
+    b.refine_to(first_batches);
+    for (;;) {
+        MeanComparison result = compare_cells(
             [&](std::size_t i) {
                 const Moments& x = a.cell_moments()[i];
                 const Moments& y = b.cell_moments()[i];
                 return Cell{.difference = y.mean() - x.mean(),
                             .error = std::hypot(x.standard_error(), y.standard_error()),
-                            .size = 0.5 * (x.mean() + y.mean())};
+                            .size = 0.5 * (x.mean() + y.mean()),
+                            .degrees_of_freedom = degrees_of_freedom(x, y)};
             },
             sharpness);
-    };
-    const auto refine = [&](int batches) {
-        a.refine(batches);
-        b.refine(batches);
-        return std::min(a.batches(), b.batches());
-    };
-    return refine_until_sharp(compare, refine, sharpness);
+        result.batches = std::min(a.batches(), b.batches());
+        if (result.sharp_enough) {
+            return result;
+        }
+        const auto means = common_means(a, b);
+        const BatchPlan plan =
+            least_work(a.evidence(means), b.evidence(means), wanted_error(result, sharpness));
+        const bool more_of_a = refine(a, plan.a, sharpness.max_batches);
+        const bool more_of_b = refine(b, plan.b, sharpness.max_batches);
+        if (!more_of_a && !more_of_b) {
+            return result;
+        }
+    }
 }
 
 MeanComparison compare_means(TileMeans& a, double expected, const Sharpness& sharpness)
 {
-    const auto compare = [&] {
-        return compare_cells(
+    a.refine_to(first_batches);
+    std::array<double, TileMeans::cells> means{};
+    means.fill(expected);
+    for (;;) {
+        MeanComparison result = compare_cells(
             [&](std::size_t i) {
                 const Moments& x = a.cell_moments()[i];
                 return Cell{.difference = x.mean() - expected,
                             .error = x.standard_error(),
-                            .size = expected};
+                            .size = expected,
+                            .degrees_of_freedom = static_cast<double>(x.count() - 1)};
             },
             sharpness);
-    };
-    const auto refine = [&](int batches) {
-        a.refine(batches);
-        return a.batches();
-    };
-    return refine_until_sharp(compare, refine, sharpness);
+        result.batches = a.batches();
+        const BatchPlan plan =
+            least_work(a.evidence(means), BatchEvidence{}, wanted_error(result, sharpness));
+        if (result.sharp_enough || !refine(a, plan.a, sharpness.max_batches)) {
+            return result;
+        }
+    }
 }
 
 }  // namespace bdpt::test

@@ -223,7 +223,7 @@ check_descriptions() {
   for package in "$1"/*_"${VERSION}"_*.deb; do
     name=$(dpkg-deb -f "$package" Package)
     cmp "$SOURCE/LICENSE" "$1/unpacked/usr/share/doc/$name/copyright" || fail "no copyright in $package"
-    dpkg-deb -f "$package" Description | head -n 1
+    dpkg-deb -f "$package" Description | sed -n 1p  # head would end before all is written
   done > "$1/descriptions"
   line=$(sort "$1/descriptions" | uniq -d)
   [[ -z $line ]] || fail "several packages are called: $line"

@@ -23,7 +23,9 @@ enum class SampleUse : std::uint32_t {
     lens,         ///< a lens point: of the camera subpath (0), for a vertex of the light subpath
     ground,       ///< a light (even numbers) or a direction (odd) for the ground under the scene
     flight,       ///< where a medium scatters a camera path (even) or a light path (odd)
-    fog,          ///< a light, and a point of the fog for it, on a segment of the camera path
+    /// A light, and a point of the fog for it, on a segment of the camera path. Path tracing alone
+    /// has it: its numbers at a vertex are those of `film` at the next, which only splats have.
+    fog,
 };
 
 /// Random numbers of one pixel sample, a pure function of (kind, seed, pixel, sample index, use,

@@ -91,6 +91,7 @@ TEST_CASE("batches that are there are used, and a known mean needs none", "[stat
     CHECK(plan.a[1] == 5000);
     CHECK(plan.b[1] == 103);  // 1 / (1 - 100 / 5000), in hundreds
     CHECK(plan.a[0] == Approx(200).epsilon(0.06));
+    CHECK(least_work(b, a, error).b[1] == 5000);
     const BatchPlan alone = least_work(a, BatchEvidence{}, error);
     CHECK(alone.a[0] == Approx(100).margin(1));
     CHECK(alone.a[1] == 5000);

@@ -66,6 +66,7 @@ bool measure(const std::string& file, const Settings& settings)
 {
     const Subject subject = load_subject(file, settings.subject);
     RenderOptions options = subject.options;
+    options.integrator = IntegratorKind::bdpt;  // auto traces rays of its own before
     options.sampling.samples.end = settings.samples;
     const RayLogs logs = record_rays(subject, options);
     const RayThroughput result = measure_throughput(subject, options, logs, settings.rounds);

@@ -84,8 +84,9 @@ public:
         return settled_.empty() ? unsettled_point(triangle, barycentrics, time)
                                 : settled_[triangle].point(barycentrics);
     }
-    /// Where the line of the ray crosses the plane of the triangle. Embree knows it too, but from
-    /// reciprocals that CPUs of different makers approximate differently; this is the same on all.
+    /// Writes to `at` where the line of the ray crosses the plane of the triangle. Embree knows it
+    /// too, but from reciprocals that CPUs of different makers approximate differently; this is the
+    /// same on all.
     void hit(std::uint32_t triangle, const Ray& ray, TriangleHit& at) const
     {
         if (settled_.empty()) {

@@ -16,10 +16,11 @@ public:
         : options_(options), strategies_(strategies), weigher_(weigher), sink_(sink)
     {}
 
-    /// s <= 1: the camera path hits lights, and is joined to fresh points of them. From here on
-    /// light paths are joined to `path`.
+    /// s <= 1: the camera path hits lights, and is joined to fresh points of them. Comes before
+    /// `join_paths` with the same path.
     void join_camera_path(SampleContext& sample, Subpath& path);
-    /// t <= 1: vertices of a light path are seen through the lens.
+    /// t <= 1: vertices of a light path are seen through the lens, or it crosses the lens. Comes
+    /// before `join_paths` with the same path, which may be kept in between.
     void join_light_path(SampleContext& sample, Subpath& path);
     /// s >= 2, t >= 2
     void join_paths(const SampleContext& sample, std::span<const PathVertex> light,

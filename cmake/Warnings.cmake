@@ -5,8 +5,13 @@ function(bdpt_compile_options target)
   # Shared libraries export what is marked BDPT_EXPORT and nothing else.
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF
                         CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+  set(shadow -Wshadow)
+  if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # Of many files that are compiled as one, none is the main file, and each sees the functions of others.
+    set(shadow -Wshadow=local -Wno-subobject-linkage)
+  endif()
   target_compile_options(${target} PRIVATE
-    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wnon-virtual-dtor
+    -Wall -Wextra -Wpedantic ${shadow} -Wconversion -Wsign-conversion -Wnon-virtual-dtor
     -Wold-style-cast -Woverloaded-virtual -Wimplicit-fallthrough
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>  # false alarms of g++ 12 on std::string
     # A product and a sum are rounded apart on every CPU, so that images are equal to the bit.

@@ -9,7 +9,7 @@
 namespace bdpt::app {
 namespace {
 
-constexpr const char* footer = R"(Examples:
+constexpr const char* first_examples = R"(Examples:
   bdpt render scene.gltf -o out.exr
   bdpt render scene.glb -o out.exr -o preview.png --spp 256
   bdpt info scene.glb
@@ -29,7 +29,7 @@ CommandLine::CommandLine()
     app.set_version_flag("--version", version_text,
                          "Print the version, that of libraries, and the instruction set");
     app.require_subcommand(1);
-    app.footer(footer);
+    app.footer(first_examples);
     app.formatter(std::make_shared<HelpFormatter>());
     render = app.add_subcommand("render", "Render a scene to .exr and .png files");
     add_render_options(*render, render_words);

@@ -17,7 +17,7 @@
 namespace bdpt::app {
 namespace {
 
-constexpr const char* footer = R"(Examples:
+constexpr const char* info_examples = R"(Examples:
   bdpt info scene.gltf
   bdpt info scene.glb --json
   bdpt info --limits
@@ -100,7 +100,7 @@ void add_info_options(CLI::App& command, InfoArguments& arguments)
     add_scene_options(command, arguments.scene, "Scene");
     command.add_flag("--limits", arguments.limits, "Print the limits of what a file may contain");
     command.add_flag("--json", arguments.json, "Print one JSON object instead of text");
-    command.footer(footer);
+    command.footer(info_examples);
 }
 
 int run_info(const InfoArguments& arguments)

@@ -18,7 +18,7 @@ namespace {
 
 using eval::BenchOptions;
 
-constexpr const char* footer = R"(Examples:
+constexpr const char* bench_examples = R"(Examples:
   bdpt bench scenes/cornell-box.gltf scenes/cornell-box-hidden.gltf -o out/bench
   bdpt bench scenes/*.gltf -o out/quick --quick
   bdpt bench room.glb -o out/room --integrators pt,mis,bdpt --time 20s --seeds 9 --env sky.hdr
@@ -187,7 +187,7 @@ void add_bench_options(CLI::App& command, BenchWords& words)
     add_effort(command, words);
     add_image_options(command, words.render);
     add_view_options(command, words.render);
-    command.footer(footer);
+    command.footer(bench_examples);
 }
 
 BenchArguments understand(const BenchWords& words)

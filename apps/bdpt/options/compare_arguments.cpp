@@ -16,7 +16,7 @@ namespace {
 
 using eval::Metric;
 
-constexpr const char* footer = R"(Examples:
+constexpr const char* compare_examples = R"(Examples:
   bdpt compare out.exr reference.exr
   bdpt compare seeds/ reference.exr --error-image error.png
   bdpt compare out.exr reference.exr --threshold relmse=0.01 --metrics relmse,flip --json
@@ -226,7 +226,7 @@ void add_compare_options(CLI::App& command, CompareWords& words)
         ->type_name("FILE");
     add_measures(command, words);
     add_output(command, words);
-    command.footer(footer);
+    command.footer(compare_examples);
 }
 
 CompareArguments understand(const CompareWords& words)

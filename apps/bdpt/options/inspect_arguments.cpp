@@ -9,7 +9,7 @@
 namespace bdpt::app {
 namespace {
 
-constexpr const char* footer = R"(Examples:
+constexpr const char* inspect_examples = R"(Examples:
   bdpt inspect room.glb --pixel 640,360
   bdpt inspect room.glb --pixel 12,30 --size 64x64 --integrator bdpt --sample 7 --json
   bdpt inspect room.glb --pixel 640,360 -o directions.png
@@ -72,7 +72,7 @@ void add_inspect_options(CLI::App& command, InspectWords& words)
     command
         .add_flag("--json", words.render.json, "Print one JSON object on stdout instead of text")
         ->group("Output");
-    command.footer(footer);
+    command.footer(inspect_examples);
 }
 
 InspectArguments understand(const InspectWords& words)

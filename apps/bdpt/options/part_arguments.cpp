@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* no_end = "true";  // what the parser takes --wait without a time for
 
-constexpr const char* footer = R"(Examples:
+constexpr const char* part_examples = R"(Examples:
   bdpt merge job/*.part.exr -o out.exr -o out.png
   bdpt merge job/*.part.exr -o now.png --partial
   bdpt merge job/0-*.part.exr -o job-0.part.exr
@@ -176,7 +176,7 @@ void add_merge_options(CLI::App& command, MergeWords& words)
                   "Print one JSON object per line on stdout: warning, done, error. With --quiet "
                   "only done and error")
         ->group(group);
-    command.footer(footer);
+    command.footer(part_examples);
 }
 
 MergeArguments understand(const MergeWords& words)

@@ -18,7 +18,7 @@
 namespace bdpt::app {
 namespace {
 
-constexpr const char* footer = R"(Examples:
+constexpr const char* plan_examples = R"(Examples:
   bdpt plan scene.glb -o out.exr --spp 4096 --parts 64 --for slurm -d job
   bdpt plan scene.glb -o out.exr --spp 4096 --minutes 20 --for make -d job
   bdpt plan walk.glb -o out.####.exr --frames 1:48 --fps 24 --parts 12 --for make -d job
@@ -142,7 +142,7 @@ void add_plan_options(CLI::App& command, PlanWords& words)
     add_plannable_options(command, words.render);
     add_sequence_options(command, words.render.sequence);
     add_strategy_options(command, words.render.strategies);
-    command.footer(footer);
+    command.footer(plan_examples);
 }
 
 PlanArguments understand(const PlanWords& words)

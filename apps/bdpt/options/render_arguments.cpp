@@ -18,7 +18,7 @@
 namespace bdpt::app {
 namespace {
 
-constexpr const char* footer = R"(Examples:
+constexpr const char* render_examples = R"(Examples:
   bdpt render scene.gltf -o out.exr
   bdpt render scene.glb -o out.exr -o out.png --spp 256 --size 1920x1080
   bdpt render room.glb -o out.exr --time 90s --camera "Camera 2"
@@ -321,7 +321,7 @@ void add_render_options(CLI::App& command, RenderWords& words)
     add_plannable_options(command, words);
     add_process_options(command, words);
     add_sequence_options(command, words.sequence);
-    command.footer(footer);
+    command.footer(render_examples);
 }
 
 RenderArguments understand(const RenderWords& words)

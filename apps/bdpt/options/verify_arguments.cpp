@@ -11,7 +11,7 @@
 namespace bdpt::app {
 namespace {
 
-constexpr const char* footer = R"(Examples:
+constexpr const char* verify_examples = R"(Examples:
   bdpt verify scene.gltf
   bdpt verify room.glb --from 0,1.6,2 --look-at 0,1,0 --time 10m
   bdpt verify scene.gltf --size 64x64 --max-depth 8 --json
@@ -114,7 +114,7 @@ void add_verify_options(CLI::App& command, VerifyWords& words)
     command
         .add_flag("-q,--quiet", words.render.quiet, "Print only errors and the object of --json")
         ->group(group);
-    command.footer(footer);
+    command.footer(verify_examples);
 }
 
 VerifyArguments understand(const VerifyWords& words)

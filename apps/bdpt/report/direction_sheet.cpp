@@ -101,7 +101,7 @@ Image mean_density(const DirectionMaps& maps, int light_samples)
     return result;
 }
 
-Layer layer_of(const Image& map, const char* name)
+Layer map_layer(const Image& map, const char* name)
 {
     Layer layer{
         .name = name, .channels = "RGB", .width = map.width, .height = map.height, .values = {}};
@@ -152,8 +152,8 @@ io::DisplayImage direction_sheet(const DirectionMaps& maps, int light_samples)
 
 std::vector<Layer> direction_layers(const DirectionMaps& maps)
 {
-    return {layer_of(maps.incident, "incident"), layer_of(maps.scattering, "scattering"),
-            layer_of(maps.bsdf_pdf, "bsdf_pdf"), layer_of(maps.light_pdf, "light_pdf")};
+    return {map_layer(maps.incident, "incident"), map_layer(maps.scattering, "scattering"),
+            map_layer(maps.bsdf_pdf, "bsdf_pdf"), map_layer(maps.light_pdf, "light_pdf")};
 }
 
 }  // namespace bdpt::app

@@ -30,7 +30,7 @@ constexpr std::array<std::pair<std::string_view, Aov>, 9> aovs{{{"albedo", Aov::
                                                                 {"material", Aov::material}}};
 
 /// The parts of `text` between commas; empty ones too.
-std::vector<std::string_view> split(std::string_view text)
+std::vector<std::string_view> split_at_commas(std::string_view text)
 {
     std::vector<std::string_view> parts;
     for (;;) {
@@ -75,7 +75,7 @@ std::optional<FilterOptions> parse_filter(std::string_view text)
 std::optional<AovSet> parse_aovs(std::string_view text)
 {
     AovSet result;
-    for (const std::string_view part : split(text)) {
+    for (const std::string_view part : split_at_commas(text)) {
         const std::optional<Aov> aov = look_up(aovs, part);
         if (!aov) {
             return std::nullopt;
@@ -89,7 +89,7 @@ std::optional<PixelRect> parse_crop(std::string_view text)
 {
     constexpr std::size_t largest = 65535;
     std::array<int, 4> corners{};
-    const std::vector<std::string_view> parts = split(text);
+    const std::vector<std::string_view> parts = split_at_commas(text);
     if (parts.size() != corners.size()) {
         return std::nullopt;
     }

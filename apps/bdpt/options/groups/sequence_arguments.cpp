@@ -27,7 +27,7 @@ std::optional<int> parse_int(std::string_view text)
 }
 
 /// The parts of `text` between colons.
-std::vector<std::string_view> split(std::string_view text)
+std::vector<std::string_view> split_at_colons(std::string_view text)
 {
     std::vector<std::string_view> parts;
     for (std::size_t colon = text.find(':'); colon != std::string_view::npos;
@@ -56,7 +56,7 @@ FrameRange to_frames(const std::string& word, int orbit)
 
 std::optional<FrameRange> parse_frames(const std::string& text)
 {
-    const std::vector<std::string_view> parts = split(text);
+    const std::vector<std::string_view> parts = split_at_colons(text);
     if (parts.size() > 3) {
         return std::nullopt;
     }

@@ -6,7 +6,7 @@
 namespace bdpt::app {
 namespace {
 
-constexpr const char* submit = R"sh(#!/bin/bash
+constexpr const char* sbatch_script = R"sh(#!/bin/bash
 # ./submit.sh [OPTION OF sbatch]...: renders plan.json with Slurm, and merges the parts. Options are for the
 # tasks, like --time=2:00:00 --cpus-per-task=16; for all jobs: SBATCH_PARTITION, SBATCH_ACCOUNT.
 # Again: what is missing; tasks that are done end at once. Of some tasks only: --array=3,7.
@@ -72,7 +72,7 @@ exec "${BDPT:-bdpt}" merge --plan plan.json
 std::vector<EngineFile> slurm_files(const Plan& plan)
 {
     const std::string last = fmt::format("{}", plan.tasks.size() - 1);
-    return {{.name = "submit.sh", .text = submit, .kind = FileKind::program},
+    return {{.name = "submit.sh", .text = sbatch_script, .kind = FileKind::program},
             {.name = "tasks.sbatch", .text = filled(tasks, {{"LAST", last}})},
             {.name = "merge.sbatch", .text = merge}};
 }

@@ -6,7 +6,7 @@
 namespace bdpt::manual {
 namespace {
 
-std::string quoted(const std::string& text)
+std::string fish_quoted(const std::string& text)
 {
     std::string result = "'";
     for (const char c : text) {
@@ -32,9 +32,9 @@ std::string option_line(const CommandInfo& command, const OptionInfo& option)
     std::string words = fmt::format("{}", fmt::join(option.choices, " "));
     words += option.paths == Paths::folders ? "(__fish_complete_directories)" : "";
     if (!words.empty()) {
-        line += " -a " + quoted(words);
+        line += " -a " + fish_quoted(words);
     }
-    return line + " -d " + quoted(summary_of(option.text)) + "\n";
+    return line + " -d " + fish_quoted(summary_of(option.text)) + "\n";
 }
 
 }  // namespace
@@ -46,7 +46,7 @@ std::string fish_completion(std::span<const CommandInfo> commands)
         "complete -c bdpt -f\n";
     for (const CommandInfo& command : commands) {
         result += fmt::format("complete -c bdpt -n __fish_use_subcommand -a {} -d {}\n",
-                              command.name, quoted(command.text));
+                              command.name, fish_quoted(command.text));
     }
     for (const CommandInfo& command : commands) {
         for (const OptionInfo& option : command.options) {

@@ -7,7 +7,7 @@ namespace bdpt::manual {
 namespace {
 
 /// What stands in single quotes and brackets of _arguments.
-std::string quoted(const std::string& text)
+std::string zsh_quoted(const std::string& text)
 {
     std::string result;
     for (const char c : text) {
@@ -29,14 +29,14 @@ std::string action(const OptionInfo& option)
     if (option.paths != Paths::none && !option.choices.empty()) {
         // _alternative takes each as one word in double quotes.
         return fmt::format("{}:{{_alternative \"words\\:word\\:({})\" \"files\\:file\\:_files\"}}",
-                           quoted(option.value), fmt::join(option.choices, " "));
+                           zsh_quoted(option.value), fmt::join(option.choices, " "));
     }
     if (option.paths != Paths::none) {
         words = option.paths == Paths::folders ? "_files -/" : "_files";
     } else {
         words = option.choices.empty() ? " " : fmt::format("({})", fmt::join(option.choices, " "));
     }
-    return fmt::format("{}:{}", quoted(option.value), words);
+    return fmt::format("{}:{}", zsh_quoted(option.value), words);
 }
 
 std::string arguments(const CommandInfo& command)
@@ -51,7 +51,7 @@ std::string arguments(const CommandInfo& command)
                                  : is_long                      ? "="
                                                                 : "";
             result += fmt::format("        '*{}{}[{}]{}' \\\n", name, equals,
-                                  quoted(summary_of(option.text)), value);
+                                  zsh_quoted(summary_of(option.text)), value);
         }
     }
     for (const OptionInfo& argument : command.arguments) {
@@ -69,7 +69,7 @@ std::string zsh_completion(std::span<const CommandInfo> commands)
         "#compdef bdpt\n# Completion of bdpt in zsh; made from the options of the command.\n\n"
         "_bdpt() {\n  local -a commands\n  commands=(\n";
     for (const CommandInfo& command : commands) {
-        result += fmt::format("    '{}:{}'\n", command.name, quoted(command.text));
+        result += fmt::format("    '{}:{}'\n", command.name, zsh_quoted(command.text));
     }
     result +=
         "  )\n  if (( CURRENT == 2 )); then\n    _describe command commands\n    return\n  fi\n"

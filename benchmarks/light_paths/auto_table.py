@@ -3,7 +3,9 @@
 
 Prints for each scene what auto chose, the share of its time that the pilot took, and its error at equal CPU time over
 that of the best of the three and over that of bdpt: medians over seeds of CPU time (the pilot's included) times relMSE,
-and times relMSE over scales. The reference is a long render by auto with another seed."""
+and times relMSE over scales. The noise is that of the first ratio, as a factor (one standard error, from its seeds).
+Integrators take turns, so that a machine that is slow for a while is so for all. The reference is a long render by auto
+with another seed."""
 
 import argparse
 import json
@@ -40,24 +42,32 @@ def errors(bdpt, image, reference):
 
 
 def measure(bdpt, scene, arguments):
-    """Name of the integrator -> seconds times each error, and what auto chose."""
+    """Name of the integrator -> for each seed seconds times each error, and what auto chose."""
     with tempfile.TemporaryDirectory() as folder:
         image, stats = (pathlib.Path(folder) / name for name in ("image.exr", "stats.json"))
         reference = (arguments.references or pathlib.Path(folder)) / f"{scene.stem}.exr"
         if not reference.exists():
             render(bdpt, scene, reference, arguments.side, "--spp", str(arguments.reference_spp), "--seed", "999")
         start = min(render(bdpt, scene, image, arguments.side, "--spp", "1", "--integrator", "mis") for _ in range(2))
-        products = {}
-        for name in INTEGRATORS:
-            runs = []
-            for seed in range(1, arguments.seeds + 1):
+        products = {name: [] for name in INTEGRATORS}
+        for seed in range(1, arguments.seeds + 1):
+            for name in INTEGRATORS:
                 seconds = render(bdpt, scene, image, arguments.side, "--spp", str(arguments.spp), "--seed", str(seed),
                                  "--integrator", name, "--stats", stats) - start
-                runs.append([max(seconds, 1e-6) * error for error in errors(bdpt, image, reference)])
-                if name == "auto" and seed == 1:
+                products[name].append([max(seconds, 1e-6) * error for error in errors(bdpt, image, reference)])
+                if name == "auto":
                     told = json.loads(stats.read_text())
-            products[name] = [statistics.median(column) for column in zip(*runs)]
         return products, told
+
+
+def medians(runs):
+    return [statistics.median(column) for column in zip(*runs)]
+
+
+def noise(*products):
+    """Of the quotient of two medians of relMSE, as a factor >= 1."""
+    logs = [[math.log(run[0]) for run in runs] for runs in products]
+    return math.exp(math.sqrt(sum(statistics.variance(column) / len(column) for column in logs)))
 
 
 def words(settings):
@@ -76,11 +86,13 @@ def main():
     parser.add_argument("--seeds", type=int, default=5, help="renders by each integrator (5)")
     parser.add_argument("--reference-spp", type=int, default=1024, help="samples of the reference (1024)")
     parser.add_argument("--references", type=pathlib.Path, metavar="DIR", help="where references are kept for later runs")
-    arguments = parser.parse_args()
-    print(f"{'scene':26} {'auto chose':14} {'pilot':>6} {'over best single':>17} {'scales':>7} {'over bdpt':>10} {'scales':>7}")
+    arguments = parser.parse_intermixed_args()
+    print(f"{'scene':26} {'auto chose':14} {'pilot':>6} {'over best single':>17} {'scales':>7} {'over bdpt':>10} {'scales':>7} {'best':>5} {'noise':>6}")
     ratios = []
     for scene in arguments.scenes or sorted((ROOT / "scenes").glob("*.gltf")):
-        products, told = measure(arguments.bdpt, scene, arguments)
+        runs, told = measure(arguments.bdpt, scene, arguments)
+        products = {name: medians(runs[name]) for name in INTEGRATORS}
+        best = min(("mis", "lt", "bdpt"), key=lambda name: products[name][0])
         row = []
         for others in (("mis", "lt", "bdpt"), ("bdpt",)):
             row += [products["auto"][i] / min(products[name][i] for name in others) for i in range(len(METRICS))]
@@ -88,7 +100,7 @@ def main():
         times = told["seconds"]
         share = times["choose"] / (times["choose"] + times["render"])
         print(f"{scene.stem:26} {words(told['settings']):14} {100 * share:5.1f}% {row[0]:17.2f} {row[1]:7.2f} {row[2]:10.2f} "
-              f"{row[3]:7.2f}", flush=True)
+              f"{row[3]:7.2f} {best:>5} {noise(runs['auto'], runs[best]):6.2f}", flush=True)
     means = [math.exp(statistics.fmean(math.log(value) for value in column)) for column in zip(*ratios)]
     print(f"{'geometric mean':26} {'':14} {'':6} {means[0]:17.2f} {means[1]:7.2f} {means[2]:10.2f} {means[3]:7.2f}")
     return 0

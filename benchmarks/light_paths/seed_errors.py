@@ -1,0 +1,62 @@
+"""Errors of renders from the spread between seeds, without a reference whose own noise would count."""
+
+import pathlib
+import sys
+
+import numpy as np
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "same_bits"))
+import exr_bits
+
+SCALES = (1, 2, 4, 8, 16)  # [pixels], as those of relmse_scales
+EPSILON = 0.01  # relative to the square of the mean, as `bdpt compare --relative` has it
+
+
+def pixels(file):
+    """Height x width x 3, R G B."""
+    image = exr_bits.read_exr(pathlib.Path(file).read_bytes())
+    kinds = {2: (np.uint16, np.float16), 4: (np.uint32, np.float32)}
+    planes = []
+    for name in "RGB":
+        channel = image.channels[name]
+        bits, floats = kinds[channel.length]
+        plane = np.array(channel.bits, bits).view(floats).astype(np.float64)
+        planes.append(plane.reshape(image.height, image.width))
+    return np.stack(planes, axis=-1)
+
+
+def averages(images, side):
+    """Of squares of `side` pixels; what is left over at the right and below is cut off."""
+    n, height, width, channels = images.shape
+    rows, columns = height // side, width // side
+    cut = images[:, :rows * side, :columns * side]
+    return cut.reshape(n, rows, side, columns, side, channels).mean(axis=(2, 4))
+
+
+def relative(squares, mean):
+    return float((squares / (mean ** 2 + EPSILON * mean.mean() ** 2)).mean())
+
+
+class SeedErrors:
+    """relMSE of one image, from those of several seeds, each seeds x height x width x 3. `sound` are of integrators that
+    miss no light: their mean stands for the true image."""
+
+    def __init__(self, sound):
+        self.sound = sound
+
+    def error(self, images, biased, side):
+        """Over squares of `side` pixels. What a `biased` integrator misses counts, less the noise of both means."""
+        own = averages(images, side)
+        others = [averages(sound, side) for sound in self.sound]
+        mean = np.mean([each.mean(axis=0) for each in others], axis=0)
+        variance = own.var(axis=0, ddof=1)
+        error = relative(variance, mean)
+        if biased:
+            noise = sum(each.var(axis=0, ddof=1) / len(each) for each in others) / len(others) ** 2 + variance / len(own)
+            error += max(0.0, relative((own.mean(axis=0) - mean) ** 2 - noise, mean))
+        return error
+
+    def errors(self, images, biased=False):
+        """relMSE, and its mean over scales."""
+        over_scales = [self.error(images, biased, side) for side in SCALES]
+        return np.array([over_scales[0], np.mean(over_scales)])

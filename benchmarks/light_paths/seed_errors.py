@@ -9,6 +9,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "same_bits"
 import exr_bits
 
 SCALES = (1, 2, 4, 8, 16)  # [pixels], as those of relmse_scales
+SMOOTHING = 8  # [pixels] on every side
 EPSILON = 0.01  # relative to the square of the mean, as `bdpt compare --relative` has it
 
 
@@ -33,13 +34,23 @@ def averages(images, side):
     return cut.reshape(n, rows, side, columns, side, channels).mean(axis=(2, 4))
 
 
-def relative(squares, mean):
-    return float((squares / (mean ** 2 + EPSILON * mean.mean() ** 2)).mean())
+def smoothed(image, reach):
+    """Means over squares of 2 reach + 1 pixels. A divisor must not have the noise that it divides: where light is rare,
+    a bright dot would be compared with itself."""
+    padded = np.pad(image, ((reach + 1, reach), (reach + 1, reach), (0, 0)), mode="edge")
+    sums = padded.cumsum(axis=0).cumsum(axis=1)
+    side = 2 * reach + 1
+    return (sums[side:, side:] - sums[:-side, side:] - sums[side:, :-side] + sums[:-side, :-side]) / side ** 2
+
+
+def relative(squares, mean, side):
+    brightness = smoothed(mean, SMOOTHING // side)
+    return float((squares / (brightness ** 2 + EPSILON * mean.mean() ** 2)).mean())
 
 
 class SeedErrors:
     """relMSE of one image, from those of several seeds, each seeds x height x width x 3. `sound` are of integrators that
-    miss no light: their mean stands for the true image."""
+    miss no light: their mean, smoothed, stands for the brightness that errors are relative to."""
 
     def __init__(self, sound):
         self.sound = sound
@@ -50,10 +61,10 @@ class SeedErrors:
         others = [averages(sound, side) for sound in self.sound]
         mean = np.mean([each.mean(axis=0) for each in others], axis=0)
         variance = own.var(axis=0, ddof=1)
-        error = relative(variance, mean)
+        error = relative(variance, mean, side)
         if biased:
             noise = sum(each.var(axis=0, ddof=1) / len(each) for each in others) / len(others) ** 2 + variance / len(own)
-            error += max(0.0, relative((own.mean(axis=0) - mean) ** 2 - noise, mean))
+            error += max(0.0, relative((own.mean(axis=0) - mean) ** 2 - noise, mean, side))
         return error
 
     def errors(self, images, biased=False):

@@ -122,6 +122,27 @@ long double strategy_density(const PathDensities& path, std::size_t s)
     return product;
 }
 
+void strategy_densities(const PathDensities& path, std::span<long double> densities)
+{
+    const std::size_t n = path.from_light.size();
+    long double from_camera = 1.0L;
+    densities[n] = 1.0L;
+    for (std::size_t i = n; i-- > 0;) {
+        from_camera *= static_cast<long double>(path.from_camera[i].value);
+        densities[i] = from_camera;
+    }
+    long double from_light = 1.0L;
+    for (std::size_t s = 0; s <= n; ++s) {
+        const long double start =
+            s == 1 ? static_cast<long double>(path.next_event.value) : from_light;
+        const float count = path.sample_counts[s];
+        densities[s] = count > 0.0f ? static_cast<long double>(count) * start * densities[s] : 0.0L;
+        if (s < n) {
+            from_light *= static_cast<long double>(path.from_light[s].value);
+        }
+    }
+}
+
 float mis_weight(const PathDensities& path, int s, Heuristic heuristic)
 {
     if (heuristic != Heuristic::balance && heuristic != Heuristic::power) {

@@ -28,6 +28,10 @@ struct PathDensities {
 /// for its range. Has the same rounding whoever asks.
 [[nodiscard]] long double strategy_density(const PathDensities& path, std::size_t s);
 
+/// That of all strategies, by s, with one product from each end in place of one for each strategy:
+/// the last digits differ. `densities` has room for n + 1.
+void strategy_densities(const PathDensities& path, std::span<long double> densities);
+
 /// Weight of the strategy that sampled the first `s` vertices from the light [Veach 1997,
 /// sec. 10.2]. A pure function of the path: the weights of all possible strategies of a path add up
 /// to one. `sample_counts[s]` is not 0.

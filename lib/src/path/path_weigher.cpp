@@ -16,6 +16,7 @@ PathWeigher::PathWeigher(const World& world, const Camera& camera, const Strateg
       sample_counts_(static_cast<std::size_t>(max_vertices) + 1),
       merge_weights_(static_cast<std::size_t>(max_vertices)),
       merge_weight_(merge_weight),
+      densities_(static_cast<std::size_t>(max_vertices) + 1),
       shares_(static_cast<std::size_t>(max_vertices) + 1)
 {
     if (WeightSums::applies(strategies, heuristic)) {
@@ -92,13 +93,13 @@ PathDensities PathWeigher::last_path() const
 
 std::span<const float> PathWeigher::shares()
 {
-    const PathDensities path = last_path();
+    strategy_densities(last_path(), densities_);
     long double sum = 0.0L;
     for (std::size_t s = 0; s <= size_; ++s) {
-        sum += strategy_density(path, s);
+        sum += densities_[s];
     }
     for (std::size_t s = 0; s <= size_; ++s) {
-        shares_[s] = sum > 0.0L ? static_cast<float>(strategy_density(path, s) / sum) : 0.0f;
+        shares_[s] = sum > 0.0L ? static_cast<float>(densities_[s] / sum) : 0.0f;
     }
     return std::span(shares_).first(size_ + 1);
 }

@@ -78,6 +78,7 @@ private:
     std::optional<WeightSums> sums_;
     bool uses_sums_ = false;
     bool keeps_paths_ = false;
+    std::vector<long double> densities_;  ///< of strategies, behind `shares_`
     std::vector<float> shares_;
 };
 

@@ -5,16 +5,37 @@
 #include <limits>
 
 namespace bdpt {
+namespace {
+
+/// Of the groups whose numbers of samples differ from the pilot's.
+struct Factors {
+    PerCandidate<double> splats{};
+    PerCandidate<double> connections{};
+};
+
+/// r to that power.
+constexpr Factors ratios(int power)
+{
+    Factors factors;
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        factors.splats[k] = 1.0;
+        factors.connections[k] = 1.0;
+        for (int i = 0; i < power; ++i) {
+            factors.splats[k] *= candidates[k].light_paths / PathShares::pilot_light_paths;
+            factors.connections[k] *= candidates[k].connections / PathShares::pilot_light_paths;
+        }
+    }
+    return factors;
+}
+constexpr Factors first = ratios(1);
+constexpr Factors second = ratios(2);
+constexpr Factors third = ratios(3);
+
+}  // namespace
 
 PathShares::Group PathShares::group_of(int s, int t)
 {
     return s <= 1 ? own : t <= 1 ? splats : connections;
-}
-
-PathShares::PerGroup PathShares::ratios(const Candidate& candidate)
-{
-    return {1.0f, static_cast<float>(candidate.light_paths / pilot_light_paths),
-            static_cast<float>(candidate.connections / pilot_light_paths)};
 }
 
 PathShares::PathShares(const PathContribution& path, Heuristic heuristic)
@@ -42,37 +63,51 @@ PathShares::PathShares(const PathContribution& path, Heuristic heuristic)
     }
 }
 
-float PathShares::sum(const PerGroup& ratio) const
+PerCandidate<double> PathShares::sums() const
 {
-    float result = 0.0f;
-    for (std::size_t g = 0; g < groups; ++g) {
-        result += raise(ratio[g]) * raised_[g];
+    const Factors& raised = squares_ ? second : first;
+    const auto of_own = static_cast<double>(raised_[own]);
+    const auto of_splats = static_cast<double>(raised_[splats]);
+    const auto of_connections = static_cast<double>(raised_[connections]);
+    PerCandidate<double> result;
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        result[k] = of_own + raised.splats[k] * of_splats + raised.connections[k] * of_connections;
     }
     return result;
 }
 
-double PathShares::weight(const Candidate& candidate) const
+PerCandidate<double> PathShares::weights() const
 {
-    const PerGroup ratio = ratios(candidate);
-    const float all = sum(ratio);
-    return all > 0.0f ? static_cast<double>(raise(ratio[used_] * used_share_) / all) : 0.0;
+    constexpr PerCandidate<double> ones = ratios(0).splats;
+    const Factors& raised = squares_ ? second : first;
+    const PerCandidate<double>& ratio = used_ == own      ? ones
+                                        : used_ == splats ? raised.splats
+                                                          : raised.connections;
+    const auto share = static_cast<double>(raise(used_share_));
+    PerCandidate<double> result = sums();
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        const double sum = result[k];
+        result[k] = ratio[k] * share / (sum > 0.0 ? sum : 1.0);
+    }
+    return result;
 }
 
-PathShares::SecondMoments PathShares::second_moments(const Candidate& candidate) const
+PathShares::SecondMoments PathShares::second_moments() const
 {
-    const PerGroup ratio = ratios(candidate);
-    const auto all = static_cast<double>(sum(ratio));
-    if (all == 0.0) {
-        return {.own = std::numeric_limits<double>::infinity()};
+    const Factors& factors = squares_ ? third : first;
+    const double square = static_cast<double>(mean_) * static_cast<double>(mean_);
+    const double of_own = square * static_cast<double>(moments_[own]);
+    const double of_splats = square * static_cast<double>(moments_[splats]);
+    const double of_connections = square * static_cast<double>(moments_[connections]);
+    const PerCandidate<double> all = sums();
+    SecondMoments result;
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        const double scale = 1.0 / (all[k] > 0.0 ? all[k] * all[k] : 1.0);
+        result.own[k] = all[k] > 0.0 ? scale * of_own : std::numeric_limits<double>::infinity();
+        result.splats[k] = scale * factors.splats[k] * of_splats;
+        result.connections[k] = scale * factors.connections[k] * of_connections;
     }
-    const auto part = [&](Group group) {
-        const float r = ratio[group];
-        return static_cast<double>((squares_ ? r * r * r : r) * moments_[group]);
-    };
-    const double scale = static_cast<double>(mean_) * static_cast<double>(mean_) / (all * all);
-    return {.own = scale * part(own),
-            .splats = scale * part(splats),
-            .connections = scale * part(connections)};
+    return result;
 }
 
 }  // namespace bdpt

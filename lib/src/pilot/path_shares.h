@@ -26,19 +26,19 @@ public:
     [[nodiscard]] double camera_mean() const { return camera_mean_; }
     [[nodiscard]] double splat_mean() const { return splat_mean_; }
     [[nodiscard]] int edges() const { return edges_; }
-    /// The candidate's weight of the strategy that found the path.
-    [[nodiscard]] double weight(const Candidate& candidate) const;
+    /// Each candidate's weight of the strategy that found the path.
+    [[nodiscard]] PerCandidate<double> weights() const;
 
-    /// What the path adds to the sum of the second moments of all strategies of the candidate,
+    /// What the path adds to the sum of the second moments of all strategies of a candidate,
     /// weighted and divided by their numbers of samples: it stands for the paths that any of them
     /// finds, so that rare finds of one are seen by another [Grittmann et al. 2022,
     /// "Efficiency-Aware Multiple Importance Sampling for Bidirectional Rendering Algorithms"].
     struct SecondMoments {
-        double own = 0.0;          ///< s <= 1; infinite if the candidate cannot make the path
-        double splats = 0.0;       ///< t <= 1
-        double connections = 0.0;  ///< s, t >= 2
+        PerCandidate<double> own;          ///< s <= 1; infinite if the candidate has no such path
+        PerCandidate<double> splats;       ///< t <= 1
+        PerCandidate<double> connections;  ///< s, t >= 2
     };
-    [[nodiscard]] SecondMoments second_moments(const Candidate& candidate) const;
+    [[nodiscard]] SecondMoments second_moments() const;
 
 private:
     /// Strategies that take equally many samples: s <= 1; s >= 2 and t <= 1; s, t >= 2.
@@ -46,11 +46,10 @@ private:
     using PerGroup = std::array<float, groups>;
 
     [[nodiscard]] static Group group_of(int s, int t);
-    /// r of each group.
-    [[nodiscard]] static PerGroup ratios(const Candidate& candidate);
     /// What the heuristic makes of a share.
     [[nodiscard]] float raise(float share) const { return squares_ ? share * share : share; }
-    [[nodiscard]] float sum(const PerGroup& ratio) const;
+    /// Sums of raise(r a) over all strategies.
+    [[nodiscard]] PerCandidate<double> sums() const;
 
     float mean_;  ///< by the balance heuristic of all strategies
     float camera_mean_ = 0.0f;

@@ -48,8 +48,9 @@ PerCandidate<double> errors_of(const PilotGrid& grid, std::span<const PilotRow> 
         }
         for (const PilotSplat& splat : row.splats()) {
             const double scale = brightness.scale(splat) / (cells * PilotRow::samples_of_cell);
+            const PerCandidate<double> variances = remaining_variances(splat.shares);
             for (std::size_t k = 0; k < candidates.size(); ++k) {
-                errors[k] += scale * remaining_variance(splat.shares, candidates[k]);
+                errors[k] += scale * variances[k];
             }
         }
     }

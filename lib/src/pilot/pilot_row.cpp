@@ -45,11 +45,16 @@ double variance_of_sums(const Samples& samples, std::size_t candidate)
 
 }  // namespace
 
-double remaining_variance(const PathShares& shares, const Candidate& candidate)
+PerCandidate<double> remaining_variances(const PathShares& shares)
 {
-    const PathShares::SecondMoments moments = shares.second_moments(candidate);
+    const PathShares::SecondMoments moments = shares.second_moments();
     const LeftBySobol left = left_by_sobol(shares.edges());
-    return left.own * moments.own + left.connected * moments.connections + moments.splats;
+    PerCandidate<double> result;
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        result[k] =
+            left.own * moments.own[k] + left.connected * moments.connections[k] + moments.splats[k];
+    }
+    return result;
 }
 
 void PilotRow::render(const Integrator& integrator, const PilotGrid& grid, Heuristic heuristic,
@@ -77,8 +82,9 @@ PilotCell PilotRow::render_cell(const Integrator& integrator, const PilotGrid& g
                 return;
             }
             cell.mean += shares.camera_mean() / n;
+            const PerCandidate<double> variances = remaining_variances(shares);
             for (std::size_t k = 0; k < candidates.size(); ++k) {
-                cell.variances[k] += remaining_variance(shares, candidates[k]) / n;
+                cell.variances[k] += variances[k] / n;
             }
             if (shares.edges() >= direct_edges) {
                 (shares.edges() == direct_edges ? direct : indirect)[number].add(path, shares);

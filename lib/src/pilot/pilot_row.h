@@ -44,7 +44,7 @@ private:
     RenderStats stats_;
 };
 
-/// What a path adds to the variance that is left when random numbers are well spread.
-[[nodiscard]] double remaining_variance(const PathShares& shares, const Candidate& candidate);
+/// What a path adds to the variances that are left when random numbers are well spread.
+[[nodiscard]] PerCandidate<double> remaining_variances(const PathShares& shares);
 
 }  // namespace bdpt

@@ -10,8 +10,9 @@ void SampleMoments::add(const PathContribution& path, const PathShares& shares)
 {
     constexpr int light_paths = PathShares::pilot_light_paths;
     const auto unweighted = static_cast<double>(luminance(path.unweighted));
+    const PerCandidate<double> weights = shares.weights();
     for (std::size_t k = 0; k < candidates.size(); ++k) {
-        const double weighted = shares.weight(candidates[k]) * unweighted;
+        const double weighted = weights[k] * unweighted;
         if (path.strategy.s <= 1) {
             own_[k].add(weighted);
         } else {

@@ -52,11 +52,12 @@ double weight_of(const Candidate& candidate, int s, Heuristic heuristic)
 TEST_CASE("a path that a pilot found has the weights of every candidate", "[pilot]")
 {
     for (const Heuristic heuristic : {Heuristic::balance, Heuristic::power}) {
-        for (const Candidate& candidate : candidates) {
+        for (std::size_t k = 0; k < candidates.size(); ++k) {
+            const Candidate& candidate = candidates[k];
             double sum = 0.0;
             for (int s = 0; s <= vertices; ++s) {
                 CAPTURE(candidate.light_paths, candidate.connections, s);
-                const double weight = PathShares(path_of(s), heuristic).weight(candidate);
+                const double weight = PathShares(path_of(s), heuristic).weights()[k];
                 CHECK(weight == Approx(weight_of(candidate, s, heuristic)).epsilon(1e-5));
                 sum += weight;
             }
@@ -68,7 +69,8 @@ TEST_CASE("a path that a pilot found has the weights of every candidate", "[pilo
 TEST_CASE("second moments of a path are those of all strategies, whichever found it", "[pilot]")
 {
     for (const Heuristic heuristic : {Heuristic::balance, Heuristic::power}) {
-        for (const Candidate& candidate : candidates) {
+        for (std::size_t k = 0; k < candidates.size(); ++k) {
+            const Candidate& candidate = candidates[k];
             for (int found = 0; found <= vertices; ++found) {
                 CAPTURE(candidate.light_paths, candidate.connections, found);
                 // f over the density of all strategies of the pilot together.
@@ -87,11 +89,10 @@ TEST_CASE("second moments of a path are those of all strategies, whichever found
                     double& moment = s <= 1 ? own : vertices - s <= 1 ? splats : connections;
                     moment += mean * mean * weight * weight / taken;
                 }
-                const auto moments =
-                    PathShares(path_of(found), heuristic).second_moments(candidate);
-                CHECK(moments.own == Approx(own).epsilon(1e-5));
-                CHECK(moments.connections == Approx(connections).epsilon(1e-5));
-                CHECK(moments.splats == Approx(splats).epsilon(1e-5));
+                const auto moments = PathShares(path_of(found), heuristic).second_moments();
+                CHECK(moments.own[k] == Approx(own).epsilon(1e-5));
+                CHECK(moments.connections[k] == Approx(connections).epsilon(1e-5));
+                CHECK(moments.splats[k] == Approx(splats).epsilon(1e-5));
             }
         }
     }
@@ -107,12 +108,17 @@ TEST_CASE("a path that only light paths make counts against having none", "[pilo
                                 .weight = 1.0f,
                                 .shares = only_splats};
     const PathShares found(path, Heuristic::power);
-    CHECK(std::isinf(found.second_moments({.light_paths = 0.0, .connections = 0.0}).own));
-    const auto few = found.second_moments({.light_paths = 0.5, .connections = 0.25});
-    CHECK(few.own == 0.0);
-    CHECK(few.connections == 0.0);
-    // A quarter of the pilot's light paths: four times the second moment.
-    CHECK(few.splats == Approx(4.0));
+    const PathShares::SecondMoments moments = found.second_moments();
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        if (candidates[k].light_paths == 0.0) {
+            CHECK(std::isinf(moments.own[k]));
+            continue;
+        }
+        CHECK(moments.own[k] == 0.0);
+        CHECK(moments.connections[k] == 0.0);
+        // With a quarter of the pilot's light paths four times the second moment.
+        CHECK(moments.splats[k] == Approx(2.0 / candidates[k].light_paths));
+    }
     CHECK(found.camera_mean() == 0.0);
     CHECK(found.splat_mean() == Approx(1.0));
 }

@@ -110,6 +110,7 @@ void BidirectionalIntegrator::add_sample(int x, int y, const ScheduledSample& sc
     LightPathCache::Choice shared;
     if (cache_.counts().shared) {
         shared = cache_.choose(x, y, scheduled);
+        cache_.prefetch(shared);
         start.moment = cache_.moment(shared.bundle);
     }
     const TimedCamera camera(camera_, start.moment.time);

@@ -6,6 +6,7 @@
 #include "math/split_mix.h"
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 namespace bdpt {
@@ -25,6 +26,18 @@ constexpr std::uint32_t morton(int x, int y)
 {
     return spread_bits(static_cast<std::uint32_t>(x)) | spread_bits(static_cast<std::uint32_t>(y))
                                                             << 1U;
+}
+
+void prefetch_bytes(const void* begin, const void* end)
+{
+    constexpr std::ptrdiff_t line = 64;  // of most processors' caches [bytes]
+    const auto* last = static_cast<const std::byte*>(end);
+    for (const auto* at = static_cast<const std::byte*>(begin); at < last; at += line) {
+        __builtin_prefetch(at);
+    }
+    if (begin != end) {
+        __builtin_prefetch(last - 1);
+    }
 }
 
 }  // namespace
@@ -82,7 +95,7 @@ void LightPathCache::add_path(std::int64_t chunk, std::span<const PathVertex> pa
             filled.vertices.back().bsdf = nullptr;
         }
     }
-    filled.path_ends.push_back(filled.vertices.size());
+    filled.path_ends.push_back({.vertices = filled.vertices.size(), .bsdfs = filled.bsdfs.size()});
 }
 
 void LightPathCache::end_chunk(std::int64_t chunk)
@@ -120,11 +133,22 @@ LightPathCache::Choice LightPathCache::choose(int x, int y, const ScheduledSampl
 std::span<const PathVertex> LightPathCache::path(const Choice& choice, int which) const
 {
     const Chunk& chunk = chunk_of(choice.bundle);
-    const int in_bundle = (choice.first + which) % counts_.bundle;
-    const std::size_t path = place_of(choice.bundle) * static_cast<std::size_t>(counts_.bundle) +
-                             static_cast<std::size_t>(in_bundle);
-    const std::size_t begin = path == 0 ? 0 : chunk.path_ends[path - 1];
-    return std::span(chunk.vertices).subspan(begin, chunk.path_ends[path] - begin);
+    const std::size_t path = path_of(choice, which);
+    const std::size_t begin = chunk.begin_of(path).vertices;
+    return std::span(chunk.vertices).subspan(begin, chunk.path_ends[path].vertices - begin);
+}
+
+void LightPathCache::prefetch(const Choice& choice) const
+{
+    const Chunk& chunk = chunk_of(choice.bundle);
+    for (int i = 0; i < choice.count; ++i) {
+        const std::size_t path = path_of(choice, i);
+        const PathEnd begin = chunk.begin_of(path);
+        const PathEnd& end = chunk.path_ends[path];
+        prefetch_bytes(chunk.vertices.data() + begin.vertices,
+                       chunk.vertices.data() + end.vertices);
+        prefetch_bytes(chunk.bsdfs.data() + begin.bsdfs, chunk.bsdfs.data() + end.bsdfs);
+    }
 }
 
 }  // namespace bdpt

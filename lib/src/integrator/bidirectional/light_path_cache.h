@@ -53,6 +53,9 @@ public:
     /// which are as well spread over the rounds as a pixel's own, and of different ones for its
     /// samples within a round.
     [[nodiscard]] Choice choose(int x, int y, const ScheduledSample& sample) const;
+    /// Asks memory for the light paths of the choice, some time before they are needed: they are
+    /// anywhere in more of it than a processor's cache holds.
+    void prefetch(const Choice& choice) const;
     /// That of its light paths, and of the camera paths that are joined to them.
     [[nodiscard]] const SampleMoment& moment(std::int64_t bundle) const
     {
@@ -64,9 +67,9 @@ public:
     {
         for (const Chunk& chunk : chunks_) {
             std::size_t begin = 0;
-            for (const std::size_t end : chunk.path_ends) {
-                visit(std::span(chunk.vertices).subspan(begin, end - begin));
-                begin = end;
+            for (const PathEnd& end : chunk.path_ends) {
+                visit(std::span(chunk.vertices).subspan(begin, end.vertices - begin));
+                begin = end.vertices;
             }
         }
     }
@@ -74,11 +77,21 @@ public:
     [[nodiscard]] std::span<const PathVertex> path(const Choice& choice, int which) const;
 
 private:
+    /// Where a path ends in the arrays of its chunk, and the next one begins.
+    struct PathEnd {
+        std::size_t vertices = 0;
+        std::size_t bsdfs = 0;
+    };
     struct Chunk {
-        std::vector<SampleMoment> moments;   // by bundle
-        std::vector<std::size_t> path_ends;  // in `vertices`
-        std::vector<PathVertex> vertices;    // of one path after another
-        std::vector<Bsdf> bsdfs;             // of the vertices that can be joined, in their order
+        std::vector<SampleMoment> moments;  // by bundle
+        std::vector<PathEnd> path_ends;
+        std::vector<PathVertex> vertices;  // of one path after another
+        std::vector<Bsdf> bsdfs;           // of the vertices that can be joined, in their order
+
+        [[nodiscard]] PathEnd begin_of(std::size_t path) const
+        {
+            return path == 0 ? PathEnd{} : path_ends[path - 1];
+        }
     };
     [[nodiscard]] const Chunk& chunk_of(std::int64_t bundle) const
     {
@@ -87,6 +100,12 @@ private:
     [[nodiscard]] static std::size_t place_of(std::int64_t bundle)
     {
         return static_cast<std::size_t>(bundle % chunk_bundles);
+    }
+    /// Number of light path `which` of the choice in its chunk.
+    [[nodiscard]] std::size_t path_of(const Choice& choice, int which) const
+    {
+        return place_of(choice.bundle) * static_cast<std::size_t>(counts_.bundle) +
+               static_cast<std::size_t>((choice.first + which) % counts_.bundle);
     }
 
     LightPathCounts counts_;

@@ -261,6 +261,9 @@ FIGURES = {
         Cell("bdpt, 50 s", "cornell-spheres-hidden.gltf", depth(6), seconds=50.0, reference=depth(6)))),
     "denoise": Figure("Denoised by Open Image Denoise, at equal time", 5, denoised()),
     "media": Figure("Fog, tea and wax at equal time", 3, media()),
+    "rates": Figure("The error falls with the samples: mis, bdpt and auto", 4, tuple(
+        Cell(f"{name}, {spp} spp", "cornell-box-hidden.gltf", by(name) + depth(11), spp, reference=depth(11))
+        for name in ("mis", "bdpt", "auto") for spp in (4, 16, 64, 256))),
     "adaptive": Figure("Uniform and adaptive at equal samples, and how many each pixel took", 3, adaptive()),
     "profile": Figure("Where the time of a sample goes, by phase and by pixel", 5, profile()),
     "bvh": Figure("Rays per second with and without a BVH", 3, tuple(

@@ -13,7 +13,7 @@ LINE = 16  # height of a line of text below it [px]
 
 def oiiotool(*arguments):
     """What it prints. Throws CalledProcessError."""
-    done = subprocess.run(["oiiotool", *map(str, arguments)], check=True, capture_output=True, text=True)
+    done = subprocess.run(["oiiotool", "--nosoftwareattrib", *map(str, arguments)], check=True, capture_output=True, text=True)
     return done.stdout
 
 

@@ -11,6 +11,7 @@ import exr_bits
 SCALES = (1, 2, 4, 8, 16)  # [pixels], as those of relmse_scales
 SMOOTHING = 8  # [pixels] on every side
 EPSILON = 0.01  # relative to the square of the mean, as `bdpt compare --relative` has it
+DOTS = 10  # pixels that can be left out: those of largest error, where rare bright paths landed
 
 
 def pixels(file):
@@ -43,9 +44,11 @@ def smoothed(image, reach):
     return (sums[side:, side:] - sums[:-side, side:] - sums[side:, :-side] + sums[:-side, :-side]) / side ** 2
 
 
-def relative(squares, mean, side):
+def relative(squares, mean, side, without=0):
+    """Mean over pixels, `without` so many of the largest."""
     brightness = smoothed(mean, SMOOTHING // side)
-    return float((squares / (brightness ** 2 + EPSILON * mean.mean() ** 2)).mean())
+    of_pixels = np.sort((squares / (brightness ** 2 + EPSILON * mean.mean() ** 2)).mean(axis=-1), axis=None)
+    return float(of_pixels[:of_pixels.size - without].mean())
 
 
 class SeedErrors:
@@ -55,19 +58,19 @@ class SeedErrors:
     def __init__(self, sound):
         self.sound = sound
 
-    def error(self, images, biased, side):
+    def error(self, images, biased, side, without=0):
         """Over squares of `side` pixels. What a `biased` integrator misses counts, less the noise of both means."""
         own = averages(images, side)
         others = [averages(sound, side) for sound in self.sound]
         mean = np.mean([each.mean(axis=0) for each in others], axis=0)
         variance = own.var(axis=0, ddof=1)
-        error = relative(variance, mean, side)
+        error = relative(variance, mean, side, without)
         if biased:
             noise = sum(each.var(axis=0, ddof=1) / len(each) for each in others) / len(others) ** 2 + variance / len(own)
             error += max(0.0, relative((own.mean(axis=0) - mean) ** 2 - noise, mean, side))
         return error
 
     def errors(self, images, biased=False):
-        """relMSE, and its mean over scales."""
+        """relMSE, its mean over scales, and relMSE without dots."""
         over_scales = [self.error(images, biased, side) for side in SCALES]
-        return np.array([over_scales[0], np.mean(over_scales)])
+        return np.array([over_scales[0], np.mean(over_scales), self.error(images, biased, 1, DOTS)])

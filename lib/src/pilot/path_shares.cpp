@@ -7,22 +7,20 @@
 namespace bdpt {
 namespace {
 
-/// Of the groups whose numbers of samples differ from the pilot's.
-struct Factors {
-    PerCandidate<double> splats{};
-    PerCandidate<double> connections{};
-};
+/// r of each group (own, splats, connections) and candidate, to some power.
+using Factors = std::array<PerCandidate<double>, 3>;
 
-/// r to that power.
 constexpr Factors ratios(int power)
 {
-    Factors factors;
+    Factors factors{};
     for (std::size_t k = 0; k < candidates.size(); ++k) {
-        factors.splats[k] = 1.0;
-        factors.connections[k] = 1.0;
-        for (int i = 0; i < power; ++i) {
-            factors.splats[k] *= candidates[k].light_paths / PathShares::pilot_light_paths;
-            factors.connections[k] *= candidates[k].connections / PathShares::pilot_light_paths;
+        const std::array<double, 3> samples{PathShares::pilot_light_paths,
+                                            candidates[k].light_paths, candidates[k].connections};
+        for (std::size_t group = 0; group < samples.size(); ++group) {
+            factors[group][k] = 1.0;
+            for (int i = 0; i < power; ++i) {
+                factors[group][k] *= samples[group] / PathShares::pilot_light_paths;
+            }
         }
     }
     return factors;
@@ -71,18 +69,15 @@ PerCandidate<double> PathShares::sums() const
     const auto of_connections = static_cast<double>(raised_[connections]);
     PerCandidate<double> result;
     for (std::size_t k = 0; k < candidates.size(); ++k) {
-        result[k] = of_own + raised.splats[k] * of_splats + raised.connections[k] * of_connections;
+        result[k] =
+            of_own + raised[splats][k] * of_splats + raised[connections][k] * of_connections;
     }
     return result;
 }
 
 PerCandidate<double> PathShares::weights() const
 {
-    constexpr PerCandidate<double> ones = ratios(0).splats;
-    const Factors& raised = squares_ ? second : first;
-    const PerCandidate<double>& ratio = used_ == own      ? ones
-                                        : used_ == splats ? raised.splats
-                                                          : raised.connections;
+    const PerCandidate<double>& ratio = (squares_ ? second : first)[used_];
     const auto share = static_cast<double>(raise(used_share_));
     PerCandidate<double> result = sums();
     for (std::size_t k = 0; k < candidates.size(); ++k) {
@@ -104,8 +99,8 @@ PathShares::SecondMoments PathShares::second_moments() const
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         const double scale = 1.0 / (all[k] > 0.0 ? all[k] * all[k] : 1.0);
         result.own[k] = all[k] > 0.0 ? scale * of_own : std::numeric_limits<double>::infinity();
-        result.splats[k] = scale * factors.splats[k] * of_splats;
-        result.connections[k] = scale * factors.connections[k] * of_connections;
+        result.splats[k] = scale * factors[splats][k] * of_splats;
+        result.connections[k] = scale * factors[connections][k] * of_connections;
     }
     return result;
 }

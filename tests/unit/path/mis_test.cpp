@@ -110,6 +110,22 @@ TEST_CASE("MIS weights equal brute force and sum to one", "[mis]")
     }
 }
 
+TEST_CASE("the densities of all strategies at once are those of each", "[mis]")
+{
+    std::mt19937 engine(2);
+    for (int trial = 0; trial < 10000; ++trial) {
+        const RandomPath path(engine);
+        std::vector<long double> densities(path.sample_counts.size());
+        strategy_densities(path.densities(), densities);
+        for (std::size_t s = 0; s < densities.size(); ++s) {
+            REQUIRE(static_cast<double>(densities[s]) ==
+                    Catch::Approx(path.density(s)).epsilon(1e-12));
+            REQUIRE(static_cast<double>(strategy_density(path.densities(), s)) ==
+                    Catch::Approx(path.density(s)).epsilon(1e-12));
+        }
+    }
+}
+
 TEST_CASE("MIS weights of long paths neither overflow nor vanish", "[mis]")
 {
     constexpr std::size_t vertices = 60;

@@ -162,7 +162,7 @@ RenderStats BidirectionalIntegrator::do_part(std::int64_t chunk, SampleRange sam
     cache_.begin_chunk(chunk);
     for (std::int64_t bundle = first; bundle < last; ++bundle) {
         // Whatever may merge has one time and one wavelength: those of the first light path.
-        Sampler sampler = cache_.sampler(index, counts.merged ? 0 : bundle * counts.bundle);
+        Sampler sampler = cache_.sampler(index, counts.merged ? 0 : bundle, 0);
         sampler.start(SampleUse::film);
         const SampleMoment moment = draw_moment(sampler, world_, camera_);
         cache_.add_bundle(chunk, moment);
@@ -170,7 +170,7 @@ RenderStats BidirectionalIntegrator::do_part(std::int64_t chunk, SampleRange sam
         for (int i = 0; i < counts.bundle; ++i) {
             SampleContext sample{.world = world_,
                                  .camera = camera.get(),
-                                 .sampler = cache_.sampler(index, bundle * counts.bundle + i),
+                                 .sampler = cache_.sampler(index, bundle, i),
                                  .time = moment.time,
                                  .wavelength = moment.wavelength,
                                  .rays = scratch.stats.rays,

@@ -64,10 +64,12 @@ std::uint64_t LightPathCache::bytes(const LightPathCounts& counts, int max_verti
     return bytes < 0x1p63 ? static_cast<std::uint64_t>(bytes) : most;
 }
 
-Sampler LightPathCache::sampler(std::int64_t index, std::int64_t path) const
+Sampler LightPathCache::sampler(std::int64_t index, std::int64_t bundle, int which) const
 {
-    // As a pixel that no image has: over the indices, the paths with one number are well spread.
-    return {kind_, seed_, -1, static_cast<int>(path), index};
+    // As samples of a pixel that no image has; light paths of one half of the film stay in it.
+    const std::int64_t half = index % 2;
+    const std::int64_t point = index / 2 * counts_.bundle + which;
+    return {kind_, seed_, -1, static_cast<int>(bundle), 2 * point + half};
 }
 
 void LightPathCache::begin_chunk(std::int64_t chunk)

@@ -38,8 +38,9 @@ public:
     {
         return (counts_.bundles + chunk_bundles - 1) / chunk_bundles;
     }
-    /// The random numbers of light path `path` of sample `index`.
-    [[nodiscard]] Sampler sampler(std::int64_t index, std::int64_t path) const;
+    /// The random numbers of light path `which` of a bundle of sample `index`: all those of a bundle,
+    /// over all indices, are one sequence, as a camera path is joined to several of them.
+    [[nodiscard]] Sampler sampler(std::int64_t index, std::int64_t bundle, int which) const;
 
     // Filling: a chunk is begun, gets its bundles in their order, each with its light paths, and is
     // ended. Different threads may fill different chunks.

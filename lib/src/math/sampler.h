@@ -28,6 +28,13 @@ enum class SampleUse : std::uint32_t {
     fog,
 };
 
+/// An index for number `which` of `count` samples that take the place of the one at `index`: with
+/// such indices those of all samples are one sequence, each in the half of its sample.
+[[nodiscard]] constexpr std::int64_t index_of_part(std::int64_t index, int count, int which)
+{
+    return 2 * (index / 2 * count + which) + index % 2;
+}
+
 /// Random numbers of one pixel sample, a pure function of (kind, seed, pixel, sample index, use,
 /// vertex): equal arguments give equal sequences on every machine and thread. All are multiples of
 /// 2^-24 in [0, 1).

@@ -58,11 +58,12 @@ PerCandidate<double> errors_of(const PilotGrid& grid, std::span<const PilotRow> 
 }
 
 /// Adds what rare paths that no pilot finds may bring to any candidate, so that a small gain does
-/// not pay for a much dearer one.
+/// not pay for a much dearer one: where few paths find most of the light, half of the error and more
+/// is of that kind.
 PerCandidate<double> with_unseen(PerCandidate<double> errors)
 {
     constexpr double share =
-        0.05;  // of the error of one light path of its own for each camera path
+        0.25;  // of the error of one light path of its own for each camera path
     const auto one = std::find_if(candidates.begin(), candidates.end(), [](const Candidate& c) {
         return c.light_paths == 1.0 && c.connections == 1.0;
     });

@@ -2,7 +2,9 @@
 
 #include "pilot/sample_moments.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 
 namespace bdpt {
@@ -23,6 +25,17 @@ constexpr LeftBySobol left_by_sobol(int edges)
     return edges <= 1   ? LeftBySobol{}
            : edges == 2 ? LeftBySobol{.own = 0.25, .connected = 0.25}
                         : LeftBySobol{.own = 0.6, .connected = 0.4};
+}
+
+/// More connections of a sample are more points of one sequence, which leave less of the variance of
+/// each: measured in rooms with 32 samples.
+PerCandidate<double> left_by_more_connections()
+{
+    PerCandidate<double> result;
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        result[k] = 1.0 / std::sqrt(std::sqrt(std::max(1.0, candidates[k].connections)));
+    }
+    return result;
 }
 
 using Samples = std::array<SampleMoments, n>;
@@ -49,10 +62,11 @@ PerCandidate<double> remaining_variances(const PathShares& shares)
 {
     const PathShares::SecondMoments moments = shares.second_moments();
     const LeftBySobol left = left_by_sobol(shares.edges());
+    static const PerCandidate<double> of_connections = left_by_more_connections();
     PerCandidate<double> result;
     for (std::size_t k = 0; k < candidates.size(); ++k) {
-        result[k] =
-            left.own * moments.own[k] + left.connected * moments.connections[k] + moments.splats[k];
+        result[k] = left.own * moments.own[k] +
+                    left.connected * of_connections[k] * moments.connections[k] + moments.splats[k];
     }
     return result;
 }

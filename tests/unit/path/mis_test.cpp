@@ -119,9 +119,9 @@ TEST_CASE("the densities of all strategies at once are those of each", "[mis]")
         strategy_densities(path.densities(), densities);
         for (std::size_t s = 0; s < densities.size(); ++s) {
             REQUIRE(static_cast<double>(densities[s]) ==
-                    Catch::Approx(path.density(s)).epsilon(1e-12));
+                    Approx(path.density(s)).epsilon(1e-12));
             REQUIRE(static_cast<double>(strategy_density(path.densities(), s)) ==
-                    Catch::Approx(path.density(s)).epsilon(1e-12));
+                    Approx(path.density(s)).epsilon(1e-12));
         }
     }
 }

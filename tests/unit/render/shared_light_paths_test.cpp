@@ -8,13 +8,16 @@
 #include "room.h"
 #include "scene_builder.h"
 
+#include <bdpt/noise.h>
 #include <bdpt/render.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <optional>
+#include <set>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -119,21 +122,62 @@ TEST_CASE("the samples of a pixel take their share of connections", "[light-path
     const RenderOptions o = options(0.25, connections);
     const LightPathCache cache(LightPathCounts(o), o);
     for (int x = 0; x < width; ++x) {
-        int total = 0;
+        std::array<int, 2> of_halves{};
         for (std::int64_t index = 1000; index < 1020; ++index) {
-            total += cache.choose(x, 4, {.index = index}).count;
+            of_halves[static_cast<std::size_t>(index % 2)] +=
+                cache.choose(x, 4, {.index = index}).count;
         }
-        CHECK(std::abs(total - 20.0 * connections) < 1.0);
+        CHECK(std::abs(of_halves[0] + of_halves[1] - 20.0 * connections) < 1.0);
+        // Each half of the film is an image by itself: their difference tells the noise.
+        CHECK(std::abs(of_halves[0] - 10.0 * connections) < 1.0);
+        CHECK(std::abs(of_halves[1] - 10.0 * connections) < 1.0);
     }
 }
 
 TEST_CASE("each shared light path has random numbers of its own", "[light-paths]")
 {
-    const RenderOptions o = options(0.25);
+    const RenderOptions o = options(0.25, 2.0);
     const LightPathCache cache(LightPathCounts(o), o);
-    CHECK(cache.sampler(0, 5).next_1d() != cache.sampler(1, 5).next_1d());
-    CHECK(cache.sampler(0, 5).next_1d() != cache.sampler(2, 5).next_1d());
-    CHECK(cache.sampler(0, 5).next_1d() != cache.sampler(0, 6).next_1d());
+    std::set<float> numbers;
+    for (const int index : {0, 1, 2}) {
+        for (const int bundle : {5, 6}) {
+            for (const int which : {0, 1}) {
+                numbers.insert(cache.sampler(index, bundle, which).next_1d());
+            }
+        }
+    }
+    CHECK(numbers.size() == 12);
+}
+
+TEST_CASE("the light paths that a pixel is joined to are one sequence of points", "[light-paths]")
+{
+    constexpr int connections = 4;
+    constexpr int rounds = 8;  // of each half
+    const RenderOptions o = options(0.25, connections);
+    const LightPathCache cache(LightPathCounts(o), o);
+    for (const int half : {0, 1}) {
+        std::set<int> strata;
+        for (int round = 0; round < rounds; ++round) {
+            for (int which = 0; which < connections; ++which) {
+                Sampler sampler = cache.sampler(2 * round + half, 5, which);
+                sampler.start(SampleUse::light_start);
+                strata.insert(static_cast<int>(sampler.next_1d() * rounds * connections));
+            }
+        }
+        CHECK(strata.size() == rounds * connections);
+    }
+}
+
+TEST_CASE("a fraction of connections is as even in both halves of the film as a whole number",
+          "[light-paths]")
+{
+    const Scene scene = room();
+    const auto noise = [&](double connections) {
+        RenderOptions o = options(0.25, connections);
+        o.sampling.samples = {.begin = 0, .end = 64};
+        return noise_of(image_of(scene, o).film);
+    };
+    CHECK(noise(0.5) < 2.5 * noise(1.0));
 }
 
 TEST_CASE("images with shared light paths are the same for any threads, tiles, parts and crops",

@@ -22,13 +22,11 @@ struct BidirectionalIntegrator::Scratch {
 
 namespace {
 
-/// Light paths of one sample after the first have random numbers of their own.
-Sampler light_sampler(const RenderOptions& options, int x, int y, std::int64_t index,
-                      int light_path)
+/// Several light paths of one sample have random numbers of their own.
+Sampler light_sampler(const RenderOptions& options, int x, int y, std::int64_t index_of_part)
 {
-    constexpr std::uint64_t odd = 0xd1342543de82ef95U;  // spreads consecutive seeds
-    return {options.sampling.sampler,
-            options.sampling.seed + static_cast<std::uint64_t>(light_path) * odd, x, y, index};
+    constexpr std::uint64_t odd = 0xd1342543de82ef95U;  // to a seed that is not used elsewhere
+    return {options.sampling.sampler, options.sampling.seed + odd, x, y, index_of_part};
 }
 
 }  // namespace
@@ -139,8 +137,9 @@ void BidirectionalIntegrator::add_sample(int x, int y, const ScheduledSample& sc
         merge_paths(sample, scratch);
     }
     for (int i = 0; i < own_light_paths(); ++i) {
-        if (i > 0) {
-            sample.sampler = light_sampler(options_, x, y, index, i);
+        if (own_light_paths() > 1) {
+            sample.sampler =
+                light_sampler(options_, x, y, index_of_part(index, own_light_paths(), i));
         }
         sink.begin_joins(i);
         trace_light_path(sample, scratch);

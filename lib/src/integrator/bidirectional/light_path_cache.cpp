@@ -66,10 +66,9 @@ std::uint64_t LightPathCache::bytes(const LightPathCounts& counts, int max_verti
 
 Sampler LightPathCache::sampler(std::int64_t index, std::int64_t bundle, int which) const
 {
-    // As samples of a pixel that no image has; light paths of one half of the film stay in it.
-    const std::int64_t half = index % 2;
-    const std::int64_t point = index / 2 * counts_.bundle + which;
-    return {kind_, seed_, -1, static_cast<int>(bundle), 2 * point + half};
+    // As samples of a pixel that no image has.
+    return {kind_, seed_, -1, static_cast<int>(bundle),
+            index_of_part(index, counts_.bundle, which)};
 }
 
 void LightPathCache::begin_chunk(std::int64_t chunk)
@@ -120,14 +119,16 @@ LightPathCache::Choice LightPathCache::choose(int x, int y, const ScheduledSampl
         reverse_bits(permute_upwards(pixel, static_cast<std::uint32_t>(seed))) + sample.turn;
     const std::uint64_t place = std::uint64_t{u} * static_cast<std::uint64_t>(counts_.bundles);
     Choice choice{.bundle = static_cast<std::int64_t>(place >> 32U)};
-    // What is left of the number is even over the pixels of one bundle; from one index to the next
-    // the sum of all counts grows by `connections`.
+    // What is left of the number is even over the pixels of one bundle; from one sample to the next
+    // of the same half of the film the sum of all counts grows by `connections`, and that of both
+    // halves by twice as much, for half of one lies between them.
     const double rest = static_cast<double>(static_cast<std::uint32_t>(place)) * 0x1p-32;
-    const double before = counts_.connections * static_cast<double>(sample.index) + rest;
+    const std::int64_t of_half = sample.index / 2;
+    const double before = counts_.connections * static_cast<double>(of_half) + rest +
+                          (sample.index % 2 == 0 ? 0.0 : 0.5);
     choice.count = static_cast<int>(std::floor(before + counts_.connections) - std::floor(before));
     if (choice.count < counts_.bundle) {
-        choice.first = static_cast<int>(static_cast<std::uint64_t>(sample.index) %
-                                        static_cast<std::uint64_t>(counts_.bundle));
+        choice.first = static_cast<int>(of_half % counts_.bundle);
     }
     return choice;
 }

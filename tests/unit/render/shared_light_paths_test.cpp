@@ -8,7 +8,6 @@
 #include "room.h"
 #include "scene_builder.h"
 
-#include <bdpt/noise.h>
 #include <bdpt/render.h>
 
 #include <algorithm>
@@ -166,18 +165,6 @@ TEST_CASE("the light paths that a pixel is joined to are one sequence of points"
         }
         CHECK(strata.size() == rounds * connections);
     }
-}
-
-TEST_CASE("a fraction of connections is as even in both halves of the film as a whole number",
-          "[light-paths]")
-{
-    const Scene scene = room();
-    const auto noise = [&](double connections) {
-        RenderOptions o = options(0.25, connections);
-        o.sampling.samples = {.begin = 0, .end = 64};
-        return noise_of(image_of(scene, o).film);
-    };
-    CHECK(noise(0.5) < 2.5 * noise(1.0));
 }
 
 TEST_CASE("images with shared light paths are the same for any threads, tiles, parts and crops",

@@ -28,9 +28,10 @@ enum class SampleUse : std::uint32_t {
     fog,
 };
 
-/// An index for number `which` of `count` samples that take the place of the one at `index`: with
-/// such indices those of all samples are one sequence, each in the half of its sample.
-[[nodiscard]] constexpr std::int64_t index_of_part(std::int64_t index, int count, int which)
+/// The index of number `which` of `count` subsamples of sample `index`. With such indices the
+/// subsamples of all samples of one half of the film are one sequence, and those of the other half
+/// another.
+[[nodiscard]] constexpr std::int64_t subsample_index(std::int64_t index, int count, int which)
 {
     return 2 * (index / 2 * count + which) + index % 2;
 }

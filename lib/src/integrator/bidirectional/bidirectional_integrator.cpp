@@ -23,10 +23,10 @@ struct BidirectionalIntegrator::Scratch {
 namespace {
 
 /// Several light paths of one sample have random numbers of their own.
-Sampler light_sampler(const RenderOptions& options, int x, int y, std::int64_t index_of_part)
+Sampler light_sampler(const RenderOptions& options, int x, int y, std::int64_t index)
 {
     constexpr std::uint64_t odd = 0xd1342543de82ef95U;  // to a seed that is not used elsewhere
-    return {options.sampling.sampler, options.sampling.seed + odd, x, y, index_of_part};
+    return {options.sampling.sampler, options.sampling.seed + odd, x, y, index};
 }
 
 }  // namespace
@@ -139,7 +139,7 @@ void BidirectionalIntegrator::add_sample(int x, int y, const ScheduledSample& sc
     for (int i = 0; i < own_light_paths(); ++i) {
         if (own_light_paths() > 1) {
             sample.sampler =
-                light_sampler(options_, x, y, index_of_part(index, own_light_paths(), i));
+                light_sampler(options_, x, y, subsample_index(index, own_light_paths(), i));
         }
         sink.begin_joins(i);
         trace_light_path(sample, scratch);

@@ -68,7 +68,7 @@ Sampler LightPathCache::sampler(std::int64_t index, std::int64_t bundle, int whi
 {
     // As samples of a pixel that no image has.
     return {kind_, seed_, -1, static_cast<int>(bundle),
-            index_of_part(index, counts_.bundle, which)};
+            subsample_index(index, counts_.bundle, which)};
 }
 
 void LightPathCache::begin_chunk(std::int64_t chunk)

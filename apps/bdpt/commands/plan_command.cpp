@@ -61,6 +61,9 @@ std::vector<std::string> chosen_words(const RenderOptions& options, Isa isa)
         if (options.bidirectional.connections) {
             words.push_back(fmt::format("--connections={}", *options.bidirectional.connections));
         }
+        if (!options.bidirectional.disabled.empty()) {
+            words.push_back(fmt::format("--disable={}", disabled_text(options)));
+        }
     }
     return words;
 }

@@ -41,7 +41,8 @@ eval::VerifyOptions options_for(const VerifyArguments& arguments, const Prepared
     RenderOptions asked = arguments.stage.options;
     asked.film.width = options.width;
     asked.film.height = options.height;
-    const RenderOptions chosen = chosen_options(stage.scene, stage.camera, asked);
+    RenderOptions chosen = chosen_options(stage.scene, stage.camera, asked);
+    chosen.bidirectional.disabled.clear();  // all strategies are judged
     console.note(fmt::format("auto chooses {}", integrator_words(chosen)));
     if (chosen.integrator == IntegratorKind::bdpt) {
         options.light_paths = chosen.bidirectional.light_paths;

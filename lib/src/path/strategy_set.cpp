@@ -13,6 +13,12 @@ bool is_switched_on(const RenderOptions& options, Strategy strategy)
     return by_integrator && std::find(disabled.begin(), disabled.end(), strategy) == disabled.end();
 }
 
+/// Paths of one edge are weighed by themselves.
+bool has_more_edges_than_one(Strategy strategy)
+{
+    return strategy.s + strategy.t > 2;
+}
+
 }  // namespace
 
 StrategySet::StrategySet(const RenderOptions& options)
@@ -23,8 +29,9 @@ StrategySet::StrategySet(const RenderOptions& options)
       stride_(options.transport.max_depth + 2),
       light_paths_(options),
       complete_(options.integrator != IntegratorKind::lt &&
-                options.bidirectional.disabled.empty() && max_camera_depth_ >= max_depth_ &&
-                max_light_depth_ >= max_depth_),
+                std::none_of(options.bidirectional.disabled.begin(),
+                             options.bidirectional.disabled.end(), has_more_edges_than_one) &&
+                max_camera_depth_ >= max_depth_ && max_light_depth_ >= max_depth_),
       merges_(light_paths_.merged),
       // Images of single strategies show what each finds by itself.
       next_event_sampling_{.environments = options.bidirectional.strategy_depth > 0

@@ -27,9 +27,9 @@ public:
         return merges_ && s >= 2 && t >= 2 && allows(s + t - 2, s, t);
     }
 
-    /// Does every strategy that can make a path take part? For each camera path that with s = 0 and
-    /// (1, 1) take one sample, s = 1 `light_samples` at each vertex, the others `light_paths` where
-    /// t <= 1 and `connections` where t >= 2.
+    /// Does every strategy take part that can make a path of two edges or more? For each camera
+    /// path those with s = 0 take one sample, s = 1 `light_samples` at each vertex, the others
+    /// `light_paths` where t <= 1 and `connections` where t >= 2.
     [[nodiscard]] bool is_complete() const { return complete_; }
     [[nodiscard]] double light_paths() const { return light_paths_.per_camera_path; }
     [[nodiscard]] double light_samples() const { return next_event_sampling_.samples; }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pilot/candidates.h"
+#include "pilot/seen_lamps.h"
 
 #include <bdpt/render_options.h>
 #include <bdpt/render_stats.h>
@@ -12,9 +13,11 @@ class World;
 
 /// What a pilot predicts.
 struct PilotResult {
-    PerCandidate<double> errors{};  ///< relMSE of one sample per pixel
-    PerCandidate<double> costs{};   ///< of a sample [ns on the machine that has the prices]
-    RenderStats stats;              ///< of the pilot itself
+    /// relMSE of one sample per pixel, but for light that is seen directly.
+    PerCandidate<double> errors{};
+    SeenLampErrors seen_lamps;     ///< of that light
+    PerCandidate<double> costs{};  ///< of a sample [ns on the machine that has the prices]
+    RenderStats stats;             ///< of the pilot itself
 };
 
 /// Renders a few samples all over the whole image with light paths of their own, and predicts from

@@ -26,6 +26,11 @@ public:
     }
     [[nodiscard]] int columns() const { return columns_; }
     [[nodiscard]] int rows() const { return rows_; }
+    /// Of the image.
+    [[nodiscard]] double pixels() const
+    {
+        return static_cast<double>(width_) * static_cast<double>(height_);
+    }
     [[nodiscard]] std::size_t cells() const { return index(0, rows_); }
     [[nodiscard]] std::size_t index(int column, int row) const
     {

@@ -1,5 +1,6 @@
 #include "pilot/pilot_row.h"
 
+#include "math/rgb.h"
 #include "pilot/sample_moments.h"
 
 #include <algorithm>
@@ -27,8 +28,8 @@ constexpr LeftBySobol left_by_sobol(int edges)
                         : LeftBySobol{.own = 0.6, .connected = 0.4};
 }
 
-/// More connections of a sample are more points of one sequence, which leave less of the variance of
-/// each: measured in rooms with 32 samples.
+/// More connections of a sample are more points of one sequence, which leave less of the variance
+/// of each: measured in rooms with 32 samples.
 PerCandidate<double> left_by_more_connections()
 {
     PerCandidate<double> result;
@@ -54,6 +55,18 @@ double variance_of_sums(const Samples& samples, std::size_t candidate)
     }
     // Products of different samples: an unbiased estimate of the mean's square.
     return cross / n - (sum * sum - squares) / (n * (n - 1));
+}
+
+PilotLamp seen_lamp(const PathContribution& path, std::size_t cell)
+{
+    const auto value = static_cast<double>(luminance(path.unweighted));
+    return {.x = static_cast<int>(std::floor(path.raster.x)),
+            .y = static_cast<int>(std::floor(path.raster.y)),
+            .cell = cell,
+            .value = value,
+            // What s = 0 would bring if it were alone.
+            .radiance = value * static_cast<double>(path.shares[1] / path.shares[0]),
+            .weight = static_cast<double>(path.weight)};
 }
 
 }  // namespace
@@ -92,7 +105,11 @@ PilotCell PilotRow::render_cell(const Integrator& integrator, const PilotGrid& g
         [&](const PathContribution& path) {
             const PathShares shares(path, heuristic);
             if (path.strategy.t <= 1) {
-                splats_.push_back({.cell = grid.cell_at(path.raster), .shares = shares});
+                const std::size_t seen_in = grid.cell_at(path.raster);
+                splats_.push_back({.cell = seen_in, .shares = shares});
+                if (path.strategy == Strategy{.s = 1, .t = 1} && path.shares[0] > 0.0f) {
+                    lamps_.push_back(seen_lamp(path, seen_in));
+                }
                 return;
             }
             cell.mean += shares.camera_mean() / n;

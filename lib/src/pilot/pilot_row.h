@@ -22,6 +22,16 @@ struct PilotSplat {
     PathShares shares;
 };
 
+/// A point of a lamp that is seen through the lens (s = t = 1).
+struct PilotLamp {
+    int x;  ///< of its pixel
+    int y;
+    std::size_t cell;
+    double value;     ///< what it brings to the pixel, if this strategy were alone [nit]
+    double radiance;  ///< of the lamp there [nit]
+    double weight;    ///< of this strategy
+};
+
 /// The cells of one row of a pilot's grid.
 class PilotRow {
 public:
@@ -33,6 +43,7 @@ public:
 
     [[nodiscard]] const std::vector<PilotCell>& cells() const { return cells_; }
     [[nodiscard]] const std::vector<PilotSplat>& splats() const { return splats_; }
+    [[nodiscard]] const std::vector<PilotLamp>& lamps() const { return lamps_; }
     [[nodiscard]] const RenderStats& stats() const { return stats_; }
 
 private:
@@ -41,6 +52,7 @@ private:
 
     std::vector<PilotCell> cells_;
     std::vector<PilotSplat> splats_;
+    std::vector<PilotLamp> lamps_;
     RenderStats stats_;
 };
 

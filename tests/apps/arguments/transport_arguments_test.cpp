@@ -98,6 +98,22 @@ TEST_CASE("what is said of subpaths is said to bdpt unless another integrator is
                     Error);
 }
 
+TEST_CASE("what was chosen is told in the words that choose it by hand")
+{
+    RenderOptions options;
+    options.integrator = IntegratorKind::bdpt;
+    options.bidirectional.light_paths = 0.25;
+    options.bidirectional.connections = 2.0;
+    CHECK(integrator_text(options, true) == "auto: bdpt --light-paths 0.25 --connections 2");
+    options.bidirectional.disabled = {{.s = 1, .t = 1}, {.s = 0, .t = 12}};
+    CHECK(disabled_text(options) == "s1t1,s0t12");
+    CHECK(parse_strategies(disabled_text(options)) == options.bidirectional.disabled);
+    CHECK(integrator_words(options) ==
+          "bdpt --light-paths 0.25 --connections 2 --disable s1t1,s0t12");
+    options.integrator = IntegratorKind::mis;
+    CHECK(integrator_text(options, true) == "auto: mis");
+}
+
 TEST_CASE("how vcm merges is kept with the image")
 {
     TransportWords words;

@@ -111,6 +111,38 @@ TEST_CASE("the tasks of a plan make the pixels of one render", "[plan]")
     CHECK(fs::exists(folder / "out.png"));
 }
 
+TEST_CASE("a plan pins all that auto has chosen", "[plan]")
+{
+    const ScratchFolder folder;
+    // A room whose spotlight shines at the wall behind the camera.
+    write_cube(folder, "room",
+               {.cameras = R"({"camera": 0, "translation": [0, 0, 0.9]},
+                              {"rotation": [0, 1, 0, 0],
+                               "extensions": {"KHR_lights_punctual": {"light": 0}}},)",
+                .inside_out = true,
+                .more = R"("extensionsUsed": ["KHR_lights_punctual"],
+                           "extensions": {"KHR_lights_punctual": {"lights": [
+                               {"type": "spot", "intensity": 10,
+                                "spot": {"outerConeAngle": 0.3}}]}},)"});
+    const Words room{
+        path(folder, "room.gltf"), "--size", "24x16", "--max-depth", "4", "--spp", "12", "-o",
+        path(folder, "out.exr")};
+    checked(run(joined(joined({"plan"}, room),
+                       {"--parts", "2", "--for", "make", "-d", path(folder, "job")})));
+    const json there = json::parse(read_text(folder / "job" / "plan.json"));
+    const Words pinned = there["render"];
+    const Words all{"--integrator=bdpt", "--light-paths=", "--connections=", "--disable=s1t1"};
+    for (const std::string& word : all) {
+        CAPTURE(word);
+        CHECK(std::any_of(pinned.begin(), pinned.end(),
+                          [&](const std::string& other) { return other.starts_with(word); }));
+    }
+    // The line that a render prints has the same words.
+    const Outcome outcome = checked(run(joined({"render"}, room)));
+    CHECK(contains(outcome.out + outcome.err, "auto: bdpt --light-paths"));
+    CHECK(contains(outcome.out + outcome.err, " --disable s1t1"));
+}
+
 TEST_CASE("a plan pins what another machine would choose otherwise", "[plan]")
 {
     const ScratchFolder folder;

@@ -62,6 +62,41 @@ std::size_t index_of(double light_paths, double connections)
     return static_cast<std::size_t>(found - candidates.begin());
 }
 
+/// A lamp of a fraction of a pixel in the dark.
+Scene far_lamp()
+{
+    SceneBuilder builder;
+    constexpr float h = 0.02f;
+    builder.quad({-h, -h, -1.0f}, {h, -h, -1.0f}, {h, h, -1.0f}, {-h, h, -1.0f},
+                 emitter(Rgb(8.0f)));
+    return Scene(std::move(builder.desc));
+}
+
+/// Sum over pixels of the variance of one independent sample.
+double variance_of_samples(const Scene& scene, IntegratorKind integrator)
+{
+    constexpr int renders = 400;
+    RenderOptions options = small();
+    options.integrator = integrator;
+    options.sampling.sampler = SamplerKind::independent;
+    options.sampling.samples = {.begin = 0, .end = 1};
+    std::vector<double> sums(side * side);
+    double squares = 0.0;
+    for (int i = 0; i < renders; ++i) {
+        options.sampling.seed = static_cast<std::uint64_t>(i) + 1;
+        const Image image = render(scene, inside(), options).film.develop();
+        for (std::size_t p = 0; p < sums.size(); ++p) {
+            const auto value = static_cast<double>(image.pixels[p].g);
+            sums[p] += value / renders;
+            squares += value * value / renders;
+        }
+    }
+    for (const double mean : sums) {
+        squares -= mean * mean;
+    }
+    return squares;
+}
+
 /// Mean over the pixels of variance over squared mean, times the number of samples.
 double measured_error(const Scene& scene, const Candidate& candidate)
 {
@@ -115,6 +150,20 @@ TEST_CASE("a pilot predicts errors of renders with other numbers of light paths"
     CHECK(measured_error(scene, candidates[index_of(0.0, 0.0)]) > 5.0 * measured_one);
 }
 
+TEST_CASE("a pilot predicts how well lamps are seen with and without points of them", "[pilot]")
+{
+    const Scene scene = far_lamp();
+    const SeenLampErrors predicted = pilot_of(scene, inside(), small()).seen_lamps;
+    constexpr double left_by_sobol = 0.25;  // as pilots assume
+    const double by_hits = predicted.by_hits / left_by_sobol;
+    const double measured = variance_of_samples(scene, IntegratorKind::mis) /
+                            variance_of_samples(scene, IntegratorKind::bdpt);
+    CAPTURE(predicted.by_hits, predicted.by_both, measured);
+    CHECK(measured > 50.0);
+    CHECK(by_hits / predicted.by_both < 2.0 * measured);
+    CHECK(by_hits / predicted.by_both > 0.5 * measured);
+}
+
 TEST_CASE("a pilot depends on the scene, not on which samples are wanted", "[pilot]")
 {
     const Scene scene = indirect_room();
@@ -126,6 +175,7 @@ TEST_CASE("a pilot depends on the scene, not on which samples are wanted", "[pil
     other.bidirectional.light_paths = 3.0;
     const PilotResult again = pilot_of(scene, inside(), other);
     CHECK(again.errors == pilot.errors);
+    CHECK(again.seen_lamps.by_hits == pilot.seen_lamps.by_hits);
     CHECK(again.costs == pilot.costs);
     CHECK(again.stats == pilot.stats);
     other.transport.max_depth = 2;
@@ -188,6 +238,28 @@ TEST_CASE("of the best at equal cost, the one that fits into memory is taken", "
     CHECK(fitting.bidirectional.connections == 1.0);
     pilot.costs[0] = 0.5;
     CHECK(with_best(pilot, options).integrator == IntegratorKind::mis);
+    CHECK(with_best(pilot, options).bidirectional.disabled.empty());
+}
+
+TEST_CASE("points of lamps are joined to the lens where that is worth its cost", "[pilot]")
+{
+    PilotResult pilot;
+    pilot.errors.fill(1.0);
+    pilot.costs.fill(10000.0);
+    const std::size_t few = index_of(0.0625, 1.0);
+    pilot.errors[few] = 0.2;
+    const auto disabled = [&] { return with_best(pilot, small()).bidirectional.disabled; };
+    const std::vector<Strategy> see_lamp{{.s = 1, .t = 1}};
+    CHECK(disabled() == see_lamp);
+    pilot.seen_lamps = {.by_hits = 0.1, .by_both = 0.01};
+    CHECK(disabled().empty());
+    pilot.seen_lamps = {.by_hits = 0.01, .by_both = 0.1};
+    CHECK(disabled() == see_lamp);
+    // Path tracing has to hit them.
+    pilot.errors[0] = 0.15;
+    CHECK(with_best(pilot, small()).integrator == IntegratorKind::mis);
+    pilot.seen_lamps = {.by_hits = 1.0, .by_both = 0.01};
+    CHECK(with_best(pilot, small()).integrator == IntegratorKind::bdpt);
 }
 
 }  // namespace bdpt::test

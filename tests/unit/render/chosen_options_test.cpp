@@ -7,6 +7,7 @@
 #include <bdpt/render.h>
 
 #include <utility>
+#include <vector>
 
 namespace bdpt::test {
 namespace {
@@ -25,7 +26,8 @@ bool same_choice(const RenderOptions& a, const RenderOptions& b)
 {
     return a.integrator == b.integrator &&
            a.bidirectional.light_paths == b.bidirectional.light_paths &&
-           a.bidirectional.connections == b.bidirectional.connections;
+           a.bidirectional.connections == b.bidirectional.connections &&
+           a.bidirectional.disabled == b.bidirectional.disabled;
 }
 
 RenderOptions choice(const Scene& scene, const RenderOptions& options)
@@ -58,6 +60,7 @@ TEST_CASE("auto is the default and gives the bits of what it chose", "[auto]")
     by_hand.integrator = chosen.integrator;
     by_hand.bidirectional.light_paths = chosen.bidirectional.light_paths;
     by_hand.bidirectional.connections = chosen.bidirectional.connections;
+    by_hand.bidirectional.disabled = chosen.bidirectional.disabled;
     const RenderResult same = render(scene, room_camera(), by_hand);
     CHECK(same.film == result.film);
     CHECK(same.stats == result.stats);
@@ -92,6 +95,28 @@ TEST_CASE("auto traces light paths where they pay", "[auto]")
     CHECK(choice(Scene(std::move(open.desc)), small()).integrator == IntegratorKind::mis);
 }
 
+TEST_CASE("auto joins points of lamps to the lens where they are smaller than pixels", "[auto]")
+{
+    const auto disabled = [](float half) {
+        SceneBuilder builder;
+        builder.walls(lambertian(Rgb(0.6f)), lambertian(Rgb(0.6f)));
+        builder.ceiling(lambertian(Rgb(0.8f)));
+        // One lamp for the ceiling, and some with as much light as it that are seen.
+        builder.quad({-0.3f, 0.4f, 0.3f}, {0.3f, 0.4f, 0.3f}, {0.3f, 0.4f, -0.3f},
+                     {-0.3f, 0.4f, -0.3f}, emitter(Rgb(8.0f)));
+        for (const float x : {-0.6f, -0.2f, 0.2f, 0.6f}) {
+            builder.quad({x - half, -half, -0.9f}, {x + half, -half, -0.9f},
+                         {x + half, half, -0.9f}, {x - half, half, -0.9f},
+                         emitter(Rgb(0.04f / (half * half))));
+        }
+        const RenderOptions chosen = choice(Scene(std::move(builder.desc)), small());
+        REQUIRE(chosen.integrator == IntegratorKind::bdpt);
+        return chosen.bidirectional.disabled;
+    };
+    CHECK(disabled(0.2f) == std::vector<Strategy>{{.s = 1, .t = 1}});
+    CHECK(disabled(0.005f).empty());
+}
+
 TEST_CASE("auto renders scenes without light or surfaces by path tracing", "[auto]")
 {
     CHECK(choice(Scene(SceneDesc{}), small()).integrator == IntegratorKind::mis);
@@ -100,7 +125,7 @@ TEST_CASE("auto renders scenes without light or surfaces by path tracing", "[aut
     CHECK(choice(Scene(std::move(dark.desc)), small()).integrator == IntegratorKind::mis);
     SceneBuilder black;
     black.walls(lambertian(Rgb(0.0f)), lambertian(Rgb(0.0f)));
-    black.lamp(0.9f, 0.3f, Rgb(1.0f));
+    black.light(PointLightDesc{.position = {0.0f, 0.9f, 0.0f}});
     CHECK(choice(Scene(std::move(black.desc)), small()).integrator == IntegratorKind::mis);
 }
 

@@ -13,12 +13,18 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
+#include <vector>
 
 #include "options/arguments.h"
 #include "options/values/number.h"
 
 namespace bdpt::app {
 namespace {
+
+std::string name_of(const Strategy& strategy)
+{
+    return fmt::format("s{}t{}", strategy.s, strategy.t);
+}
 
 constexpr int longest_path = 1000;  // [edges]
 
@@ -334,9 +340,18 @@ nlohmann::ordered_json transport_json(const RenderOptions& options)
     add("max_camera_depth", options.bidirectional.max_camera_depth);
     add("max_light_depth", options.bidirectional.max_light_depth);
     for (const Strategy& strategy : options.bidirectional.disabled) {
-        result["disabled"].push_back(fmt::format("s{}t{}", strategy.s, strategy.t));
+        result["disabled"].push_back(name_of(strategy));
     }
     return result;
+}
+
+std::string disabled_text(const RenderOptions& options)
+{
+    std::vector<std::string> names;
+    for (const Strategy& strategy : options.bidirectional.disabled) {
+        names.push_back(name_of(strategy));
+    }
+    return fmt::format("{}", fmt::join(names, ","));
 }
 
 std::string integrator_words(const RenderOptions& options)
@@ -346,8 +361,11 @@ std::string integrator_words(const RenderOptions& options)
         return name;
     }
     const double light_paths = options.bidirectional.light_paths;
-    return fmt::format("{} --light-paths {:g} --connections {:g}", name, light_paths,
-                       options.bidirectional.connections.value_or(light_paths));
+    const std::string words =
+        fmt::format("{} --light-paths {:g} --connections {:g}", name, light_paths,
+                    options.bidirectional.connections.value_or(light_paths));
+    const std::string disabled = disabled_text(options);
+    return disabled.empty() ? words : words + " --disable " + disabled;
 }
 
 std::string integrator_text(const RenderOptions& options, bool chosen)

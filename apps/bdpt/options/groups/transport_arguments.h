@@ -47,8 +47,11 @@ void add_transport_options(CLI::App& command, TransportWords& words);
 /// `options` with what `words` say. Throws `Error` (usage) that names the option and the value.
 [[nodiscard]] RenderOptions with_transport(const TransportWords& words, RenderOptions options);
 
-/// The integrator and, if it has them, its light paths and connections: "bdpt --light-paths 0.5
-/// --connections 1".
+/// The strategies that are left out, as --disable takes them: "s1t1,s0t4".
+[[nodiscard]] std::string disabled_text(const RenderOptions& options);
+
+/// The integrator and, if it has them, its light paths and connections, and strategies that are
+/// left out: "bdpt --light-paths 0.5 --connections 1 --disable s1t1".
 [[nodiscard]] std::string integrator_words(const RenderOptions& options);
 
 /// The integrator's name; or, if it was chosen by auto, the words that choose the same by hand.

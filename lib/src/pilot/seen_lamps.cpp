@@ -1,0 +1,67 @@
+#include "pilot/seen_lamps.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace bdpt {
+namespace {
+
+std::vector<PilotLamp> by_pixel(std::span<const PilotRow> rows)
+{
+    std::vector<PilotLamp> lamps;
+    for (const PilotRow& row : rows) {
+        lamps.insert(lamps.end(), row.lamps().begin(), row.lamps().end());
+    }
+    // Equal ones stay in their order, so that sums have the same bits.
+    std::stable_sort(lamps.begin(), lamps.end(), [](const PilotLamp& a, const PilotLamp& b) {
+        return std::pair(a.y, a.x) < std::pair(b.y, b.x);
+    });
+    return lamps;
+}
+
+/// Variance of hits in one pixel, which the lamp fills in part, as far as Sobol points leave it
+/// [nit^2].
+double variance_of_hits(std::span<const PilotLamp> pixel, double points_per_pixel)
+{
+    constexpr double left_by_sobol = 0.25;  // as of direct light
+    double light = 0.0;
+    double filled = 0.0;
+    for (const PilotLamp& lamp : pixel) {
+        light += lamp.value / points_per_pixel;
+        filled += lamp.value / (points_per_pixel * lamp.radiance);
+    }
+    if (!(filled > 0.0)) {
+        return 0.0;
+    }
+    const double radiance = light / filled;
+    const double part = std::min(1.0, filled);
+    return left_by_sobol * radiance * radiance * part * (1.0 - part);
+}
+
+}  // namespace
+
+SeenLampErrors seen_lamp_errors(const PilotGrid& grid, std::span<const PilotRow> rows,
+                                const PilotBrightness& brightness)
+{
+    const double points = static_cast<double>(grid.cells()) * PilotRow::samples_of_cell;
+    const std::vector<PilotLamp> lamps = by_pixel(rows);
+    SeenLampErrors errors;
+    for (auto first = lamps.begin(); first != lamps.end();) {
+        const auto last = std::find_if(first, lamps.end(), [first](const PilotLamp& lamp) {
+            return lamp.x != first->x || lamp.y != first->y;
+        });
+        const double hits = brightness.scale(first->cell) *
+                            variance_of_hits({first, last}, points / grid.pixels()) / grid.pixels();
+        errors.by_hits += hits;
+        const double left = 1.0 - first->weight;
+        errors.by_both += left * left * hits;
+        for (; first != last; ++first) {
+            const double weighted = first->weight * first->value;
+            errors.by_both += brightness.scale(first->cell) * weighted * weighted / points;
+        }
+    }
+    return errors;
+}
+
+}  // namespace bdpt

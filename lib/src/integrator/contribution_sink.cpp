@@ -28,7 +28,7 @@ void ContributionSink::begin_sample(int x, int y, const ScheduledSample& sample)
     y_ = y;
     index_ = sample.index;
     scale_ = sample.scale;
-    light_path_ = 0;
+    begin_joins(0);
     center_ = Vec2(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
     radiance_ = Rgb(0.0f);
 }
@@ -78,6 +78,7 @@ void ContributionSink::report(Strategy strategy, Vec2 raster, Rgb weighted, Rgb 
     if (films_.on_path && holds(x, y)) {
         films_.on_path(
             {.strategy = strategy,
+             .merged = merged_,
              .light_path = light_path_,
              .raster = raster,
              .unweighted = unweighted,

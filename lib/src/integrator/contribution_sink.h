@@ -26,7 +26,13 @@ public:
     /// pixel.
     void begin_light_path(std::int64_t round) { begin_sample(-1, -1, {.index = round}); }
     /// Splats and contributions that come from here on belong to that light path of the sample.
-    void begin_joins(int light_path) { light_path_ = light_path; }
+    void begin_joins(int light_path)
+    {
+        light_path_ = light_path;
+        merged_ = false;
+    }
+    /// Contributions that come from here on, until joins begin, were found by merging.
+    void begin_merges() { merged_ = true; }
     /// Does anyone want that pixel?
     [[nodiscard]] bool holds_pixel() const { return holds(x_, y_); }
     /// A contribution to that pixel; the strategy takes `count` samples for each camera path.
@@ -60,6 +66,7 @@ private:
     std::int64_t index_ = 0;
     SampleScale scale_{};
     int light_path_ = 0;
+    bool merged_ = false;
     Vec2 center_{0.0f};  ///< of the pixel
     Rgb radiance_{0.0f};
 };

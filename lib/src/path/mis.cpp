@@ -143,6 +143,20 @@ void strategy_densities(const PathDensities& path, std::span<long double> densit
     }
 }
 
+long double merge_densities(const PathDensities& path)
+{
+    long double sum = 0.0L;
+    for (std::size_t i = 0; i < path.merge_weights.size(); ++i) {
+        auto product = static_cast<long double>(path.merge_weights[i]);
+        for (std::size_t j = 0; j < path.from_light.size() && product > 0.0L; ++j) {
+            product *= j <= i ? static_cast<long double>(path.from_light[j].value) : 1.0L;
+            product *= j >= i ? static_cast<long double>(path.from_camera[j].value) : 1.0L;
+        }
+        sum += product;
+    }
+    return sum;
+}
+
 float mis_weight(const PathDensities& path, int s, Heuristic heuristic)
 {
     if (heuristic != Heuristic::balance && heuristic != Heuristic::power) {

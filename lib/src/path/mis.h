@@ -32,6 +32,10 @@ struct PathDensities {
 /// the last digits differ. `densities` has room for n + 1.
 void strategy_densities(const PathDensities& path, std::span<long double> densities);
 
+/// Sum of the densities of all merges: `merge_weights[i]` times that of both walks having sampled
+/// x_i [Georgiev et al. 2012, eq. 6].
+[[nodiscard]] long double merge_densities(const PathDensities& path);
+
 /// Weight of the strategy that sampled the first `s` vertices from the light [Veach 1997,
 /// sec. 10.2]. A pure function of the path: the weights of all possible strategies of a path add up
 /// to one. `sample_counts[s]` is not 0.

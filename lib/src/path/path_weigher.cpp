@@ -93,8 +93,9 @@ PathDensities PathWeigher::last_path() const
 
 std::span<const float> PathWeigher::shares()
 {
-    strategy_densities(last_path(), densities_);
-    long double sum = 0.0L;
+    const PathDensities path = last_path();
+    strategy_densities(path, densities_);
+    long double sum = merge_densities(path);
     for (std::size_t s = 0; s <= size_; ++s) {
         sum += densities_[s];
     }

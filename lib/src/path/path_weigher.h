@@ -48,7 +48,8 @@ public:
     /// The densities behind the last weight(), if no subpath was begun or paths are kept.
     [[nodiscard]] PathDensities last_path() const;
     /// Balance heuristic of all strategies of the last path, by their number of light vertices,
-    /// straight from the definition [Veach 1997, eq. 9.8]. Valid until the next path.
+    /// straight from the definition [Veach 1997, eq. 9.8]; what is missing to one merges. Valid
+    /// until the next path.
     [[nodiscard]] std::span<const float> shares();
 
     [[nodiscard]] NextEventSampling next_event_sampling() const

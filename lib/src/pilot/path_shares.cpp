@@ -7,27 +7,27 @@
 namespace bdpt {
 namespace {
 
-/// r of each group (own, splats, connections) and candidate, to some power.
+/// N of each group (own, splats, connections) and candidate, to some power.
 using Factors = std::array<PerCandidate<double>, 3>;
 
-constexpr Factors ratios(int power)
+constexpr Factors numbers(int power)
 {
     Factors factors{};
     for (std::size_t k = 0; k < candidates.size(); ++k) {
-        const std::array<double, 3> samples{PathShares::pilot_light_paths,
-                                            candidates[k].light_paths, candidates[k].connections};
+        const std::array<double, 3> samples{1.0, candidates[k].light_paths,
+                                            candidates[k].connections};
         for (std::size_t group = 0; group < samples.size(); ++group) {
             factors[group][k] = 1.0;
             for (int i = 0; i < power; ++i) {
-                factors[group][k] *= samples[group] / PathShares::pilot_light_paths;
+                factors[group][k] *= samples[group];
             }
         }
     }
     return factors;
 }
-constexpr Factors first = ratios(1);
-constexpr Factors second = ratios(2);
-constexpr Factors third = ratios(3);
+constexpr Factors first = numbers(1);
+constexpr Factors second = numbers(2);
+constexpr Factors third = numbers(3);
 
 }  // namespace
 
@@ -36,41 +36,46 @@ PathShares::Group PathShares::group_of(int s, int t)
     return s <= 1 ? own : t <= 1 ? splats : connections;
 }
 
-PathShares::PathShares(const PathContribution& path, Heuristic heuristic)
-    : used_share_(path.shares[static_cast<std::size_t>(path.strategy.s)]),
-      used_(group_of(path.strategy.s, path.strategy.t)),
-      edges_(path.strategy.s + path.strategy.t - 1),
+PathShares::PathShares(const PathContribution& path, Heuristic heuristic, double light_paths)
+    : used_(group_of(path.strategy.s, path.strategy.t)),
+      edges_(static_cast<int>(path.shares.size()) - 2),
       squares_(heuristic == Heuristic::power)
 {
-    mean_ = luminance(path.unweighted) * used_share_;
+    const PerGroup samples{1.0, light_paths, pilot_connections};
+    const float found = path.shares[static_cast<std::size_t>(path.strategy.s)];
+    used_share_ = static_cast<double>(found) / samples[used_];
+    mean_ = luminance(path.unweighted) * (path.merged ? path.weight : found);
     const int vertices = static_cast<int>(path.shares.size()) - 1;
-    float of_camera = 0.0f;
+    float of_light = 0.0f;
     for (int s = 0; s <= vertices; ++s) {
-        const float share = path.shares[static_cast<std::size_t>(s)];
         const Group group = group_of(s, vertices - s);
-        of_camera += vertices - s >= 2 ? share : 0.0f;
+        of_light += vertices - s <= 1 ? path.shares[static_cast<std::size_t>(s)] : 0.0f;
+        const double share =
+            static_cast<double>(path.shares[static_cast<std::size_t>(s)]) / samples[group];
+        found_by_one_ += share;
         raised_[group] += raise(share);
         moments_[group] += squares_ ? share * share * share : share;
     }
+    if (!(found_by_one_ > 0.0)) {
+        return;  // merging alone does
+    }
     constexpr float often = 0.1f;
+    const float of_camera = 1.0f - of_light;
     const bool by_camera = path.strategy.t >= 2;
     if (by_camera && of_camera >= often) {
         camera_mean_ = mean_ / of_camera;
     } else if (!by_camera && of_camera < often) {
-        splat_mean_ = mean_ / (1.0f - of_camera);
+        splat_mean_ = mean_ / of_light;
     }
 }
 
 PerCandidate<double> PathShares::sums() const
 {
     const Factors& raised = squares_ ? second : first;
-    const auto of_own = static_cast<double>(raised_[own]);
-    const auto of_splats = static_cast<double>(raised_[splats]);
-    const auto of_connections = static_cast<double>(raised_[connections]);
     PerCandidate<double> result;
     for (std::size_t k = 0; k < candidates.size(); ++k) {
-        result[k] =
-            of_own + raised[splats][k] * of_splats + raised[connections][k] * of_connections;
+        result[k] = raised_[own] + raised[splats][k] * raised_[splats] +
+                    raised[connections][k] * raised_[connections];
     }
     return result;
 }
@@ -78,7 +83,7 @@ PerCandidate<double> PathShares::sums() const
 PerCandidate<double> PathShares::weights() const
 {
     const PerCandidate<double>& ratio = (squares_ ? second : first)[used_];
-    const auto share = static_cast<double>(raise(used_share_));
+    const double share = raise(used_share_);
     PerCandidate<double> result = sums();
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         const double sum = result[k];
@@ -87,13 +92,24 @@ PerCandidate<double> PathShares::weights() const
     return result;
 }
 
+PerCandidate<double> PathShares::own_values() const
+{
+    const double value =
+        raised_[own] > 0.0 ? static_cast<double>(mean_) * moments_[own] / raised_[own] : 0.0;
+    PerCandidate<double> result = sums();
+    for (double& sum : result) {
+        sum = sum > 0.0 ? value / sum : 0.0;
+    }
+    return result;
+}
+
 PathShares::SecondMoments PathShares::second_moments() const
 {
     const Factors& factors = squares_ ? third : first;
     const double square = static_cast<double>(mean_) * static_cast<double>(mean_);
-    const double of_own = square * static_cast<double>(moments_[own]);
-    const double of_splats = square * static_cast<double>(moments_[splats]);
-    const double of_connections = square * static_cast<double>(moments_[connections]);
+    const double of_own = square * moments_[own];
+    const double of_splats = square * moments_[splats];
+    const double of_connections = square * moments_[connections];
     const PerCandidate<double> all = sums();
     SecondMoments result;
     for (std::size_t k = 0; k < candidates.size(); ++k) {

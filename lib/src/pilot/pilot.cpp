@@ -3,7 +3,7 @@
 #include "geometry/flush_denormals.h"
 #include "integrator/bidirectional/bidirectional_integrator.h"
 #include "path/strategy_set.h"
-#include "pilot/pilot_brightness.h"
+#include "pilot/pilot_errors.h"
 #include "pilot/prices.h"
 #include "pilot/seen_lamps.h"
 
@@ -21,63 +21,36 @@ namespace {
 /// A point of a light is joined to the lens.
 constexpr Strategy see_lamp{.s = 1, .t = 1};
 
-RenderOptions pilot_options(RenderOptions options)
+std::uint64_t cache_bytes(const RenderOptions& options)
+{
+    return LightPathCache::bytes(LightPathCounts(options), StrategySet(options).light_vertices());
+}
+
+RenderOptions pilot_options(RenderOptions options, const PilotGrid& grid)
 {
     constexpr std::uint64_t seed = 0x70696c6f74;  // one that nobody will choose
     // Longer paths bring little, and would cost a pilot more time and memory than it is worth.
     constexpr int longest_path = 32;  // [edges]
-    options.integrator = IntegratorKind::bdpt;
+    const std::uint64_t memory = options.bidirectional.light_path_memory;
+    options.integrator = IntegratorKind::vcm;
     options.film.crop.reset();
     options.sampling.sampler = SamplerKind::independent;
     options.sampling.seed = seed;
     options.transport.max_depth =
         std::min(options.transport.max_depth, std::max(longest_path, options.transport.min_depth));
+    // By which it tells what merging finds; candidates have that which was asked for.
+    options.transport.heuristic = Heuristic::balance;
     options.bidirectional = {};
-    options.bidirectional.light_paths = PathShares::pilot_light_paths;
-    options.bidirectional.connections = PathShares::pilot_light_paths;
+    options.bidirectional.connections = PathShares::pilot_connections;
+    options.bidirectional.merge_radius = 0.005;
+    options.bidirectional.merge_alpha = 1.0;
+    // As many as camera paths have connections, if memory allows that.
+    options.bidirectional.light_paths =
+        PathShares::pilot_connections * static_cast<double>(grid.cells()) / grid.pixels();
+    const auto wanted = static_cast<double>(cache_bytes(options));
+    const double allowed = std::max(1.0, static_cast<double>(memory));
+    options.bidirectional.light_paths *= std::min(1.0, allowed / wanted);
     return options;
-}
-
-/// Always in the same order, so that sums have the same bits.
-PerCandidate<double> errors_of(const PilotGrid& grid, std::span<const PilotRow> rows,
-                               const PilotBrightness& brightness)
-{
-    PerCandidate<double> errors{};
-    const auto cells = static_cast<double>(grid.cells());
-    std::size_t index = 0;
-    for (const PilotRow& row : rows) {
-        for (const PilotCell& cell : row.cells()) {
-            const double scale = brightness.scale(index++) / cells;
-            for (std::size_t k = 0; k < candidates.size(); ++k) {
-                errors[k] += scale * cell.variances[k];
-            }
-        }
-        for (const PilotSplat& splat : row.splats()) {
-            const double scale = brightness.scale(splat) / (cells * PilotRow::samples_of_cell);
-            const PerCandidate<double> variances = remaining_variances(splat.shares);
-            for (std::size_t k = 0; k < candidates.size(); ++k) {
-                errors[k] += scale * variances[k];
-            }
-        }
-    }
-    return errors;
-}
-
-/// Adds what rare paths that no pilot finds may bring to any candidate, so that a small gain does
-/// not pay for a much dearer one: where few paths find most of the light, half of the error and
-/// more is of that kind.
-PerCandidate<double> with_unseen(PerCandidate<double> errors)
-{
-    constexpr double share =
-        0.25;  // of the error of one light path of its own for each camera path
-    const auto one = std::find_if(candidates.begin(), candidates.end(), [](const Candidate& c) {
-        return c.light_paths == 1.0 && c.connections == 1.0;
-    });
-    const double unseen = share * errors[static_cast<std::size_t>(one - candidates.begin())];
-    for (double& error : errors) {
-        error += unseen;
-    }
-    return errors;
 }
 
 RenderOptions with_candidate(RenderOptions options, const Candidate& candidate, bool sees_lamps)
@@ -108,33 +81,55 @@ double error_of(const PilotResult& pilot, std::size_t candidate, bool sees_lamps
 bool fits(const RenderOptions& options)
 {
     return options.integrator == IntegratorKind::mis ||
-           LightPathCache::bytes(LightPathCounts(options), StrategySet(options).light_vertices()) <=
-               options.bidirectional.light_path_memory;
+           cache_bytes(options) <= options.bidirectional.light_path_memory;
+}
+
+/// Traces the light paths of sample `index`, and then the camera paths that meet them.
+void add_sample(std::int64_t index, Heuristic heuristic, BidirectionalIntegrator& integrator,
+                PilotFinds& finds)
+{
+    const std::int64_t parts = integrator.begin_pass({.begin = index, .end = index + 1});
+    finds.parts.resize(static_cast<std::size_t>(parts));
+    tbb::parallel_for(std::int64_t{0}, parts, [&](std::int64_t part) {
+        const FlushDenormals flush;
+        finds.parts[static_cast<std::size_t>(part)].trace(integrator, part, index, finds.grid,
+                                                          heuristic, finds.light_paths);
+    });
+    integrator.end_parts();
+    tbb::parallel_for(0, finds.grid.rows(), [&](int row) {
+        const FlushDenormals flush;
+        finds.rows[static_cast<std::size_t>(row)].render(integrator, finds.grid, heuristic, row,
+                                                         index, finds.light_paths);
+    });
 }
 
 }  // namespace
 
 PilotResult run_pilot(const World& world, const MovingCamera& camera, const RenderOptions& asked)
 {
-    const RenderOptions options = pilot_options(asked);
-    const BidirectionalIntegrator integrator(world, camera, options);
-    const PilotGrid grid(options.film.width, options.film.height);
-    std::vector<PilotRow> rows(static_cast<std::size_t>(grid.rows()));
-    tbb::parallel_for(0, grid.rows(), [&](int row) {
-        const FlushDenormals flush;
-        rows[static_cast<std::size_t>(row)].render(integrator, grid, options.transport.heuristic,
-                                                   row);
-    });
-    const PilotBrightness brightness(grid, rows);
-    PilotResult result{.errors = with_unseen(errors_of(grid, rows, brightness)),
-                       .seen_lamps = seen_lamp_errors(grid, rows, brightness),
+    const PilotGrid grid(asked.film.width, asked.film.height);
+    const RenderOptions options = pilot_options(asked, grid);
+    BidirectionalIntegrator integrator(world, camera, options);
+    PilotFinds finds{.grid = grid,
+                     .light_paths = LightPathCounts(options).per_camera_path,
+                     .rows = std::vector<PilotRow>(static_cast<std::size_t>(grid.rows())),
+                     .parts = {}};
+    for (std::int64_t index = 0; index < PilotRow::samples_of_cell; ++index) {
+        add_sample(index, asked.transport.heuristic, integrator, finds);
+    }
+    const PilotBrightness brightness(finds);
+    PilotResult result{.errors = predicted_errors(finds, brightness),
+                       .seen_lamps = seen_lamp_errors(finds, brightness),
                        .costs = {},
                        .stats = {}};
     // Rays to lamps that are seen are none of next-event estimation.
     std::uint64_t to_lamps = 0;
-    for (const PilotRow& row : rows) {
+    for (const PilotRow& row : finds.rows) {
         result.stats += row.stats();
         to_lamps += row.lamps().size();
+    }
+    for (const PilotSplats& part : finds.parts) {
+        result.stats += part.stats();
     }
     RenderStats without_lamps = result.stats;
     without_lamps.rays.shadow -= to_lamps;

@@ -30,18 +30,24 @@ std::vector<double> averaged(const PilotGrid& grid, const std::vector<double>& v
 
 }  // namespace
 
-PilotBrightness::PilotBrightness(const PilotGrid& grid, std::span<const PilotRow> rows)
-    : share_of_splat_(1.0 / (PilotRow::samples_of_cell * around))
+PilotBrightness::PilotBrightness(const PilotFinds& finds)
+    : share_of_splat_(static_cast<double>(finds.grid.cells()) / (finds.splatted_pixels() * around))
 {
+    const PilotGrid& grid = finds.grid;
     std::vector<double> camera;
     camera.reserve(grid.cells());
     std::vector<double> splats(grid.cells());
-    for (const PilotRow& row : rows) {
+    for (const PilotRow& row : finds.rows) {
         for (const PilotCell& cell : row.cells()) {
             camera.push_back(cell.mean);
         }
-        for (const PilotSplat& splat : row.splats()) {
-            splats[splat.cell] += splat.shares.splat_mean() / PilotRow::samples_of_cell;
+        for (const PilotLamp& lamp : row.lamps()) {
+            splats[lamp.cell] += lamp.mean / PilotRow::samples_of_cell;
+        }
+    }
+    for (const PilotSplats& part : finds.parts) {
+        for (const PilotFind& splat : part.finds()) {
+            splats[splat.cell] += splat.shares.splat_mean() * share_of_splat_ * around;
         }
     }
     for (std::size_t i = 0; i < grid.cells(); ++i) {

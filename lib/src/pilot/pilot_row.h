@@ -1,25 +1,17 @@
 #pragma once
 
-#include "integrator/integrator.h"
-#include "pilot/path_shares.h"
-#include "pilot/pilot_grid.h"
+#include "pilot/pilot_splats.h"
+#include "pilot/sample_moments.h"
 
 #include <vector>
 
 namespace bdpt {
 
-/// What a pilot found in the pixel of a cell.
+/// What the camera paths in the pixel of a cell found.
 struct PilotCell {
-    double mean = 0.0;  ///< of what camera paths find well [nit]
-    /// Of what a sample's camera path brings, and of the splats that could have been there instead
-    /// [nit^2].
-    PerCandidate<double> variances{};
-};
-
-/// A path that a splat found, for any pixel.
-struct PilotSplat {
-    std::size_t cell;
-    PathShares shares;
+    double mean = 0.0;         ///< of what they find well [nit]
+    VarianceOfSamples direct;  ///< of paths of two edges
+    VarianceOfSamples indirect;
 };
 
 /// A point of a lamp that is seen through the lens (s = t = 1).
@@ -30,6 +22,7 @@ struct PilotLamp {
     double value;     ///< what it brings to the pixel, if this strategy were alone [nit]
     double radiance;  ///< of the lamp there [nit]
     double weight;    ///< of this strategy
+    double mean;      ///< what it adds to the brightness of its cell [nit]
 };
 
 /// The cells of one row of a pilot's grid.
@@ -38,25 +31,26 @@ public:
     /// The fewest from which the square of a mean can be told.
     static constexpr int samples_of_cell = 2;
 
-    /// `integrator` has `PathShares::pilot_light_paths` of its own for each camera path.
-    void render(const Integrator& integrator, const PilotGrid& grid, Heuristic heuristic, int row);
+    /// Adds sample `index` of every cell. `integrator` connects each camera path to
+    /// `PathShares::pilot_connections` of the light paths that it has traced, of which there are
+    /// `light_paths` for each pixel of the image, and merges it with all.
+    void render(const Integrator& integrator, const PilotGrid& grid, Heuristic heuristic, int row,
+                std::int64_t index, double light_paths);
 
     [[nodiscard]] const std::vector<PilotCell>& cells() const { return cells_; }
-    [[nodiscard]] const std::vector<PilotSplat>& splats() const { return splats_; }
+    /// Paths of two edges and more.
+    [[nodiscard]] const std::vector<PilotFind>& joined() const { return joined_; }
+    /// Paths that were found by merging.
+    [[nodiscard]] const std::vector<PilotFind>& merged() const { return merged_; }
     [[nodiscard]] const std::vector<PilotLamp>& lamps() const { return lamps_; }
     [[nodiscard]] const RenderStats& stats() const { return stats_; }
 
 private:
-    [[nodiscard]] PilotCell render_cell(const Integrator& integrator, const PilotGrid& grid,
-                                        Heuristic heuristic, const Tile& pixel);
-
     std::vector<PilotCell> cells_;
-    std::vector<PilotSplat> splats_;
+    std::vector<PilotFind> joined_;
+    std::vector<PilotFind> merged_;
     std::vector<PilotLamp> lamps_;
     RenderStats stats_;
 };
-
-/// What a path adds to the variances that are left when random numbers are well spread.
-[[nodiscard]] PerCandidate<double> remaining_variances(const PathShares& shares);
 
 }  // namespace bdpt

@@ -1,5 +1,7 @@
 #include "pilot/prices.h"
 
+#include "pilot/path_shares.h"
+
 namespace bdpt {
 namespace {
 
@@ -38,7 +40,8 @@ double sample_cost(const Candidate& candidate, const RenderStats& pilot)
     }
     const double light = price(light_path, per(rays.light, pilot.paths.light),
                                per(rays.shadow_to_lens, pilot.paths.light));
-    const double interior = connection * per(rays.shadow_interior, pilot.paths.light);
+    const double interior =
+        connection * per(rays.shadow_interior, PathShares::pilot_connections * pilot.paths.camera);
     const bool own = candidate.light_paths == candidate.connections && candidate.light_paths >= 1.0;
     return price(camera_path, segments, next_event) +
            candidate.light_paths * (light + (own ? 0.0 : shared_light_path)) +

@@ -8,7 +8,6 @@ namespace bdpt {
 
 void SampleMoments::add(const PathContribution& path, const PathShares& shares)
 {
-    constexpr int light_paths = PathShares::pilot_light_paths;
     const auto unweighted = static_cast<double>(luminance(path.unweighted));
     const PerCandidate<double> weights = shares.weights();
     for (std::size_t k = 0; k < candidates.size(); ++k) {
@@ -16,7 +15,8 @@ void SampleMoments::add(const PathContribution& path, const PathShares& shares)
         if (path.strategy.s <= 1) {
             own_[k].add(weighted);
         } else {
-            connected_[static_cast<std::size_t>(path.light_path)][k].add(weighted * light_paths);
+            connected_[static_cast<std::size_t>(path.light_path)][k].add(
+                weighted * PathShares::pilot_connections);
         }
     }
 }
@@ -42,6 +42,23 @@ double SampleMoments::cross_terms(std::size_t k) const
     return own.products() + own.total * (first.total + second.total) +
            0.5 * (first.products() + second.products()) / c +
            std::max(0.0, 1.0 - 1.0 / c) * first.total * second.total;
+}
+
+void VarianceOfSamples::add(const SampleMoments& sample)
+{
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        cross_[k] += sample.cross_terms(k);
+        const double value = sample.value(k);
+        sums_[k] += value;
+        squares_[k] += value * value;
+    }
+}
+
+double VarianceOfSamples::variance(std::size_t k, int samples) const
+{
+    // Products of different samples: an unbiased estimate of the mean's square.
+    return cross_[k] / samples -
+           (sums_[k] * sums_[k] - squares_[k]) / (static_cast<double>(samples) * (samples - 1));
 }
 
 }  // namespace bdpt

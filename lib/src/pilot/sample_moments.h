@@ -33,7 +33,20 @@ private:
 
     PerCandidate<Sum> own_{};  ///< of the camera path alone (s <= 1)
     /// Of the connections to each light path, as if it were the only one.
-    std::array<PerCandidate<Sum>, PathShares::pilot_light_paths> connected_{};
+    std::array<PerCandidate<Sum>, PathShares::pilot_connections> connected_{};
+};
+
+/// Variance of what the camera paths of a pixel bring, from independent samples.
+class VarianceOfSamples {
+public:
+    void add(const SampleMoments& sample);
+    /// Without the squares of single paths, after `samples` of them, at least two.
+    [[nodiscard]] double variance(std::size_t candidate, int samples) const;
+
+private:
+    PerCandidate<double> cross_{};
+    PerCandidate<double> sums_{};
+    PerCandidate<double> squares_{};
 };
 
 }  // namespace bdpt

@@ -1,16 +1,17 @@
 #include "pilot/seen_lamps.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 #include <vector>
 
 namespace bdpt {
 namespace {
 
-std::vector<PilotLamp> by_pixel(std::span<const PilotRow> rows)
+std::vector<PilotLamp> by_pixel(const PilotFinds& finds)
 {
     std::vector<PilotLamp> lamps;
-    for (const PilotRow& row : rows) {
+    for (const PilotRow& row : finds.rows) {
         lamps.insert(lamps.end(), row.lamps().begin(), row.lamps().end());
     }
     // Equal ones stay in their order, so that sums have the same bits.
@@ -41,18 +42,18 @@ double variance_of_hits(std::span<const PilotLamp> pixel, double points_per_pixe
 
 }  // namespace
 
-SeenLampErrors seen_lamp_errors(const PilotGrid& grid, std::span<const PilotRow> rows,
-                                const PilotBrightness& brightness)
+SeenLampErrors seen_lamp_errors(const PilotFinds& finds, const PilotBrightness& brightness)
 {
-    const double points = static_cast<double>(grid.cells()) * PilotRow::samples_of_cell;
-    const std::vector<PilotLamp> lamps = by_pixel(rows);
+    const double points = finds.camera_paths();
+    const double pixels = finds.grid.pixels();
+    const std::vector<PilotLamp> lamps = by_pixel(finds);
     SeenLampErrors errors;
     for (auto first = lamps.begin(); first != lamps.end();) {
         const auto last = std::find_if(first, lamps.end(), [first](const PilotLamp& lamp) {
             return lamp.x != first->x || lamp.y != first->y;
         });
         const double hits = brightness.scale(first->cell) *
-                            variance_of_hits({first, last}, points / grid.pixels()) / grid.pixels();
+                            variance_of_hits({first, last}, points / pixels) / pixels;
         errors.by_hits += hits;
         const double left = 1.0 - first->weight;
         errors.by_both += left * left * hits;

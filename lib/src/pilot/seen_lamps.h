@@ -1,9 +1,6 @@
 #pragma once
 
 #include "pilot/pilot_brightness.h"
-#include "pilot/pilot_row.h"
-
-#include <span>
 
 namespace bdpt {
 
@@ -15,7 +12,7 @@ struct SeenLampErrors {
 
 /// From what points of lamps a pilot has seen. Camera paths miss lamps that fill a small part of a
 /// pixel; those that fill it they cannot miss.
-[[nodiscard]] SeenLampErrors seen_lamp_errors(const PilotGrid& grid, std::span<const PilotRow> rows,
+[[nodiscard]] SeenLampErrors seen_lamp_errors(const PilotFinds& finds,
                                               const PilotBrightness& brightness);
 
 }  // namespace bdpt

@@ -118,11 +118,16 @@ TEST_CASE("the densities of all strategies at once are those of each", "[mis]")
         std::vector<long double> densities(path.sample_counts.size());
         strategy_densities(path.densities(), densities);
         for (std::size_t s = 0; s < densities.size(); ++s) {
-            REQUIRE(static_cast<double>(densities[s]) ==
-                    Approx(path.density(s)).epsilon(1e-12));
+            REQUIRE(static_cast<double>(densities[s]) == Approx(path.density(s)).epsilon(1e-12));
             REQUIRE(static_cast<double>(strategy_density(path.densities(), s)) ==
                     Approx(path.density(s)).epsilon(1e-12));
         }
+        double merges = 0.0;
+        for (std::size_t i = 0; i < path.merge_weights.size(); ++i) {
+            merges += path.merge_density(i);
+        }
+        REQUIRE(static_cast<double>(merge_densities(path.densities())) ==
+                Approx(merges).epsilon(1e-12));
     }
 }
 

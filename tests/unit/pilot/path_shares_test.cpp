@@ -10,14 +10,16 @@
 namespace bdpt::test {
 namespace {
 
-/// Of a path of four vertices, by the number of those from the light. Those with s <= 1 have one
-/// sample, the others two.
+/// Of a path of four vertices, by the number of those from the light. In the pilot those with
+/// s <= 1 have one sample, splats half of one, connections two.
 constexpr std::array shares{0.1f, 0.2f, 0.3f, 0.25f, 0.15f};
 constexpr int vertices = 4;
+constexpr double pilot_light_paths = 0.5;
 
 PathContribution path_of(int s)
 {
     return {.strategy = {.s = s, .t = vertices - s},
+            .merged = false,
             .light_path = 0,
             .raster = Vec2(0.5f),
             .unweighted = Rgb(3.0f),
@@ -29,7 +31,7 @@ PathContribution path_of(int s)
 double ratio(const Candidate& candidate, int s)
 {
     return s <= 1              ? 1.0
-           : vertices - s <= 1 ? candidate.light_paths / 2.0
+           : vertices - s <= 1 ? candidate.light_paths / pilot_light_paths
                                : candidate.connections / 2.0;
 }
 
@@ -57,7 +59,8 @@ TEST_CASE("a path that a pilot found has the weights of every candidate", "[pilo
             double sum = 0.0;
             for (int s = 0; s <= vertices; ++s) {
                 CAPTURE(candidate.light_paths, candidate.connections, s);
-                const double weight = PathShares(path_of(s), heuristic).weights()[k];
+                const double weight =
+                    PathShares(path_of(s), heuristic, pilot_light_paths).weights()[k];
                 CHECK(weight == Approx(weight_of(candidate, s, heuristic)).epsilon(1e-5));
                 sum += weight;
             }
@@ -89,7 +92,8 @@ TEST_CASE("second moments of a path are those of all strategies, whichever found
                     double& moment = s <= 1 ? own : vertices - s <= 1 ? splats : connections;
                     moment += mean * mean * weight * weight / taken;
                 }
-                const auto moments = PathShares(path_of(found), heuristic).second_moments();
+                const auto moments =
+                    PathShares(path_of(found), heuristic, pilot_light_paths).second_moments();
                 CHECK(moments.own[k] == Approx(own).epsilon(1e-5));
                 CHECK(moments.connections[k] == Approx(connections).epsilon(1e-5));
                 CHECK(moments.splats[k] == Approx(splats).epsilon(1e-5));
@@ -102,12 +106,13 @@ TEST_CASE("a path that only light paths make counts against having none", "[pilo
 {
     constexpr std::array only_splats{0.0f, 0.0f, 0.0f, 1.0f};
     const PathContribution path{.strategy = {.s = 3, .t = 0},
+                                .merged = false,
                                 .light_path = 0,
                                 .raster = Vec2(0.5f),
                                 .unweighted = Rgb(1.0f),
                                 .weight = 1.0f,
                                 .shares = only_splats};
-    const PathShares found(path, Heuristic::power);
+    const PathShares found(path, Heuristic::power, pilot_light_paths);
     const PathShares::SecondMoments moments = found.second_moments();
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         if (candidates[k].light_paths == 0.0) {
@@ -117,10 +122,60 @@ TEST_CASE("a path that only light paths make counts against having none", "[pilo
         CHECK(moments.own[k] == 0.0);
         CHECK(moments.connections[k] == 0.0);
         // With a quarter of the pilot's light paths four times the second moment.
-        CHECK(moments.splats[k] == Approx(2.0 / candidates[k].light_paths));
+        CHECK(moments.splats[k] == Approx(pilot_light_paths / candidates[k].light_paths));
     }
     CHECK(found.camera_mean() == 0.0);
     CHECK(found.splat_mean() == Approx(1.0));
+}
+
+TEST_CASE("a path that a pilot found by merging counts for all strategies, too", "[pilot]")
+{
+    // Merging finds such paths 19 times for once that all strategies do, which thus bring 20 f.
+    constexpr float others = 20.0f;
+    std::array<float, shares.size()> rare{};
+    for (std::size_t s = 0; s < rare.size(); ++s) {
+        rare[s] = shares[s] / others;
+    }
+    const PathContribution path{.strategy = {.s = 3, .t = 2},
+                                .merged = true,
+                                .light_path = 0,
+                                .raster = Vec2(0.5f),
+                                .unweighted = Rgb(2.0f),
+                                .weight = 0.95f,
+                                .shares = rare};
+    for (const Heuristic heuristic : {Heuristic::balance, Heuristic::power}) {
+        const PathShares found(path, heuristic, pilot_light_paths);
+        CHECK(found.edges() == 3);
+        CHECK(found.camera_mean() == Approx(2.0 * 0.95 / (1.0 - 0.4 / 20.0)));
+        // As if it were found once in 20 times, and brought 20 times as much.
+        PathContribution joined = path_of(1);
+        joined.unweighted = Rgb(2.0f * 0.95f * others / shares[1]);
+        const PathShares once(joined, heuristic, pilot_light_paths);
+        CHECK(found.value() == Approx(once.value()));
+        CHECK(found.found_by_one() == Approx(once.found_by_one() / 20.0));
+        for (std::size_t k = 0; k < candidates.size(); ++k) {
+            CAPTURE(candidates[k].light_paths, candidates[k].connections);
+            CHECK(found.second_moments().own[k] == Approx(once.second_moments().own[k] / 20.0));
+            CHECK(found.second_moments().splats[k] ==
+                  Approx(once.second_moments().splats[k] / 20.0));
+            CHECK(found.own_values()[k] == Approx(once.own_values()[k]));
+        }
+    }
+}
+
+TEST_CASE("the value of a path is its own part of the second moment over that of the mean",
+          "[pilot]")
+{
+    for (const Heuristic heuristic : {Heuristic::balance, Heuristic::power}) {
+        const PathShares found(path_of(0), heuristic, pilot_light_paths);
+        const double mean = 3.0 * static_cast<double>(shares[0]);
+        for (std::size_t k = 0; k < candidates.size(); ++k) {
+            const double weight =
+                weight_of(candidates[k], 0, heuristic) + weight_of(candidates[k], 1, heuristic);
+            CHECK(found.own_values()[k] ==
+                  Approx(found.second_moments().own[k] / (mean * weight)).epsilon(1e-5));
+        }
+    }
 }
 
 TEST_CASE("cross terms of a sample are those of its definition", "[pilot]")
@@ -130,7 +185,7 @@ TEST_CASE("cross terms of a sample are those of its definition", "[pilot]")
         PathContribution path = path_of(s);
         path.light_path = light_path;
         path.unweighted = Rgb(value);
-        sample.add(path, PathShares(path, Heuristic::power));
+        sample.add(path, PathShares(path, Heuristic::power, pilot_light_paths));
     };
     add(0, 0, 2.0f);
     add(1, 0, 3.0f);
@@ -141,7 +196,7 @@ TEST_CASE("cross terms of a sample are those of its definition", "[pilot]")
         const double c = candidates[k].connections;
         CAPTURE(candidates[k].light_paths, c);
         const auto weight = [&](int s) { return weight_of(candidates[k], s, Heuristic::power); };
-        // Unweighted contributions are divided by the pilot's two light paths.
+        // Unweighted contributions are divided by the pilot's two connections.
         const double a0 = 2.0 * weight(0);
         const double a1 = 3.0 * weight(1);
         const double b0 = 10.0 * weight(2);

@@ -23,48 +23,67 @@ public:
     {
         shares_[static_cast<std::size_t>(strategy.s)] = 1.0f;
     }
+    RenderStats do_part(std::int64_t /*part*/, SampleRange /*samples*/, const Films& films) override
+    {
+        if (strategy_.t <= 1) {
+            report(films);
+        }
+        return {};
+    }
     RenderStats render_tile(const Tile& tile, SampleRange /*samples*/,
                             const Films& films) const override
     {
-        if (tile.x_begin == middle && tile.y_begin == middle) {
-            films.on_path({.strategy = strategy_,
-                           .light_path = 0,
-                           .raster = Vec2(middle + 0.5f),
-                           .unweighted = Rgb(radiance),
-                           .weight = 1.0f,
-                           .shares = shares_});
+        if (strategy_.t > 1 && tile.x_begin == middle && tile.y_begin == middle) {
+            report(films);
         }
         return {};
     }
 
 private:
+    void report(const Films& films) const
+    {
+        films.on_path({.strategy = strategy_,
+                       .merged = false,
+                       .light_path = 0,
+                       .raster = Vec2(middle + 0.5f),
+                       .unweighted = Rgb(radiance),
+                       .weight = 1.0f,
+                       .shares = shares_});
+    }
+
     Strategy strategy_;
     std::array<float, 5> shares_{};
 };
 
-std::vector<PilotRow> rows_of(const Lamp& lamp, const PilotGrid& grid)
+PilotFinds finds_of(Lamp lamp)
 {
-    std::vector<PilotRow> rows(static_cast<std::size_t>(grid.rows()));
-    for (int row = 0; row < grid.rows(); ++row) {
-        rows[static_cast<std::size_t>(row)].render(lamp, grid, Heuristic::power, row);
+    PilotFinds finds{.grid = PilotGrid(side, side),
+                     .light_paths = 1.0,
+                     .rows = std::vector<PilotRow>(side),
+                     .parts = std::vector<PilotSplats>(1)};
+    for (int index = 0; index < PilotRow::samples_of_cell; ++index) {
+        finds.parts[0].trace(lamp, 0, index, finds.grid, Heuristic::power, finds.light_paths);
+        for (int row = 0; row < side; ++row) {
+            finds.rows[static_cast<std::size_t>(row)].render(lamp, finds.grid, Heuristic::power,
+                                                             row, index, finds.light_paths);
+        }
     }
-    return rows;
+    return finds;
 }
 
 }  // namespace
 
 TEST_CASE("errors of a pilot are relative to the brightness of the cells around", "[pilot]")
 {
-    const PilotGrid grid(side, side);
     for (const Strategy strategy : {Strategy{.s = 1, .t = 3}, Strategy{.s = 3, .t = 1}}) {
         CAPTURE(strategy.s);
-        const std::vector<PilotRow> rows = rows_of(Lamp(strategy), grid);
-        const PilotBrightness brightness(grid, rows);
+        const PilotFinds finds = finds_of(Lamp(strategy));
+        const PilotBrightness brightness(finds);
         for (int y = 0; y < side; ++y) {
             for (int x = 0; x < side; ++x) {
                 const bool near = std::abs(x - middle) <= 1 && std::abs(y - middle) <= 1;
                 const double mean = near ? 1.0 : 0.0;
-                CHECK(brightness.scale(grid.index(x, y)) ==
+                CHECK(brightness.scale(finds.grid.index(x, y)) ==
                       Approx(1.0 / (mean * mean + floor_of_squares)));
             }
         }
@@ -73,10 +92,9 @@ TEST_CASE("errors of a pilot are relative to the brightness of the cells around"
 
 TEST_CASE("a splat does not count for its own place", "[pilot]")
 {
-    const PilotGrid grid(side, side);
-    const std::vector<PilotRow> rows = rows_of(Lamp({.s = 3, .t = 1}), grid);
-    const PilotBrightness brightness(grid, rows);
-    const auto& splats = rows[middle].splats();
+    const PilotFinds finds = finds_of(Lamp({.s = 3, .t = 1}));
+    const PilotBrightness brightness(finds);
+    const auto& splats = finds.parts[0].finds();
     REQUIRE(splats.size() == PilotRow::samples_of_cell);
     const double others = 1.0 - 1.0 / PilotRow::samples_of_cell;
     CHECK(brightness.scale(splats.front()) == Approx(1.0 / (others * others + floor_of_squares)));

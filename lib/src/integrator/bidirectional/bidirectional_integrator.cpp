@@ -200,6 +200,7 @@ void BidirectionalIntegrator::trace_light_path(SampleContext& sample, Scratch& s
 
 void BidirectionalIntegrator::merge_paths(const SampleContext& sample, Scratch& scratch) const
 {
+    scratch.sink.begin_merges();
     for (int t = 2; t <= scratch.camera_path.size(); ++t) {
         const auto camera = scratch.camera_path.first(t);
         if (!can_merge(camera.back())) {

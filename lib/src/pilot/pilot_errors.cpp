@@ -1,0 +1,96 @@
+#include "pilot/pilot_errors.h"
+
+#include "geometry/flush_denormals.h"
+#include "pilot/left_by_sobol.h"
+#include "pilot/merged_finds.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace bdpt {
+namespace {
+
+void add(const PerCandidate<double>& errors, double times, PerCandidate<double>& sum)
+{
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        sum[k] += times * errors[k];
+    }
+}
+
+/// Of a row of the grid.
+PerCandidate<double> errors_of(const PilotRow& row, std::size_t first_cell, const PilotFinds& finds,
+                               const PilotBrightness& brightness)
+{
+    PerCandidate<double> errors{};
+    for (const PilotFind& find : row.joined()) {
+        add(remaining_errors(find.shares, brightness.scale(find.cell)), 1.0 / finds.camera_paths(),
+            errors);
+    }
+    for (std::size_t i = 0; i < row.cells().size(); ++i) {
+        const PilotCell& cell = row.cells()[i];
+        const double scale =
+            brightness.scale(first_cell + i) / static_cast<double>(finds.grid.cells());
+        for (std::size_t k = 0; k < candidates.size(); ++k) {
+            constexpr int samples = PilotRow::samples_of_cell;
+            errors[k] += scale * (left_of_direct_sums * cell.direct.variance(k, samples) +
+                                  left_of_indirect_sums * cell.indirect.variance(k, samples));
+        }
+    }
+    return errors;
+}
+
+PerCandidate<double> errors_of(const PilotSplats& part, const PilotFinds& finds,
+                               const PilotBrightness& brightness)
+{
+    PerCandidate<double> errors{};
+    for (const PilotFind& splat : part.finds()) {
+        add(remaining_errors(splat.shares, brightness.scale(splat)), 1.0 / finds.splatted_pixels(),
+            errors);
+    }
+    return errors;
+}
+
+/// Summed up in the same order by any threads, so that sums have the same bits.
+PerCandidate<double> errors_of(const PilotFinds& finds, const PilotBrightness& brightness)
+{
+    const std::size_t rows = finds.rows.size();
+    std::vector<PerCandidate<double>> errors(rows + finds.parts.size());
+    tbb::parallel_for(std::size_t{0}, errors.size(), [&](std::size_t i) {
+        const FlushDenormals flush;
+        errors[i] = i < rows ? errors_of(finds.rows[i], finds.grid.index(0, static_cast<int>(i)),
+                                         finds, brightness)
+                             : errors_of(finds.parts[i - rows], finds, brightness);
+    });
+    PerCandidate<double> sum = merged_errors(finds, brightness);
+    for (const PerCandidate<double>& part : errors) {
+        add(part, 1.0, sum);
+    }
+    return sum;
+}
+
+/// Adds what rare paths that no pilot finds may bring to any candidate, so that a small gain does
+/// not pay for a much dearer one.
+PerCandidate<double> with_unseen(PerCandidate<double> errors)
+{
+    constexpr double share = 0.2;  // of the error of one light path of its own for each camera path
+    const auto one = std::find_if(candidates.begin(), candidates.end(), [](const Candidate& c) {
+        return c.light_paths == 1.0 && c.connections == 1.0;
+    });
+    const double unseen = share * errors[static_cast<std::size_t>(one - candidates.begin())];
+    for (double& error : errors) {
+        error += unseen;
+    }
+    return errors;
+}
+
+}  // namespace
+
+PerCandidate<double> predicted_errors(const PilotFinds& finds, const PilotBrightness& brightness)
+{
+    return with_unseen(errors_of(finds, brightness));
+}
+
+}  // namespace bdpt

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "integrator/integrator.h"
+#include "pilot/path_shares.h"
+#include "pilot/pilot_grid.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace bdpt {
+
+/// A path that a pilot found, for the pixels of a cell.
+struct PilotFind {
+    std::size_t cell;
+    PathShares shares;
+};
+
+/// What a part of a pilot's light paths splat. They are for the whole image, while the camera paths
+/// of a pilot are in one pixel of each cell.
+class PilotSplats {
+public:
+    /// Traces those of sample `index`; the pilot has `light_paths` for each pixel of the image.
+    void trace(Integrator& integrator, std::int64_t part, std::int64_t index, const PilotGrid& grid,
+               Heuristic heuristic, double light_paths);
+
+    [[nodiscard]] const std::vector<PilotFind>& finds() const { return finds_; }
+    [[nodiscard]] const RenderStats& stats() const { return stats_; }
+
+private:
+    std::vector<PilotFind> finds_;
+    RenderStats stats_;
+};
+
+}  // namespace bdpt

@@ -122,7 +122,7 @@ long double strategy_density(const PathDensities& path, std::size_t s)
     return product;
 }
 
-void strategy_densities(const PathDensities& path, std::span<long double> densities)
+long double strategy_densities(const PathDensities& path, std::span<long double> densities)
 {
     const std::size_t n = path.from_light.size();
     long double from_camera = 1.0L;
@@ -132,29 +132,21 @@ void strategy_densities(const PathDensities& path, std::span<long double> densit
         densities[i] = from_camera;
     }
     long double from_light = 1.0L;
+    long double merges = 0.0L;
     for (std::size_t s = 0; s <= n; ++s) {
         const long double start =
             s == 1 ? static_cast<long double>(path.next_event.value) : from_light;
+        const long double rest = densities[s];
         const float count = path.sample_counts[s];
-        densities[s] = count > 0.0f ? static_cast<long double>(count) * start * densities[s] : 0.0L;
+        densities[s] = count > 0.0f ? static_cast<long double>(count) * start * rest : 0.0L;
         if (s < n) {
             from_light *= static_cast<long double>(path.from_light[s].value);
+            if (!path.merge_weights.empty() && path.merge_weights[s] > 0.0f) {
+                merges += static_cast<long double>(path.merge_weights[s]) * from_light * rest;
+            }
         }
     }
-}
-
-long double merge_densities(const PathDensities& path)
-{
-    long double sum = 0.0L;
-    for (std::size_t i = 0; i < path.merge_weights.size(); ++i) {
-        auto product = static_cast<long double>(path.merge_weights[i]);
-        for (std::size_t j = 0; j < path.from_light.size() && product > 0.0L; ++j) {
-            product *= j <= i ? static_cast<long double>(path.from_light[j].value) : 1.0L;
-            product *= j >= i ? static_cast<long double>(path.from_camera[j].value) : 1.0L;
-        }
-        sum += product;
-    }
-    return sum;
+    return merges;
 }
 
 float mis_weight(const PathDensities& path, int s, Heuristic heuristic)

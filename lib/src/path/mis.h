@@ -29,12 +29,10 @@ struct PathDensities {
 [[nodiscard]] long double strategy_density(const PathDensities& path, std::size_t s);
 
 /// That of all strategies, by s, with one product from each end in place of one for each strategy:
-/// the last digits differ. `densities` has room for n + 1.
-void strategy_densities(const PathDensities& path, std::span<long double> densities);
-
-/// Sum of the densities of all merges: `merge_weights[i]` times that of both walks having sampled
-/// x_i [Georgiev et al. 2012, eq. 6].
-[[nodiscard]] long double merge_densities(const PathDensities& path);
+/// the last digits differ. `densities` has room for n + 1. Returns the sum over all merges:
+/// `merge_weights[i]` times the density of both walks having sampled x_i [Georgiev et al. 2012,
+/// eq. 6].
+long double strategy_densities(const PathDensities& path, std::span<long double> densities);
 
 /// Weight of the strategy that sampled the first `s` vertices from the light [Veach 1997,
 /// sec. 10.2]. A pure function of the path: the weights of all possible strategies of a path add up

@@ -93,9 +93,7 @@ PathDensities PathWeigher::last_path() const
 
 std::span<const float> PathWeigher::shares()
 {
-    const PathDensities path = last_path();
-    strategy_densities(path, densities_);
-    long double sum = merge_densities(path);
+    long double sum = strategy_densities(last_path(), densities_);
     for (std::size_t s = 0; s <= size_; ++s) {
         sum += densities_[s];
     }

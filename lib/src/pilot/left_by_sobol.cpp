@@ -9,15 +9,15 @@ namespace {
 // Sobol points leave a part of the variance of independent samples, as measured in the project's
 // scenes with 32 samples: little of direct light, more of the rest; splats gain nothing.
 constexpr double left_of_direct = 0.25;
-constexpr double left_of_connections = 0.4;
+constexpr double left_of_connections = 0.3;
 
-/// Of what camera paths find alone: all of what few samples find, for which there is no other
-/// sample to spread them from. `value` is what such a path brings, relative to the brightness of
-/// the place; its inverse is how many samples find one, at most.
+/// Of what camera paths find alone: all of what is rare, for nothing is evenly spread that is found
+/// once. `value` is what such a path brings, relative to the brightness of the place: at most one
+/// in so many samples finds one.
 double left_of_own(double value)
 {
-    constexpr double least = 0.5;
-    constexpr double rare = 8.0;
+    constexpr double least = 0.3;
+    constexpr double rare = 4.0;
     return least + (1.0 - least) * value / (value + rare);
 }
 
@@ -27,7 +27,7 @@ PerCandidate<double> left_by_more_connections()
 {
     PerCandidate<double> result;
     for (std::size_t k = 0; k < candidates.size(); ++k) {
-        result[k] = 1.0 / std::sqrt(std::max(1.0, candidates[k].connections));
+        result[k] = 1.0 / std::sqrt(std::sqrt(std::max(1.0, candidates[k].connections)));
     }
     return result;
 }

@@ -116,7 +116,7 @@ TEST_CASE("the densities of all strategies at once are those of each", "[mis]")
     for (int trial = 0; trial < 10000; ++trial) {
         const RandomPath path(engine);
         std::vector<long double> densities(path.sample_counts.size());
-        strategy_densities(path.densities(), densities);
+        const long double all_merges = strategy_densities(path.densities(), densities);
         for (std::size_t s = 0; s < densities.size(); ++s) {
             REQUIRE(static_cast<double>(densities[s]) == Approx(path.density(s)).epsilon(1e-12));
             REQUIRE(static_cast<double>(strategy_density(path.densities(), s)) ==
@@ -126,8 +126,7 @@ TEST_CASE("the densities of all strategies at once are those of each", "[mis]")
         for (std::size_t i = 0; i < path.merge_weights.size(); ++i) {
             merges += path.merge_density(i);
         }
-        REQUIRE(static_cast<double>(merge_densities(path.densities())) ==
-                Approx(merges).epsilon(1e-12));
+        REQUIRE(static_cast<double>(all_merges) == Approx(merges).epsilon(1e-12));
     }
 }
 

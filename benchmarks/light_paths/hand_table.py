@@ -1,0 +1,110 @@
+#!/usr/bin/env python3
+"""Holds what --integrator auto chooses against the choices by hand: hand_table.py BDPT [SCENE...]
+
+Renders each scene by mis and with all numbers of light paths and connections that auto chooses from, and prints what
+auto chose, the product of its least time and relMSE over the least of all, and the same for relMSE without the ten
+pixels of largest error. The noise is that of the first ratio (one standard error, as a factor), by leaving out one seed
+in turn; the least of sixteen noisy products is too low by itself. Times are those of rendering, without the pilot's.
+Errors are those of auto_table.py. Needs numpy."""
+
+import argparse
+import json
+import math
+import pathlib
+import statistics
+import subprocess
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import numpy as np
+import seed_errors
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+CONNECTIONS = {0.0625: (0.25, 1, 2, 3, 5), 0.25: (0.25, 1, 2, 3), 0.5: (0.25, 1, 2), 1: (0.25, 1, 2)}
+
+
+def render(bdpt, scene, arguments, image, *options):
+    """What `--stats` tells."""
+    told = subprocess.run([bdpt, "render", scene, "--size", f"{arguments.side}x{arguments.side}", "-o", image, "--quiet",
+                           "--threads", "1", "--stats", "-", *options], check=True, capture_output=True, text=True)
+    return json.loads(told.stdout)
+
+
+def by_hand(settings):
+    """Options of a render with these settings."""
+    if settings["integrator"] == "mis":
+        return ("--integrator", "mis")
+    n = settings["light_paths"]
+    disabled = settings.get("disabled", [])
+    return ("--integrator", "bdpt", "--light-paths", f"{n:g}", "--connections", f"{settings.get('connections', n):g}",
+            *(("--disable", ",".join(disabled)) if disabled else ()))
+
+
+def candidates(chosen):
+    """All choices, with what was chosen."""
+    disabled = chosen[6:] if len(chosen) > 2 else ("--disable", "s1t1")
+    each = [("--integrator", "bdpt", "--light-paths", f"{n:g}", "--connections", f"{c:g}", *disabled)
+            for n, numbers in CONNECTIONS.items() for c in numbers]
+    return [("--integrator", "mis"), *each]
+
+
+def words(options):
+    return "mis" if len(options) == 2 else f"n {options[3]} c {options[5]}"
+
+
+def products(seconds, images, seeds, without):
+    """Of each choice, by some of the seeds."""
+    judge = seed_errors.SeedErrors([each[seeds] for each in images])
+    return np.array([min(time[seed] for seed in seeds) * judge.error(each[seeds], False, 1, without)
+                     for time, each in zip(seconds, images)])
+
+
+def noise(seconds, images, chosen, best):
+    count = len(seconds[0])
+    logs = []
+    for left_out in range(count):
+        some = products(seconds, images, [seed for seed in range(count) if seed != left_out], 0)
+        logs.append(math.log(some[chosen] / some[best]))
+    return math.exp(math.sqrt((count - 1) * statistics.pvariance(logs)))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("bdpt", type=pathlib.Path)
+    parser.add_argument("scenes", nargs="*", type=pathlib.Path, metavar="SCENE", help="default: all of scenes/")
+    parser.add_argument("--side", type=int, default=256, help="pixels a side (256)")
+    parser.add_argument("--spp", type=int, default=32, help="samples per pixel (32)")
+    parser.add_argument("--seeds", type=int, default=4, help="renders with each choice (4)")
+    arguments = parser.parse_intermixed_args()
+    print(f"{'scene':26} {'auto chose':16} {'best by hand':16} {'over it':>8} {'no dots':>8} {'noise':>6}")
+    ratios = []
+    with tempfile.TemporaryDirectory() as folder:
+        image = pathlib.Path(folder) / "image.exr"
+        for scene in arguments.scenes or sorted((ROOT / "scenes").glob("*.gltf")):
+            told = render(arguments.bdpt, scene, arguments, image, "--integrator", "auto", "--spp", "1")
+            choice = by_hand(told["settings"])
+            all_choices = candidates(choice)
+            seconds, images = ([[] for _ in all_choices] for _ in range(2))
+            for seed in range(1, arguments.seeds + 1):
+                for i, options in enumerate(all_choices):
+                    told = render(arguments.bdpt, scene, arguments, image, "--spp", str(arguments.spp), "--seed",
+                                  str(seed), *options)
+                    seconds[i].append(told["seconds"]["render"])
+                    images[i].append(seed_errors.pixels(image))
+            images = [np.stack(each) for each in images]
+            every = list(range(arguments.seeds))
+            chosen = all_choices.index(choice)
+            found = products(seconds, images, every, 0)
+            dotless = products(seconds, images, every, seed_errors.DOTS)
+            best = int(np.argmin(found))
+            ratios.append(found[chosen] / found[best])
+            print(f"{scene.stem:26} {words(choice):16} {words(all_choices[best]):16} {ratios[-1]:8.2f} "
+                  f"{dotless[chosen] / dotless.min():8.2f} {noise(seconds, images, chosen, best):6.2f}", flush=True)
+    print(f"{'geometric mean':26} {'':16} {'':16} {math.exp(statistics.fmean(math.log(r) for r in ratios)):8.2f}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

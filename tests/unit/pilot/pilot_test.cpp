@@ -150,6 +150,23 @@ TEST_CASE("a pilot predicts errors of renders with other numbers of light paths"
     CHECK(measured_error(scene, candidates[index_of(0.0, 0.0)]) > 5.0 * measured_one);
 }
 
+TEST_CASE("a pilot predicts alike for images of any size", "[pilot]")
+{
+    // Of the small one it looks at nearly all pixels, of the large one at one in sixteen.
+    const Scene scene = indirect_room();
+    RenderOptions large = small();
+    large.film.width = 6 * side;
+    large.film.height = 6 * side;
+    const PilotResult of_small = pilot_of(scene, inside(), small());
+    const PilotResult of_large = pilot_of(scene, inside(), large);
+    for (std::size_t k = 1; k < candidates.size(); ++k) {
+        CAPTURE(candidates[k].light_paths, candidates[k].connections);
+        CHECK(of_large.errors[k] < 1.5 * of_small.errors[k]);
+        CHECK(of_large.errors[k] > of_small.errors[k] / 1.5);
+        CHECK(of_large.costs[k] == Approx(of_small.costs[k]).epsilon(0.1));
+    }
+}
+
 TEST_CASE("a pilot predicts how well lamps are seen with and without points of them", "[pilot]")
 {
     const Scene scene = far_lamp();

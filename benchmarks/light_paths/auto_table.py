@@ -65,13 +65,11 @@ def products(seconds, images, seeds):
 
 
 def noise(seconds, images, best):
-    """Of the quotient of auto and the best single integrator, as a factor >= 1: the jackknife's."""
-    count = len(seconds["auto"])
-    logs = []
-    for left_out in range(count):
-        some = products(seconds, images, [seed for seed in range(count) if seed != left_out])
-        logs.append(math.log(some["auto"][0] / some[best][0]))
-    return math.exp(math.sqrt((count - 1) * statistics.pvariance(logs)))
+    """Of the quotient of auto and the best single integrator."""
+    def ratio(seeds):
+        some = products(seconds, images, seeds)
+        return some["auto"][0] / some[best][0]
+    return seed_errors.noise(len(seconds["auto"]), ratio)
 
 
 def words(settings):

@@ -62,12 +62,10 @@ def products(seconds, images, seeds, without):
 
 
 def noise(seconds, images, chosen, best):
-    count = len(seconds[0])
-    logs = []
-    for left_out in range(count):
-        some = products(seconds, images, [seed for seed in range(count) if seed != left_out], 0)
-        logs.append(math.log(some[chosen] / some[best]))
-    return math.exp(math.sqrt((count - 1) * statistics.pvariance(logs)))
+    def ratio(seeds):
+        some = products(seconds, images, seeds, 0)
+        return some[chosen] / some[best]
+    return seed_errors.noise(len(seconds[0]), ratio)
 
 
 def main():

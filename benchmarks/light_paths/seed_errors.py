@@ -1,6 +1,8 @@
 """Errors of renders from the spread between seeds, without a reference whose own noise would count."""
 
+import math
 import pathlib
+import statistics
 import sys
 
 import numpy as np
@@ -74,3 +76,9 @@ class SeedErrors:
         """relMSE, its mean over scales, and relMSE without dots."""
         over_scales = [self.error(images, biased, side) for side in SCALES]
         return np.array([over_scales[0], np.mean(over_scales), self.error(images, biased, 1, DOTS)])
+
+
+def noise(seeds, ratio):
+    """One standard error of a ratio, as a factor >= 1: the jackknife's. `ratio` makes it from some of so many seeds."""
+    logs = [math.log(ratio([seed for seed in range(seeds) if seed != left_out])) for left_out in range(seeds)]
+    return math.exp(math.sqrt((seeds - 1) * statistics.pvariance(logs)))

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "pilot/path_shares.h"
-#include "pilot/sample_moments.h"
 
 namespace bdpt {
 

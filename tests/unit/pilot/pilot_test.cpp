@@ -3,6 +3,7 @@
 #include "pilot/pilot.h"
 
 #include "catch.hpp"
+#include "pilot/path_shares.h"
 #include "pilot/prices.h"
 #include "render/open_camera.h"
 #include "scene/world.h"
@@ -233,6 +234,23 @@ TEST_CASE("what costs more rays has a higher price", "[pilot]")
     // Light paths of one's own need not be kept.
     CHECK(cost(1.0, 1.0) - cost(1.0, 0.25) < cost(0.5, 1.0) - cost(0.5, 0.25));
     CHECK(sample_cost({.light_paths = 0.0, .connections = 0.0}, RenderStats{}) > 0.0);
+}
+
+TEST_CASE("a connection costs its choice and the shadow rays that one of the pilot's took",
+          "[pilot]")
+{
+    constexpr int camera_paths = 10;
+    constexpr int shadow_rays = 3;  // of one connection
+    RenderStats stats;
+    stats.paths = {.camera = camera_paths};
+    stats.rays.shadow_interior = PathShares::pilot_connections * shadow_rays * camera_paths;
+    stats.rays.shadow = stats.rays.shadow_interior;
+    const auto cost = [&](double connections) {
+        return sample_cost({.light_paths = 0.25, .connections = connections}, stats);
+    };
+    constexpr double shadow_ray = 180.0;  // [ns]
+    constexpr double choice = 70.0;
+    CHECK(cost(1.0) - cost(0.25) == Approx(0.75 * (choice + shadow_rays * shadow_ray)));
 }
 
 TEST_CASE("of the best at equal cost, the one that fits into memory is taken", "[pilot]")

@@ -6,6 +6,8 @@
 #include "scene_builder.h"
 
 #include <algorithm>
+#include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -21,7 +23,7 @@ Scene lamp_over_floor()
     return Scene(std::move(builder.desc));
 }
 
-RenderResult rendered(IntegratorKind integrator, int light_samples)
+RenderOptions direct_light(IntegratorKind integrator, int light_samples)
 {
     RenderOptions options;
     options.integrator = integrator;
@@ -29,7 +31,12 @@ RenderResult rendered(IntegratorKind integrator, int light_samples)
     options.sampling.samples.end = 4;
     options.sampling.light_samples = light_samples;
     options.transport.max_depth = 2;
-    return render(lamp_over_floor(), test::room_camera(), options);
+    return options;
+}
+
+RenderResult rendered(IntegratorKind integrator, int light_samples)
+{
+    return render(lamp_over_floor(), test::room_camera(), direct_light(integrator, light_samples));
 }
 
 /// Mean square of what two images with other numbers differ by.
@@ -80,6 +87,27 @@ TEST_CASE("several light samples take as many shadow rays, and have less noise",
     const double noise = difference(one.film.develop(), truth);
     // The edges of what is lit keep their noise, and directions of the BSDF.
     CHECK(difference(sixteen.film.develop(), truth) < 0.5 * noise);
+}
+
+TEST_CASE("the light samples of bdpt at a camera vertex are points apart", "[integrator]")
+{
+    constexpr int light_samples = 16;
+    RenderOptions options = direct_light(IntegratorKind::bdpt, light_samples);
+    options.sampling.samples.end = 1;
+    options.system.threads = 1;
+    std::map<std::pair<float, float>, std::vector<float>> found;  // by pixel
+    RenderControl control;
+    control.on_path = [&](const PathContribution& path) {
+        if (path.strategy == Strategy{.s = 1, .t = 2}) {
+            found[{path.raster.x, path.raster.y}].push_back(path.unweighted.g);
+        }
+    };
+    (void)render(lamp_over_floor(), test::room_camera(), options, control);
+    CHECK(found.size() > 50);
+    for (const auto& [pixel, values] : found) {
+        CHECK(values.size() == light_samples);
+        CHECK(std::set(values.begin(), values.end()).size() > light_samples / 2);
+    }
 }
 
 }  // namespace bdpt

@@ -133,6 +133,28 @@ TEST_CASE("the samples of a pixel take their share of connections", "[light-path
     }
 }
 
+TEST_CASE("a pixel is joined to each light path of its bundle equally often", "[light-paths]")
+{
+    // Where each sample takes all or all but one of them.
+    const double connections = GENERATE(1.5, 2.5, 3.5);
+    CAPTURE(connections);
+    const RenderOptions o = options(0.25, connections);
+    const LightPathCounts counts(o);
+    const LightPathCache cache(counts, o);
+    const std::int64_t samples = 4 * counts.bundle;
+    for (int x = 0; x < width; ++x) {
+        std::vector<int> joins(static_cast<std::size_t>(counts.bundle));
+        for (std::int64_t index = 0; index < samples; ++index) {
+            const auto choice = cache.choose(x, 4, {.index = index});
+            for (int which = 0; which < choice.count; ++which) {
+                ++joins[static_cast<std::size_t>((choice.first + which) % counts.bundle)];
+            }
+        }
+        const auto [least, most] = std::minmax_element(joins.begin(), joins.end());
+        CHECK(*least == *most);
+    }
+}
+
 TEST_CASE("each shared light path has random numbers of its own", "[light-paths]")
 {
     const RenderOptions o = options(0.25, 2.0);

@@ -9,7 +9,8 @@
 namespace bdpt {
 namespace {
 
-/// Nothing but fog so thin that one walk of hundreds is scattered in it, beside a lamp that is not seen.
+/// Nothing but fog so thin that one walk of hundreds is scattered in it, beside a lamp that is not
+/// seen.
 Scene thin_fog()
 {
     test::SceneBuilder builder;
@@ -26,6 +27,34 @@ RenderResult rendered(const Scene& scene, IntegratorKind integrator, int samples
     options.sampling.samples.end = samples;
     options.transport.max_depth = 2;
     return render(scene, test::camera_at({0, 0, 3}, {0, 0, 0}, 0.3f), options);
+}
+
+/// Beside what is seen of dense fog a globe so large and near that all three ways to find it count:
+/// points of fog that are chosen for it, light samples, and directions of the phase function.
+Scene globe_in_fog()
+{
+    test::SceneBuilder builder;
+    builder.light(
+        PointLightDesc{.position = {1.4f, 0.0f, 0.0f}, .intensity = Rgb(3.0f), .radius = 0.7f});
+    builder.desc.fog = MediumDesc{.extinction = Rgb(1.0f), .albedo = Rgb(1.0f)};
+    return Scene(std::move(builder.desc));
+}
+
+double mean_of_globe(LightSampling lights, int light_samples)
+{
+    RenderOptions options;
+    options.integrator = IntegratorKind::mis;
+    options.film = {.width = 8, .height = 8};
+    options.sampling.samples.end = 512;
+    options.sampling.lights = lights;
+    options.sampling.light_samples = light_samples;
+    options.transport.max_depth = 2;
+    const CameraDesc camera = test::camera_at({0, 0, 3}, {0, 0, 0}, 0.3f);
+    double sum = 0.0;
+    for (const Rgb& pixel : render(globe_in_fog(), camera, options).film.develop().pixels) {
+        sum += static_cast<double>(pixel.g) / (8 * 8);
+    }
+    return sum;
 }
 
 }  // namespace
@@ -47,6 +76,15 @@ TEST_CASE("a lamp in thin fog has no noise, for points of the fog are chosen for
     }
     CHECK(expected > 0.0);
     CHECK(found == Approx(expected).epsilon(0.03));
+}
+
+TEST_CASE("the ways to find a lamp share its light in fog, however often each is tried", "[media]")
+{
+    // With a tree, points are chosen for the lamp on one segment in four.
+    const double expected = mean_of_globe(LightSampling::power, 1);
+    CHECK(mean_of_globe(LightSampling::tree, 1) == Approx(expected).epsilon(0.03));
+    CHECK(mean_of_globe(LightSampling::power, 4) == Approx(expected).epsilon(0.03));
+    CHECK(mean_of_globe(LightSampling::tree, 4) == Approx(expected).epsilon(0.03));
 }
 
 }  // namespace bdpt

@@ -99,6 +99,48 @@ TEST_CASE("a film without noise is clean, and one that tells nothing is not", "[
     CHECK(noise_of(film) > 1.0);
 }
 
+/// Brightness of the samples of each half of the film.
+struct Halves {
+    float even = 1.0f;
+    float odd = 1.0f;
+};
+
+/// A row of tiles whose pixels have two samples each.
+Film row_of_tiles(const std::vector<Halves>& tiles)
+{
+    constexpr int tile = 16;
+    const int width = tile * static_cast<int>(tiles.size());
+    Film film({.width = width, .height = tile, .region = {.x1 = width, .y1 = tile}});
+    for (int y = 0; y < tile; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const Halves& halves = tiles[static_cast<std::size_t>(x / tile)];
+            film.add_sample(x, y, 0, Rgb(halves.even));
+            film.add_sample(x, y, 1, Rgb(halves.odd));
+        }
+    }
+    film.count_samples(0, 2);
+    return film;
+}
+
+TEST_CASE("of fewer than 20 tiles none is left out", "[noise]")
+{
+    for (std::size_t tiles = 1; tiles < 20; ++tiles) {
+        CAPTURE(tiles);
+        std::vector<Halves> halves(tiles, {.even = 1.1f, .odd = 0.9f});
+        halves[tiles / 2] = {.even = 1.5f, .odd = 0.5f};
+        CHECK(noise_of(row_of_tiles(halves)) == Approx(0.5));
+    }
+    std::vector<Halves> twenty(20, {.even = 1.1f, .odd = 0.9f});
+    twenty[7] = {.even = 1.5f, .odd = 0.5f};
+    CHECK(noise_of(row_of_tiles(twenty)) == Approx(0.1));
+}
+
+TEST_CASE("noise is relative to the mean of both halves", "[noise]")
+{
+    CHECK(noise_of(row_of_tiles({{.even = 3.0f, .odd = 1.0f}})) == Approx(0.5));
+    CHECK(noise_of(row_of_tiles({{.even = 1.0f, .odd = 3.0f}})) == Approx(0.5));
+}
+
 TEST_CASE("noise is looked at where halves have good sets of points", "[noise]")
 {
     std::vector<std::int64_t> looks;

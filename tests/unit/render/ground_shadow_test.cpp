@@ -209,6 +209,24 @@ TEST_CASE("what shines does not shade the ground from itself", "[ground]")
     CHECK(*std::min_element(all.opacity.begin(), all.opacity.end()) == 1.0f);
 }
 
+TEST_CASE("a leaf does not shade the ground from light that the lamp itself hides", "[ground]")
+{
+    // Only the upper of two plates shines down, and the lower one is in its way.
+    const MaterialDesc leaf = lambertian(Rgb(0.5f));
+    MeshDesc plates;
+    plates.positions = {{-1, 2, 1}, {1, 2, 1}, {1, 2, -1}, {-1, 2, -1},
+                        {-3, 1, 3}, {3, 1, 3}, {3, 1, -3}, {-3, 1, -3}};
+    plates.triangles = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}};
+    SceneBuilder builder;
+    builder.place(builder.add_mesh(plates), emitter(Rgb(4.0f)), Mat4(1.0f));
+    const CameraDesc beside = camera_at({0.5f, 0.4f, 0.0f}, {0.0f, 0.0f, 0.0f}, 0.1f);
+    const RenderOptions options = ground_options(8, 16);
+    check_clear(shadow_of(builder.desc, beside, options));
+    builder.quad({-0.5f, 0.8f, 0.5f}, {0.5f, 0.8f, 0.5f}, {0.5f, 0.8f, -0.5f}, {-0.5f, 0.8f, -0.5f},
+                 leaf);
+    check_clear(shadow_of(builder.desc, beside, options));
+}
+
 TEST_CASE("the ground is seen from above only, and as far as rays reach", "[ground]")
 {
     SceneBuilder builder = square(lambertian(Rgb(0.5f)));

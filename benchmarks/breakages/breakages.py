@@ -21,6 +21,7 @@ WALK = "lib/src/path/random_walk.cpp"
 SUMS = "lib/src/path/weight_sums.cpp"
 CAMERA = "lib/src/camera/camera.cpp"
 CACHE = "lib/src/integrator/bidirectional/light_path_cache.cpp"
+TRACER = "lib/src/integrator/path/path_integrator.cpp"
 
 # So wide, and so far into the box, that light paths hit it.
 WIDE_LENS = ("--lens-radius", "0.1", "--from", "0.278,0.273,-0.1", "--look-at", "0.278,0.273,0.28", "--fov", "100")
@@ -80,6 +81,12 @@ BREAKAGES = (
              "ratio * (2.0 * camera_term(joins && joinable(camera[k - 1]), k) +"),
     Breakage("weights of joins forget merging", SUMS, "merge_term(z, z.pdf_fwd, joins) + before", "0.0 + before",
              options=("--integrator", "vcm", "--max-depth", "4")),
+    Breakage("merges take the light of a sun from where it goes", "lib/src/path/merge.cpp", "? before_y.end.p",
+             "? -before_y.end.p", "room-sun.gltf", ("--integrator", "vcm", "--max-depth", "4")),
+    Breakage("weights take points of fog for chosen on each segment", TRACER, "? fog_sampling_->samples() *", "? 1.0f *",
+             "night-market.gltf", ("--fog", "0.05", "--max-depth", "3")),
+    Breakage("points of fog count light samples as one", TRACER, "(probability * light_samples_),\n        flight.stop",
+             "probability,\n        flight.stop", options=(*FOG, "--light-samples", "4")),
     Breakage("weights count lenses that are hit twice", SUMS, "? ratio * splats_ :",
              "? 2.0 * ratio * splats_ :", options=WIDE_LENS),
     Breakage("weights take connections for as many as light paths", SUMS, "joins_(raise(strategies.connections()))",

@@ -183,6 +183,31 @@ TEST_CASE("each strategy alone, in fog", "[strategies][media]")
     }
 }
 
+TEST_CASE("each strategy alone, in a volume that colours light", "[strategies][media]")
+{
+    // The means of all channels would agree if one strategy took the volume for grey, so the lamp
+    // is blue, which the volume takes away most.
+    SceneBuilder builder = open_stage_builder();
+    builder.desc.instances.pop_back();
+    builder.lamp(1.0f, 1.1f, Rgb(0.0f, 0.0f, 12.0f));
+    builder.desc.volumes.push_back(
+        {.size = {1, 1, 1},
+         .density = {1.0f},
+         .world_from_grid = glm::scale(glm::translate(Mat4(1.0f), Vec3(-4.0f)), Vec3(8.0f)),
+         .extinction = {0.0f, 0.1f, 0.3f},
+         .albedo = Rgb(0.0f)});
+    const Scene scene(std::move(builder.desc));
+    Options options(65000);
+    for (const int edges : {1, 2}) {
+        TileMeans reference(scene, thin_lens(), options(IntegratorKind::mis, edges, edges));
+        for (const int s : {0, 1, edges + 1}) {
+            TileMeans alone(scene, thin_lens(), options.only(s, edges));
+            check_equal("s = " + std::to_string(s) + " of " + std::to_string(edges) + " edges",
+                        reference, alone, 0.15);
+        }
+    }
+}
+
 TEST_CASE("each strategy alone makes long paths as bright as they are", "[strategies]")
 {
     // In a furnace paths of k edges bring Le a^(k - 1) [nit].

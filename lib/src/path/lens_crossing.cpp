@@ -10,7 +10,7 @@
 namespace bdpt {
 
 void look_for_lens(const SampleContext& sample, const WalkStep& step, float free_distance,
-                   Subpath& path)
+                   SegmentKey segment, Subpath& path)
 {
     const auto hit = sample.camera.hit_lens(step.origin->p, step.direction);
     if (!hit || hit->distance >= free_distance || hit->distance * hit->distance < coincident) {
@@ -33,7 +33,9 @@ void look_for_lens(const SampleContext& sample, const WalkStep& step, float free
     PathVertex& lens = crossing.lens;
     lens.kind = VertexKind::camera;
     lens.end = hit->lens;
-    lens.beta = step.beta * (flight.transmittance / flight.pass);
+    lens.beta = step.beta * (flight.transmittance / flight.pass) *
+                sample.world.volumes().weight_of_passing(step.origin->p, step.direction,
+                                                         hit->distance, segment);
     // Both densities of the lens: as the walk found it, and as a camera path starts.
     lens.pdf_rev = step.pdf_of_point(cosine, distance_squared) * flight.pass;
     lens.pdf_fwd = hit->pdf_lens;

@@ -116,7 +116,7 @@ void walk(SampleContext& sample, const Walk& rules, WalkStep step, Subpath& path
             look_for_lens(sample, step,
                           hit ? glm::distance(hit->end.p, step.origin->p)
                               : std::numeric_limits<float>::infinity(),
-                          path);
+                          segment, path);
         }
         if (path.size() == max_vertices) {
             return;

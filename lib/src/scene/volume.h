@@ -109,6 +109,14 @@ public:
     /// Null-Scattering Path Integral Formulation of Light Transport", sec. 5.2].
     [[nodiscard]] VolumePassage walk(Vec3 origin, Vec3 direction, float distance,
                                      SegmentKey segment) const noexcept;
+    /// What the throughput of a walk is multiplied by that passes `distance` without an event,
+    /// where its `walk` with the same segment ends there or farther on.
+    [[nodiscard]] Rgb weight_of_passing(Vec3 origin, Vec3 direction, float distance,
+                                        SegmentKey segment) const noexcept
+    {
+        return are_grey_ ? Rgb(1.0f)
+                         : colour_weight(origin, direction, distance, std::nullopt, segment);
+    }
     [[nodiscard]] Rgb transmittance(Vec3 origin, Vec3 direction, float distance,
                                     SegmentKey segment) const noexcept;
 

@@ -211,6 +211,27 @@ TEST_CASE("walks through volumes of other colours bring what both let through", 
     }
 }
 
+TEST_CASE("a walk that passes a point in a coloured volume brings the light of that point",
+          "[volume]")
+{
+    const VolumeDesc desc = smoke();
+    const Volumes volumes({&desc, 1});
+    for (const Ray& ray : rays(desc)) {
+        const float half = 0.5f * ray.length;
+        const glm::dvec3 left =
+            left_of(volumes[0], ray.origin, ray.direction, static_cast<double>(half));
+        Mean passing;
+        for (int i = 0; i < 40000; ++i) {
+            const auto event = volumes.walk(ray.origin, ray.direction, ray.length, key(i)).event;
+            const bool passes = !event || event->distance > half;
+            passing.add(passes ? glm::dvec3(volumes.weight_of_passing(ray.origin, ray.direction,
+                                                                      half, key(i)))
+                               : glm::dvec3(0.0));
+        }
+        passing.check(left);
+    }
+}
+
 TEST_CASE("of several volumes a walk is scattered by the first", "[volume]")
 {
     VolumeDesc thin;

@@ -71,7 +71,7 @@ enum class EnvironmentSampling : std::uint8_t {
 
 /// How next-event estimation chooses one of many lights.
 enum class LightSampling : std::uint8_t {
-    automatic,  ///< tree in scenes of many lights, else power
+    automatic,  ///< tree for many lights, and for lights at infinity beside others; else power
     power,      ///< in proportion to power, wherever they are
     /// By what they may bring to the point [Conty Estevez and Kulla 2018, "Importance Sampling of
     /// Many Lights with Adaptive Tree Splitting", without splitting].

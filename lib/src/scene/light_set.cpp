@@ -114,7 +114,9 @@ LightSet::LightSet(std::span<const InstanceDesc> instances, std::span<const Plac
     }
     by_power_ = powers(lights_);
     next_event_ = NextEventLights(lights_);
-    prefers_tree_ = next_event_.placed_count() >= many_lights;
+    // The power of light from infinity grows with the size of the scene, not with what it brings to
+    // a point: beside the sun a lamp in a large scene would never be chosen by power.
+    prefers_tree_ = next_event_.placed_count() >= many_lights || next_event_.has_both_kinds();
 }
 
 std::optional<LightSet::Choice> LightSet::choose_for_emission(Vec2 u) const

@@ -32,6 +32,11 @@ public:
 
     /// Lights that have a place and power.
     [[nodiscard]] std::size_t placed_count() const noexcept { return placed_.size(); }
+    /// Are there lights at infinity beside them?
+    [[nodiscard]] bool has_both_kinds() const noexcept
+    {
+        return !placed_.empty() && !infinite_.empty();
+    }
 
 private:
     /// Where a light is found: its number among those of its group.

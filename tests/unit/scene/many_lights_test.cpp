@@ -211,4 +211,24 @@ TEST_CASE("few lights are chosen by power, many by the tree", "[light][tree]")
     }
 }
 
+TEST_CASE("a lamp beside the sun is chosen often enough, however large the scene is",
+          "[light][tree]")
+{
+    SceneBuilder builder;
+    builder.quad({-100, 0, 100}, {100, 0, 100}, {100, 0, -100}, {-100, 0, -100},
+                 test::lambertian(Rgb(0.5f)));
+    builder.light(PointLightDesc{.position = {0.0f, 2.0f, 0.0f}, .intensity = Rgb(20.0f)});
+    builder.light(DirectionalLightDesc{.direction = {0.3f, -1.0f, 0.2f}, .illuminance = Rgb(3.0f)});
+    builder.light(EnvironmentLightDesc{.radiance = {.width = 1, .height = 1, .pixels = {Rgb(1)}}});
+    const World world(std::move(builder.desc));
+    const LightSampleContext below_lamp{.p = {0.5f, 0.0f, 0.0f}, .normal = Vec3(0.0f, 1.0f, 0.0f)};
+    const auto p = [&](std::uint32_t id) {
+        return world.lights().context_probability(LightId{id}, below_lamp,
+                                                  LightSampling::automatic);
+    };
+    CHECK(p(0) >= 0.25f);
+    CHECK(p(1) + p(2) >= 0.25f);
+    CHECK(p(0) + p(1) + p(2) == Approx(1.0f));
+}
+
 }  // namespace bdpt

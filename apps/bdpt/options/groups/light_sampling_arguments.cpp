@@ -66,7 +66,8 @@ void add_light_sampling_options(CLI::App& command, LightSamplingWords& words, co
                "uniform light to BSDF sampling) or plain");
     add_choice("--light-sampling", words.lights, names_of(light_samplings),
                "Choice of one light: power (by emitted power), tree (light tree: by estimated "
-               "contribution to the point), auto (default: tree if there are many lights)");
+               "contribution to the point), auto (default: tree for many lights, and for lamps "
+               "beside the sun or an environment)");
     add_light_samples_option(command, words, group);
 }
 

@@ -79,8 +79,8 @@ struct DiffuseTransmissionDesc {
     std::optional<TextureRef> color_texture;  ///< sRGB
 };
 
-/// Scattering within a body whose attenuation says how dense it is [KHR_materials_volume_scatter,
-/// draft].
+/// Scattering within a body whose attenuation says how dense it is [KHR_materials_volume_scatter and
+/// KHR_materials_scatter, drafts].
 struct VolumeScatterDesc {
     Rgb color{0.0f};          ///< [0, 1], multi-scatter albedo: about what a dense body looks like
     float anisotropy = 0.0f;  ///< g of Henyey and Greenstein, in (-1, 1): > 0 forwards

@@ -34,7 +34,7 @@ bool has_inside(const MaterialDesc& desc)
            (desc.transmission > 0.0f || desc.diffuse_transmission.factor > 0.0f);
 }
 
-Rgb single_scatter_albedo(Rgb multiscatter_color)
+Rgb single_scatter_albedo(Rgb multiscatter_color, float anisotropy)
 {
     Rgb result{0.0f};
     for (int channel = 0; channel < 3; ++channel) {
@@ -42,7 +42,8 @@ Rgb single_scatter_albedo(Rgb multiscatter_color)
         const float root = std::sqrt(9.59217f + 41.6808f * c + 17.7126f * c * c);
         const float s = 4.09712f + 4.20863f * c - root;
         // The fit is off by 1e-6 at both ends.
-        result[channel] = c == 0.0f ? 0.0f : std::clamp(1.0f - s * s, 0.0f, 1.0f);
+        const float albedo = std::clamp(1.0f - s * s, 0.0f, 1.0f) / (1.0f - anisotropy * s * s);
+        result[channel] = c == 0.0f ? 0.0f : std::min(albedo, 1.0f);
     }
     return result;
 }
@@ -51,7 +52,8 @@ Medium medium_within(const MaterialDesc& desc)
 {
     const Rgb extinction = extinction_of(desc);
     return {.extinction = extinction,
-            .scattering = extinction * single_scatter_albedo(desc.volume_scatter.color),
+            .scattering = extinction * single_scatter_albedo(desc.volume_scatter.color,
+                                                             desc.volume_scatter.anisotropy),
             .anisotropy = desc.volume_scatter.anisotropy};
 }
 

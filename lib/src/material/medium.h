@@ -27,7 +27,7 @@ struct Medium {
 
 /// Single-scatter albedo of a medium that looks as bright as `multiscatter_color`, in [0, 1], where
 /// it is dense and lit from outside [Kulla and Conty 2017, "Revisiting Physically Based Shading at
-/// Imageworks"].
-[[nodiscard]] Rgb single_scatter_albedo(Rgb multiscatter_color);
+/// Imageworks", slide 44]. `anisotropy` is g of its phase function, in (-1, 1).
+[[nodiscard]] Rgb single_scatter_albedo(Rgb multiscatter_color, float anisotropy);
 
 }  // namespace bdpt

@@ -122,12 +122,53 @@ TEST_CASE("bodies scatter by the multi-scatter colour of the draft", "[media]")
     CHECK(medium.extinction.g == Approx(2.0));
     CHECK(medium.anisotropy == -0.2f);
     CHECK(medium.scattering.r == 0.0f);
-    // 1 - (4.09712 + 4.20863 c - sqrt(9.59217 + 41.6808 c + 17.7126 c^2))^2 with c = 0.5.
+    // (1 - s^2) / (1 - g s^2), s = 4.09712 + 4.20863 c - sqrt(9.59217 + 41.6808 c + 17.7126 c^2)
+    // with c = 0.5.
     const double s = 4.09712 + 4.20863 * 0.5 - std::sqrt(9.59217 + 41.6808 * 0.5 + 17.7126 * 0.25);
-    CHECK(medium.scattering.g == Approx(2.0 * (1.0 - s * s)).epsilon(1e-4));
+    CHECK(medium.scattering.g == Approx(2.0 * (1.0 - s * s) / (1.0 + 0.2 * s * s)).epsilon(1e-4));
     CHECK(medium.scattering.b == Approx(2.0).epsilon(1e-5));
     CHECK(medium.scattering.b <= medium.extinction.b);
     CHECK(medium.scatters());
     wax.thickness = 0.0f;
     CHECK(medium_within(wax).is_clear());
+}
+
+TEST_CASE("a dense body has its multi-scatter colour, whatever the anisotropy is", "[media]")
+{
+    // Light that falls evenly on a half space walks at random until it comes out again.
+    const auto albedo = [](float color, float g) {
+        const double scattered = static_cast<double>(single_scatter_albedo(Rgb(color), g).r);
+        test::Random random(7);
+        const auto uniform = [&random] { return static_cast<double>(random.next()); };
+        constexpr int walks = 20000;
+        double sum = 0.0;
+        for (int walk = 0; walk < walks; ++walk) {
+            double depth = 0.0;
+            double mu = std::sqrt(1.0 - uniform());  // cosine of the way down
+            double left = 1.0;
+            while (left > 1e-3) {
+                depth -= mu * std::log(1.0 - uniform());
+                if (depth < 0.0) {
+                    sum += left;
+                    break;
+                }
+                left *= scattered;
+                const double gd = static_cast<double>(g);
+                const double q = (1.0 - gd * gd) / (1.0 - gd + 2.0 * gd * uniform());
+                const double turn = std::abs(gd) < 1e-3 ? 2.0 * uniform() - 1.0
+                                                        : (1.0 + gd * gd - q * q) / (2.0 * gd);
+                const double across =
+                    std::sqrt(std::max(0.0, (1.0 - mu * mu) * (1.0 - turn * turn)));
+                mu = mu * turn + across * std::cos(6.283185307179586 * uniform());
+            }
+        }
+        return sum / walks;
+    };
+    for (const float color : {0.25f, 0.5f, 0.8f}) {
+        const auto expected = static_cast<double>(color);
+        for (const float g : {-0.4f, 0.0f, 0.8f}) {
+            CAPTURE(color, g);
+            CHECK(albedo(color, g) == Approx(expected).margin(0.04));
+        }
+    }
 }

@@ -118,6 +118,33 @@ TEST_CASE("bodies that scatter are read, by either name of their colour")
     CHECK_THROWS_AS(scatter({{"scatterAnisotropy", {1}}}), Error);
 }
 
+TEST_CASE("KHR_materials_scatter is read in bodies with a thickness")
+{
+    const auto scatter = [](const nlohmann::json& extension, double thickness) {
+        return with_material({{"extensions",
+                               {{"KHR_materials_transmission", {{"transmissionFactor", 1}}},
+                                {"KHR_materials_volume", {{"thicknessFactor", thickness}}},
+                                {"KHR_materials_scatter", extension}}}})
+            .load();
+    };
+    const auto of = [](const LoadedScene& loaded) {
+        return loaded.scene.materials.at(0).volume_scatter;
+    };
+    const nlohmann::json half{{"scatterStrengthFactor", 0.5},
+                              {"multiscatterColorFactor", {1, 0.5, 0}},
+                              {"scatterAnisotropy", 0.25}};
+    const LoadedScene body = scatter(half, 1.0);
+    CHECK(of(body).color == Rgb(0.5f, 0.25f, 0.0f));
+    CHECK(of(body).anisotropy == 0.25f);
+    CHECK(body.warnings.empty());
+    CHECK(of(scatter(nlohmann::json::object(), 1.0)).color == Rgb(0.0f));
+    CHECK(of(scatter({{"scatterStrengthFactor", 1}}, 1.0)).color == Rgb(1.0f));
+    const LoadedScene sheet = scatter(half, 0.0);
+    CHECK(of(sheet).color == Rgb(0.0f));
+    CHECK(warns(sheet.warnings, {"/materials/0/", "KHR_materials_scatter", "thickness"}));
+    CHECK_THROWS_AS(scatter({{"scatterStrengthFactor", "much"}}, 1.0), Error);
+}
+
 TEST_CASE("values beyond their ranges are brought back with a warning")
 {
     const LoadedScene loaded =

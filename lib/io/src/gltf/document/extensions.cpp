@@ -27,6 +27,8 @@ constexpr std::array table{
     ExtensionSupport{"KHR_materials_ior", supported, ""},
     ExtensionSupport{"KHR_materials_iridescence", supported, ""},
     ExtensionSupport{"KHR_materials_pbrSpecularGlossiness", supported, ""},
+    ExtensionSupport{"KHR_materials_scatter", supported,
+                     "a draft; in bodies with a thickness only, without textures"},
     ExtensionSupport{"KHR_materials_sheen", supported, "roughness below 0.1 counts as 0.1"},
     ExtensionSupport{"KHR_materials_specular", supported, ""},
     ExtensionSupport{"KHR_materials_transmission", supported, ""},

@@ -44,6 +44,7 @@ public:
         read_transmission();
         read_volume();
         read_volume_scatter();
+        read_scatter();
         read_layers(values_, desc_);
         if (source_.normalTexture.index >= 0) {
             desc_.normal_scale = static_cast<float>(source_.normalTexture.scale);
@@ -201,6 +202,40 @@ private:
         desc_.volume_scatter.anisotropy =
             values_.in_range(number_or(*value, "scatterAnisotropy", 0.0), -most, most,
                              "extensions/KHR_materials_volume_scatter/scatterAnisotropy");
+    }
+
+    /// Draft of June 2026, the successor of KHR_materials_volume_scatter. Comes after the volume.
+    void read_scatter()
+    {
+        const auto* value = values_.extension("KHR_materials_scatter");
+        if (value == nullptr) {
+            return;
+        }
+        const std::string at = "extensions/KHR_materials_scatter/";
+        const float strength = values_.in_range(number_or(*value, "scatterStrengthFactor", 0.0),
+                                                0.0, 1.0, at + "scatterStrengthFactor");
+        if (strength == 0.0f) {
+            desc_.volume_scatter = {};
+            return;
+        }
+        if (desc_.thickness == 0.0f) {
+            context_.warn(
+                "KHR_materials_scatter is supported in bodies with a thickness only; "
+                "this sheet does not scatter",
+                fmt::format("{}/{}scatterStrengthFactor", place_, at));
+            return;
+        }
+        for (const char* texture : {"scatterStrengthTexture", "multiscatterColorTexture"}) {
+            if (value->Has(texture)) {
+                context_.warn("textures of KHR_materials_scatter are ignored",
+                              fmt::format("{}/{}{}", place_, at, texture));
+            }
+        }
+        constexpr auto most = static_cast<double>(most_anisotropy);
+        desc_.volume_scatter = {
+            .color = strength * values_.color(*value, "multiscatterColorFactor", 1.0),
+            .anisotropy = values_.in_range(number_or(*value, "scatterAnisotropy", 0.0), -most, most,
+                                           at + "scatterAnisotropy")};
     }
 
     const tinygltf::Material& source_;

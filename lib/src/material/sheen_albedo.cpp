@@ -59,8 +59,10 @@ constexpr float least_cosine = 1e-5f;
     return used * used;
 }
 
-/// Midpoints of the azimuth over one half of its symmetric course, and of the root of the cosine.
-[[nodiscard]] float integrate(float cosine, float alpha)
+/// Integrates the formula times `factor(cos_i)` over all wi, by midpoints of the azimuth over one
+/// half of its symmetric course and of the root of the cosine.
+template <typename Factor>
+[[nodiscard]] float integrate(float cosine, float alpha, const Factor& factor)
 {
     constexpr int heights = 40;
     constexpr int azimuths = 24;
@@ -78,7 +80,8 @@ constexpr float least_cosine = 1e-5f;
             around += distribution(wo + Vec3{sine * azimuth.cos, sine * azimuth.sin, cos_i}, alpha);
         }
         // d cos = 2 root d root; f cos_i = D / (4 cos_o (1 + Lambda))
-        sum += around * 2.0f * root / (4.0f * cos_o * (1.0f + lambda_o + lambda(cos_i, alpha)));
+        sum += around * 2.0f * root * factor(cos_i) /
+               (4.0f * cos_o * (1.0f + lambda_o + lambda(cos_i, alpha)));
     }
     return sum * 2.0f * pi / (heights * azimuths);
 }
@@ -88,18 +91,26 @@ constexpr float least_cosine = 1e-5f;
 SheenAlbedo::SheenAlbedo()
 {
     constexpr float between_nodes = 1.002f;  // an albedo may be greater than at its neighbours
-    for (int row = 0; row < roughness_nodes; ++row) {
-        const float share = static_cast<float>(row) / (roughness_nodes - 1);
-        const float alpha = alpha_of(glm::mix(least_roughness, 1.0f, share));
-        float& greatest = greatest_[static_cast<std::size_t>(row)];
-        greatest = 1.0f;
-        for (int column = 0; column < cosine_nodes; ++column) {
-            const float x = static_cast<float>(column) / (cosine_nodes - 1);
-            const float albedo = integrate(x * x, alpha);
-            table_[static_cast<std::size_t>(row * cosine_nodes + column)] = albedo;
-            greatest = std::max(greatest, between_nodes * albedo);
+    const auto for_each_node = [&](const auto& visit) {
+        for (int row = 0; row < roughness_nodes; ++row) {
+            const float share = static_cast<float>(row) / (roughness_nodes - 1);
+            const float alpha = alpha_of(glm::mix(least_roughness, 1.0f, share));
+            for (int column = 0; column < cosine_nodes; ++column) {
+                const float x = static_cast<float>(column) / (cosine_nodes - 1);
+                visit(row, static_cast<std::size_t>(row * cosine_nodes + column), x * x, alpha);
+            }
         }
-    }
+    };
+    for_each_node([&](int row, std::size_t node, float cosine, float alpha) {
+        const float albedo = integrate(cosine, alpha, [](float) { return 1.0f; });
+        excess_[node] = std::max(1.0f, between_nodes * albedo);
+        exceeds_one_[static_cast<std::size_t>(row)] |= excess_[node] > 1.0f;
+    });
+    for_each_node([&](int row, std::size_t node, float cosine, float alpha) {
+        const Rows rows = row + 1 < roughness_nodes ? Rows{row, 0.0f} : Rows{row - 1, 1.0f};
+        directional_[node] = integrate(
+            cosine, alpha, [&](float cos_i) { return 1.0f / excess(rows, cosine, cos_i); });
+    });
 }
 
 SheenAlbedo::Rows SheenAlbedo::rows_at(float roughness)
@@ -110,10 +121,23 @@ SheenAlbedo::Rows SheenAlbedo::rows_at(float roughness)
     return {lower, scaled - static_cast<float>(lower)};
 }
 
-float SheenAlbedo::scale(Rows rows) const noexcept
+float SheenAlbedo::look_up(const Table& table, Rows rows, float cosine) noexcept
 {
-    const float* row = greatest_.data() + rows.lower;
-    return 1.0f / glm::mix(row[0], row[1], rows.fraction);
+    const float scaled = std::sqrt(std::clamp(cosine, 0.0f, 1.0f)) * (cosine_nodes - 1);
+    const int column = std::min(static_cast<int>(scaled), cosine_nodes - 2);
+    const float fraction = scaled - static_cast<float>(column);
+    const float* lower = table.data() + rows.lower * cosine_nodes + column;
+    const float* upper = lower + cosine_nodes;
+    return glm::mix(glm::mix(lower[0], lower[1], fraction), glm::mix(upper[0], upper[1], fraction),
+                    rows.fraction);
+}
+
+float SheenAlbedo::excess(Rows rows, float cos_o, float cos_i) const noexcept
+{
+    const auto row = static_cast<std::size_t>(rows.lower);
+    return exceeds_one_[row] || exceeds_one_[row + 1]
+               ? std::max(look_up(excess_, rows, cos_o), look_up(excess_, rows, cos_i))
+               : 1.0f;
 }
 
 float SheenAlbedo::value(Vec3 wo, Vec3 wi, float roughness) const noexcept
@@ -121,20 +145,14 @@ float SheenAlbedo::value(Vec3 wo, Vec3 wi, float roughness) const noexcept
     const float alpha = alpha_of(roughness);
     const float cos_o = std::max(wo.z, least_cosine);
     const float cos_i = std::max(wi.z, least_cosine);
-    return scale(rows_at(roughness)) * distribution(wo + wi, alpha) /
-           (4.0f * cos_o * cos_i * (1.0f + lambda(cos_o, alpha) + lambda(cos_i, alpha)));
+    return distribution(wo + wi, alpha) /
+           (4.0f * cos_o * cos_i * (1.0f + lambda(cos_o, alpha) + lambda(cos_i, alpha)) *
+            excess(rows_at(roughness), cos_o, cos_i));
 }
 
 float SheenAlbedo::directional(float cosine, float roughness) const noexcept
 {
-    const Rows rows = rows_at(roughness);
-    const float scaled = std::sqrt(std::clamp(cosine, 0.0f, 1.0f)) * (cosine_nodes - 1);
-    const int column = std::min(static_cast<int>(scaled), cosine_nodes - 2);
-    const float fraction = scaled - static_cast<float>(column);
-    const float* lower = table_.data() + rows.lower * cosine_nodes + column;
-    const float* upper = lower + cosine_nodes;
-    return scale(rows) * glm::mix(glm::mix(lower[0], lower[1], fraction),
-                                  glm::mix(upper[0], upper[1], fraction), rows.fraction);
+    return look_up(directional_, rows_at(roughness), cosine);
 }
 
 }  // namespace bdpt

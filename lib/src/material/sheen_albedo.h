@@ -9,7 +9,7 @@ namespace bdpt {
 
 /// The reflection of fibres that stand off a surface ("Charlie") [Conty Estevez and Kulla 2017,
 /// "Production Friendly Microfacet Sheen BRDF"; KHR_materials_sheen], and tables of how much it
-/// reflects in all. About 4 kB; refer to it, do not copy it.
+/// reflects in all. About 7 kB; refer to it, do not copy it.
 class SheenAlbedo {
 public:
     /// Perceptual roughness below which fibres do not get straighter: the lobe would be narrower
@@ -19,8 +19,9 @@ public:
     /// Integrates the tables, which takes some ten milliseconds.
     SheenAlbedo();
 
-    /// f of white fibres [1/sr]. `wo` and `wi` are above the surface. Never reflects more than it
-    /// gets: where the formula does, it is scaled down.
+    /// f of white fibres [1/sr]. `wo` and `wi` are above the surface. It is the formula of the
+    /// extension, but where that would reflect more light from `wo` or `wi` than arrives, which
+    /// it does of grazing light, it is divided by the greater excess of the two.
     [[nodiscard]] float value(Vec3 wo, Vec3 wi, float roughness) const noexcept;
 
     /// The share that white fibres reflect of light with this cosine in [0, 1].
@@ -35,12 +36,17 @@ private:
         int lower;
         float fraction;
     };
-    [[nodiscard]] static Rows rows_at(float roughness);
-    [[nodiscard]] float scale(Rows rows) const noexcept;
-
     /// Rows of even roughness from the least one, in them nodes of even sqrt(cosine).
-    std::array<float, roughness_nodes * cosine_nodes> table_;
-    std::array<float, roughness_nodes> greatest_;  ///< of each row and a little more; at least 1
+    using Table = std::array<float, roughness_nodes * cosine_nodes>;
+
+    [[nodiscard]] static Rows rows_at(float roughness);
+    [[nodiscard]] static float look_up(const Table& table, Rows rows, float cosine) noexcept;
+    /// What `value` divides the formula by, >= 1.
+    [[nodiscard]] float excess(Rows rows, float cos_o, float cos_i) const noexcept;
+
+    Table directional_;
+    Table excess_;  ///< albedo of the formula alone, but at least 1
+    std::array<bool, roughness_nodes> exceeds_one_{};  ///< anything of that row
 };
 
 }  // namespace bdpt

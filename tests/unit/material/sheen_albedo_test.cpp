@@ -2,6 +2,8 @@
 
 #include "catch.hpp"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -67,4 +69,38 @@ TEST_CASE("sheen has the values worked out by hand")
     CHECK(sheen.directional(0.7f, 0.2f) < sheen.directional(0.7f, 0.9f));
     // The least roughness.
     CHECK(sheen.value(w, w, 0.0f) == sheen.value(w, w, SheenAlbedo::least_roughness));
+}
+
+TEST_CASE("sheen is the formula of the extension, but where that makes light")
+{
+    const SheenAlbedo sheen;
+    // roughness 0.25, alpha 0.0625: the formula reflects more of grazing light than arrives.
+    constexpr double alpha = 0.0625;
+    const double share = (1.0 - alpha) * (1.0 - alpha);
+    const auto mix = [&](double a, double b) { return a + share * (b - a); };
+    const auto l = [&](double x) {
+        return mix(21.5473, 25.3245) /
+                   (1.0 + mix(3.82987, 3.32435) * std::pow(x, mix(0.19823, 0.16801))) +
+               mix(-1.97760, -1.27393) * x + mix(-4.32054, -4.85967);
+    };
+    const auto lambda = [&](double cosine) {
+        return cosine < 0.5 ? std::exp(l(cosine)) : std::exp(2.0 * l(0.5) - l(1.0 - cosine));
+    };
+    for (const double cos_o : {0.3, 0.6, 0.95}) {
+        for (const double cos_i : {0.25, 0.5, 0.8}) {
+            const Vec3 wo(std::sqrt(1.0 - cos_o * cos_o), 0.0, cos_o);
+            const Vec3 wi(0.0, std::sqrt(1.0 - cos_i * cos_i), cos_i);
+            const Vec3 h = wo + wi;
+            const double sine2 = static_cast<double>((h.x * h.x + h.y * h.y) / dot(h, h));
+            const double d = (2.0 + 1.0 / alpha) * std::pow(sine2, 0.5 / alpha) / (2.0 * exact_pi);
+            CAPTURE(cos_o, cos_i);
+            CHECK(sheen.value(wo, wi, 0.25f) ==
+                  Approx(d / (4.0 * cos_o * cos_i * (1.0 + lambda(cos_o) + lambda(cos_i))))
+                      .epsilon(2e-4));
+        }
+    }
+    for (const double cosine : {0.002, 0.01, 0.05, 0.1, 0.2}) {
+        CAPTURE(cosine);
+        CHECK(albedo(sheen, cosine, 0.25f) < 1.001);
+    }
 }

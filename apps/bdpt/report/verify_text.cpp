@@ -5,7 +5,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 namespace bdpt::app {
@@ -97,16 +99,50 @@ std::string integrators_text(const VerifyReport& report)
     return result;
 }
 
+std::string merges_text(const VerifyReport& report)
+{
+    if (report.merges.empty()) {
+        return {};
+    }
+    std::string result = fmt::format("\n{:<10}{:>10}{}\n", "merging", "brings", comparison_head);
+    for (const eval::MergeFinding& finding : report.merges) {
+        if (finding.whole.found != 0.0 || finding.whole.expected != 0.0) {
+            result += fmt::format("{:<10}{:>10}{}\n", fmt::format("{} edges", finding.edges),
+                                  percent(finding.brought, report.radiance),
+                                  comparison_text(finding.whole));
+        }
+    }
+    return result;
+}
+
+/// What all merges together bring to the image of vcm [nit].
+double merged_light(const VerifyReport& report)
+{
+    double sum = 0.0;
+    for (const eval::MergeFinding& finding : report.merges) {
+        sum += finding.brought;
+    }
+    return sum;
+}
+
 void add_failures(const std::string& name, const MeanComparison& whole,
+                  const std::vector<MeanComparison>& channels,
                   const std::vector<MeanComparison>& tiles, const VerifyReport& report,
                   std::vector<std::string>& lines)
 {
+    constexpr std::array channel_names{"red", "green", "blue"};
     const auto line = [&](const std::string& where, const MeanComparison& test) {
         return fmt::format("{}, {}: {:.6g} nit, but {:.6g} expected (z = {:.2f}, p = {:.2g})", name,
                            where, test.found, test.expected, test.z, test.p_adjusted);
     };
     if (fails(whole, report)) {
         lines.push_back(line("whole image", whole));
+    }
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+        if (fails(channels[i], report)) {
+            lines.push_back(
+                line(fmt::format("{} of the whole image", channel_names[i]), channels[i]));
+        }
     }
     for (std::size_t i = 0; i < tiles.size(); ++i) {
         if (fails(tiles[i], report)) {
@@ -144,12 +180,16 @@ std::vector<std::string> failures(const VerifyReport& report)
     }
     for (const StrategyFinding& finding : report.strategies) {
         add_failures(fmt::format("strategy s={} t={}", finding.strategy.s, finding.strategy.t),
-                     finding.whole, finding.tiles, report, lines);
+                     finding.whole, finding.channels, finding.tiles, report, lines);
     }
     for (const IntegratorFinding& finding : report.integrators) {
         add_failures(fmt::format("{} against bdpt, {} edges", eval::to_string(finding.integrator),
                                  finding.edges),
-                     finding.whole, finding.tiles, report, lines);
+                     finding.whole, finding.channels, finding.tiles, report, lines);
+    }
+    for (const eval::MergeFinding& finding : report.merges) {
+        add_failures(fmt::format("merging, {} edges", finding.edges), finding.whole,
+                     finding.channels, {}, report, lines);
     }
     return lines;
 }
@@ -186,15 +226,35 @@ std::string verdict_text(const VerifyReport& report, const eval::VerifyOptions& 
                "have been found. Give it more --time\n";
     }
     const std::string found = fmt::format(
-        "errors of a strategy that change the image by {} would have been found, by 90 %",
+        "errors of a strategy that change the image, or a channel of it, by {} would have been "
+        "found, by 90 %",
         percent(report.detectable));
+    if (!report.merges.empty() && report.verdict == eval::Verdict::inconclusive &&
+        report.detectable <= options.detectable_bias) {
+        return fmt::format(
+            "\nINCONCLUSIVE: nothing disagrees, but {}; {} is needed. Give it more --time, or "
+            "a greater --merge-radius\n",
+            std::isfinite(report.detectable_of_merging)
+                ? fmt::format(
+                      "of merging only an error by {} of what it brings would have been found",
+                      percent(report.detectable_of_merging))
+                : "nothing else finds what is merged here",
+            percent(eval::most_error_of_merging));
+    }
     if (report.verdict == eval::Verdict::inconclusive) {
         return fmt::format(
             "\nINCONCLUSIVE: nothing disagrees, but only {}; {} was asked for. The "
             "noisiest is {}. Give it more --time\n",
             found, percent(options.detectable_bias), noisiest(report));
     }
-    return fmt::format("\nPASS: all agree; {}\n", found);
+    const std::string merging =
+        report.merges.empty()
+            ? ""
+            : fmt::format(
+                  "; merging brings {} of the image, and an error by {} of that would have been",
+                  percent(merged_light(report), report.radiance),
+                  percent(report.detectable_of_merging));
+    return fmt::format("\nPASS: all agree; {}{}\n", found, merging);
 }
 
 }  // namespace
@@ -207,7 +267,7 @@ std::string verify_text(const VerifyReport& report, const eval::VerifyOptions& o
         report.batches, report.seconds, options.max_depth, report.weights.paths,
         report.weights.worst);
     result += images_text(report) + lengths_text(report) + strategies_text(report) +
-              integrators_text(report);
+              integrators_text(report) + merges_text(report);
     if (report.unchecked > 1e-6) {
         result += fmt::format(
             "\n{} of the light can be made by one strategy of bdpt only, and not by pt, nee or "

@@ -50,7 +50,13 @@ RenderOptions inspected_options(const Scene& scene, const CameraDesc& camera, Re
     options.sampling.rates = nullptr;
     options.bidirectional.strategy_depth = 0;
     options.system.threads = 1;
-    return chosen_options(scene, camera, options);
+    options = chosen_options(scene, camera, options);
+    if (options.integrator == IntegratorKind::vcm) {
+        throw Error(
+            ErrorCode::usage,
+            "vcm cannot be inspected: a path that it merges is not that of a strategy (s, t)");
+    }
+    return options;
 }
 
 PixelWalk::PixelWalk(const Scene& scene, const CameraDesc& camera, const RenderOptions& options,

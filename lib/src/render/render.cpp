@@ -136,11 +136,6 @@ PartResult render_part(const Scene& scene, const CameraDesc& camera_desc,
     const double cpu_start = cpu_seconds();
     const RenderOptions options = chosen_options(scene, camera_desc, asked);
     check_strategy_memory(options, camera_desc);
-    if (control.on_path && options.integrator == IntegratorKind::vcm) {
-        throw Error(ErrorCode::usage,
-                    "vcm cannot tell of single paths (on_path): a path that it "
-                    "merges is not that of a strategy (s, t)");
-    }
     Identity identity = bdpt::identity(scene, camera_desc, options);
     if (!so_far.samples.empty()) {
         check_part(so_far, identity, options);

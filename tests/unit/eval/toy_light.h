@@ -22,6 +22,8 @@ struct ToyFault {
     double own_density = 1.0;  ///< of strategy 1, as the others think of it
     bool claims_all = false;   ///< strategy 2 is thought to see all that it is blind for
     bool only_left = false;    ///< the factors hold in the left half of the image only
+    Rgb tint{1.0f};            ///< of what strategy 0 finds
+    Rgb tint_of_mis{1.0f};
 };
 
 /// A renderer whose paths of two edges are points x of [0, 1), all of them as bright: 1 nit.
@@ -38,19 +40,21 @@ public:
     eval::Batch batch(const eval::TileGrid& grid)
     {
         using namespace eval;
-        const RadianceSums none(grid, 2);
-        Batch result{.bdpt = PathSums(grid, 2), .others = {none, none, none, none}, .images = {}};
+        Batch result = empty(grid, Measure::mean);
+        for (const Measure channel : channel_measures) {
+            result.channels.push_back(empty(TileGrid(4, 4, 1), channel));
+        }
         for (int pixel = 0; pixel < 16; ++pixel) {
             const Vec2 raster(static_cast<float>(pixel % 4) + 0.5f,
                               static_cast<float>(pixel / 4) + 0.5f);
             for (int i = 0; i < bdpt_samples; ++i) {
                 for (std::size_t s = 0; s < 4; ++s) {
-                    add(result.bdpt, s, raster);
+                    add_bdpt(result, s, raster);
                 }
             }
             for (std::size_t other = 0; other < result.others.size(); ++other) {
                 for (int i = 0; i < samples_of(other_integrators[other], 2); ++i) {
-                    add(result.others[other], other, raster);
+                    add_other(result, other, raster);
                 }
             }
         }
@@ -58,6 +62,12 @@ public:
     }
 
 private:
+    [[nodiscard]] static eval::Batch empty(const eval::TileGrid& grid, eval::Measure measure)
+    {
+        return {.bdpt = eval::PathSums(grid, 2, {}, measure),
+                .others = {4, eval::RadianceSums(grid, 2, measure)},
+                .images = {}};
+    }
     /// As the path `x` that strategy `finder` has found is weighed.
     std::array<double, 4> densities(double x, std::size_t finder) const
     {
@@ -84,7 +94,7 @@ private:
         return fault_.only_left && raster.x > 2.0f ? 1.0 : fault_.factors[s];
     }
 
-    void add(eval::PathSums& sums, std::size_t s, Vec2 raster)
+    void add_bdpt(eval::Batch& batch, std::size_t s, Vec2 raster)
     {
         const double x = sample(s);
         const std::array<double, 4> p = densities(x, s);
@@ -96,21 +106,31 @@ private:
             squares += p[i] * p[i];
         }
         const double value = factor(s, raster) / p[s];
-        sums.add({.strategy = {.s = static_cast<int>(s), .t = 3 - static_cast<int>(s)},
-                  .raster = raster,
-                  .unweighted = Rgb(static_cast<float>(value)),
-                  .weight = static_cast<float>(fault_.weights * p[s] * p[s] / squares),
-                  .shares = shares});
+        const PathContribution path{
+            .strategy = {.s = static_cast<int>(s), .t = 3 - static_cast<int>(s)},
+            .raster = raster,
+            .unweighted = static_cast<float>(value) * (s == 0 ? fault_.tint : Rgb(1.0f)),
+            .weight = static_cast<float>(fault_.weights * p[s] * p[s] / squares),
+            .shares = shares};
+        batch.bdpt.add(path);
+        for (eval::Batch& channel : batch.channels) {
+            channel.bdpt.add(path);
+        }
     }
 
     /// pt by strategy 0, nee by 1, mis by both, lt by 2 and 3.
-    void add(eval::RadianceSums& sums, std::size_t integrator, Vec2 raster)
+    void add_other(eval::Batch& batch, std::size_t integrator, Vec2 raster)
     {
         const auto tell = [&](double value) {
-            sums.add(
-                {.strategy = {.s = 0, .t = 3},
-                 .raster = raster,
-                 .unweighted = Rgb(static_cast<float>(fault_.integrators[integrator] * value))});
+            const PathContribution path{
+                .strategy = {.s = 0, .t = 3},
+                .raster = raster,
+                .unweighted = static_cast<float>(fault_.integrators[integrator] * value) *
+                              (integrator == 2 ? fault_.tint_of_mis : Rgb(1.0f))};
+            batch.others[integrator].add(path);
+            for (eval::Batch& channel : batch.channels) {
+                channel.others[integrator].add(path);
+            }
         };
         const auto pair = [&](std::size_t a, std::size_t b) {
             for (const std::size_t s : {a, b}) {

@@ -137,6 +137,25 @@ TEST_CASE("a strategy with a wrong factor fails")
     }
 }
 
+TEST_CASE("light in the wrong channel fails, although the mean of all is right")
+{
+    const Rgb tint(1.07f, 1.0f, 0.93f);
+    const VerifyReport strategy = judge_toy({.tint = tint});
+    CHECK(strategy.verdict == Verdict::fail);
+    const StrategyFinding& wrong = finding(strategy, {.s = 0, .t = 3});
+    CHECK_FALSE(fails(wrong.whole, strategy));
+    REQUIRE(wrong.channels.size() == 3);
+    CHECK(fails(wrong.channels[0], strategy));
+    CHECK_FALSE(fails(wrong.channels[1], strategy));
+    CHECK(fails(wrong.channels[2], strategy));
+    CHECK(wrong.channels[2].found < wrong.channels[2].expected);
+    const VerifyReport integrator = judge_toy({.tint_of_mis = tint});
+    CHECK(integrator.verdict == Verdict::fail);
+    const IntegratorFinding& mis = finding(integrator, IntegratorKind::mis);
+    CHECK_FALSE(fails(mis.whole, integrator));
+    CHECK(fails(mis.channels.at(0), integrator));
+}
+
 TEST_CASE("a wrong factor is seen in what others find, if hardly anyone checks the strategy")
 {
     // Where strategy 3 finds anything, in a hundredth of the image, its weight is nearly one.

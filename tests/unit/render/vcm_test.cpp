@@ -179,10 +179,40 @@ TEST_CASE("vcm refuses what it cannot do", "[vcm]")
     RenderOptions o = options();
     o.bidirectional.strategy_depth = 3;
     CHECK(refusal(scene, o).find("need the integrator bdpt or lt") != std::string::npos);
-    o = options();
+}
+
+TEST_CASE("vcm tells all paths, and which of them it has merged", "[vcm]")
+{
+    const Scene scene = room();
+    RenderOptions o = options();
+    o.transport.heuristic = Heuristic::balance;
+    o.system.threads = 1;
+    double sum = 0.0;
+    int merged = 0;
     RenderControl control;
-    control.on_path = [](const PathContribution&) {};
-    CHECK(refusal(scene, o, control).find("vcm cannot tell of single paths (on_path)") == 0);
+    control.on_path = [&](const PathContribution& path) {
+        const Rgb c = path.weight * path.unweighted;
+        sum += static_cast<double>(c.r + c.g + c.b);
+        double shares = 0.0;
+        for (const float share : path.shares) {
+            shares += static_cast<double>(share);
+        }
+        CHECK(path.strategy.s + path.strategy.t ==
+              static_cast<int>(path.shares.size()) - 1 + (path.merged ? 1 : 0));
+        if (path.merged) {
+            ++merged;
+            // What the strategies leave of one is the share of all merges of the path.
+            CHECK(static_cast<double>(path.weight) <= 1.0 - shares + 1e-4);
+        }
+    };
+    const Film film = render(scene, test::room_camera(), o, control).film;
+    CHECK(merged > 100);
+    const Image image = film.develop();
+    double expected = 0.0;
+    for (const Rgb& c : image.pixels) {
+        expected += static_cast<double>(c.r + c.g + c.b);
+    }
+    CHECK(sum / static_cast<double>(film.sample_count()) == Approx(expected).epsilon(1e-3));
 }
 
 TEST_CASE("scenes without light have nothing to merge with", "[vcm]")

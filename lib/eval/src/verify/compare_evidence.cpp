@@ -99,4 +99,21 @@ MeanComparison compare_integrator(const Evidence& evidence, std::size_t cell, in
                           .freedom = welch_freedom(found, expected)});
 }
 
+MeanComparison compare_merges(const Evidence& evidence, int edges)
+{
+    const MergeEvidence& found = evidence.merges(edges);
+    const double samples = evidence.samples_in(evidence.whole(), IntegratorKind::vcm, edges);
+    const double variance = squared_error(found.difference);
+    const double rare = unseen_variance({.samples = samples,
+                                         .seen = found.sums.seen,
+                                         .expected_samples = samples,
+                                         .expected = found.sums.second_moment},
+                                        variance);
+    return compare_means({.found = found.sums.tested / samples,
+                          .expected = found.sums.expected / samples,
+                          .sample_variance = variance,
+                          .rare_variance = rare,
+                          .freedom = static_cast<double>(found.difference.count() - 1)});
+}
+
 }  // namespace bdpt::eval

@@ -15,4 +15,7 @@ namespace bdpt::eval {
 [[nodiscard]] MeanComparison compare_integrator(const Evidence& evidence, std::size_t cell,
                                                 int edges, std::size_t integrator);
 
+/// What merging found against what is expected of it, in the whole image.
+[[nodiscard]] MeanComparison compare_merges(const Evidence& evidence, int edges);
+
 }  // namespace bdpt::eval

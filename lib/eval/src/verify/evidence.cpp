@@ -30,6 +30,16 @@ void Evidence::add(const Batch& batch)
     add_strategies(batch);
     add_lengths(batch);
     add_images(batch);
+    if (batch.merges) {
+        add_merges(*batch.merges);
+    }
+    if (channels_.empty() && !batch.channels.empty()) {
+        channels_.assign(batch.channels.size(),
+                         Evidence(batch.channels[0].bdpt.grid(), row_.max_depth(), others_));
+    }
+    for (std::size_t i = 0; i < batch.channels.size(); ++i) {
+        channels_[i].add(batch.channels[i]);
+    }
     const WeightFinding& weights = batch.bdpt.weights();
     weights_.paths += weights.paths;
     weights_.wrong += weights.wrong;
@@ -97,6 +107,18 @@ void Evidence::add_lengths(const Batch& batch)
             all += batch.bdpt.length(tile, edges);
         }
         add(whole(), edges, all, all_others);
+    }
+}
+
+void Evidence::add_merges(const MergeSums& sums)
+{
+    merges_.resize(static_cast<std::size_t>(row_.max_depth()));
+    for (int edges = 1; edges <= row_.max_depth(); ++edges) {
+        MergeEvidence& evidence = merges_[static_cast<std::size_t>(edges - 1)];
+        const MergeSumsOfLength& of_batch = sums.length(edges);
+        evidence.sums += of_batch;
+        evidence.difference.add((of_batch.tested - of_batch.expected) /
+                                (samples_of(IntegratorKind::vcm, edges) * pixels(whole())));
     }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "verify/merge_sums.h"
 #include "verify/path_sums.h"
 #include "verify/radiance_sums.h"
 
@@ -10,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace bdpt::eval {
@@ -49,8 +51,11 @@ using PerImage = std::array<T, 1 + other_integrators.size()>;
 /// One batch: independent samples of all integrators.
 struct Batch {
     PathSums bdpt;
-    std::vector<RadianceSums> others;  ///< in the order of `other_integrators`
-    PerImage<ImageCheck> images;       ///< bdpt, then in that order
+    std::vector<RadianceSums> others;   ///< in the order of `other_integrators`
+    PerImage<ImageCheck> images;        ///< bdpt, then in that order
+    std::optional<MergeSums> merges{};  ///< if vcm is among the others
+    /// The same samples by `channel_measures`, but for `images`. May be left out.
+    std::vector<Batch> channels{};
 };
 
 /// What many batches say about a strategy in a tile or in the whole image.
@@ -66,6 +71,12 @@ struct LengthEvidence {
     std::array<Moments, other_integrators.size()> others;
     std::array<SecondMoment, other_integrators.size()> seen;  ///< of the samples of `others`
     LengthSums sums;
+};
+
+/// What many batches say about merging.
+struct MergeEvidence {
+    Moments difference;  ///< tested - expected, a mean over samples and pixels
+    MergeSumsOfLength sums;
 };
 
 /// All batches together, by cell: the tiles, then the whole image.
@@ -95,6 +106,14 @@ public:
     {
         return finders_[row_.pair(edges, u, finder)];
     }
+    /// Of the whole image; only if vcm is among the others.
+    [[nodiscard]] const MergeEvidence& merges(int edges) const
+    {
+        return merges_[static_cast<std::size_t>(edges - 1)];
+    }
+    [[nodiscard]] bool knows_merges() const { return !merges_.empty(); }
+    /// By `channel_measures`, of the whole image; empty if the batches had none.
+    [[nodiscard]] const std::vector<Evidence>& channels() const { return channels_; }
     /// Over all lengths: bdpt, then `other_integrators`.
     [[nodiscard]] const PerImage<Moments>& images() const { return images_; }
     [[nodiscard]] const PerImage<ImageCheck>& checks() const { return checks_; }
@@ -105,6 +124,11 @@ public:
         return cell == whole() ? grid_.pixels() : grid_.pixels(cell);
     }
 
+    /// Samples of an integrator in a cell, for paths of that length.
+    [[nodiscard]] double samples_in(std::size_t cell, IntegratorKind kind, int edges) const
+    {
+        return samples_of(kind, edges) * pixels(cell) * static_cast<double>(batches_);
+    }
     /// Samples of bdpt in a cell.
     [[nodiscard]] double bdpt_samples_in(std::size_t cell) const
     {
@@ -115,8 +139,9 @@ private:
     void add_strategies(const Batch& batch);
     void add_lengths(const Batch& batch);
     void add_images(const Batch& batch);
+    void add_merges(const MergeSums& sums);
 
-    const TileGrid& grid_;
+    TileGrid grid_;
     StrategyRow row_;
     std::size_t others_;
     std::int64_t batches_ = 0;
@@ -126,6 +151,8 @@ private:
     PerImage<Moments> images_;
     PerImage<ImageCheck> checks_;
     WeightFinding weights_;
+    std::vector<MergeEvidence> merges_;  // by length
+    std::vector<Evidence> channels_;
 };
 
 }  // namespace bdpt::eval

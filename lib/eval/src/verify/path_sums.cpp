@@ -6,11 +6,6 @@
 namespace bdpt::eval {
 namespace {
 
-double mean_channel(Rgb c)
-{
-    return (static_cast<double>(c.r) + static_cast<double>(c.g) + static_cast<double>(c.b)) / 3.0;
-}
-
 double square(double x)
 {
     return x * x;
@@ -80,10 +75,11 @@ LengthSums& LengthSums::operator+=(const LengthSums& other)
     return *this;
 }
 
-PathSums::PathSums(const TileGrid& grid, int max_depth, SampleCounts counts)
+PathSums::PathSums(const TileGrid& grid, int max_depth, SampleCounts counts, Measure measure)
     : grid_(grid),
       row_(max_depth),
       counts_(counts),
+      measure_(measure),
       roulette_(max_depth),
       strategies_(grid.size() * row_.size()),
       lengths_(grid.size() * static_cast<std::size_t>(max_depth)),
@@ -104,7 +100,7 @@ void PathSums::check_weight(const PathContribution& path, double definition)
 void PathSums::add(const PathContribution& path)
 {
     const int edges = path.strategy.s + path.strategy.t - 1;
-    const double unweighted = mean_channel(path.unweighted);
+    const double unweighted = measured(measure_, path.unweighted);
     if (edges > row_.max_depth() || !std::isfinite(unweighted)) {
         return;
     }
@@ -120,11 +116,11 @@ void PathSums::add(const PathContribution& path)
         return;
     }
     const double all = own_share * unweighted;
-    Measure measure{.weighted = static_cast<double>(path.weight) * unweighted,
-                    .all = all,
-                    .squares = squares,
-                    .moment = 0.0,
-                    .largest = 0.0};
+    PathValue measure{.weighted = static_cast<double>(path.weight) * unweighted,
+                      .all = all,
+                      .squares = squares,
+                      .moment = 0.0,
+                      .largest = 0.0};
     for (std::size_t s = 0; s < path.shares.size(); ++s) {
         const double share = share_of(path, s);
         // w / b with w = b^2 / squares
@@ -148,7 +144,7 @@ void PathSums::add(const PathContribution& path)
                   path, measure);
 }
 
-void PathSums::add_to_strategies(const PathContribution& path, const Measure& measure,
+void PathSums::add_to_strategies(const PathContribution& path, const PathValue& measure,
                                  std::size_t first)
 {
     const auto& [weighted, all, squares, moment, largest] = measure;
@@ -181,7 +177,7 @@ void PathSums::add_to_strategies(const PathContribution& path, const Measure& me
 }
 
 void PathSums::add_to_length(LengthSums& sums, const PathContribution& path,
-                             const Measure& measure) const
+                             const PathValue& measure) const
 {
     const std::size_t n = path.shares.size() - 1;  // vertices
     const int edges = path.strategy.s + path.strategy.t - 1;

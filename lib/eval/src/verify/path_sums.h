@@ -1,5 +1,6 @@
 #pragma once
 
+#include "verify/measure.h"
 #include "verify/roulette.h"
 #include "verify/second_moment.h"
 #include "verify/tile_grid.h"
@@ -51,10 +52,10 @@ private:
 /// would make of the path.
 constexpr double full_share = 1.0 / 16.0;
 
-/// What the paths of bdpt say about one strategy u in one tile. All numbers are sums of mean
-/// channels [nit]. Tested are the paths in which u has a share, each multiplied by g = min(1, share
-/// / `full_share`); g is a function of the path, so whoever finds it takes the same. Expected
-/// second moments hold for the greatest weight that roulette may give.
+/// What the paths of bdpt say about one strategy u in one tile. All numbers are sums of the
+/// measure that is compared [nit]. Tested are the paths in which u has a share, each multiplied by
+/// g = min(1, share / `full_share`); g is a function of the path, so whoever finds it takes the
+/// same. Expected second moments hold for the greatest weight that roulette may give.
 struct StrategySums {
     double tested = 0.0;         ///< g times the unweighted paths that u found
     double expected = 0.0;       ///< g times the weighted paths that anyone found
@@ -100,12 +101,14 @@ struct SampleCounts {
 /// Sums over the paths that bdpt found in some samples. Not for several threads at once.
 class PathSums {
 public:
-    PathSums(const TileGrid& grid, int max_depth, SampleCounts counts = {});
+    PathSums(const TileGrid& grid, int max_depth, SampleCounts counts = {},
+             Measure measure = Measure::mean);
 
     /// Those with more than `max_depth` edges or values that are not finite are ignored. Knows its
     /// shares; weighed by the power heuristic.
     void add(const PathContribution& path);
 
+    [[nodiscard]] const TileGrid& grid() const { return grid_; }
     [[nodiscard]] const StrategySums& strategy(std::size_t tile, std::size_t index) const
     {
         return strategies_[tile * row_.size() + index];
@@ -126,16 +129,17 @@ public:
 private:
     void check_weight(const PathContribution& path, double definition);
     /// What a path is to any strategy, by the balance and the power heuristic.
-    struct Measure {
+    struct PathValue {
         double weighted;  // as it was found
         double all;       // by the balance heuristic, the same whoever finds it
         double squares;   // sum of squared shares
         double moment;    // second moment of a sample of bdpt along this path, at most
         double largest;   // greatest such sample
     };
-    void add_to_strategies(const PathContribution& path, const Measure& measure, std::size_t first);
+    void add_to_strategies(const PathContribution& path, const PathValue& measure,
+                           std::size_t first);
     void add_to_length(LengthSums& sums, const PathContribution& path,
-                       const Measure& measure) const;
+                       const PathValue& measure) const;
     /// By roulette, of a path of so many edges that the strategy with `s` light vertices finds.
     /// Light samples of one vertex depend on each other, so they count as one that is as great as
     /// all.
@@ -146,9 +150,10 @@ private:
         return together * roulette_.greatest_weight({.s = light, .t = edges + 1 - light});
     }
 
-    const TileGrid& grid_;
+    TileGrid grid_;
     StrategyRow row_;
     SampleCounts counts_;
+    Measure measure_;
     Roulette roulette_;
     std::vector<StrategySums> strategies_;  // by tile, then by index
     std::vector<LengthSums> lengths_;       // by tile, then by length

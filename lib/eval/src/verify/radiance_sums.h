@@ -1,5 +1,6 @@
 #pragma once
 
+#include "verify/measure.h"
 #include "verify/second_moment.h"
 #include "verify/tile_grid.h"
 
@@ -11,13 +12,14 @@
 
 namespace bdpt::eval {
 
-/// Sums of the mean channel over the weighted paths that an integrator found in some samples, by
-/// tile and length [nit]. Not for several threads at once.
+/// Sums of a measure over the weighted paths that an integrator found in some samples, by tile and
+/// length [nit]. Not for several threads at once.
 class RadianceSums {
 public:
-    RadianceSums(const TileGrid& grid, int max_depth)
+    RadianceSums(const TileGrid& grid, int max_depth, Measure measure = Measure::mean)
         : grid_(grid),
           max_depth_(max_depth),
+          measure_(measure),
           sums_(grid.size() * static_cast<std::size_t>(max_depth)),
           seen_(sums_.size())
     {}
@@ -25,23 +27,13 @@ public:
     /// Longer ones and values that are not finite are ignored.
     void add(const PathContribution& path)
     {
-        const int edges = path.strategy.s + path.strategy.t - 1;
-        const Rgb& c = path.unweighted;
-        const double sum =
-            static_cast<double>(path.weight) *
-            (static_cast<double>(c.r) + static_cast<double>(c.g) + static_cast<double>(c.b));
-        if (edges <= max_depth_ && std::isfinite(sum)) {
+        const int edges = edges_of(path);
+        const double value = static_cast<double>(path.weight) * measured(measure_, path.unweighted);
+        if (edges <= max_depth_ && std::isfinite(value)) {
             const std::size_t place = index(grid_.tile_at(path.raster), edges);
-            const double mean = sum / 3.0;
-            sums_[place] += mean;
-            seen_[place].add(mean, mean * mean);
+            sums_[place] += value;
+            seen_[place].add(value, value * value);
         }
-    }
-
-    /// Of an integrator that does not tell its paths: all that it brought to a tile.
-    void add_tile(std::size_t tile, int edges, double radiance)
-    {
-        sums_[index(tile, edges)] += radiance;
     }
 
     [[nodiscard]] double at(std::size_t tile, int edges) const { return sums_[index(tile, edges)]; }
@@ -66,8 +58,9 @@ private:
         return tile * static_cast<std::size_t>(max_depth_) + static_cast<std::size_t>(edges - 1);
     }
 
-    const TileGrid& grid_;
+    TileGrid grid_;
     int max_depth_;
+    Measure measure_;
     std::vector<double> sums_;
     std::vector<SecondMoment> seen_;
 };

@@ -87,24 +87,45 @@ ImageCheck check_image(const Film& film, const TileGrid& grid, const SumOfTile& 
     return check;
 }
 
-/// The image of vcm, one render for each length: paths that merge are not told one by one.
-ImageCheck render_merged(const Scene& scene, const CameraDesc& camera, const VerifyOptions& options,
-                         const TileGrid& grid, std::int64_t number, RadianceSums& sums)
+/// Sums of one batch by one measure, empty yet.
+Batch empty_batch(const VerifyOptions& options, const TileGrid& grid, Measure measure)
 {
-    ImageCheck check;
-    for (int edges = 1; edges <= options.max_depth; ++edges) {
-        const Film film = render(scene, camera,
-                                 render_options(options, IntegratorKind::vcm, number, edges, edges))
-                              .film;
-        const Image image = film.develop();
-        for (std::size_t tile = 0; tile < grid.size(); ++tile) {
-            sums.add_tile(tile, edges,
-                          sum_of_pixels(image, grid.tiles()[tile]) *
-                              static_cast<double>(film.sample_count()));
-        }
-        check += {.defects = film.defects(), .lost = 0.0};
+    Batch batch{.bdpt = PathSums(grid, options.max_depth,
+                                 {options.light_paths, options.light_samples}, measure),
+                .others = std::vector<RadianceSums>(count_of_others(options),
+                                                    RadianceSums(grid, options.max_depth, measure)),
+                .images = {}};
+    if (options.merge_radius) {
+        batch.merges.emplace(options.max_depth, measure);
     }
-    return check;
+    return batch;
+}
+
+/// Calls `visit` for the sums of all measures.
+template <typename Visit>
+void for_each_measure(Batch& batch, const Visit& visit)
+{
+    visit(batch);
+    for (Batch& channel : batch.channels) {
+        visit(channel);
+    }
+}
+
+/// Paths that merge, beside all others, weighed so that `MergeSums` knows how often merging finds
+/// them.
+void render_merges(const Scene& scene, const CameraDesc& camera, const VerifyOptions& options,
+                   std::int64_t number, Batch& batch)
+{
+    constexpr std::uint64_t other_numbers = 0x6d65726765;  // than those of the image of vcm
+    RenderOptions balanced =
+        render_options(options, IntegratorKind::vcm, number, 1, options.max_depth);
+    balanced.transport.heuristic = Heuristic::balance;
+    balanced.sampling.seed += other_numbers;
+    RenderControl to_sums;
+    to_sums.on_path = [&](const PathContribution& path) {
+        for_each_measure(batch, [&](Batch& sums) { sums.merges->add(path); });
+    };
+    static_cast<void>(render(scene, camera, balanced, to_sums));
 }
 
 }  // namespace
@@ -112,14 +133,16 @@ ImageCheck render_merged(const Scene& scene, const CameraDesc& camera, const Ver
 Batch render_batch(const Scene& scene, const CameraDesc& camera, const VerifyOptions& options,
                    const TileGrid& grid, std::int64_t number)
 {
-    const RadianceSums none(grid, options.max_depth);
-    Batch batch{
-        .bdpt = PathSums(grid, options.max_depth, {options.light_paths, options.light_samples}),
-        .others = std::vector<RadianceSums>(count_of_others(options), none),
-        .images = {}};
+    Batch batch = empty_batch(options, grid, Measure::mean);
+    const TileGrid whole(options.width, options.height, 1);
+    for (const Measure channel : channel_measures) {
+        batch.channels.push_back(empty_batch(options, whole, channel));
+    }
     const int longest = options.max_depth;
     RenderControl to_bdpt;
-    to_bdpt.on_path = [&](const PathContribution& path) { batch.bdpt.add(path); };
+    to_bdpt.on_path = [&](const PathContribution& path) {
+        for_each_measure(batch, [&](Batch& sums) { sums.bdpt.add(path); });
+    };
     const RenderResult bdpt = render(
         scene, camera, render_options(options, IntegratorKind::bdpt, number, 1, longest), to_bdpt);
     batch.images[0] = check_image(bdpt.film, grid, [&](std::size_t tile) {
@@ -131,14 +154,10 @@ Batch render_batch(const Scene& scene, const CameraDesc& camera, const VerifyOpt
     });
     for (std::size_t i = 0; i < batch.others.size(); ++i) {
         const IntegratorKind kind = other_integrators[i];
-        RadianceSums& sums = batch.others[i];
-        ImageCheck& check = batch.images[i + 1];
-        if (kind == IntegratorKind::vcm) {
-            check = render_merged(scene, camera, options, grid, number, sums);
-            continue;
-        }
         RenderControl to_sums;
-        to_sums.on_path = [&](const PathContribution& path) { sums.add(path); };
+        to_sums.on_path = [&](const PathContribution& path) {
+            for_each_measure(batch, [&](Batch& sums) { sums.others[i].add(path); });
+        };
         // Lengths that take the same number of samples are rendered together.
         int shortest = 1;
         while (shortest <= longest) {
@@ -148,11 +167,14 @@ Batch render_batch(const Scene& scene, const CameraDesc& camera, const VerifyOpt
             }
             const RenderResult other = render(
                 scene, camera, render_options(options, kind, number, shortest, last), to_sums);
-            check += check_image(other.film, grid, [&](std::size_t tile) {
-                return sums.between(tile, shortest, last);
+            batch.images[i + 1] += check_image(other.film, grid, [&](std::size_t tile) {
+                return batch.others[i].between(tile, shortest, last);
             });
             shortest = last + 1;
         }
+    }
+    if (options.merge_radius) {
+        render_merges(scene, camera, options, number, batch);
     }
     return batch;
 }

@@ -75,4 +75,21 @@ double find_detectable(const Evidence& evidence, VerifyReport& report, double di
     return worst;
 }
 
+double find_detectable_of_merging(const Evidence& evidence, const VerifyReport& report,
+                                  double distance)
+{
+    double least = std::numeric_limits<double>::infinity();
+    for (const MergeFinding& finding : report.merges) {
+        const MergeSumsOfLength& sums = evidence.merges(finding.edges).sums;
+        // Too much by c moves what is found by c, and what is expected by c times its own part.
+        const double moved =
+            (sums.expected - sums.by_merges) /
+            evidence.samples_in(evidence.whole(), IntegratorKind::vcm, finding.edges);
+        if (moved > 0.0 && finding.whole.error > 0.0) {
+            least = std::min(least, distance * finding.whole.error / moved);
+        }
+    }
+    return least;
+}
+
 }  // namespace bdpt::eval

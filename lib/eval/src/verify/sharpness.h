@@ -18,4 +18,8 @@ constexpr double trusted_samples = 262144.0;
 [[nodiscard]] double find_detectable(const Evidence& evidence, VerifyReport& report,
                                      double distance);
 
+/// The least relative error of merging that is found with 90 % chance.
+[[nodiscard]] double find_detectable_of_merging(const Evidence& evidence,
+                                                const VerifyReport& report, double distance);
+
 }  // namespace bdpt::eval

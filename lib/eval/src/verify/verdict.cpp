@@ -37,7 +37,8 @@ StrategyFinding describe_strategy(const Evidence& evidence, Strategy strategy)
                            .unweighted = sums.unweighted / samples,
                            .solitary = sums.solitary / samples,
                            .whole = compare_strategy(evidence, whole, index),
-                           .tiles = {}};
+                           .tiles = {},
+                           .channels = {}};
     for (std::size_t tile = 0; tile < whole; ++tile) {
         result.tiles.push_back(compare_strategy(evidence, tile, index));
     }
@@ -50,21 +51,71 @@ IntegratorFinding describe_integrator(const Evidence& evidence, int edges, std::
         .integrator = other_integrators[integrator],
         .edges = edges,
         .whole = compare_integrator(evidence, evidence.whole(), edges, integrator),
-        .tiles = {}};
+        .tiles = {},
+        .channels = {}};
     for (std::size_t tile = 0; tile < evidence.whole(); ++tile) {
         result.tiles.push_back(compare_integrator(evidence, tile, edges, integrator));
     }
     return result;
 }
 
-std::vector<MeanComparison*> tests_of_images(VerifyReport& report)
+MergeFinding describe_merges(const Evidence& evidence, int edges)
+{
+    return {.edges = edges,
+            .brought = evidence.merges(edges).sums.brought /
+                       evidence.samples_in(evidence.whole(), IntegratorKind::vcm, edges),
+            .whole = compare_merges(evidence, edges),
+            .channels = {}};
+}
+
+/// All findings by one measure.
+VerifyReport describe(const Evidence& evidence, int max_depth)
+{
+    VerifyReport report;
+    report.radiance = evidence.images()[0].mean();
+    for (int edges = 1; edges <= max_depth; ++edges) {
+        report.lengths.push_back(describe_length(evidence, edges));
+        for (int s = 0; s <= edges + 1; ++s) {
+            report.strategies.push_back(describe_strategy(evidence, {.s = s, .t = edges + 1 - s}));
+        }
+        for (std::size_t i = 0; i < evidence.others(); ++i) {
+            report.integrators.push_back(describe_integrator(evidence, edges, i));
+        }
+        if (evidence.knows_merges()) {
+            report.merges.push_back(describe_merges(evidence, edges));
+        }
+    }
+    return report;
+}
+
+/// Calls `visit` for the comparison of the whole image of each finding, by its place.
+template <typename Visit>
+void for_each_whole(VerifyReport& report, const Visit& visit)
+{
+    for (std::size_t i = 0; i < report.strategies.size(); ++i) {
+        visit(
+            report.strategies[i].whole, [i](VerifyReport & r) -> auto& { return r.strategies[i]; });
+    }
+    for (std::size_t i = 0; i < report.integrators.size(); ++i) {
+        visit(
+            report.integrators[i].whole, [i](VerifyReport & r) -> auto& {
+                return r.integrators[i];
+            });
+    }
+    for (std::size_t i = 0; i < report.merges.size(); ++i) {
+        visit(
+            report.merges[i].whole, [i](VerifyReport & r) -> auto& { return r.merges[i]; });
+    }
+}
+
+std::vector<MeanComparison*> tests_of_images(VerifyReport& report,
+                                             std::vector<VerifyReport>& channels)
 {
     std::vector<MeanComparison*> tests;
-    for (StrategyFinding& finding : report.strategies) {
-        tests.push_back(&finding.whole);
-    }
-    for (IntegratorFinding& finding : report.integrators) {
-        tests.push_back(&finding.whole);
+    const auto add = [&tests](MeanComparison& test, const auto&) { tests.push_back(&test); };
+    for_each_whole(report, add);
+    for (VerifyReport& channel : channels) {
+        for_each_whole(channel, add);
     }
     return tests;
 }
@@ -102,7 +153,13 @@ bool has_failed(const VerifyReport& report)
 {
     const auto fail = [&report](const MeanComparison& test) { return fails(test, report); };
     const auto any = [&](const auto& finding) {
-        return fail(finding.whole) || std::any_of(finding.tiles.begin(), finding.tiles.end(), fail);
+        return fail(finding.whole) ||
+               std::any_of(finding.tiles.begin(), finding.tiles.end(), fail) ||
+               std::any_of(finding.channels.begin(), finding.channels.end(), fail);
+    };
+    const auto merging_fails = [&](const MergeFinding& finding) {
+        return fail(finding.whole) ||
+               std::any_of(finding.channels.begin(), finding.channels.end(), fail);
     };
     return report.weights.wrong > 0 ||
            std::any_of(report.images.begin(), report.images.end(),
@@ -111,14 +168,31 @@ bool has_failed(const VerifyReport& report)
                                   loses_light(image);
                        }) ||
            std::any_of(report.strategies.begin(), report.strategies.end(), any) ||
-           std::any_of(report.integrators.begin(), report.integrators.end(), any);
+           std::any_of(report.integrators.begin(), report.integrators.end(), any) ||
+           std::any_of(report.merges.begin(), report.merges.end(), merging_fails);
+}
+
+/// Weighted paths that only one strategy, and no integrator from the camera, can make.
+double unchecked(const Evidence& evidence, int max_depth)
+{
+    double sum = 0.0;
+    for (std::size_t i = 0; i < StrategyRow(max_depth).size(); ++i) {
+        sum += evidence.strategy(evidence.whole(), i).sums.unchecked;
+    }
+    return sum;
 }
 
 }  // namespace
 
+bool is_sharp(const VerifyReport& report, const VerifyOptions& options)
+{
+    return report.detectable <= options.detectable_bias &&
+           (report.merges.empty() || report.detectable_of_merging <= most_error_of_merging);
+}
+
 VerifyReport judge(const Evidence& evidence, const VerifyOptions& options)
 {
-    VerifyReport report;
+    VerifyReport report = describe(evidence, options.max_depth);
     report.batches = evidence.batches();
     report.false_alarm = options.false_alarm;
     report.tiles = evidence.grid().tiles();
@@ -132,37 +206,38 @@ VerifyReport judge(const Evidence& evidence, const VerifyOptions& options)
              .defects = evidence.checks()[i].defects,
              .lost = evidence.checks()[i].lost});
     }
-    report.radiance = report.images[0].radiance;
-    double unchecked = 0.0;
-    for (int edges = 1; edges <= options.max_depth; ++edges) {
-        report.lengths.push_back(describe_length(evidence, edges));
-        for (int s = 0; s <= edges + 1; ++s) {
-            const Strategy strategy{.s = s, .t = edges + 1 - s};
-            report.strategies.push_back(describe_strategy(evidence, strategy));
-            unchecked +=
-                evidence.strategy(evidence.whole(), evidence.row().index(strategy)).sums.unchecked;
-        }
-        for (std::size_t i = 0; i < evidence.others(); ++i) {
-            report.integrators.push_back(describe_integrator(evidence, edges, i));
-        }
+    std::vector<VerifyReport> channels;
+    for (const Evidence& channel : evidence.channels()) {
+        channels.push_back(describe(channel, options.max_depth));
     }
-    const std::vector<MeanComparison*> images = tests_of_images(report);
+    const std::vector<MeanComparison*> images = tests_of_images(report, channels);
     correct(images);
     correct(tests_of_tiles(report));
     if (report.radiance > 0.0) {
         const double samples = evidence.bdpt_samples_in(evidence.whole());
-        report.unchecked = unchecked / samples / report.radiance;
-        const double worst =
-            find_detectable(evidence, report,
-                            detectable_z(critical_z(0.5 * options.false_alarm, images.size()),
-                                         static_cast<double>(evidence.batches() - 1)));
+        const double distance = detectable_z(critical_z(0.5 * options.false_alarm, images.size()),
+                                             static_cast<double>(evidence.batches() - 1));
+        report.unchecked = unchecked(evidence, options.max_depth) / samples / report.radiance;
+        double worst = find_detectable(evidence, report, distance);
+        for (std::size_t i = 0; i < channels.size(); ++i) {
+            // Errors of a channel are told as a fraction of the image, or of the channel if that is
+            // brighter.
+            channels[i].radiance = std::max(channels[i].radiance, report.radiance);
+            worst = std::max(worst, find_detectable(evidence.channels()[i], channels[i], distance));
+        }
         if (samples >= trusted_samples) {
             report.detectable = worst;
+            report.detectable_of_merging = find_detectable_of_merging(evidence, report, distance);
         }
     }
-    report.verdict = has_failed(report)                             ? Verdict::fail
-                     : report.detectable <= options.detectable_bias ? Verdict::pass
-                                                                    : Verdict::inconclusive;
+    for (VerifyReport& channel : channels) {
+        for_each_whole(channel, [&](const MeanComparison& test, const auto& finding_of) {
+            finding_of(report).channels.push_back(test);
+        });
+    }
+    report.verdict = has_failed(report)          ? Verdict::fail
+                     : is_sharp(report, options) ? Verdict::pass
+                                                 : Verdict::inconclusive;
     return report;
 }
 

@@ -11,4 +11,7 @@ namespace bdpt::eval {
 /// batches.
 [[nodiscard]] VerifyReport judge(const Evidence& evidence, const VerifyOptions& options);
 
+/// Would errors that are as small as `options` ask for have been found?
+[[nodiscard]] bool is_sharp(const VerifyReport& report, const VerifyOptions& options);
+
 }  // namespace bdpt::eval

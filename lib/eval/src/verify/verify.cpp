@@ -101,9 +101,10 @@ VerifyReport verify(const Scene& scene, const CameraDesc& camera, const VerifyOp
             evidence.add(*batch);
         }
         if (evidence.batches() == next_look) {
-            detectable = judge(evidence, options).detectable;
+            const VerifyReport so_far = judge(evidence, options);
+            detectable = so_far.detectable;
             next_look += (next_look + 3) / 4;
-            if (detectable <= options.detectable_bias) {
+            if (is_sharp(so_far, options)) {
                 break;
             }
         }

@@ -3,8 +3,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace bdpt::eval {
 namespace {
@@ -32,12 +35,25 @@ ordered_json to_json(const MeanComparison& test, const VerifyReport& report)
             {"failed", fails(test, report)}};
 }
 
-/// `finding` has a comparison of the whole image, and one for each tile.
+/// By name; empty without.
+ordered_json channels_json(const std::vector<MeanComparison>& channels, const VerifyReport& report)
+{
+    constexpr std::array names{"red", "green", "blue"};
+    ordered_json object = ordered_json::object();
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+        object[names[i]] = to_json(channels[i], report);
+        object[names[i]]["detectable"] = number(channels[i].detectable);
+    }
+    return object;
+}
+
+/// `finding` has a comparison of the whole image, one for each channel, and one for each tile.
 template <typename Finding>
 void add_tests(ordered_json& object, const Finding& finding, const VerifyReport& report)
 {
     object["whole"] = to_json(finding.whole, report);
     object["whole"]["detectable"] = number(finding.whole.detectable);
+    object["channels"] = channels_json(finding.channels, report);
     ordered_json tiles = ordered_json::array();
     for (std::size_t i = 0; i < finding.tiles.size(); ++i) {
         ordered_json tile = to_json(finding.tiles[i], report);
@@ -116,6 +132,16 @@ std::string verify_json(const VerifyReport& report, std::string_view scene)
                            {"edges", integrator.edges}};
         add_tests(entry, integrator, report);
         object["comparisons"].push_back(std::move(entry));
+    }
+    for (const MergeFinding& merges : report.merges) {
+        ordered_json entry{{"edges", merges.edges},
+                           {"brought", number(merges.brought)},
+                           {"whole", to_json(merges.whole, report)},
+                           {"channels", channels_json(merges.channels, report)}};
+        object["merges"].push_back(std::move(entry));
+    }
+    if (!report.merges.empty()) {
+        object["detectable_of_merging"] = number(report.detectable_of_merging);
     }
     return object.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }

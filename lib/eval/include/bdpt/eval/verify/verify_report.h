@@ -40,8 +40,9 @@ struct StrategyFinding {
     double unweighted = 0.0;  ///< what it finds by itself, on average [nit]; may be very noisy
     /// Part of `weighted` along paths that no other strategy can make [nit].
     double solitary = 0.0;
-    MeanComparison whole;               ///< in the whole image
-    std::vector<MeanComparison> tiles;  ///< in rows
+    MeanComparison whole;                  ///< in the whole image
+    std::vector<MeanComparison> tiles;     ///< in rows
+    std::vector<MeanComparison> channels;  ///< red, green and blue in the whole image
 };
 
 /// An integrator held against those paths of bdpt that it can make, at one length.
@@ -50,6 +51,15 @@ struct IntegratorFinding {
     int edges = 0;
     MeanComparison whole;
     std::vector<MeanComparison> tiles;
+    std::vector<MeanComparison> channels;
+};
+
+/// Merging held against all that find the same paths, at one length.
+struct MergeFinding {
+    int edges = 0;
+    double brought = 0.0;  ///< what merging brings to the image of vcm, on average [nit]
+    MeanComparison whole;
+    std::vector<MeanComparison> channels;
 };
 
 /// The light of all paths of one length.
@@ -102,7 +112,14 @@ struct VerifyReport {
     std::vector<LengthFinding> lengths;
     std::vector<StrategyFinding> strategies;
     std::vector<IntegratorFinding> integrators;
+    std::vector<MergeFinding> merges;  ///< if vcm was asked for
+    /// If merging brought this much too much or too little, as a fraction of what it brings, that
+    /// would have been found with 90 % chance. Infinite where nothing else finds what it merges.
+    double detectable_of_merging = std::numeric_limits<double>::infinity();
 };
+
+/// An error of merging by this fraction has to be detectable, or the verdict is inconclusive.
+constexpr double most_error_of_merging = 0.25;
 
 /// Does this comparison fail? Each of the two families of tests, whole images and tiles, has half
 /// of the false alarms.

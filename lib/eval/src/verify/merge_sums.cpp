@@ -1,0 +1,64 @@
+#include "verify/merge_sums.h"
+
+#include "verify/path_sums.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bdpt::eval {
+namespace {
+
+/// The share of all merges of the path. Sums of floats are off by some 1e-7: smaller shares than
+/// 1e-4 count as none, for whoever found the path.
+double share_of_merges(const PathContribution& path)
+{
+    constexpr double least_share = 1e-4;
+    double joins = 0.0;
+    for (const float share : path.shares) {
+        joins += static_cast<double>(share);
+    }
+    const double share = 1.0 - joins;
+    return share >= least_share ? share : 0.0;
+}
+
+}  // namespace
+
+MergeSumsOfLength& MergeSumsOfLength::operator+=(const MergeSumsOfLength& other)
+{
+    brought += other.brought;
+    tested += other.tested;
+    expected += other.expected;
+    by_merges += other.by_merges;
+    second_moment += other.second_moment;
+    seen += other.seen;
+    return *this;
+}
+
+void MergeSums::add(const PathContribution& path)
+{
+    const int edges = edges_of(path);
+    // By the balance heuristic a weighted find is f over the sum of all densities.
+    const double weighted = static_cast<double>(path.weight) * measured(measure_, path.unweighted);
+    if (edges > static_cast<int>(lengths_.size()) || !std::isfinite(weighted)) {
+        return;
+    }
+    MergeSumsOfLength& sums = lengths_[static_cast<std::size_t>(edges - 1)];
+    sums.brought += path.merged ? weighted : 0.0;
+    const double share = share_of_merges(path);
+    if (!(share > 0.0)) {
+        return;
+    }
+    const double g = std::min(1.0, share / full_share);
+    const double sample = g * weighted / share;  // f over the sum of the densities of merges
+    sums.expected += g * weighted;
+    // Of all merges of so long a path, this one is thinned most by roulette.
+    const double most = roulette_.greatest_weight({.s = edges, .t = 2});
+    sums.second_moment.add(most * sample, most * weighted * g * sample);
+    if (path.merged) {
+        sums.tested += sample;
+        sums.by_merges += g * weighted;
+        sums.seen.add(sample, sample * sample);
+    }
+}
+
+}  // namespace bdpt::eval

@@ -147,8 +147,16 @@ PreparedScene prepare_within_memory(const RenderArguments& asked, Console& conso
 
 RenderArguments with_choice(RenderArguments arguments, const PreparedScene& stage, Console& console)
 {
-    arguments.options =
-        chosen_options(stage.scene, stage.camera, options_for(arguments, stage, console));
+    const IntegratorChoice choice =
+        choose_integrator(stage.scene, stage.camera, options_for(arguments, stage, console));
+    constexpr double worth_telling = 0.01;
+    if (choice.unseen_light >= worth_telling) {
+        console.warning(fmt::format(
+            "about {:.2g} % of the light is missing: only --integrator vcm finds it "
+            "(caustics of the sun or of point lights, seen in mirrors or through glass)",
+            100.0 * choice.unseen_light));
+    }
+    arguments.options = choice.options;
     if (arguments.rates && !arguments.options.sampling.rates) {
         arguments.options.sampling.rates = rates_of(arguments, stage, console);
     }

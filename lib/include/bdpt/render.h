@@ -74,11 +74,24 @@ struct RenderResult {
     std::optional<TimeProfile> profile{};  ///< of the same samples; with Profiling::on
 };
 
+/// What choose_integrator() chose, and what its pilot knows of it.
+struct IntegratorChoice {
+    RenderOptions options{};
+    /// About which share of the light of the image `options` cannot find, in [0, 1]: caustics of
+    /// the sun or of lights without extent that are seen in mirrors or through glass. Only `vcm`
+    /// finds it. 0 if the pilot found none, or if there was none.
+    double unseen_light = 0.0;
+};
+
 /// `options` with another integrator in the place of IntegratorKind::automatic: mis, or bdpt with
 /// `light_paths` and `connections`. It is chosen by a pilot, a short render of its own, and depends
 /// on the scene, the camera and the options, but not on seed, samples, crop or threads. bdpt with
 /// one light path if the options limit or show strategies, or ask for another heuristic than
 /// balance and power. Other integrators stay as they are. Throws `Error` as render() does.
+[[nodiscard]] BDPT_EXPORT IntegratorChoice choose_integrator(const Scene& scene,
+                                                             const CameraDesc& camera,
+                                                             const RenderOptions& options);
+/// The options that choose_integrator() returns.
 [[nodiscard]] BDPT_EXPORT RenderOptions chosen_options(const Scene& scene, const CameraDesc& camera,
                                                        const RenderOptions& options);
 

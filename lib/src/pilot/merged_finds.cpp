@@ -59,4 +59,16 @@ PerCandidate<double> merged_errors(const PilotFinds& finds, const PilotBrightnes
     return errors;
 }
 
+double share_of_merging_alone(const PilotFinds& finds, const PilotBrightness& brightness)
+{
+    double merged = 0.0;
+    for (const PilotRow& row : finds.rows) {
+        for (const PilotFind& find : row.merged()) {
+            merged += find.shares.merged_mean();
+        }
+    }
+    merged /= finds.camera_paths();
+    return merged > 0.0 ? merged / (merged + brightness.average()) : 0.0;
+}
+
 }  // namespace bdpt

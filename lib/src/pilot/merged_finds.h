@@ -10,4 +10,8 @@ namespace bdpt {
 [[nodiscard]] PerCandidate<double> merged_errors(const PilotFinds& finds,
                                                  const PilotBrightness& brightness);
 
+/// The share of the light of the image that merging alone can find, in [0, 1]: no candidate has it.
+[[nodiscard]] double share_of_merging_alone(const PilotFinds& finds,
+                                            const PilotBrightness& brightness);
+
 }  // namespace bdpt

@@ -27,6 +27,11 @@ public:
     [[nodiscard]] double camera_mean() const { return camera_mean_; }
     [[nodiscard]] double splat_mean() const { return splat_mean_; }
     [[nodiscard]] int edges() const { return edges_; }
+    /// What the path adds to the mean of its pixel if merging alone can find it [nit], else 0.
+    [[nodiscard]] double merged_mean() const
+    {
+        return found_by_one_ > 0.0 ? 0.0 : static_cast<double>(mean_);
+    }
     /// How often one light path for each camera path, and one connection, finds such paths, for
     /// each one that the pilot finds; 0 if no candidate can.
     [[nodiscard]] double found_by_one() const { return found_by_one_; }

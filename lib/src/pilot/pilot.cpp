@@ -3,6 +3,7 @@
 #include "geometry/flush_denormals.h"
 #include "integrator/bidirectional/bidirectional_integrator.h"
 #include "path/strategy_set.h"
+#include "pilot/merged_finds.h"
 #include "pilot/pilot_errors.h"
 #include "pilot/prices.h"
 #include "pilot/seen_lamps.h"
@@ -121,6 +122,7 @@ PilotResult run_pilot(const World& world, const MovingCamera& camera, const Rend
     PilotResult result{.errors = predicted_errors(finds, brightness),
                        .seen_lamps = seen_lamp_errors(finds, brightness),
                        .costs = {},
+                       .merging_alone = share_of_merging_alone(finds, brightness),
                        .stats = {}};
     // Rays to lamps that are seen are none of next-event estimation.
     std::uint64_t to_lamps = 0;

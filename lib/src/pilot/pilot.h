@@ -17,6 +17,7 @@ struct PilotResult {
     PerCandidate<double> errors{};
     SeenLampErrors seen_lamps;     ///< of that light
     PerCandidate<double> costs{};  ///< of a sample [ns on the machine that has the prices]
+    double merging_alone = 0.0;    ///< share of the light that no candidate finds, in [0, 1]
     RenderStats stats;             ///< of the pilot itself
 };
 

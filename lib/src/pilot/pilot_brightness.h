@@ -22,6 +22,9 @@ public:
         return scale_of(splat.cell, splat.shares.splat_mean() * share_of_splat_);
     }
 
+    /// Mean of the image, but for light that merging alone finds [nit].
+    [[nodiscard]] double average() const { return average_; }
+
 private:
     [[nodiscard]] double scale_of(std::size_t cell, double less) const;
 

@@ -24,29 +24,39 @@ bool asks_for_bdpt(const RenderOptions& options)
 
 }  // namespace
 
-RenderOptions chosen_options(const Scene& scene, const CameraDesc& camera,
-                             const RenderOptions& asked)
+IntegratorChoice choose_integrator(const Scene& scene, const CameraDesc& camera,
+                                   const RenderOptions& asked)
 {
     check_options(asked);
     check_camera(camera);
     check_camera_distance(camera, scene.world().farthest_origin());
     if (asked.integrator != IntegratorKind::automatic) {
-        return asked;
+        return {.options = asked};
     }
     RenderOptions options = asked;
     options.integrator = IntegratorKind::bdpt;
     options.bidirectional.light_paths = 1.0;
     options.bidirectional.connections.reset();
     if (asks_for_bdpt(options)) {
-        return options;
+        return {.options = options};
     }
     RenderOptions whole = options;
     whole.film.crop.reset();
     whole.sampling.rates.reset();
     const MovingCamera opened = open_camera(scene.world(), camera, whole);
     Threads threads(options.system.threads);
-    threads.execute([&] { options = with_best(run_pilot(scene.world(), opened, whole), options); });
-    return options;
+    IntegratorChoice choice;
+    threads.execute([&] {
+        const PilotResult pilot = run_pilot(scene.world(), opened, whole);
+        choice = {.options = with_best(pilot, options), .unseen_light = pilot.merging_alone};
+    });
+    return choice;
+}
+
+RenderOptions chosen_options(const Scene& scene, const CameraDesc& camera,
+                             const RenderOptions& asked)
+{
+    return choose_integrator(scene, camera, asked).options;
 }
 
 }  // namespace bdpt

@@ -117,6 +117,50 @@ TEST_CASE("auto joins points of lamps to the lens where they are smaller than pi
     CHECK(disabled(0.005f).empty());
 }
 
+TEST_CASE("auto tells of light that only vcm finds", "[auto]")
+{
+    // The sun shines by way of the mirror floor at a ball, which is seen in the floor: two mirrors
+    // and no light with a surface, so no strategy (s, t) makes the path.
+    const auto over_mirror = [](const LightDesc& light) {
+        SceneBuilder builder;
+        builder.quad({-1, -1, 1}, {1, -1, 1}, {1, -1, -1}, {-1, -1, -1}, metal(Rgb(0.9f), 0.0f));
+        builder.sphere({0.0f, -0.3f, 0.0f}, 0.5f, lambertian(Rgb(0.8f)));
+        builder.light(light);
+        return Scene(std::move(builder.desc));
+    };
+    const CameraDesc camera = camera_at({0.0f, 1.2f, 2.6f}, {0.0f, -0.6f, 0.0f}, 0.7f);
+    RenderOptions options = small();
+    options.film.width = 640;
+    options.film.height = 480;
+    const Scene sunny = over_mirror(
+        DirectionalLightDesc{.direction = {0.0f, -1.0f, -0.6f}, .illuminance = Rgb(3.0f)});
+    const IntegratorChoice chosen = choose_integrator(sunny, camera, options);
+    CHECK(same_choice(chosen.options, chosen_options(sunny, camera, options)));
+    const auto mean = [&](RenderOptions how) {
+        how.film.width = 64;
+        how.film.height = 48;
+        how.sampling.samples = {.begin = 0, .end = 64};
+        const Image image = render(sunny, camera, how).film.develop();
+        double sum = 0.0;
+        for (const Rgb& c : image.pixels) {
+            sum += static_cast<double>(c.g);
+        }
+        return sum;
+    };
+    RenderOptions merging = options;
+    merging.integrator = IntegratorKind::vcm;
+    const double missing = 1.0 - mean(chosen.options) / mean(merging);
+    CHECK(missing > 0.03);
+    CHECK(chosen.unseen_light == Approx(missing).epsilon(0.3));
+    // A lamp with a surface is hit by camera paths.
+    const Scene lamp = over_mirror(
+        PointLightDesc{.position = {0.0f, 3.0f, 2.0f}, .intensity = Rgb(30.0f), .radius = 0.3f});
+    CHECK(choose_integrator(lamp, camera, options).unseen_light == 0.0);
+    RenderOptions named = options;
+    named.integrator = IntegratorKind::bdpt;
+    CHECK(choose_integrator(sunny, camera, named).unseen_light == 0.0);
+}
+
 TEST_CASE("auto renders scenes without light or surfaces by path tracing", "[auto]")
 {
     CHECK(choice(Scene(SceneDesc{}), small()).integrator == IntegratorKind::mis);

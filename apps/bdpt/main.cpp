@@ -167,7 +167,7 @@ int run(const std::vector<std::string>& given, Format format)
 template <typename Work>
 int within_quota(const Work& work)
 {
-    const int quota = cgroup_limits().processors.value_or(tbb::task_arena::automatic);
+    const int quota = cgroup_limits().processors.value_or(int{tbb::task_arena::automatic});
     const int available = tbb::this_task_arena::max_concurrency();
     return quota > 0 && quota < available ? tbb::task_arena(quota).execute(work) : work();
 }

@@ -24,6 +24,7 @@
 #include "commands/verify_command.h"
 #include "commands/version_command.h"
 #include "options/arguments.h"
+#include "options/command_options.h"
 #include "plan/planned_words.h"
 #include "terminal/cgroup_limits.h"
 #include "terminal/console.h"
@@ -143,8 +144,7 @@ int run(const std::vector<std::string>& given, Format format)
     std::vector<std::string> words = given;
     try {
         words = with_planned_words(given);
-        // The parser takes words from the end.
-        line.app.parse(std::vector<std::string>(words.rbegin(), words.rend() - 1));
+        line.app.parse(words_for_parser(std::span(words).subspan(1)));
     } catch (const CLI::Success& help_or_version) {
         return line.app.exit(help_or_version);
     } catch (const OptionError& error) {

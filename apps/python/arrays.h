@@ -1,7 +1,9 @@
 #pragma once
 
+#include <bdpt/error.h>
 #include <bdpt/image.h>
 #include <bdpt/layer.h>
+#include <fmt/core.h>
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 
@@ -48,10 +50,19 @@ template <typename Value>
     return to_array(std::move(layer.values), {height, width, channels});
 }
 
+/// `count` pixels as a side of an image. Throws `Error` (usage) for more than an `int` counts.
+[[nodiscard]] inline int to_side(std::size_t count)
+{
+    if (!std::in_range<int>(count)) {
+        throw Error(ErrorCode::usage, fmt::format("an image has {} pixels a side", count));
+    }
+    return static_cast<int>(count);
+}
+
 [[nodiscard]] inline Image to_image(const ImageInput& array)
 {
     const auto* pixels = reinterpret_cast<const Rgb*>(array.data());
-    return {static_cast<int>(array.shape(1)), static_cast<int>(array.shape(0)),
+    return {to_side(array.shape(1)), to_side(array.shape(0)),
             std::vector<Rgb>(pixels, pixels + array.shape(0) * array.shape(1))};
 }
 

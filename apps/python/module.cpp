@@ -29,6 +29,7 @@ void translate(const std::exception_ptr& exception, void* /*payload*/)
 NB_MODULE(_bdpt, module)
 {
     module.doc() = "Bidirectional path tracing.";
+    nb::set_leak_warnings(false);  // they are for developers, and daemon threads leak what they use
     module.attr("__version__") = BDPT_VERSION;
     error_type = new nb::object(nb::steal(PyErr_NewExceptionWithDoc(
         "bdpt.Error",

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "arrays.h"
+#include "interpreter_lock.h"
 #include "python_scene.h"
 
 namespace bdpt::python {
@@ -16,12 +17,6 @@ namespace {
 std::map<std::string, double> compare(const ImageInput& image, const ImageInput& reference,
                                       const std::vector<std::string>& metrics)
 {
-    if (image.shape(0) != reference.shape(0) || image.shape(1) != reference.shape(1)) {
-        throw Error(
-            ErrorCode::usage,
-            fmt::format("the image has {} x {} pixels, and the reference {} x {}", image.shape(1),
-                        image.shape(0), reference.shape(1), reference.shape(0)));
-    }
     const Image left = to_image(image);
     const Image right = to_image(reference);
     std::map<std::string, double> errors;
@@ -30,7 +25,7 @@ std::map<std::string, double> compare(const ImageInput& image, const ImageInput&
         if (!metric) {
             throw Error(ErrorCode::usage, fmt::format("there is no metric {}", name));
         }
-        const nb::gil_scoped_release unlocked;
+        const Unlocked unlocked;
         errors[name] = evaluate(*metric, left, right);
     }
     return errors;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "arrays.h"
 #include "attributes.h"
 #include "python_scene.h"
 
@@ -56,8 +57,8 @@ TexelImage to_texels(const nb::ndarray<nb::ro, nb::c_contig, nb::device::cpu>& a
                     "channels, or (height, width)");
     }
     const auto* bytes = static_cast<const std::uint8_t*>(array.data());
-    return {.width = static_cast<int>(array.shape(1)),
-            .height = static_cast<int>(array.shape(0)),
+    return {.width = to_side(array.shape(1)),
+            .height = to_side(array.shape(0)),
             .bytes = std::vector<std::uint8_t>(bytes, bytes + array.nbytes()),
             .channels = array.ndim() == 3 ? static_cast<int>(array.shape(2)) : 1,
             .type = type};

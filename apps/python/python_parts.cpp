@@ -49,9 +49,50 @@ std::vector<Mat4> to_matrices(const std::optional<FloatInput<nb::shape<-1, 4, 4>
     return matrices;
 }
 
-ArrayMesh make_mesh(const FloatInput<nb::shape<-1, 3>>& positions,
-                    const nb::ndarray<const std::uint32_t, nb::c_contig, nb::device::cpu,
-                                      nb::shape<-1, 3>>& triangles,
+using IndexInput = nb::ndarray<nb::ro, nb::c_contig, nb::device::cpu, nb::shape<-1, 3>>;
+
+template <typename Number>
+std::vector<UVec3> to_triangles(const IndexInput& array)
+{
+    const auto* indices = static_cast<const Number*>(array.data());
+    std::vector<UVec3> triangles(array.shape(0));
+    for (std::size_t i = 0; i < 3 * triangles.size(); ++i) {
+        if (!std::in_range<std::uint32_t>(indices[i])) {
+            throw Error(ErrorCode::invalid_input,
+                        fmt::format("triangles: triangle {} has index {}", i / 3, indices[i]));
+        }
+        triangles[i / 3][static_cast<int>(i % 3)] = static_cast<std::uint32_t>(indices[i]);
+    }
+    return triangles;
+}
+
+/// Of integers of any size. NumPy would wrap those that are out of range, and cut off fractions.
+std::vector<UVec3> to_triangles(const IndexInput& array)
+{
+    const nb::dlpack::dtype type = array.dtype();
+    if (type == nb::dtype<std::uint32_t>()) {
+        return to_triangles<std::uint32_t>(array);
+    }
+    if (type == nb::dtype<std::int64_t>()) {
+        return to_triangles<std::int64_t>(array);
+    }
+    if (type == nb::dtype<std::uint64_t>()) {
+        return to_triangles<std::uint64_t>(array);
+    }
+    if (type == nb::dtype<std::int32_t>()) {
+        return to_triangles<std::int32_t>(array);
+    }
+    if (type == nb::dtype<std::uint16_t>()) {
+        return to_triangles<std::uint16_t>(array);
+    }
+    if (type == nb::dtype<std::uint8_t>()) {
+        return to_triangles<std::uint8_t>(array);
+    }
+    throw Error(ErrorCode::usage,
+                "triangles: expected an array of uint8, uint16, uint32, uint64, int32 or int64");
+}
+
+ArrayMesh make_mesh(const FloatInput<nb::shape<-1, 3>>& positions, const IndexInput& triangles,
                     const std::optional<FloatInput<nb::shape<-1, 3>>>& normals,
                     const std::optional<FloatInput<nb::shape<-1, 2>>>& uvs,
                     const std::shared_ptr<ArrayMaterial>& material,
@@ -61,7 +102,7 @@ ArrayMesh make_mesh(const FloatInput<nb::shape<-1, 3>>& positions,
     ArrayMesh mesh;
     mesh.desc.name = name;
     mesh.desc.positions = to_vectors<Vec3>(positions);
-    mesh.desc.triangles = to_vectors<UVec3>(triangles);
+    mesh.desc.triangles = to_triangles(triangles);
     mesh.desc.normals = normals ? to_vectors<Vec3>(*normals) : std::vector<Vec3>();
     mesh.desc.uvs[0] = uvs ? to_vectors<Vec2>(*uvs) : std::vector<Vec2>();
     mesh.material = material ? material : std::make_shared<ArrayMaterial>();
@@ -138,7 +179,8 @@ void bind_mesh_and_camera(nb::module_& module)
             nb::arg("normals") = nb::none(), nb::arg("uvs") = nb::none(),
             nb::arg("material").none() = nb::none(), nb::arg("transforms") = nb::none(),
             nb::arg("name") = "",
-            "positions, normals: float32 (n, 3); triangles: uint32 (m, 3), counter-clockwise from "
+            "positions, normals: float32 (n, 3); triangles: integers (m, 3), counter-clockwise "
+            "from "
             "the "
             "front; uvs: float32 (n, 2), v grows downwards; transforms: float32 (k, 4, 4), one for "
             "each place where it stands.");

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "arrays.h"
+#include "interpreter_lock.h"
 #include "options/part_arguments.h"
 #include "options/values/output_files.h"
 #include "python_scene.h"
@@ -74,12 +75,13 @@ Task prepare(PythonScene& scene, const nb::kwargs& options)
 /// Between passes: Ctrl-C, and whoever wants to know how far it is.
 void tell(const Progress& progress, const nb::object& listener)
 {
-    const nb::gil_scoped_acquire lock;
+    const Locked lock;
     if (PyErr_CheckSignals() != 0) {
         throw nb::python_error();
     }
     if (!listener.is_none()) {
-        listener(progress.samples_done, progress.samples_total, progress.seconds);
+        sleep_when_python_ends(
+            [&] { listener(progress.samples_done, progress.samples_total, progress.seconds); });
     }
 }
 
@@ -95,7 +97,7 @@ Render render_scene(PythonScene& scene, const nb::object& progress, const nb::kw
     control.time_limit = arguments.goal.seconds;
     control.noise_goal = arguments.goal.noise.value_or(0.0);
     control.on_progress = [&progress](const Progress& done) { tell(done, progress); };
-    const nb::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     PartResult done = render_part(scene.stage.scene, task.camera, arguments.options, {}, control);
     result.part = std::move(done.part);
     result.seconds = done.seconds;
@@ -207,7 +209,7 @@ void bind_render(nb::module_& module)
         .def(
             "__iadd__",
             [](Render& render, const Render& other) -> Render& {
-                const nb::gil_scoped_release unlocked;
+                const Unlocked unlocked;
                 merge(render.part, other.part);
                 render.seconds += other.seconds;
                 return render;

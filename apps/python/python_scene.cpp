@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "interpreter_lock.h"
+
 namespace bdpt::python {
 namespace {
 
@@ -18,7 +20,7 @@ PythonScene load(const std::filesystem::path& file, const nb::kwargs& options)
     const Words words = words_of(options, Call::load);
     app::RenderArguments arguments = understand_render(words);
     arguments.file = file;
-    const nb::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     return {.stage = prepare_scene(arguments), .file = file.string(), .words = words};
 }
 

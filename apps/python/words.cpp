@@ -115,7 +115,7 @@ std::string value_of(const std::string& name, nb::handle value)
 void parse(CLI::App& parser, const Words& words)
 {
     try {
-        parser.parse(Words(words.rbegin(), words.rend()));
+        parser.parse(app::words_for_parser(words));
     } catch (const CLI::ParseError& error) {
         throw Error(ErrorCode::usage, error.what());
     }

@@ -47,6 +47,9 @@ TEST_CASE("wrong usage gives exit code 2 and names the option")
     rejects({"--intergrator", "pt"}, "did you mean --integrator?");
     rejects({"another.gltf"}, "unexpected argument \"another.gltf\"");
     rejects({"--size", "0x0"}, "--size \"0x0\"");
+    // The next word is not taken for the value that is missing.
+    rejects({"--size=", "16x16"}, "unexpected argument \"16x16\"");
+    rejects({"--aov=", "--quiet"}, "--aov \"\"");
     rejects({"--size", "640"}, "--size \"640\"");
     rejects({"--size", "640x480x3"}, "--size");
     rejects({"--size", "-5x5"}, "--size");

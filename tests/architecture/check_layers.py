@@ -21,7 +21,7 @@ MAX_LINES = 400
 AREAS = ("lib", "apps", "tests", "benchmarks")
 
 # Area of the tree (the longest prefix counts) -> third-party and system headers that it may include.
-POSIX = r"(sys/|dlfcn\.h|fcntl\.h|netdb\.h|netinet/in\.h|poll\.h|signal\.h|spawn\.h|unistd\.h|termios\.h)"
+POSIX = r"(sys/|dlfcn\.h|fcntl\.h|link\.h|netdb\.h|netinet/in\.h|poll\.h|signal\.h|spawn\.h|unistd\.h|termios\.h)"
 INTRINSICS = r"[a-z]mmintrin\.h"
 FILE_LIBRARIES = r"(OpenEXR/|Imath/|Imf|Imath|Iex|tiny_gltf\.h|nlohmann/|fmt/|png\.h|jpeglib\.h|webp/|zlib\.h)"
 ALLOWED = {
@@ -41,7 +41,7 @@ ALLOWED = {
     "lib/eval/include": [],
     "lib/eval/src": [r"glm/", r"nlohmann/", r"(oneapi/)?tbb/", r"zlib\.h"],
     "apps": [r"glm/", r"CLI/", r"nlohmann/", r"fmt/", POSIX],
-    "apps/python": [r"glm/", r"CLI/", r"nlohmann/", r"fmt/", r"nanobind/"],
+    "apps/python": [r"glm/", r"CLI/", r"nlohmann/", r"fmt/", r"nanobind/", r"cxxabi\.h", POSIX],
     "apps/bdpt/main.cpp": [r"CLI/", r"fmt/", r"(oneapi/)?tbb/", POSIX],
     "tests": [r"glm/", r"catch2/", r"embree[34]/", r"(oneapi/)?tbb/", FILE_LIBRARIES, POSIX, r"pthread\.h",
               INTRINSICS],

@@ -62,6 +62,36 @@ def test_bad_arrays_are_errors(make, words):
         make()
 
 
+@pytest.mark.parametrize("kind", [np.uint8, np.uint16, np.uint32, np.uint64, np.int32, np.int64])
+def test_indices_are_integers_of_any_size(kind):
+    mesh = bdpt.Mesh(SQUARE, TRIANGLES.astype(kind), material=bdpt.Material(unlit=True, base_color=(1, 1, 1)))
+    assert bdpt.render(bdpt.Scene([mesh], camera=FROM_ABOVE, size=(4, 4)), spp=1).image.mean() == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("index, kind, words", [
+    (2**32, np.int64, "triangle 1 has index 4294967296"),
+    (2**32, np.uint64, "triangle 1 has index 4294967296"),
+    (-1, np.int64, "triangle 1 has index -1"),
+    (-1, np.int32, "triangle 1 has index -1"),
+    (0.9, np.float32, "expected an array of uint8"),
+    (2.0**32, np.float64, "expected an array of uint8"),
+])
+def test_indices_that_do_not_fit_are_errors(index, kind, words):
+    triangles = TRIANGLES.astype(kind)
+    triangles[1, 0] = index
+    with pytest.raises(bdpt.Error, match=words):
+        bdpt.Mesh(SQUARE, triangles)
+
+
+@pytest.mark.parametrize("shape", [(0, 1, 3), (1, 0, 3), (0, 2**32 + 1, 3)])
+def test_images_without_pixels_are_errors(shape):
+    texels = np.zeros(shape, np.float32)
+    for make in (lambda: bdpt.Scene([floor()], [bdpt.EnvironmentLight(texels)]),
+                 lambda: bdpt.Scene([floor(base_color_texture=texels)])):
+        with pytest.raises(bdpt.Error, match="pixels|image"):
+            make()
+
+
 def test_unknown_attributes_and_shapes_are_python_errors():
     with pytest.raises(AttributeError):
         bdpt.Material(shininess=3)

@@ -109,12 +109,31 @@ def test_control_c_ends_a_render():
     assert done.stdout == "stopped\n", done.stderr
 
 
+@pytest.mark.parametrize("progress", ["told", "lambda *numbers: (told(), time.sleep(0.01))", "None"])
+def test_a_daemon_thread_does_not_disturb_the_end_of_python(progress):
+    """Python ends while the thread renders without its lock, and while the thread is in a callback."""
+    script = ("import bdpt, threading, time\n"
+              f"scene = bdpt.load({str(SCENES / 'cornell-box.gltf')!r})\n"
+              "renders = threading.Event()\n"
+              "told = lambda *numbers: renders.set()\n"
+              f"options = dict(spp=1000000, size=(16, 16), progress={progress})\n"
+              "threading.Thread(target=lambda: bdpt.render(scene, **options), daemon=True).start()\n"
+              "renders.wait(timeout=0.5)\n")
+    for _ in range(3):
+        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=120)
+        assert (done.returncode, done.stderr) == (0, "")
+
+
 @pytest.mark.parametrize("call, code, words", [
     (lambda scene: bdpt.load("absent.glb"), 3, "absent.glb"),
     (lambda scene: bdpt.load("absent.glb", spp=3), 2, "render"),
     (lambda scene: bdpt.render(scene, env="none"), 2, "load"),
     (lambda scene: bdpt.render(scene, intregator="mis"), 2, "did you mean integrator"),
     (lambda scene: bdpt.render(scene, spp=-1), 2, "-1"),
+    (lambda scene: bdpt.render(scene, spp=1, aov=[]), 2, '--aov "":'),
+    (lambda scene: bdpt.render(scene, spp=1, integrator=""), 2, "--integrator:"),
+    (lambda scene: bdpt.render(scene, spp=2**32), 2, "4294967296"),
+    (lambda scene: bdpt.render(scene, spp=1, size=(2**32, 1)), 2, "4294967296"),
     (lambda scene: bdpt.render(scene, spp=1, size=(2, 2)).save("out.bmp"), 2, "out.bmp"),
     (lambda scene: bdpt.render(scene, spp=1, size=(2, 2)).save("absent/out.exr"), 6, "absent"),
     (lambda scene: bdpt.read_part("absent.part.exr"), 3, "absent.part.exr"),
@@ -141,10 +160,24 @@ def test_errors_of_images():
     black, white = (np.full((4, 5, 3), value, np.float32) for value in (0, 1))
     errors = bdpt.compare(black, white, metrics=["mse", "relmse"])
     assert errors["mse"] == pytest.approx(1.0) and errors["relmse"] == pytest.approx(1.0 / 1.01)
-    with pytest.raises(bdpt.Error, match="5 x 4"):
-        bdpt.compare(black, white[:3])
     with pytest.raises(bdpt.Error, match="ssim"):
         bdpt.compare(black, white, metrics=["ssim"])
+
+
+@pytest.mark.parametrize("image, reference, words", [
+    (np.zeros((3, 5, 3)), np.zeros((4, 5, 3)), "the image: has 5 x 3 pixels, but the reference has 5 x 4"),
+    (np.zeros((0, 5, 3)), np.zeros((0, 5, 3)), "the reference: has no pixels"),
+    (np.zeros((4, 0, 3)), np.zeros((4, 0, 3)), "the reference: has no pixels"),
+    (np.full((4, 5, 3), np.nan), np.zeros((4, 5, 3)), "the image: pixel (0, 0) has nan in channel red"),
+    (np.zeros((4, 5, 3)), np.full((4, 5, 3), np.inf), "the reference: pixel (0, 0) has inf in channel red"),
+    (np.full((4, 5, 3), -np.inf, np.float32), np.zeros((4, 5, 3)), "the image: pixel (0, 0) has -inf in channel red"),
+])
+@pytest.mark.parametrize("metric", ["mse", "flip", "flip_ldr", "relmse_scales"])
+def test_images_that_cannot_be_compared_are_errors(image, reference, words, metric):
+    """As of the command."""
+    with pytest.raises(bdpt.Error) as raised:
+        bdpt.compare(image, reference, metrics=[metric])
+    assert raised.value.code == 4 and str(raised.value) == words
 
 
 def test_layers_of_ids_have_names(tmp_path):

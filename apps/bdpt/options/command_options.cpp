@@ -1,6 +1,7 @@
 #include "options/command_options.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 namespace bdpt::app {
 namespace {
@@ -19,6 +20,23 @@ void let_the_last_count(CLI::App& command)
             option->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
         }
     }
+}
+
+std::vector<std::string> words_for_parser(std::span<const std::string> words)
+{
+    std::vector<std::string> result;
+    bool takes_options = true;
+    for (const std::string& word : words) {
+        takes_options = takes_options && word != "--";
+        const bool is_empty =
+            takes_options && word.starts_with("--") && word.find('=') == word.size() - 1;
+        result.push_back(is_empty ? word.substr(0, word.size() - 1) : word);
+        if (is_empty) {
+            result.emplace_back();
+        }
+    }
+    std::reverse(result.begin(), result.end());
+    return result;
 }
 
 std::vector<std::string> given_options(const CLI::App& command, std::string_view group)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +13,10 @@ namespace bdpt::app {
 
 /// Of an option that takes one value, the last one counts if it is given more than once.
 void let_the_last_count(CLI::App& command);
+
+/// `words` as CLI11 takes them, from the end. "--name=" becomes "--name" and an empty word: CLI11
+/// would take the next word for its value.
+[[nodiscard]] std::vector<std::string> words_for_parser(std::span<const std::string> words);
 
 /// The options of one group of the help text that were given to `command`, each as one word that
 /// says the same: "--spp=64", "--half". Those that take several values are left out.

@@ -2,6 +2,8 @@
 #include <bdpt/eval/metrics/metric.h>
 
 #include <cmath>
+#include <limits>
+#include <string>
 
 #include "catch.hpp"
 #include "test_images.h"
@@ -17,6 +19,30 @@ using test::scaled;
 // Two pixels. x - r is (0.5, 0, -1) and (0, 2, 0); |r| is (0.5, 1, 2) and (0, 2, 4).
 const Image pixel_row = row_of({Rgb(1.0f, 1.0f, 1.0f), Rgb(0.0f, 4.0f, 4.0f)});
 const Image reference = row_of({Rgb(0.5f, 1.0f, 2.0f), Rgb(0.0f, 2.0f, 4.0f)});
+
+TEST_CASE("images that no metric can measure are refused")
+{
+    const auto message = [](Metric metric, const Image& image, const Image& truth) -> std::string {
+        try {
+            static_cast<void>(evaluate(metric, image, truth));
+        } catch (const Error& error) {
+            return std::to_string(static_cast<int>(error.code())) + " " + error.what();
+        }
+        return "";
+    };
+    Image broken = pixel_row;
+    broken.pixels[1].b = std::numeric_limits<float>::quiet_NaN();
+    for (const Metric metric : all_metrics) {
+        CAPTURE(to_string(metric));
+        CHECK(message(metric, {}, {}) == "4 the reference: has no pixels");
+        CHECK(message(metric, row_of({Rgb(1.0f)}), reference) ==
+              "4 the image: has 1 x 1 pixels, but the reference has 2 x 1");
+        CHECK(message(metric, broken, reference) ==
+              "4 the image: pixel (1, 0) has nan in channel blue");
+        CHECK(message(metric, pixel_row, broken) ==
+              "4 the reference: pixel (1, 0) has nan in channel blue");
+    }
+}
 
 TEST_CASE("metrics of two pixels have the values worked out by hand")
 {

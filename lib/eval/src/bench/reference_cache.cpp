@@ -13,6 +13,7 @@
 
 #include "bench/hasher.h"
 #include "bench/trial.h"
+#include "metrics/check_images.h"
 
 namespace bdpt::eval {
 namespace {
@@ -22,16 +23,6 @@ using nlohmann::ordered_json;
 
 /// No run has it.
 constexpr std::uint64_t reference_seed = 1'000'003;
-
-void check_finite(const Image& image, const fs::path& file)
-{
-    for (const Rgb& pixel : image.pixels) {
-        if (!(std::isfinite(pixel.r) && std::isfinite(pixel.g) && std::isfinite(pixel.b))) {
-            throw Error(ErrorCode::invalid_input,
-                        file.string() + ": has pixels that are NaN or infinite");
-        }
-    }
-}
 
 /// What the layer "variance" of an image says about its own noise; 0 without the layer.
 double noise_by_layer(const fs::path& file, const Image& image)
@@ -60,7 +51,7 @@ KeyedReference given_reference(const BenchScene& scene, const fs::path& given)
     const fs::path file = fs::is_directory(given, missing) ? given / (scene.name + ".exr") : given;
     Reference reference{.image = io::read_image(file).image, .noise = 0.0, .origin = file.string()};
     check_size(reference.image, scene.width, scene.height, file);
-    check_finite(reference.image, file);
+    check_image({.name = file.string(), .image = reference.image});
     reference.noise = noise_by_layer(file, reference.image);
     Hasher hasher;
     hasher.add_array(reference.image.pixels);
@@ -146,7 +137,7 @@ std::optional<KeyedReference> kept_reference(const std::string& key, const Bench
                         .noise = noise->get<double>(),
                         .origin = origin->get<std::string>()};
     check_size(reference.image, scene.width, scene.height, file);
-    check_finite(reference.image, file);
+    check_image({.name = file.string(), .image = reference.image});
     return KeyedReference{.reference = std::move(reference), .key = key, .file = file};
 }
 

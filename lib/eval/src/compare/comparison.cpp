@@ -1,10 +1,10 @@
 #include "compare/tiles.h"
+#include "metrics/check_images.h"
 
 #include <bdpt/error.h>
 #include <bdpt/eval/compare/comparison.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
@@ -13,30 +13,6 @@
 
 namespace bdpt::eval {
 namespace {
-
-std::string size_text(const Image& image)
-{
-    return std::to_string(image.width) + " x " + std::to_string(image.height);
-}
-
-/// Throws `Error` for the first pixel that is no number; (x0, y0) is the image's place.
-void check_finite(const std::string& name, const Image& image, int x0, int y0)
-{
-    constexpr std::array<const char*, 3> channels{"red", "green", "blue"};
-    for (int y = 0; y < image.height; ++y) {
-        for (int x = 0; x < image.width; ++x) {
-            for (std::size_t c = 0; c < channels.size(); ++c) {
-                const float value = image.at(x, y)[static_cast<int>(c)];
-                if (!std::isfinite(value)) {
-                    throw Error(ErrorCode::invalid_input,
-                                name + ": pixel (" + std::to_string(x0 + x) + ", " +
-                                    std::to_string(y0 + y) + ") has " + std::to_string(value) +
-                                    " in channel " + channels[c]);
-                }
-            }
-        }
-    }
-}
 
 void check_options(const ComparisonOptions& options)
 {
@@ -54,10 +30,7 @@ void check_options(const ComparisonOptions& options)
 Image checked(const std::string& name, Image reference, const ComparisonOptions& options)
 {
     check_options(options);
-    if (reference.pixels.empty()) {
-        throw Error(ErrorCode::invalid_input, name + ": has no pixels");
-    }
-    check_finite(name, reference, options.x0, options.y0);
+    check_image({.name = name, .image = reference, .x0 = options.x0, .y0 = options.y0});
     return reference;
 }
 
@@ -75,12 +48,8 @@ Comparison::Comparison(const std::string& name, Image reference, ComparisonOptio
 
 void Comparison::add(const std::string& name, const Image& image)
 {
-    if (image.width != reference_.width || image.height != reference_.height) {
-        throw Error(ErrorCode::invalid_input, name + ": has " + size_text(image) +
-                                                  " pixels, but the reference " + reference_name_ +
-                                                  " has " + size_text(reference_));
-    }
-    check_finite(name, image, options_.x0, options_.y0);
+    check_image({.name = name, .image = image, .x0 = options_.x0, .y0 = options_.y0},
+                {.name = "the reference " + reference_name_, .image = reference_});
     const ErrorMap map = error_terms(options_.map_metric, image, reference_, scale_);
     ImageErrors errors{.name = name, .values = {}};
     for (const Metric metric : options_.metrics) {

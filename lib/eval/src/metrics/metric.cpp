@@ -1,3 +1,5 @@
+#include "metrics/check_images.h"
+
 #include <bdpt/eval/image/shrunk.h>
 #include <bdpt/eval/metrics/metric.h>
 #include <bdpt/io/tone_map.h>
@@ -160,6 +162,9 @@ double mean(const ErrorMap& map)
 double evaluate(Metric metric, const Image& image, const Image& reference,
                 const MetricOptions& options)
 {
+    const NamedInput truth{.name = "the reference", .image = reference};
+    check_image(truth);
+    check_image({.name = "the image", .image = image}, truth);
     const MetricScale scale = make_scale(reference, options);
     return from_mean(metric, mean(error_terms(metric, image, reference, scale)), scale);
 }

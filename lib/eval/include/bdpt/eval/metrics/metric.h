@@ -52,7 +52,8 @@ inline constexpr std::array all_metrics{Metric::relmse, Metric::relmse_scales, M
 /// The mean of the values, which are at least one.
 [[nodiscard]] BDPT_EXPORT double mean(const ErrorMap& map);
 
-/// The metric of a whole image.
+/// The metric of a whole image. Throws `Error`: invalid_input for images without pixels, of
+/// different sizes, or with NaN or infinity; usage for options that make no sense.
 [[nodiscard]] BDPT_EXPORT double evaluate(Metric metric, const Image& image, const Image& reference,
                                           const MetricOptions& options = {});
 

@@ -31,6 +31,12 @@ install(TARGETS bdpt_python LIBRARY DESTINATION "${BDPT_PYTHON_INSTALL_DIR}/bdpt
 install(FILES "${package}/__init__.py" "${package}/py.typed" "${package}/_bdpt.pyi"
         DESTINATION "${BDPT_PYTHON_INSTALL_DIR}/bdpt" COMPONENT bdpt_python)
 if(DEFINED SKBUILD)
+  # A wheel has bdpt_io in its module, which finds companions beside itself.
+  install(TARGETS bdpt_oiio LIBRARY DESTINATION "${BDPT_PYTHON_INSTALL_DIR}/bdpt" COMPONENT bdpt_python_companions)
+  if(BDPT_HAS_OPENVDB)
+    install(TARGETS bdpt_vdb_reader RUNTIME DESTINATION "${BDPT_PYTHON_INSTALL_DIR}/bdpt"
+            COMPONENT bdpt_python_companions)
+  endif()
   return()  # the rest is pip's
 endif()
 

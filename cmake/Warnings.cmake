@@ -18,6 +18,8 @@ function(bdpt_compile_options target)
     -ffp-contract=off
     # No errno and no trapping: sqrt and comparisons become single instructions. Values stay IEEE.
     -fno-math-errno -fno-trapping-math
+    # What is installed names no folder of the build, as messages of failed assertions would.
+    -fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=
     # Nobody replaces our functions at load time, so exported ones may be inlined too.
     -fno-semantic-interposition)
   if(BDPT_WERROR)

@@ -127,7 +127,7 @@ add_library(bdpt_oiio MODULE src/oiio_module/oiio_module.cpp)
 bdpt_compile_options(bdpt_oiio)
 target_include_directories(bdpt_oiio PRIVATE src)
 target_link_libraries(bdpt_oiio PRIVATE OpenImageIO::OpenImageIO)
-add_dependencies(bdpt_io bdpt_oiio)
+bdpt_add_companion(bdpt_oiio)
 
 # OpenVDB lives in a program, which is started for each file of volumes (src/volume/vdb_reply.h).
 if(BDPT_HAS_OPENVDB)
@@ -139,23 +139,24 @@ if(BDPT_HAS_OPENVDB)
   set_target_properties(bdpt_vdb_reader PROPERTIES OUTPUT_NAME bdpt-read-vdb)
   bdpt_compile_options(bdpt_vdb_reader)
   target_include_directories(bdpt_vdb_reader PRIVATE src)
-  target_link_libraries(bdpt_vdb_reader PRIVATE bdpt_openvdb
-    $<TARGET_PROPERTY:bdpt,INTERFACE_LINK_LIBRARIES>)
+  target_link_libraries(bdpt_vdb_reader PRIVATE bdpt_openvdb glm::glm)
   target_include_directories(bdpt_vdb_reader PRIVATE
     $<TARGET_PROPERTY:bdpt,INTERFACE_INCLUDE_DIRECTORIES>)
   if(BDPT_SANITIZE)
     target_compile_definitions(bdpt_vdb_reader PRIVATE BDPT_SANITIZED)
   endif()
-  add_dependencies(bdpt_io bdpt_vdb_reader)
+  bdpt_add_companion(bdpt_vdb_reader)
 endif()
 
-# Where both are looked for, relative to what holds the code: beside it in the build tree and in bdpt/
-# when installed. A static library ends up in a program that may lie anywhere.
+# The library looks for its companions beside the file that holds its code, and where they are installed
+# relative to that: a shared library, or the program that a static one is linked into. It never looks
+# where they were built: whoever can write there could run code of their own in it.
 set(folders [["."]] [["bdpt"]])
-if(NOT BUILD_SHARED_LIBS)
+if(BUILD_SHARED_LIBS)
+  bdpt_put_companions_beside(bdpt_io)
+elseif(NOT DEFINED SKBUILD)  # a wheel has no program
   file(RELATIVE_PATH from_bindir "${CMAKE_INSTALL_FULL_BINDIR}" "${CMAKE_INSTALL_FULL_LIBDIR}")
-  list(APPEND folders "\"${from_bindir}/bdpt\"" "\"${CMAKE_INSTALL_FULL_LIBDIR}/bdpt\""
-       "\"$<TARGET_FILE_DIR:bdpt_oiio>\"")
+  list(APPEND folders "\"${from_bindir}/bdpt\"")
 endif()
 list(JOIN folders "," folders)
 set_source_files_properties(src/file/companion.cpp PROPERTIES

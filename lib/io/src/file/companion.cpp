@@ -4,6 +4,7 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <link.h>
 
 #include <system_error>
 
@@ -11,33 +12,29 @@ namespace bdpt::io {
 
 namespace {
 
-/// The folder of the program or library that holds this code.
-std::filesystem::path own_folder()
+/// The library that holds this code, or the program that it is linked into.
+std::filesystem::path own_file()
 {
     Dl_info info{};
-    if (dladdr(reinterpret_cast<const void*>(&own_folder), &info) == 0 ||
-        info.dli_fname == nullptr) {
-        return {};
-    }
-    std::error_code error;
-    // For a program it may be the word it was called by, so ask the system.
-    const std::filesystem::path named = std::filesystem::weakly_canonical(info.dli_fname, error);
-    if (!error && std::filesystem::exists(named, error)) {
-        return named.parent_path();
-    }
-    return std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+    link_map* loaded = nullptr;
+    const bool known = dladdr1(reinterpret_cast<const void*>(&own_file), &info,
+                               reinterpret_cast<void**>(&loaded), RTLD_DL_LINKMAP) != 0;
+    // The loader has no name for the program itself, and the word that the program was called by
+    // could name any file of the current folder.
+    const bool is_library = known && loaded != nullptr && loaded->l_name[0] != '\0';
+    return is_library ? loaded->l_name : "/proc/self/exe";
 }
 
 }  // namespace
 
 std::filesystem::path companion_file(std::string_view name)
 {
-    const std::filesystem::path here = own_folder();
+    std::error_code error;
+    const std::filesystem::path here = std::filesystem::canonical(own_file(), error).parent_path();
     std::string tried;
-    for (const char* folder : {BDPT_COMPANION_FOLDERS}) {         // the most likely place first
-        const std::filesystem::path file = here / folder / name;  // `here` counts if it is relative
-        std::error_code error;
-        if (std::filesystem::exists(file, error)) {
+    for (const char* folder : {BDPT_COMPANION_FOLDERS}) {  // the most likely place first
+        const std::filesystem::path file = here / folder / name;
+        if (here.is_absolute() && std::filesystem::exists(file, error)) {
             return file;
         }
         tried += (tried.empty() ? "" : ", ") + file.lexically_normal().string();

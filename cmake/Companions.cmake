@@ -1,0 +1,22 @@
+# Companions of bdpt::io are files that it opens or starts only when it needs them: the module that reads TIFF
+# images, and the program that reads volumes. It looks for them beside itself (lib/io/src/file/companion.cpp).
+
+# bdpt_add_companion(TARGET): builds TARGET with bdpt_io, in a folder of its own.
+function(bdpt_add_companion target)
+  set_target_properties(${target} PROPERTIES
+    LIBRARY_OUTPUT_DIRECTORY "${CMAKE_CURRENT_BINARY_DIR}/companions"
+    RUNTIME_OUTPUT_DIRECTORY "${CMAKE_CURRENT_BINARY_DIR}/companions")
+  add_dependencies(bdpt_io ${target})
+  set_property(GLOBAL APPEND PROPERTY BDPT_COMPANIONS ${target})
+endfunction()
+
+# bdpt_put_companions_beside(TARGET): links them into the folder where TARGET is built, which holds the code of
+# bdpt_io: that library itself, or a program that its static library is linked into.
+function(bdpt_put_companions_beside target)
+  get_property(companions GLOBAL PROPERTY BDPT_COMPANIONS)
+  foreach(companion IN LISTS companions)
+    add_custom_command(TARGET ${target} POST_BUILD
+      COMMAND ${CMAKE_COMMAND} -E create_symlink "$<TARGET_FILE:${companion}>"
+              "$<TARGET_FILE_DIR:${target}>/$<TARGET_FILE_NAME:${companion}>" VERBATIM)
+  endforeach()
+endfunction()

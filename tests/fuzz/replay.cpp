@@ -6,17 +6,20 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <string>
 #include <vector>
 
 // Runs a fuzz target without libFuzzer: on all files of the folders that are named, then on mutants
-// of them. NAME [-runs=N] [-seed=N] FILE|FOLDER...
+// of them. NAME [-runs=N] [-max_total_time=SECONDS] [-seed=N] FILE|FOLDER... Other options of
+// libFuzzer are ignored.
 
 namespace {
 
@@ -79,7 +82,8 @@ std::vector<std::filesystem::path> find_files(const std::filesystem::path& place
 
 int replay(const std::vector<std::string>& words)
 {
-    std::uint64_t runs = 0;
+    std::optional<std::uint64_t> runs;
+    std::uint64_t seconds = 0;
     std::uint64_t seed = 1;
     std::vector<Bytes> corpus;
     for (const std::string& word : words) {
@@ -87,7 +91,9 @@ int replay(const std::vector<std::string>& words)
             runs = std::stoull(word.substr(6));
         } else if (word.starts_with("-seed=")) {
             seed = std::stoull(word.substr(6));
-        } else {
+        } else if (word.starts_with("-max_total_time=")) {
+            seconds = std::stoull(word.substr(16));
+        } else if (!word.starts_with("-")) {
             for (const std::filesystem::path& file : find_files(word)) {
                 corpus.push_back(read(file));
             }
@@ -96,15 +102,18 @@ int replay(const std::vector<std::string>& words)
     if (corpus.empty()) {
         throw std::runtime_error("no files: name some, or a folder of them");
     }
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point end = Clock::now() + std::chrono::seconds(seconds);
     for (const Bytes& input : corpus) {
         run(input);
     }
-    for (std::uint64_t i = 0; i < runs; ++i) {
-        const Bytes& origin = corpus[i % corpus.size()];
-        run(bdpt::fuzz::mutate(origin, (seed << 32) + i, most_bytes));
+    std::uint64_t done = 0;
+    for (; runs ? done < *runs : Clock::now() < end; ++done) {
+        const Bytes& origin = corpus[done % corpus.size()];
+        run(bdpt::fuzz::mutate(origin, (seed << 32) + done, most_bytes));
     }
     std::printf("%zu files and %llu mutants: nothing broke\n", corpus.size(),
-                static_cast<unsigned long long>(runs));
+                static_cast<unsigned long long>(done));
     return EXIT_SUCCESS;
 }
 

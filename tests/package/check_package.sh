@@ -10,18 +10,23 @@ sky=$WORK/sky.tif
 unset CMAKE_PREFIX_PATH LD_LIBRARY_PATH PKG_CONFIG_PATH bdpt_DIR bdpt_ROOT
 export ASAN_OPTIONS=detect_leaks=0  # those of OpenImageIO are not our subject
 
+skip() {
+  printf 'skipped: %s\n' "$*"
+  exit 77
+}
+
 fail() {
   printf 'failed: %s\n' "$*" >&2
   exit 1
 }
 
-# build_consumer FOLDER CMAKE-OPTIONS...
+# build_consumer FOLDER TARGET CMAKE-OPTIONS...
 build_consumer() {
-  local folder=$1
-  shift
+  local folder=$1 target=$2
+  shift 2
   "$CMAKE" -S "$consumer" -B "$folder" -G "$GENERATOR" -DCMAKE_CXX_COMPILER="$CXX" \
     -DCMAKE_CXX_COMPILER_LAUNCHER="$LAUNCHER" -DBDPT_WANTED_VERSION="$VERSION" "$@"
-  "$CMAKE" --build "$folder" --parallel 2
+  "$CMAKE" --build "$folder" --parallel 2 --target "$target"
 }
 
 # expect_version PROGRAM: runs it; its first line must be our version.
@@ -53,7 +58,24 @@ install_and_move() {
   mv "$WORK/installed" "$prefix"
   # Only OpenImageIO reads this format.
   write_tiff >"$sky"
-  ! grep -rIl -e "$BUILD" -e "$SOURCE" -e "$WORK" "$prefix" || fail "these files name the build"
+  check_names "$prefix" "$BUILD" "$SOURCE" "$WORK"
+}
+
+# check_names FOLDER PATH...: nothing in FOLDER names one of the paths, where others might put what we then run. What
+# is there for debuggers may.
+check_names() {
+  local folder=$1 file paths=() found=""
+  shift
+  paths=("${@/#/-e}")
+  while IFS= read -r file; do
+    cp "$file" "$WORK/no-debug"
+    strip --strip-debug "$WORK/no-debug" 2>/dev/null || true  # Other files are looked at as they are.
+    if grep -qaF "${paths[@]}" "$WORK/no-debug"; then
+      found+=" $file ($(grep -aoF "${paths[@]}" "$WORK/no-debug" | sort | uniq -c | sort -rn | sed -n 1p))"
+    fi
+  done < <(find "$folder" -type f)
+  rm -f "$WORK/no-debug"
+  [[ -z $found ]] || fail "these files name the build:$found"
 }
 
 run_command() {
@@ -95,11 +117,17 @@ run_without_module() {
   [[ ! -e $slim/out.png ]] || fail "an image without its volume"
 }
 
+# put_companions_beside FOLDER: of programs. A shared library has them beside itself.
+put_companions_beside() {
+  [[ $SHARED == 1 ]] || cp -r "$prefix/$LIBDIR/bdpt" "$1"
+}
+
 use_find_package() {
   rm -rf "$WORK/find_package"
-  build_consumer "$WORK/find_package" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release \
+  build_consumer "$WORK/find_package" all -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release \
     -DCMAKE_CXX_FLAGS="$FLAGS"
   grep "^bdpt_DIR:PATH=$prefix/" "$WORK/find_package/CMakeCache.txt" || fail "not from $prefix"
+  put_companions_beside "$WORK/find_package"
   expect_version "$WORK/find_package/render_box"
   "$WORK/find_package/read_sky" "$sky"
   "$WORK/find_package/judge"
@@ -126,6 +154,7 @@ use_pkg_config() {
   compile render_box "$consumer/render_box.cpp" bdpt
   expect_version ./render_box
   compile read_sky "$consumer/read_sky.cpp" bdpt_io
+  put_companions_beside .
   ./read_sky "$sky"
   compile judge "$consumer/judge.cpp" bdpt_eval
   ./judge
@@ -141,17 +170,79 @@ use_pkg_config() {
   [[ -s out.exr ]] || fail "the program in the README wrote no image"
 }
 
-# Builds the core alone, as quickly as compilers can: many files as one, as some projects build all that
-# they have. What was built before is kept. The libraries for files, the command and the tests must not
-# even be looked for.
+# Builds the libraries as a part of a project: static ones, with bdpt::io, as quickly as compilers can (many files as
+# one, as some projects build all that they have). What was built before is kept. The libraries for the tests must not
+# even be looked for. Everything has sanitizers, and the targets of tests/fuzz are built along, for tests that run them:
+# so the command is there, too, as far as they use it. They are libFuzzer's where there is a compiler that has it.
 use_add_subdirectory() {
   local unneeded=() package
-  for package in OpenImageIO OpenEXR Imath PNG JPEG WebP nlohmann_json fmt CLI11 Catch2 Python3 benchmark; do
+  for package in Catch2 Python3 benchmark; do
     unneeded+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON")
   done
-  build_consumer "$WORK/add_subdirectory" -DBDPT_SOURCE="$SOURCE" -DCMAKE_BUILD_TYPE= \
-    -DCMAKE_CXX_FLAGS=-O0 -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=32 "${unneeded[@]}"
-  expect_version "$WORK/add_subdirectory/render_box"
+  local folder=$WORK/add_subdirectory clang
+  clang=$(command -v clang++ || true)
+  mkdir -p "$WORK"
+  if [[ -n $clang ]] && echo 'extern "C" int LLVMFuzzerTestOneInput(const char*, unsigned long) { return 0; }' \
+    | "$clang" -fsanitize=fuzzer,address,undefined -x c++ - -o "$WORK/libfuzzer"; then
+    CXX=$clang
+  else
+    echo "no clang++ with libFuzzer: the fuzz targets only run mutants of seeds"
+  fi
+  build_consumer "$folder" programs -DBDPT_SOURCE="$SOURCE" -DBDPT_BUILD_IO=ON -DBDPT_BUILD_EVAL=ON \
+    -DBDPT_BUILD_APPS=ON -DBDPT_BUILD_FUZZERS=ON \
+    -DBDPT_SANITIZE=address,undefined -DCMAKE_EXE_LINKER_FLAGS=-fsanitize=address,undefined \
+    -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" \
+    -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=32 "${unneeded[@]}"
+  expect_version "$folder/render_box"
+  write_tiff >"$folder/sky.tif"
+  local files=("$SOURCE/scenes/cornell-box.gltf" "$folder/sky.tif")
+  [[ $OPENVDB != 1 ]] || files+=("$SOURCE/scenes/smoke.vdb")
+  # The program finds what is beside it, and not what is beside the caller.
+  local trap=$folder/trap
+  rm -rf "$trap"
+  mkdir "$trap"
+  touch "$trap/read_scene"
+  printf '#!/bin/sh\ntouch "%s"\n' "$trap/caught" >"$trap/bdpt-read-vdb"
+  chmod +x "$trap/bdpt-read-vdb"
+  (cd "$trap" && PATH=$folder:$PATH read_scene "${files[@]}")
+  [[ -s $trap/read_scene.exr ]] || fail "no image"
+  [[ ! -e $trap/caught ]] || fail "a program of the current folder was run"
+}
+
+# Builds a wheel as "pip wheel ." does, though as quickly as compilers can, and with the command, as nothing else is
+# built without optimization. What it was built from is gone when the wheel is used, in an environment of its own.
+make_wheel() {
+  local folder=$WORK/wheel python name
+  rm -rf "$folder"
+  mkdir -p "$folder"
+  "$PYTHON3" -c 'import sysconfig, os; assert os.path.exists(sysconfig.get_path("include") + "/Python.h")' \
+    && "$PYTHON3" -m venv "$folder/venv" || skip "no python3-venv or python3-dev"
+  python=$folder/venv/bin/python
+  local pip=("$python" -m pip --disable-pip-version-check --retries 1 --timeout 20)
+  "${pip[@]}" install -q numpy scikit-build-core || skip "pip does not reach packages (no network?)"
+  mkdir "$folder/source" "$folder/tmp"
+  for name in CMakeLists.txt pyproject.toml LICENSE README.md CHANGELOG.md apps cmake docs lib; do
+    cp -r "$SOURCE/$name" "$folder/source/"
+  done
+  TMPDIR=$folder/tmp CMAKE_BUILD_PARALLEL_LEVEL=2 "${pip[@]}" wheel "$folder/source" --no-deps -w "$folder" \
+    --config-settings=cmake.build-type=Debug --config-settings=cmake.define.CMAKE_CXX_FLAGS_DEBUG=-O0 \
+    --config-settings=cmake.define.CMAKE_UNITY_BUILD=ON --config-settings=cmake.define.CMAKE_UNITY_BUILD_BATCH_SIZE=32 \
+    --config-settings=cmake.define.CMAKE_CXX_COMPILER_LAUNCHER="$LAUNCHER" \
+    --config-settings="build.targets=bdpt_python;bdpt_python_stub;bdpt_app"
+  rm -rf "$folder/source" "$folder/tmp"
+  "${pip[@]}" uninstall -q -y scikit-build-core
+  "$python" -m zipfile -e "$folder"/bdpt-"$VERSION"-*.whl "$folder/unpacked"
+  check_names "$folder/unpacked" "$folder" "$SOURCE" "$BUILD" /tmp/
+  "${pip[@]}" install -q --no-index "$folder"/bdpt-"$VERSION"-*.whl
+  local package
+  package=$(cd "$folder" && "$python" -c 'import bdpt, pathlib; print(pathlib.Path(bdpt.__file__).parent)')
+  [[ $package == "$folder/venv/"* ]] || fail "imported $package"
+  "${pip[@]}" show -f bdpt | sed -n '/^Files:/,$p' | grep -v '^Files:\|^  bdpt/\|^  bdpt-' \
+    && fail "files outside of the package"
+  write_tiff >"$folder/sky.tif"
+  cp "$SOURCE"/scenes/{cornell-box.gltf,smoke.vdb} "$folder"
+  mkdir "$folder/elsewhere"
+  (cd "$folder/elsewhere" && "$python" "$here/check_wheel.py" .. "$VERSION" "$OPENVDB")
 }
 
 # Configures with BDPT_BUILD_IO=OFF and nothing else: the core and its tests, without looking for the
@@ -176,8 +267,7 @@ configure_core_alone() {
 # The packages for Debian, unpacked and not installed.
 make_debian_packages() {
   if ! command -v dpkg-shlibdeps >/dev/null; then
-    echo "skipped: dpkg-dev is not installed"
-    exit 77
+    skip "dpkg-dev is not installed"
   fi
   local folder=$WORK/debian
   rm -rf "$folder"
@@ -284,6 +374,7 @@ case $1 in
   pkg-config) use_pkg_config ;;
   add_subdirectory) use_add_subdirectory ;;
   debian) make_debian_packages ;;
+  wheel) make_wheel ;;
   core_alone) configure_core_alone ;;
   bash | zsh | fish) check_completions "$1" ;;
   *) fail "unknown task $1" ;;

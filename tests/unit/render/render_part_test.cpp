@@ -247,26 +247,5 @@ TEST_CASE("another scene, camera or option is refused by name", "[part]")
                         }));
 }
 
-TEST_CASE("every option but those of the system belongs to the identity", "[part]")
-{
-    const Scene scene{SceneDesc{}};
-    const auto names = [&](const RenderOptions& o) {
-        std::string result;
-        for (const auto& [name, value] : identity(scene, CameraDesc{}, o).components) {
-            result += name + "\n";
-        }
-        return result;
-    };
-    const std::string all = names(options());
-    for (const char* name : {"build: instruction set", "build: Embree", "build: version",
-                             "camera: vertical field of view", "option: clamp"}) {
-        CHECK(all.find(name) != std::string::npos);
-    }
-    for (const char* name : {"memory", "threads", "option: samples", "tile", "option: film"}) {
-        CAPTURE(name);
-        CHECK(all.find(name) == std::string::npos);
-    }
-}
-
 }  // namespace
 }  // namespace bdpt::test

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
-#include <limits>
+#include <iterator>
 #include <system_error>
 
 namespace bdpt {
@@ -18,6 +18,15 @@ std::optional<std::int64_t> take_number(std::string_view& text)
     }
     text.remove_prefix(static_cast<std::size_t>(stop - text.data()));
     return number;
+}
+
+/// The first of `ranges`, which are in order, that does not end before `sample`.
+template <typename Ranges>
+auto first_ending_from(Ranges& ranges, std::int64_t sample)
+{
+    return std::lower_bound(
+        ranges.begin(), ranges.end(), sample,
+        [](const SampleRange& range, std::int64_t value) { return range.end < value; });
 }
 
 }  // namespace
@@ -74,30 +83,47 @@ void SampleSet::add(SampleRange range)
         return;
     }
     // Those that it overlaps or touches become one with it.
-    const auto first = std::find_if(ranges_.begin(), ranges_.end(), [&](const SampleRange& other) {
-        return other.end >= range.begin;
-    });
+    const auto first = first_ending_from(ranges_, range.begin);
     auto last = first;
     for (; last != ranges_.end() && last->begin <= range.end; ++last) {
         range.begin = std::min(range.begin, last->begin);
         range.end = std::max(range.end, last->end);
     }
-    ranges_.insert(ranges_.erase(first, last), range);
+    if (first == last) {
+        ranges_.insert(first, range);
+    } else {
+        *first = range;
+        ranges_.erase(first + 1, last);
+    }
 }
 
 void SampleSet::add(const SampleSet& other)
 {
-    for (const SampleRange& range : other.ranges_) {
-        add(range);
+    if (other.ranges_.size() == 1) {
+        return add(other.ranges_.front());
+    }
+    std::vector<SampleRange> both;
+    both.reserve(ranges_.size() + other.ranges_.size());
+    std::merge(ranges_.begin(), ranges_.end(), other.ranges_.begin(), other.ranges_.end(),
+               std::back_inserter(both),
+               [](const SampleRange& a, const SampleRange& b) { return a.begin < b.begin; });
+    ranges_.clear();
+    for (const SampleRange& range : both) {
+        add(range);  // at the end
     }
 }
 
 SampleSet SampleSet::overlap(const SampleSet& other) const
 {
+    if (ranges_.size() < other.ranges_.size()) {
+        return other.overlap(*this);
+    }
     SampleSet result;
-    for (const SampleRange& a : ranges_) {
-        for (const SampleRange& b : other.ranges_) {
-            result.add({.begin = std::max(a.begin, b.begin), .end = std::min(a.end, b.end)});
+    for (const SampleRange& range : other.ranges_) {
+        auto own = first_ending_from(ranges_, range.begin);
+        for (; own != ranges_.end() && own->begin < range.end; ++own) {
+            result.add(
+                {.begin = std::max(own->begin, range.begin), .end = std::min(own->end, range.end)});
         }
     }
     return result;
@@ -108,9 +134,10 @@ SampleSet SampleSet::missing(const SampleSet& wanted) const
     SampleSet result;
     for (const SampleRange& range : wanted.ranges_) {
         std::int64_t begin = range.begin;
-        for (const SampleRange& own : ranges_) {
-            result.add({.begin = begin, .end = std::min(own.begin, range.end)});
-            begin = std::max(begin, own.end);
+        auto own = first_ending_from(ranges_, range.begin);
+        for (; own != ranges_.end() && own->begin < range.end; ++own) {
+            result.add({.begin = begin, .end = own->begin});
+            begin = std::max(begin, own->end);
         }
         result.add({.begin = begin, .end = range.end});
     }

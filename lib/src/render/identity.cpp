@@ -16,6 +16,7 @@
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string_view>
 #include <type_traits>
@@ -133,16 +134,26 @@ void add_names(std::vector<IdentityComponent>& result, const SceneDesc& scene, A
     }
 }
 
-const IdentityComponent* find(const Identity& identity, std::string_view name)
+/// Values by the names of components; of names that come twice the first.
+std::map<std::string_view, std::string_view> values_by_name(const Identity& identity)
 {
-    const auto found = std::find_if(identity.components.begin(), identity.components.end(),
-                                    [&](const auto& component) { return component.name == name; });
-    return found != identity.components.end() ? &*found : nullptr;
+    std::map<std::string_view, std::string_view> result;
+    for (const auto& [name, value] : identity.components) {
+        result.emplace(name, value);
+    }
+    return result;
 }
 
-bool is_readable(const std::string& value)
+/// " (8, not 4)" where people can read both.
+std::string values_text(std::string_view there, std::string_view here)
 {
-    return !value.starts_with('#');
+    constexpr std::size_t max_length = 80;
+    const auto is_readable = [](std::string_view value) {
+        return !value.starts_with('#') && value.size() <= max_length;
+    };
+    return is_readable(there) && is_readable(here)
+               ? " (" + std::string(there) + ", not " + std::string(here) + ")"
+               : "";
 }
 
 }  // namespace
@@ -163,18 +174,19 @@ Identity identity(const Scene& scene, const CameraDesc& camera, const RenderOpti
 std::optional<std::string> difference(const Identity& here, const Identity& there)
 {
     constexpr std::size_t most_named = 3;
+    const auto values_here = values_by_name(here);
+    const auto values_there = values_by_name(there);
     std::vector<std::string> names;
     for (const auto& [name, value] : here.components) {
-        const IdentityComponent* its = find(there, name);
-        if (its == nullptr) {
+        const auto its = values_there.find(name);
+        if (its == values_there.end()) {
             names.push_back(name + " (missing in it)");
-        } else if (its->value != value) {
-            const bool readable = is_readable(value) && is_readable(its->value);
-            names.push_back(name + (readable ? " (" + its->value + ", not " + value + ")" : ""));
+        } else if (its->second != value) {
+            names.push_back(name + values_text(its->second, value));
         }
     }
     for (const auto& [name, value] : there.components) {
-        if (find(here, name) == nullptr) {
+        if (!values_here.contains(name)) {
             names.push_back(name + " (only in it)");
         }
     }

@@ -74,4 +74,30 @@ TEST_CASE("SampleSet agrees with a set of bits", "[part]")
     }
 }
 
+// The time limit of tests is what this fails by: with the square of the number it takes hours.
+TEST_CASE("sets of a million ranges are compared and added in time", "[part]")
+{
+    const auto comb = [](std::int64_t first) {
+        std::string text;
+        for (std::int64_t i = 0; i < 1'000'000; ++i) {
+            text += (i > 0 ? "," : "") + std::to_string(4 * i + first) + ":" +
+                    std::to_string(4 * i + first + 1);
+        }
+        return *SampleSet::parse(text);
+    };
+    const SampleSet a = comb(0);
+    const SampleSet b = comb(2);
+    CHECK(a.overlap(b).empty());
+    CHECK(a.overlap(a) == a);
+    CHECK(a.missing(b) == b);
+    CHECK(a.contains(a));
+    SampleSet both = a;
+    both.add(b);
+    CHECK(both.ranges().size() == 2'000'000);
+    both.add(comb(1));
+    both.add(comb(3));
+    CHECK(both.text() == "0:4000000");
+    CHECK(SampleSet({.begin = 0, .end = 5'000'000}).overlap(a) == a);
+}
+
 }  // namespace bdpt

@@ -1,8 +1,12 @@
 #include "file/json.h"
+#include "file/ordered_json.h"
 #include "file/uri.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace bdpt::io {
@@ -23,35 +27,77 @@ std::string explanation(std::string_view text)
     return line;
 }
 
+[[noreturn]] void refuse_second(std::string_view key)
+{
+    throw Error(ErrorCode::invalid_input,
+                "JSON: the key " + quote(key) + " stands twice in one object");
+}
+
+/// An object that is sorted by its keys.
+Json* add_member(Json& object, std::string& key)
+{
+    const auto [slot, inserted] = object.emplace(key, nullptr);
+    if (!inserted) {
+        refuse_second(key);
+    }
+    return &*slot;
+}
+
+/// One that keeps their order, and would look through all of them for the new one: `check_members`
+/// does that for all at once.
+OrderedJson* add_member(OrderedJson& object, std::string& key)
+{
+    return &object.get_ref<OrderedJson::object_t&>().emplace_back(std::move(key), nullptr).second;
+}
+
+void check_members(const Json& /*object*/) {}
+
+void check_members(const OrderedJson& object)
+{
+    std::vector<std::string_view> keys;
+    keys.reserve(object.size());
+    for (const auto& [key, member] : object.get_ref<const OrderedJson::object_t&>()) {
+        keys.emplace_back(key);
+    }
+    std::sort(keys.begin(), keys.end());
+    const auto second = std::adjacent_find(keys.begin(), keys.end());
+    if (second != keys.end()) {
+        refuse_second(*second);
+    }
+}
+
 /// Builds the document from the parser's events and stops it at the limits. The parser itself is
 /// not recursive, so that depth costs no stack before it is refused.
+template <typename Document>
 class LimitedBuilder {
 public:
     explicit LimitedBuilder(const ReadLimits& limits) : limits_(limits) {}
 
-    [[nodiscard]] Json take() { return std::move(root_); }
+    [[nodiscard]] Document take() { return std::move(root_); }
 
     bool null() { return add(nullptr); }
     bool boolean(bool value) { return add(value); }
-    bool number_integer(Json::number_integer_t value) { return add(value); }
-    bool number_unsigned(Json::number_unsigned_t value) { return add(value); }
-    bool number_float(Json::number_float_t value, const std::string&) { return add(value); }
+    bool number_integer(typename Document::number_integer_t value) { return add(value); }
+    bool number_unsigned(typename Document::number_unsigned_t value) { return add(value); }
+    bool number_float(typename Document::number_float_t value, const std::string&)
+    {
+        return add(value);
+    }
     bool string(std::string& value) { return add(std::move(value)); }
-    bool binary(Json::binary_t&) { return false; }
+    bool binary(typename Document::binary_t&) { return false; }
 
-    bool start_object(std::size_t) { return open(Json::object()); }
-    bool end_object() { return close(); }
-    bool start_array(std::size_t) { return open(Json::array()); }
+    bool start_object(std::size_t) { return open(Document::object()); }
+    bool end_object()
+    {
+        check_members(*open_.back());
+        return close();
+    }
+    bool start_array(std::size_t) { return open(Document::array()); }
     bool end_array() { return close(); }
 
     bool key(std::string& name)
     {
-        const auto [slot, inserted] = open_.back()->emplace(name, nullptr);
-        if (!inserted) {
-            throw Error(ErrorCode::invalid_input,
-                        "JSON: the key " + quote(name) + " stands twice in one object");
-        }
-        slot_ = &*slot;
+        slot_ = add_member(*open_.back(), name);
         return true;
     }
 
@@ -62,7 +108,7 @@ public:
     }
 
 private:
-    Json* put(Json value)
+    Document* put(Document value)
     {
         if (++values_ > limits_.json_values) {
             throw Error(ErrorCode::invalid_input,
@@ -80,13 +126,13 @@ private:
         return slot_;
     }
 
-    bool add(Json value)
+    bool add(Document value)
     {
         put(std::move(value));
         return true;
     }
 
-    bool open(Json value)
+    bool open(Document value)
     {
         if (open_.size() >= limits_.json_depth) {
             throw Error(ErrorCode::invalid_input,
@@ -104,25 +150,36 @@ private:
     }
 
     ReadLimits limits_;
-    Json root_;
-    std::vector<Json*> open_;
-    Json* slot_ = nullptr;
+    Document root_;
+    std::vector<Document*> open_;
+    Document* slot_ = nullptr;
     std::size_t values_ = 0;
 };
 
-}  // namespace
-
-Json parse_json(ByteView text, const ReadLimits& limits)
+template <typename Document>
+Document parse(ByteView text, const ReadLimits& limits)
 {
     if (text.size() > limits.json_bytes) {
         throw Error(ErrorCode::invalid_input, fmt::format("JSON of {} bytes, but the limit is {}",
                                                           text.size(), limits.json_bytes));
     }
-    LimitedBuilder builder(limits);
-    if (!Json::sax_parse(text.begin(), text.end(), &builder)) {
+    LimitedBuilder<Document> builder(limits);
+    if (!Document::sax_parse(text.begin(), text.end(), &builder)) {
         throw Error(ErrorCode::invalid_input, "JSON: malformed");
     }
     return builder.take();
+}
+
+}  // namespace
+
+Json parse_json(ByteView text, const ReadLimits& limits)
+{
+    return parse<Json>(text, limits);
+}
+
+OrderedJson parse_ordered_json(ByteView text, const ReadLimits& limits)
+{
+    return parse<OrderedJson>(text, limits);
 }
 
 }  // namespace bdpt::io

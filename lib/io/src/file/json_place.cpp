@@ -1,4 +1,5 @@
 #include "file/json.h"
+#include "file/ordered_json.h"
 #include "file/uri.h"
 
 #include <fmt/format.h>
@@ -60,15 +61,30 @@ void JsonPlace::fail(const std::string& what, ErrorCode code) const
     throw Error(code, place.empty() ? what : place + ": " + what);
 }
 
-std::string brief(const Json& value)
+namespace {
+
+template <typename Document>
+std::string brief_text(const Document& value)
 {
     if (value.is_object() || value.is_array()) {
         return fmt::format("an {} of {}", value.type_name(), value.size());
     }
     if (value.is_string()) {
-        return quote(value.get_ref<const std::string&>());
+        return quote(value.template get_ref<const std::string&>());
     }
     return value.dump();
+}
+
+}  // namespace
+
+std::string brief(const Json& value)
+{
+    return brief_text(value);
+}
+
+std::string brief(const OrderedJson& value)
+{
+    return brief_text(value);
 }
 
 }  // namespace bdpt::io

@@ -2,8 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <stdexcept>
-#include <string>
 #include <utility>
 
 namespace bdpt::io {
@@ -23,26 +21,26 @@ ordered_json ids_to_json(const IdNames& names, const IdRanks& ranks)
     return json;
 }
 
-IdNames names_from_json(const ordered_json& json)
+IdNames names_from_json(const JsonValue& json)
 {
     IdNames names;
     for (std::size_t kind = 0; kind < id_kinds.size(); ++kind) {
-        for (const ordered_json& pair : json.at(kind).at("names")) {
-            const NameId id{pair.at(1).get<std::uint32_t>()};
+        for (const JsonValue& pair : json.at(kind).at("names").elements()) {
+            const NameId id{pair.at(1).number<std::uint32_t>()};
             if (!is_name_id(id)) {
-                throw std::runtime_error("an id that no name has");
+                pair.at(1).fail_expecting("the id of a name");
             }
-            names[kind].push_back({.name = pair.at(0).get<std::string>(), .id = id});
+            names[kind].push_back({.name = pair.at(0).text(), .id = id});
         }
     }
     return names;
 }
 
-IdRanks ranks_from_json(const ordered_json& json)
+IdRanks ranks_from_json(const JsonValue& json)
 {
     IdRanks ranks{};
     for (std::size_t kind = 0; kind < id_kinds.size(); ++kind) {
-        ranks[kind] = json.at(kind).at("ranks").get<std::size_t>();
+        ranks[kind] = static_cast<std::size_t>(json.at(kind).at("ranks").number<std::uint32_t>());
     }
     return ranks;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bdpt/film/id_film.h>
+#include <bdpt/io/json_value.h>
 
 #include <nlohmann/json.hpp>
 
@@ -11,10 +12,10 @@ namespace bdpt::io {
 
 [[nodiscard]] nlohmann::ordered_json ids_to_json(const IdNames& names, const IdRanks& ranks);
 
-/// Throws what nlohmann/json does, and `std::runtime_error` for ids that no name has.
-[[nodiscard]] IdNames names_from_json(const nlohmann::ordered_json& json);
+/// Throws what `JsonValue` does, also for ids that no name has.
+[[nodiscard]] IdNames names_from_json(const JsonValue& json);
 
-/// Throws what nlohmann/json does.
-[[nodiscard]] IdRanks ranks_from_json(const nlohmann::ordered_json& json);
+/// Throws what `JsonValue` does.
+[[nodiscard]] IdRanks ranks_from_json(const JsonValue& json);
 
 }  // namespace bdpt::io

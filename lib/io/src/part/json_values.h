@@ -1,5 +1,7 @@
 #pragma once
 
+#include <bdpt/io/json_value.h>
+#include <bdpt/scene_desc.h>
 #include <bdpt/types.h>
 
 #include <nlohmann/json.hpp>
@@ -54,29 +56,32 @@ nlohmann::ordered_json value_to_json(const std::vector<T>& values)
     return json;
 }
 
-template <typename T>
-requires JsonScalar<T>
-void value_from_json(const nlohmann::ordered_json& json, T& value)
+inline void value_from_json(const JsonValue& json, std::string& value)
 {
-    value = json.get<T>();
+    value = json.text();
 }
 
 template <typename T>
-requires std::is_enum_v<T>
-void value_from_json(const nlohmann::ordered_json& json, T& value)
+requires std::is_arithmetic_v<T>
+void value_from_json(const JsonValue& json, T& value)
 {
-    value = static_cast<T>(json.get<int>());
+    value = json.number<T>();
 }
 
-inline void value_from_json(const nlohmann::ordered_json& json, Mat4& matrix)
+inline void value_from_json(const JsonValue& json, Projection& value)
+{
+    value = static_cast<Projection>(json.number(0, static_cast<int>(Projection::orthographic)));
+}
+
+inline void value_from_json(const JsonValue& json, Mat4& matrix)
 {
     for (int i = 0; i < 16; ++i) {
-        matrix[i / 4][i % 4] = json.at(static_cast<std::size_t>(i)).get<float>();
+        matrix[i / 4][i % 4] = json.at(static_cast<std::size_t>(i)).number<float>();
     }
 }
 
 template <typename T>
-void value_from_json(const nlohmann::ordered_json& json, std::optional<T>& value)
+void value_from_json(const JsonValue& json, std::optional<T>& value)
 {
     if (!json.is_null()) {
         value_from_json(json, value.emplace());
@@ -84,9 +89,9 @@ void value_from_json(const nlohmann::ordered_json& json, std::optional<T>& value
 }
 
 template <typename T>
-void value_from_json(const nlohmann::ordered_json& json, std::vector<T>& values)
+void value_from_json(const JsonValue& json, std::vector<T>& values)
 {
-    for (const nlohmann::ordered_json& one : json) {
+    for (const JsonValue& one : json.elements()) {
         value_from_json(one, values.emplace_back());
     }
 }

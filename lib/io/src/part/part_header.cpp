@@ -2,6 +2,7 @@
 
 #include <bdpt/error.h>
 #include <bdpt/fields.h>
+#include <bdpt/io/json_value.h>
 
 #include <algorithm>
 #include <array>
@@ -9,9 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <new>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
 #include "part/id_json.h"
 #include "part/json_values.h"
@@ -22,23 +21,15 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr int format = 1;
-constexpr int most_side = 1 << 16;       // [pixels]
-constexpr int most_vertices = 4096 + 1;  // of a strategy, from one side
+constexpr int max_side = 1 << 16;       // [pixels]
+constexpr int max_vertices = 4096 + 1;  // of a strategy, from one side
+constexpr double max_seconds = 1e12;    // that a render took, by all machines together
 
-template <typename Number>
-Number checked(Number value, Number low, Number high)
+SampleSet read_samples(const JsonValue& json)
 {
-    if (!(value >= low && value <= high)) {
-        throw std::runtime_error("a number out of range");
-    }
-    return value;
-}
-
-SampleSet read_samples(const ordered_json& json)
-{
-    const auto set = SampleSet::parse(json.get_ref<const std::string&>());
+    const auto set = SampleSet::parse(json.text());
     if (!set) {
-        throw std::runtime_error("a set of samples that is none");
+        json.fail_expecting("ranges of samples in ascending order, like 0:64,128:192");
     }
     return *set;
 }
@@ -53,20 +44,20 @@ ordered_json to_json(const FilmLayout& layout)
     return json;
 }
 
-FilmLayout read_layout(const ordered_json& json)
+FilmLayout read_layout(const JsonValue& json)
 {
     FilmLayout layout{
-        .width = checked(json.at("size").at(0).get<int>(), 1, most_side),
-        .height = checked(json.at("size").at(1).get<int>(), 1, most_side),
+        .width = json.at("size").at(0).number(1, max_side),
+        .height = json.at("size").at(1).number(1, max_side),
         .region = {},
-        .splats = json.at("splats").get<bool>() ? SplatImage::present : SplatImage::absent};
-    const ordered_json& region = json.at("region");
-    layout.region.x0 = checked(region.at(0).get<int>(), 0, layout.width - 1);
-    layout.region.y0 = checked(region.at(1).get<int>(), 0, layout.height - 1);
-    layout.region.x1 = checked(region.at(2).get<int>(), layout.region.x0 + 1, layout.width);
-    layout.region.y1 = checked(region.at(3).get<int>(), layout.region.y0 + 1, layout.height);
-    if (!json.at("clamp").is_null()) {
-        layout.clamp = json.at("clamp").get<float>();
+        .splats = json.at("splats").boolean() ? SplatImage::present : SplatImage::absent};
+    const JsonValue region = json.at("region");
+    layout.region.x0 = region.at(0).number(0, layout.width - 1);
+    layout.region.y0 = region.at(1).number(0, layout.height - 1);
+    layout.region.x1 = region.at(2).number(layout.region.x0 + 1, layout.width);
+    layout.region.y1 = region.at(3).number(layout.region.y0 + 1, layout.height);
+    if (const JsonValue clamp = json.at("clamp"); !clamp.is_null()) {
+        layout.clamp = clamp.number<float>(std::numeric_limits<float>::denorm_min());
     }
     return layout;
 }
@@ -86,34 +77,33 @@ ordered_json to_json(const AovSet& aovs)
     return json;
 }
 
-AovSet read_aovs(const ordered_json& json)
+AovSet read_aovs(const JsonValue& json)
 {
     AovSet aovs;
-    for (const ordered_json& number : json) {
-        aovs.insert(
-            static_cast<Aov>(checked(number.get<int>(), 0, static_cast<int>(all_aovs.back()))));
+    for (const JsonValue& number : json.elements()) {
+        aovs.insert(static_cast<Aov>(number.number(0, static_cast<int>(all_aovs.back()))));
     }
     return aovs;
 }
 
 /// No pixel has more ids than there are names, or samples; kinds that were not asked for have none.
-void check_ids(const PartHeader& header)
+void check_ids(const PartHeader& header, const JsonValue& json)
 {
     for (std::size_t kind = 0; kind < id_kinds.size(); ++kind) {
         const auto most = std::min<std::uint64_t>(
             header.names[kind].size(), static_cast<std::uint64_t>(header.samples.count()));
         if (header.ranks[kind] > (header.aovs.contains(id_aovs[kind]) ? most : 0)) {
-            throw std::runtime_error("more ids of a pixel than there can be");
+            json.fail("more ids of a pixel than there can be");
         }
     }
 }
 
-std::vector<Strategy> read_strategies(const ordered_json& json)
+std::vector<Strategy> read_strategies(const JsonValue& json)
 {
     std::vector<Strategy> strategies;
-    for (const ordered_json& pair : json) {
-        strategies.push_back({.s = checked(pair.at(0).get<int>(), 0, most_vertices),
-                              .t = checked(pair.at(1).get<int>(), 0, most_vertices)});
+    for (const JsonValue& pair : json.elements()) {
+        strategies.push_back(
+            {.s = pair.at(0).number(0, max_vertices), .t = pair.at(1).number(0, max_vertices)});
     }
     return strategies;
 }
@@ -132,23 +122,23 @@ ordered_json to_json(const FilmTotals& totals)
     return json;
 }
 
-FilmTotals read_totals(const ordered_json& json, const FilmLayout& layout)
+FilmTotals read_totals(const JsonValue& json, const FilmLayout& layout)
 {
-    FilmTotals totals{.defects = {.invalid = json.at("invalid").get<std::uint64_t>(),
-                                  .saturated = json.at("saturated").get<std::uint64_t>(),
+    FilmTotals totals{.defects = {.invalid = json.at("invalid").number<std::uint64_t>(),
+                                  .saturated = json.at("saturated").number<std::uint64_t>(),
                                   .first_invalid = {}}};
-    if (json.contains("first_invalid")) {
-        const ordered_json& place = json.at("first_invalid");
-        constexpr std::int64_t most = std::numeric_limits<std::uint32_t>::max();
-        totals.defects.first_invalid = FilmDefects::Place{
-            .x = checked(place.at(0).get<int>(), 0, layout.width - 1),
-            .y = checked(place.at(1).get<int>(), 0, layout.height - 1),
-            .sample_index = checked(place.at(2).get<std::int64_t>(), std::int64_t{0}, most)};
+    if (json.has("first_invalid")) {
+        const JsonValue place = json.at("first_invalid");
+        constexpr std::int64_t max_index = std::numeric_limits<std::uint32_t>::max();
+        totals.defects.first_invalid =
+            FilmDefects::Place{.x = place.at(0).number(0, layout.width - 1),
+                               .y = place.at(1).number(0, layout.height - 1),
+                               .sample_index = place.at(2).number(std::int64_t{0}, max_index)};
     }
     const auto words = [&json](std::size_t i) {
-        const ordered_json& pair = json.at("clamped").at(i);
-        return ExactSum::Words{.low = pair.at(0).get<std::uint64_t>(),
-                               .high = pair.at(1).get<std::uint64_t>()};
+        const JsonValue pair = json.at("clamped").at(i);
+        return ExactSum::Words{.low = pair.at(0).number<std::uint64_t>(),
+                               .high = pair.at(1).number<std::uint64_t>()};
     };
     totals.clamped = {words(0), words(1), words(2)};
     totals.clamped_contributions = words(3);
@@ -163,9 +153,9 @@ ordered_json to_json(const RenderStats& stats)
             stats.rays.shadow_to_lens, stats.rays.shadow_interior};
 }
 
-RenderStats read_stats(const ordered_json& json)
+RenderStats read_stats(const JsonValue& json)
 {
-    const auto count = [&json](std::size_t i) { return json.at(i).get<std::uint64_t>(); };
+    const auto count = [&json](std::size_t i) { return json.at(i).number<std::uint64_t>(); };
     return {.rays = {.camera = count(0),
                      .light = count(1),
                      .shadow = count(2),
@@ -193,61 +183,61 @@ ordered_json to_json(const ImageMetadata& metadata)
     return json;
 }
 
-ImageMetadata read_metadata(const ordered_json& json)
+ImageMetadata read_metadata(const JsonValue& json)
 {
     ImageMetadata metadata;
-    metadata.version = json.at("version").get<std::string>();
-    metadata.scene = json.at("scene").get<std::string>();
-    metadata.settings = json.at("settings").get<std::string>();
-    metadata.integrator = json.at("integrator").get<std::string>();
-    metadata.seed = json.at("seed").get<std::uint64_t>();
-    metadata.render_seconds = json.at("seconds").get<double>();
-    metadata.xmp = json.at("xmp").get<std::string>();
-    if (json.contains("frame")) {
-        const ordered_json& frame = json.at("frame");
-        constexpr double most = 1e6;
-        metadata.frame = FrameNumber{.number = frame.at(0).get<int>(),
-                                     .per_second = checked(frame.at(1).get<double>(), 0.0, most)};
+    metadata.version = json.at("version").text();
+    metadata.scene = json.at("scene").text();
+    metadata.settings = json.at("settings").text();
+    metadata.integrator = json.at("integrator").text();
+    metadata.seed = json.at("seed").number<std::uint64_t>();
+    metadata.render_seconds = json.at("seconds").number(0.0, max_seconds);
+    metadata.xmp = json.at("xmp").text();
+    if (json.has("frame")) {
+        const JsonValue frame = json.at("frame");
+        constexpr double max_rate = 1e6;
+        metadata.frame = FrameNumber{.number = frame.at(0).number<int>(),
+                                     .per_second = frame.at(1).number(0.0, max_rate)};
     }
     for_each_field(metadata.camera, [&json](const auto& field, auto& value) {
-        value_from_json(json.at("camera").at(std::string(field.name)), value);
+        value_from_json(json.at("camera").at(field.name), value);
     });
-    checked(static_cast<int>(metadata.camera.projection), 0,
-            static_cast<int>(Projection::orthographic));
     return metadata;
 }
 
-PartHeader read(const ordered_json& json)
+PartHeader read(const JsonValue& json)
 {
-    if (json.at("format").get<int>() != format) {
-        throw Error(ErrorCode::invalid_input, "is a part of format " + json.at("format").dump() +
+    const int found = json.at("format").number<int>();
+    if (found != format) {
+        throw Error(ErrorCode::invalid_input, "is a part of format " + std::to_string(found) +
                                                   "; this program reads " + std::to_string(format));
     }
     PartHeader header;
-    for (const auto& [name, value] : json.at("identity").items()) {
-        header.identity.components.push_back({.name = name, .value = value.get<std::string>()});
+    for (const auto& [name, value] : json.at("identity").members()) {
+        header.identity.components.push_back({.name = name, .value = value.text()});
     }
     header.samples = read_samples(json.at("samples"));
     if (header.samples.empty()) {
-        throw std::runtime_error("no samples");
+        json.at("samples").fail("no samples");
     }
     header.layout = read_layout(json.at("film"));
     header.aovs = read_aovs(json.at("layers"));
-    header.counts = json.value("own_counts", false) ? PixelCounts::own : PixelCounts::equal;
+    header.counts = json.has("own_counts") && json.at("own_counts").boolean() ? PixelCounts::own
+                                                                              : PixelCounts::equal;
     if (asks_for_ids(header.aovs)) {
-        const ordered_json& ids = json.at("ids");
+        const JsonValue ids = json.at("ids");
         header.names = names_from_json(ids);
         header.ranks = ranks_from_json(ids);
-        check_ids(header);
+        check_ids(header, ids);
     }
     header.strategies = read_strategies(json.at("strategies"));
     header.totals = read_totals(json.at("totals"), header.layout);
     header.stats = read_stats(json.at("stats"));
-    header.cpu_seconds = json.at("cpu_seconds").get<double>();
+    header.cpu_seconds = json.at("cpu_seconds").number(0.0, max_seconds);
     header.notes.goal = read_samples(json.at("goal"));
     header.notes.metadata = read_metadata(json.at("image"));
     header.notes.metadata.samples_per_pixel = header.samples.count();
-    header.notes.command = json.at("command").get<std::vector<std::string>>();
+    header.notes.command = json.at("command").texts();
     return header;
 }
 
@@ -289,8 +279,10 @@ std::string to_text(const PartHeader& header)
     if (asks_for_ids(header.aovs)) {
         json["ids"] = ids_to_json(header.names, header.ranks);
     }
+    // Names differ; to look for each of them would take the square of their number.
+    auto& identity = json["identity"].get_ref<ordered_json::object_t&>();
     for (const auto& [name, value] : header.identity.components) {
-        json["identity"][name] = value;
+        identity.emplace_back(name, value);
     }
     for (const auto& [s, t] : header.strategies) {
         json["strategies"].push_back({s, t});
@@ -302,13 +294,9 @@ std::string to_text(const PartHeader& header)
 PartHeader parse_part_header(std::string_view text)
 {
     try {
-        return read(ordered_json::parse(text));
-    } catch (const Error&) {
-        throw;
-    } catch (const std::bad_alloc&) {
-        throw;
-    } catch (const std::exception& error) {
-        throw Error(ErrorCode::invalid_input,
+        return read(JsonValue::parse(text));
+    } catch (const Error& error) {
+        throw Error(error.code(),
                     std::string("what it says about itself is not of a part: ") + error.what());
     }
 }

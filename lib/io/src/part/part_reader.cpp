@@ -108,8 +108,10 @@ void check_planes(const Imf::Header& exr, const PartHeader& header, const Sealed
         }
         ++channels;
     }
-    if (std::accumulate(header.ranks.begin(), header.ranks.end(), std::size_t{0}) > channels) {
-        fail("its sums have channels that no part has");  // before all of their names take memory
+    // Before the names of all channels that there should be take memory.
+    if (std::accumulate(header.ranks.begin(), header.ranks.end(), header.strategies.size()) >
+        channels) {
+        fail("its sums have channels that no part has");
     }
     const std::uint64_t pixels =
         static_cast<std::uint64_t>(r.width()) * static_cast<std::uint64_t>(r.height());
@@ -144,7 +146,8 @@ void merge_header(RenderPart& part, const PartHeader& header)
         fail(("has samples that are there already: " + both.text()).c_str());
     }
     if (part.film.layout() != header.layout || part.aovs.aovs() != header.aovs ||
-        part.strategies.strategies() != header.strategies || part.ids.names() != header.names) {
+        part.aovs.counts() != header.counts || part.strategies.strategies() != header.strategies ||
+        part.ids.names() != header.names) {
         fail("its films are not those of its render");
     }
     for (const SampleRange& range : header.samples.ranges()) {

@@ -1,9 +1,9 @@
 #include "fuzz_target.h"
 #include "part/part_header.h"
 #include "promises.h"
+#include "sealed_part.h"
 
 #include <bdpt/io/part_file.h>
-#include <bdpt/part/content_hash.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -16,9 +16,6 @@ using namespace bdpt;
 using namespace bdpt::io;
 
 namespace {
-
-constexpr std::string_view seal_name = "bdpt part, v. 1.";
-constexpr std::size_t seal_size = 40;
 
 /// A file that has a name, but is on no disk.
 class MemoryFile {
@@ -40,25 +37,6 @@ public:
 private:
     int descriptor_;
 };
-
-/// `bytes` with a seal that holds, in the place of the one that they have, if any.
-std::string sealed(std::string_view bytes)
-{
-    if (bytes.size() >= seal_size &&
-        bytes.substr(bytes.size() - seal_size, seal_name.size()) == seal_name) {
-        bytes.remove_suffix(seal_size);
-    }
-    ContentHasher hasher;
-    hasher.add(bytes.data(), bytes.size());
-    const ContentHash hash = hasher.hash();
-    std::string result = std::string(bytes) + std::string(seal_name);
-    for (const std::uint64_t number : {std::uint64_t{bytes.size()}, hash.low, hash.high}) {
-        for (int shift = 0; shift < 64; shift += 8) {
-            result += static_cast<char>(number >> shift);
-        }
-    }
-    return result;
-}
 
 /// What is read can be shown, and added once.
 void read_file(std::string_view bytes)
@@ -115,6 +93,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         return 0;
     }
     attempt([&] { read_file(bytes); });
-    attempt([&] { read_file(sealed(bytes)); });
+    attempt([&] { read_file(test::sealed_part(bytes)); });
     return 0;
 }

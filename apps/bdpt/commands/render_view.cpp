@@ -82,6 +82,23 @@ Goal goal_from_now(Goal goal, const Progress& progress, std::int64_t before)
     return goal;
 }
 
+/// `render_part`; what is wrong with `part` is told with the name of its file.
+PartResult render_or_blame(const PreparedScene& stage, const RenderOptions& options,
+                           RenderPart part, const RenderControl& control,
+                           const RenderArguments& arguments)
+{
+    const bool goes_on = !part.samples.empty();
+    try {
+        return render_part(stage.scene, stage.camera, options, std::move(part), control);
+    } catch (const Error& error) {
+        if (!goes_on || error.code() != ErrorCode::invalid_input) {
+            throw;
+        }
+        throw Error(error.code(), fmt::format("{}: {} (--restart replaces it)",
+                                              arguments.part->file.string(), error.what()));
+    }
+}
+
 PartResult render_stage(const RenderArguments& arguments, const PreparedScene& stage,
                         const io::PartNotes& notes, const RenderSession& session,
                         std::optional<PartKeeper>& keeper)
@@ -112,7 +129,7 @@ PartResult render_stage(const RenderArguments& arguments, const PreparedScene& s
     control.on_progress = [&, before = part.samples.count()](const Progress& progress) {
         session.console.progress(progress, goal_from_now(arguments.goal, progress, before));
     };
-    PartResult result = render_part(stage.scene, stage.camera, options, std::move(part), control);
+    PartResult result = render_or_blame(stage, options, std::move(part), control, arguments);
     session.console.end_progress();
     if (session.display != nullptr) {
         session.display->finish(result.part.film);

@@ -82,6 +82,11 @@ double cpu_seconds()
     return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
+PixelCounts pixel_counts(const RenderOptions& options)
+{
+    return options.sampling.rates ? PixelCounts::own : PixelCounts::equal;
+}
+
 /// A part of the render without any samples.
 RenderPart empty_part(Identity identity, const RenderOptions& options, const CameraDesc& camera,
                       const AovPass& aov_pass)
@@ -90,20 +95,23 @@ RenderPart empty_part(Identity identity, const RenderOptions& options, const Cam
     return {.identity = std::move(identity),
             .samples = {},
             .film = Film(layout),
-            .aovs = AovFilm(layout.region, options.film.aovs,
-                            options.sampling.rates ? PixelCounts::own : PixelCounts::equal),
+            .aovs = AovFilm(layout.region, options.film.aovs, pixel_counts(options)),
             .ids = IdFilm(layout.region, options.film.aovs, aov_pass.names()),
             .strategies = StrategyFilm(layout.region, strategies_with_images(options, camera)),
             .stats = {}};
 }
 
-void check_part(const RenderPart& part, const Identity& identity, const RenderOptions& options)
+/// That `part` is one of this render: files may say so of films that are others.
+void check_part(const RenderPart& part, const Identity& identity, const RenderOptions& options,
+                const CameraDesc& camera, const AovPass& aov_pass)
 {
     if (const auto what = difference(identity, part.identity)) {
         throw Error(ErrorCode::invalid_input, "the part is of another render: " + *what);
     }
-    if (part.film.layout() != film_layout(options)) {
-        throw Error(ErrorCode::usage, "the part's film is not that of its render");
+    if (part.film.layout() != film_layout(options) || part.aovs.aovs() != options.film.aovs ||
+        part.aovs.counts() != pixel_counts(options) || part.ids.names() != aov_pass.names() ||
+        part.strategies.strategies() != strategies_with_images(options, camera)) {
+        throw Error(ErrorCode::invalid_input, "the part's films are not those of its render");
     }
 }
 
@@ -137,13 +145,13 @@ PartResult render_part(const Scene& scene, const CameraDesc& camera_desc,
     const RenderOptions options = chosen_options(scene, camera_desc, asked);
     check_strategy_memory(options, camera_desc);
     Identity identity = bdpt::identity(scene, camera_desc, options);
-    if (!so_far.samples.empty()) {
-        check_part(so_far, identity, options);
-    }
     const PixelRect region = options.film.crop.value_or(whole_image(options));
     const MovingCamera camera = open_camera(scene.world(), camera_desc, options);
     const auto integrator = make_integrator(scene.world(), camera, options);
     const AovPass aov_pass(scene.world(), camera, options);
+    if (!so_far.samples.empty()) {
+        check_part(so_far, identity, options, camera_desc, aov_pass);
+    }
 
     Threads threads(options.system.threads);
 

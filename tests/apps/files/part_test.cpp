@@ -15,6 +15,7 @@
 #include "image_files.h"
 #include "scene_files.h"
 #include "scratch_folder.h"
+#include "sealed_part.h"
 #include "subprocess.h"
 
 namespace bdpt::test {
@@ -296,6 +297,22 @@ TEST_CASE("words about parts that make no sense are refused", "[part]")
     check_refused(run({"merge", path(folder, "a.exr")}), 2, {"--output is required"});
     check_refused(run({"merge", path(folder, "x.exr"), "-o", path(folder, "a.exr")}), 3,
                   {"x.exr: no such file"});
+}
+
+TEST_CASE("a part that was given another film is refused by name", "[part]")
+{
+    const ScratchFolder folder;
+    write_cube(folder, "cube", {});
+    const std::string part = path(folder, "a.part.exr");
+    render(folder, {"--part", part, "--spp", "2"});
+    std::string bytes = read_text(part);
+    const std::string truth = R"("size":[24,16])";
+    const std::size_t place = bytes.find(truth);
+    REQUIRE(place != std::string::npos);
+    // Of the same length, so that all else stays in its place, and with a seal that holds.
+    write_text(part, sealed_part(bytes.replace(place, truth.size(), R"("size":[25,16])")));
+    check_refused(run(render_words(folder, {"--part", part, "--spp", "3", "--quiet"})), 4,
+                  {part + ": the part's films are not those of its render", "--restart"});
 }
 
 }  // namespace

@@ -247,5 +247,35 @@ TEST_CASE("another scene, camera or option is refused by name", "[part]")
                         }));
 }
 
+TEST_CASE("a part that has the identity of a render and other films is refused", "[part]")
+{
+    const Scene scene = room();
+    RenderOptions o = options();
+    o.film.aovs = {Aov::albedo, Aov::object};
+    o.bidirectional.strategy_depth = 3;
+    const RenderPart sound = part_of(scene, o, {.begin = 0, .end = 2}, 1);
+    const auto refused = [&](const std::function<void(RenderPart&)>& change) {
+        RenderPart part = part_of(scene, o, {.begin = 0, .end = 2}, 1);
+        change(part);
+        return message_of(
+            [&] { static_cast<void>(render_part(scene, room_camera(), o, std::move(part))); });
+    };
+    const std::string message = "the part's films are not those of its render";
+    const PixelRect& region = sound.film.region();
+    CHECK(refused([&](RenderPart& part) {
+              FilmLayout layout = part.film.layout();
+              ++layout.width;
+              part.film = Film(layout);
+          }) == message);
+    CHECK(refused([&](RenderPart& part) { part.aovs = AovFilm(region, AovSet{Aov::object}); }) ==
+          message);
+    CHECK(refused([&](RenderPart& part) {
+              part.aovs = AovFilm(region, o.film.aovs, PixelCounts::own);
+          }) == message);
+    CHECK(refused([&](RenderPart& part) { part.ids = IdFilm(region, o.film.aovs, {}); }) ==
+          message);
+    CHECK(refused([&](RenderPart& part) { part.strategies = StrategyFilm(); }) == message);
+}
+
 }  // namespace
 }  // namespace bdpt::test

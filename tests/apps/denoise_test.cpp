@@ -136,24 +136,21 @@ TEST_CASE("parts are denoised when they are merged")
     CHECK(read_channels(folder.path("merged.exr")) == read_channels(folder.path("whole.exr")));
 }
 
-TEST_CASE("a plan's parts are denoised when they are merged, wherever that is")
+TEST_CASE("a plan's parts are denoised when they are merged")
 {
     const DenoiseFolder folder;
-    const std::string library =
-        std::filesystem::relative(BDPT_FAKE_OIDN, std::filesystem::current_path()).string();
     const std::string plan = folder.path("job/plan.json");
     REQUIRE(run({"plan", folder.path("cube.gltf"), "--size", "8x4", "--spp", "4", "--parts", "2",
                  "--for", "make", "-o", folder.path("merged.exr"), "-d", folder.path("job"),
-                 "--denoise", "--denoiser-library", library, "--quiet"})
+                 "--denoise", "--quiet"})
                 .exit_code == 0);
     for (const char* task : {"0", "1"}) {
         REQUIRE(run({"render", "--plan", plan, "--task", task, "--quiet"}).exit_code == 0);
     }
-    const auto words = nlohmann::json::parse(std::ifstream(plan))["merge"];
-    CHECK(std::find(words.begin(), words.end(),
-                    "--denoiser-library=" + std::filesystem::absolute(library).string()) !=
-          words.end());
-    REQUIRE(run({"merge", "--plan", plan, "--quiet"}).exit_code == 0);
+    // Which code is loaded is for who merges to say.
+    REQUIRE(
+        run({"merge", "--plan", plan, "--denoiser-library", BDPT_FAKE_OIDN, "--quiet"}).exit_code ==
+        0);
     REQUIRE(folder
                 .render({"-o", folder.path("whole.exr"), "--denoise", "--denoiser-library",
                          BDPT_FAKE_OIDN})

@@ -21,10 +21,12 @@
 #include "options/arguments.h"
 #include "options/values/output_files.h"
 #include "plan/plan_file.h"
+#include "plan/planned_files.h"
 #include "report/image/denoised.h"
 #include "report/part/merged_files.h"
 #include "report/part/part_collection.h"
 #include "report/part/part_command.h"
+#include "report/part/planned_outputs.h"
 #include "report/stats_file.h"
 #include "terminal/console.h"
 #include "terminal/interrupt.h"
@@ -37,27 +39,13 @@ namespace fs = std::filesystem;
 using io::PartInfo;
 using nlohmann::ordered_json;
 
-/// Commands that render what is missing, as far as a message has room for them.
-std::string commands_text(const std::vector<std::string>& commands)
-{
-    constexpr std::size_t most_shown = 3;
-    std::string text;
-    for (std::size_t i = 0; i < std::min(commands.size(), most_shown); ++i) {
-        text += (i == 0 ? "; to render them: " : " && ") + commands[i];
-    }
-    if (commands.size() > most_shown) {
-        text += fmt::format(" && ... ({} more)", commands.size() - most_shown);
-    }
-    return text;
-}
-
 std::string message_of_missing(const PartCollection& collection)
 {
     const PartInfo& part = collection.parts.front();
     const SampleSet missing = collection.missing();
-    return fmt::format(
-        "samples are missing: {}{}; --partial writes what there is", missing.text(),
-        commands_text(commands_for(part.notes.command, missing, part.file.parent_path())));
+    return fmt::format("samples are missing: {}{}; --partial writes what there is",
+                       ranges_text(missing),
+                       commands_text(part.notes.command, missing, part.file.parent_path()));
 }
 
 /// What has become of one image.
@@ -73,23 +61,18 @@ std::string message_of_missing(const MergeArguments& asked, const Plan& plan,
                                const std::vector<MergedImage>& unwritten)
 {
     std::vector<std::size_t> images;
+    std::vector<SampleSet> missing(plan.images.size());
     bool has_parts = false;
     for (const MergedImage& image : unwritten) {
         images.push_back(image.image);
+        missing[image.image] = image.missing;
         has_parts = has_parts || image.has_parts;
     }
-    std::vector<std::size_t> tasks;
-    for (std::size_t task = 0; task < plan.tasks.size(); ++task) {
-        if (std::any_of(unwritten.begin(), unwritten.end(), [&](const MergedImage& image) {
-                return renders(plan.tasks[task], image.image, image.missing);
-            })) {
-            tasks.push_back(task);
-        }
-    }
+    const std::vector<std::size_t> tasks = tasks_for(plan, missing);
     return fmt::format(
         "samples are missing: {} (tasks {} of {}){}{}",
-        is_sequence(plan) ? images_text(plan, images) : unwritten.front().missing.text(),
-        numbers_text(tasks), asked.plan->string(), commands_text(commands_for(*asked.plan, tasks)),
+        is_sequence(plan) ? images_text(plan, images) : ranges_text(unwritten.front().missing),
+        numbers_text(tasks), asked.plan->string(), commands_text(*asked.plan, tasks),
         has_parts ? "; --partial writes what there is" : "");
 }
 
@@ -110,13 +93,9 @@ ordered_json judge_noise(const MergeArguments& arguments, const RenderPart& sum,
     }
     const std::int64_t samples = samples_for_noise(noise, sum.samples.count(), *arguments.noise);
     const SampleSet more = sum.samples.missing(SampleSet({.begin = 0, .end = samples}));
-    std::string text = fmt::format("the noise is {}: for {} the samples {} are missing",
-                                   noise_text(noise), noise_text(*arguments.noise), more.text());
-    for (const std::string& command :
-         commands_for(part.notes.command, more, part.file.parent_path())) {
-        text += "; to render them: " + command;
-    }
-    console.note(text);
+    console.note(fmt::format("the noise is {}: for {} the samples {} are missing{}",
+                             noise_text(noise), noise_text(*arguments.noise), ranges_text(more),
+                             commands_text(part.notes.command, more, part.file.parent_path())));
     fields["missing_for_noise"] = more.text();
     return fields;
 }
@@ -134,21 +113,24 @@ const char* places_of(const PlanImage& image)
 /// no place for what tells images apart.
 std::vector<MergeArguments> images_of(const MergeArguments& asked, const std::optional<Plan>& plan)
 {
-    if (!plan || !is_sequence(*plan)) {
+    if (!plan) {
         return {asked};
     }
+    const SampleSet goal = samples_of(*plan);
+    const std::vector<std::vector<fs::path>> parts = parts_by_image(*plan);
+    const fs::path folder = resolved(".", *asked.plan);
     std::vector<MergeArguments> result;
     std::set<fs::path> files;
     for (std::size_t i = 0; i < plan->images.size(); ++i) {
         MergeArguments image = asked;
         image.image = i;
-        image.parts = parts_of(*plan, i);
-        for (fs::path& part : image.parts) {
-            part = resolved(part, *asked.plan);
+        image.goal = goal;
+        for (const fs::path& part : parts[i]) {
+            image.parts.push_back(file_of_plan(part, folder));
         }
         const auto place = [&](fs::path& file) {
             const fs::path pattern = std::exchange(file, file_of(file, plan->images[i]));
-            if (!files.insert(file).second) {
+            if (!files.insert(file).second && is_sequence(*plan)) {
                 throw OptionError(fmt::format("{}: expected {} in the name, as the plan has {}",
                                               pattern.string(), places_of(plan->images[i]),
                                               counted(plan->images.size(), "image")));
@@ -189,7 +171,7 @@ void merge(const MergeArguments& arguments, const PartCollection& collection,
 
     const SampleSet missing = collection.missing();
     if (!missing.empty()) {
-        console.warning(fmt::format("samples are missing: {}", missing.text()));
+        console.warning(fmt::format("samples are missing: {}", ranges_text(missing)));
     }
     ordered_json outputs = ordered_json::array();
     for (const fs::path& output : merged_files(arguments)) {
@@ -279,6 +261,9 @@ int run_merge(const MergeArguments& asked)
     const std::vector<MergeArguments> images = images_of(asked, plan);
     for (const MergeArguments& image : images) {
         check_merged_files(image);
+        if (plan) {
+            check_planned_outputs(image, *plan);
+        }
     }
     Console console(asked.format, asked.verbosity);
     // Nothing is worth finishing; but nothing half-written is left, either.

@@ -61,23 +61,22 @@ PreparedScene load(const RenderArguments& arguments, Console& console)
     return stage;
 }
 
+/// The plan that a task is one of, if any.
+std::optional<Plan> plan_of(const RenderArguments& asked)
+{
+    return asked.part && asked.part->plan ? std::optional(read_plan(*asked.part->plan))
+                                          : std::nullopt;
+}
+
 /// The images that the process makes.
 struct Assignment {
     std::vector<SequenceView> views;
-    std::optional<Plan> plan{};   ///< of several images, of which these are some
-    std::size_t first_image = 0;  ///< of it
+    std::size_t first_image = 0;  ///< of the plan, if there is one
 };
 
-/// Those of one task of a plan of several images; none if there is no such plan.
-std::optional<Assignment> planned_assignment(const RenderArguments& asked)
+/// Those of one task of a plan of several images.
+Assignment planned_assignment(const RenderArguments& asked, const Plan& plan)
 {
-    if (!asked.part || !asked.part->plan) {
-        return std::nullopt;
-    }
-    Plan plan = read_plan(*asked.part->plan);
-    if (!is_sequence(plan)) {
-        return std::nullopt;
-    }
     const PlanTask& task = task_of(plan, *asked.part->plan, asked.part->task);
     std::vector<SequenceView> views = views_of(asked, cameras_of(plan));
     if (views.size() != plan.images.size()) {
@@ -92,7 +91,6 @@ std::optional<Assignment> planned_assignment(const RenderArguments& asked)
         result.views[i].index = i;
         result.views[i].count = task.images;
     }
-    result.plan = std::move(plan);
     return result;
 }
 
@@ -122,7 +120,12 @@ int run_render(const RenderArguments& typed, const std::vector<std::string>& wor
         console.warning(*warning);
     }
     std::optional<PreparedScene> stage;
-    std::optional<Assignment> assignment = planned_assignment(asked);
+    const std::optional<Plan> plan = plan_of(asked);
+    const bool has_planned_sequence = plan && is_sequence(*plan);
+    std::optional<Assignment> assignment;
+    if (has_planned_sequence) {
+        assignment = planned_assignment(asked, *plan);
+    }
     if (!assignment && asked.sequence && asked.sequence->cameras == SequenceCameras::all) {
         stage = load(asked, console);
     }
@@ -151,15 +154,18 @@ int run_render(const RenderArguments& typed, const std::vector<std::string>& wor
         interrupt.set_temporaries(temporary_paths(check_files(image)));
         std::optional<PartKeeper> keeper;
         if (image.part) {
-            image.part->image = assignment->first_image + view.index;
-            keeper.emplace(*image.part, console);
+            keeper.emplace(
+                *image.part,
+                plan ? std::optional(planned_identity(*plan, assignment->first_image + view.index))
+                     : std::nullopt,
+                console);
             if (keeper->is_complete(image.samples) && image.outputs.empty()) {
                 report_complete(console, image);
                 continue;
             }
         }
-        if (!stage && assignment->plan) {
-            check_files_of_plan(asked, *assignment->plan);
+        if (!stage && has_planned_sequence) {
+            check_files_of_plan(asked, *plan);
         }
         if (!stage || time != image.scene.time) {
             stage.reset();  // first, or there would be two in memory

@@ -23,4 +23,8 @@ void let_the_last_count(CLI::App& command);
 [[nodiscard]] std::vector<std::string> given_options(const CLI::App& command,
                                                      std::string_view group);
 
+/// The names, as "--spp", of the same options of the group, whether they were given or not.
+[[nodiscard]] std::vector<std::string> option_names(const CLI::App& command,
+                                                    std::string_view group);
+
 }  // namespace bdpt::app

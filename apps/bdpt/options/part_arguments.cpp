@@ -120,8 +120,9 @@ bool is_part_name(const std::filesystem::path& file)
 
 void add_merge_options(CLI::App& command, MergeWords& words)
 {
-    command.add_option("part", words.parts, "Parts of a render, made by bdpt render --part")
-        ->required()
+    command
+        .add_option("part", words.parts,
+                    "Parts of a render, made by bdpt render --part. Required without --plan")
         ->type_name("PART");
     const auto group = "Output";
     command
@@ -182,6 +183,9 @@ void add_merge_options(CLI::App& command, MergeWords& words)
 MergeArguments understand(const MergeWords& words)
 {
     MergeArguments result;
+    if (!words.plan && words.parts.empty()) {
+        throw OptionError("part is required");
+    }
     if (words.plan && words.samples) {
         reject("--spp", fmt::format("{}", *words.samples), "no --plan beside it, which says that");
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bdpt/io/exr.h>
+#include <bdpt/part/sample_set.h>
 #include <bdpt/render_options.h>
 
 #include <cstddef>
@@ -38,7 +39,6 @@ struct PartChoice {
     ExistingPart existing = ExistingPart::go_on;
     std::optional<std::filesystem::path> plan{};  ///< that the render must be one of
     std::string task{};                           ///< of it: its number, or where that is
-    std::size_t image = 0;                        ///< of the plan
 };
 
 /// Describes --part, --restart, --plan and --task to the parser.
@@ -81,6 +81,7 @@ struct MergeArguments {
     std::optional<std::filesystem::path> strategies;  ///< .exr for the images of strategies
     std::optional<std::filesystem::path> plan;        ///< whose parts they are
     std::size_t image = 0;                            ///< of the plan
+    std::optional<SampleSet> goal;                    ///< that the plan has for each image
     std::optional<double> wait;                       ///< [s] for parts to come; may be infinite
     std::optional<std::int64_t> samples;              ///< per pixel, that the render was to have
     std::optional<double> noise;                      ///< as noise_of(), that it was to have

@@ -6,7 +6,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <string_view>
 #include <utility>
 
@@ -61,9 +60,19 @@ Engine to_engine(std::string_view name)
         ->second;
 }
 
+// Groups of options that plans have for bdpt render and bdpt merge, and what of them they have not:
+// what names files, what a plan says in another way, and what concerns one process.
+constexpr std::array render_groups{"How to render", "Film", "What to render", sequence_group};
+constexpr std::array merge_groups{"Output"};
+constexpr std::array<std::string_view, 7> not_for_render{
+    "--env", "--volume", "--rates", "--adaptive", "--spp", "--samples", "--threads"};
+constexpr std::array<std::string_view, 7> not_for_merge{
+    "--output",         "--quiet",           "--json", "--float", "--strategies",
+    "--strategy-depth", "--denoiser-library"};
+
 /// `words` but for what says one of `names`, as "--threads".
-std::vector<std::string> without(std::vector<std::string> words,
-                                 const std::vector<std::string>& names)
+template <typename Names>
+std::vector<std::string> without(std::vector<std::string> words, const Names& names)
 {
     std::erase_if(words, [&](const std::string& word) {
         const std::string name = word.substr(0, word.find('='));
@@ -72,16 +81,18 @@ std::vector<std::string> without(std::vector<std::string> words,
     return words;
 }
 
-std::vector<std::string> render_options(const CLI::App& command)
+/// What `words_of(group)` gives for each of `groups`, but for `names`.
+template <typename Groups, typename Names, typename WordsOf>
+std::vector<std::string> words_of_groups(const Groups& groups, const Names& names,
+                                         const WordsOf& words_of)
 {
     std::vector<std::string> words;
-    for (const char* group : {"How to render", "Film", "What to render", sequence_group}) {
-        for (const std::string& word : given_options(command, group)) {
-            words.push_back(word);
+    for (const char* group : groups) {
+        for (std::string& word : words_of(group)) {
+            words.push_back(std::move(word));
         }
     }
-    return without(std::move(words), {"--env", "--volume", "--rates", "--adaptive", "--spp",
-                                      "--samples", "--threads"});
+    return without(std::move(words), names);
 }
 
 bool names_no_file(const std::optional<std::string>& environment)
@@ -103,6 +114,21 @@ void check_parts(const PlanWords& words)
 }
 
 }  // namespace
+
+PlannableOptions plannable_options()
+{
+    CLI::App command;
+    PlanWords words;
+    add_plan_options(command, words);
+    const auto names = [&](const char* group) { return option_names(command, group); };
+    PlannableOptions result{.render = words_of_groups(render_groups, not_for_render, names),
+                            .merge = words_of_groups(merge_groups, not_for_merge, names)};
+    // And what `understand` and what is chosen for --integrator auto add.
+    for (const char* name : {"--env", "--background", "--denoise", "--strategy-depth"}) {
+        result.render.emplace_back(name);
+    }
+    return result;
+}
 
 void add_plan_options(CLI::App& command, PlanWords& words)
 {
@@ -161,10 +187,15 @@ PlanArguments understand(const PlanWords& words)
         throw OptionError(
             "--adaptive: a plan of several images has no rates: each would need its own");
     }
+    if (words.render.denoise.library) {
+        reject("--denoiser-library", *words.render.denoise.library,
+               "it beside bdpt merge --plan: a plan does not say what code is loaded");
+    }
     if (words.minutes && !(*words.minutes > 0.0)) {
         reject("--minutes", fmt::format("{}", *words.minutes), "a number above 0");
     }
-    result.render_options = render_options(*words.command);
+    const auto given = [&](const char* group) { return given_options(*words.command, group); };
+    result.render_options = words_of_groups(render_groups, not_for_render, given);
     if (names_no_file(words.render.environment)) {
         result.render_options.push_back("--env=" + *words.render.environment);
     }
@@ -174,15 +205,7 @@ PlanArguments understand(const PlanWords& words)
     if (result.render.denoise) {
         result.render_options.emplace_back("--denoise");  // for the layers that merging needs
     }
-    result.merge_options = without(given_options(*words.command, "Output"),
-                                   {"--output", "--quiet", "--json", "--float", "--strategies",
-                                    "--strategy-depth", "--denoiser-library"});
-    if (result.render.denoise && result.render.denoise->library) {
-        // Who merges may be in another folder.
-        result.merge_options.push_back(
-            "--denoiser-library=" +
-            std::filesystem::absolute(*result.render.denoise->library).string());
-    }
+    result.merge_options = words_of_groups(merge_groups, not_for_merge, given);
     result.parts = words.parts;
     result.minutes = words.minutes.value_or(0.0);
     result.engine = to_engine(words.engine);

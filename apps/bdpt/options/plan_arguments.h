@@ -43,6 +43,14 @@ struct PlanArguments {
     ExistingPlan existing = ExistingPlan::must_be_equal;
 };
 
+/// Names, as "--size", of the options that a plan may have for the commands of its tasks. They name
+/// no files, which have places of their own in the plan, no code that is loaded and no machines.
+struct PlannableOptions {
+    std::vector<std::string> render;
+    std::vector<std::string> merge;
+};
+[[nodiscard]] PlannableOptions plannable_options();
+
 /// Describes the options of `bdpt plan` to the parser, which will store into `words`.
 void add_plan_options(CLI::App& command, PlanWords& words);
 

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 
 #include "options/values/file_pattern.h"
@@ -46,9 +47,16 @@ std::string image_text(const PlanImage& image)
 
 SampleSet samples_of(const Plan& plan)
 {
-    SampleSet result;
+    // In order, so that each is added at the end.
+    std::vector<SampleRange> ranges;
     for (const PlanTask& task : plan.tasks) {
-        result.add(task.samples);
+        ranges.push_back(task.samples);
+    }
+    std::sort(ranges.begin(), ranges.end(),
+              [](const SampleRange& a, const SampleRange& b) { return a.begin < b.begin; });
+    SampleSet result;
+    for (const SampleRange& range : ranges) {
+        result.add(range);
     }
     return result;
 }
@@ -75,32 +83,31 @@ fs::path file_of(const fs::path& pattern, const PlanImage& image)
     return image.camera ? with_camera(file, *image.camera) : file;
 }
 
-std::vector<fs::path> parts_of(const Plan& plan, std::size_t image)
+std::vector<std::vector<fs::path>> parts_by_image(const Plan& plan)
 {
-    std::vector<fs::path> parts;
-    for (const PlanTask& task : plan.tasks) {
-        if (renders(task, image, SampleSet(task.samples))) {
-            parts.push_back(file_of(task.part, plan.images[image]));
-        }
-    }
-    return parts;
-}
-
-std::vector<fs::path> parts_of(const Plan& plan)
-{
-    std::vector<fs::path> parts;
+    std::vector<std::vector<fs::path>> parts(plan.images.size());
     for (const PlanTask& task : plan.tasks) {
         for (std::size_t i = 0; i < task.images; ++i) {
-            parts.push_back(file_of(task.part, plan.images[task.first_image + i]));
+            const std::size_t image = task.first_image + i;
+            parts[image].push_back(file_of(task.part, plan.images[image]));
         }
     }
     return parts;
 }
 
-bool renders(const PlanTask& task, std::size_t image, const SampleSet& samples)
+std::vector<std::size_t> tasks_for(const Plan& plan, const std::vector<SampleSet>& missing)
 {
-    return image >= task.first_image && image - task.first_image < task.images &&
-           !samples.overlap(SampleSet(task.samples)).empty();
+    std::vector<std::size_t> result;
+    for (std::size_t i = 0; i < plan.tasks.size(); ++i) {
+        const PlanTask& task = plan.tasks[i];
+        const auto begin = missing.begin() + static_cast<std::ptrdiff_t>(task.first_image);
+        const SampleSet own(task.samples);
+        if (std::any_of(begin, begin + static_cast<std::ptrdiff_t>(task.images),
+                        [&](const SampleSet& samples) { return !samples.overlap(own).empty(); })) {
+            result.push_back(i);
+        }
+    }
+    return result;
 }
 
 ImageLabel label_of(const Plan& plan, std::size_t image)

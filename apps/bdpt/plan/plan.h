@@ -70,14 +70,13 @@ struct Plan {
 /// "frame 3, frame 5 to frame 9" of indices of images in ascending order.
 [[nodiscard]] std::string images_text(const Plan& plan, const std::vector<std::size_t>& images);
 
-/// The files that tasks make of image `image`.
-[[nodiscard]] std::vector<std::filesystem::path> parts_of(const Plan& plan, std::size_t image);
+/// The files that tasks make of each image.
+[[nodiscard]] std::vector<std::vector<std::filesystem::path>> parts_by_image(const Plan& plan);
 
-/// The files that tasks make of all images.
-[[nodiscard]] std::vector<std::filesystem::path> parts_of(const Plan& plan);
-
-/// Does `task` render some of `samples` of image `image`?
-[[nodiscard]] bool renders(const PlanTask& task, std::size_t image, const SampleSet& samples);
+/// The tasks that render some of the samples that images miss: `missing` has those of each image of
+/// the plan. In ascending order.
+[[nodiscard]] std::vector<std::size_t> tasks_for(const Plan& plan,
+                                                 const std::vector<SampleSet>& missing);
 
 /// "0-2,5" of numbers in ascending order.
 [[nodiscard]] std::string numbers_text(const std::vector<std::size_t>& numbers);

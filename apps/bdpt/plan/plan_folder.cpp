@@ -4,18 +4,19 @@
 #include <bdpt/io/output_file.h>
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "plan/plan_file.h"
+#include "plan/planned_files.h"
 
 namespace bdpt::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* plan_name = "plan.json";
 
 void write_file(const fs::path& file, const std::string& text, FileKind kind)
 {
@@ -40,24 +41,26 @@ std::optional<Plan> old_plan(const fs::path& file)
     }
 }
 
-/// Its parts are of no use to the new one, and its tasks would be refused.
+/// Its parts are of no use to the new one, and its tasks would be refused. Only files in its folder
+/// that bdpt has made there are removed: `read_plan` accepts no others.
 void remove_plan(const fs::path& file)
 {
     const std::optional<Plan> plan = old_plan(file);
-    std::error_code ignored;
-    fs::remove(file, ignored);
+    const auto remove = [folder = file.parent_path()](const fs::path& name) {
+        std::error_code ignored;
+        fs::remove(folder / name.filename(), ignored);  // of a link, not of what it leads to
+    };
+    remove(plan_name);
     if (!plan) {
         return;
     }
-    for (const fs::path& part : parts_of(*plan)) {
-        fs::remove(resolved(part, file), ignored);
+    for (const std::vector<fs::path>& parts : parts_by_image(*plan)) {
+        std::for_each(parts.begin(), parts.end(), remove);
     }
     if (plan->rates) {
-        fs::remove(resolved(*plan->rates, file), ignored);
+        remove(*plan->rates);
     }
-    for (const fs::path& engine_file : plan->engine_files) {
-        fs::remove(resolved(engine_file, file), ignored);
-    }
+    std::for_each(plan->engine_files.begin(), plan->engine_files.end(), remove);
 }
 
 }  // namespace
@@ -79,6 +82,7 @@ void write_plan(const fs::path& folder, const Plan& plan, const std::vector<Engi
                 const std::function<void(const fs::path&)>& write_rates, ExistingPlan existing)
 {
     const fs::path file = folder / plan_name;
+    const std::string text = to_text(plan);
     std::error_code failure;
     if (fs::exists(file, failure)) {
         if (existing == ExistingPlan::replace) {
@@ -96,12 +100,12 @@ void write_plan(const fs::path& folder, const Plan& plan, const std::vector<Engi
                     fmt::format("{}: cannot write: {}", folder.string(), failure.message()));
     }
     for (const EngineFile& engine_file : files) {
-        write_file(folder / engine_file.name, engine_file.text, engine_file.kind);
+        write_file(file_of_plan(engine_file.name, folder), engine_file.text, engine_file.kind);
     }
     if (plan.rates) {
-        write_rates(folder / *plan.rates);
+        write_rates(file_of_plan(*plan.rates, folder));
     }
-    write_file(file, to_text(plan), FileKind::text);
+    write_file(file_of_plan(plan_name, folder), text, FileKind::text);
 }
 
 }  // namespace bdpt::app

@@ -1,141 +1,163 @@
 #include <bdpt/error.h>
+#include <bdpt/io/json_value.h>
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cstdint>
-#include <exception>
-#include <fstream>
-#include <iterator>
-#include <new>
-#include <nlohmann/json.hpp>
-#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <system_error>
+#include <vector>
 
+#include "options/plan_arguments.h"
 #include "plan/plan_file.h"
+#include "plan/planned_files.h"
 
 namespace bdpt::app {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::ordered_json;
+using io::JsonValue;
 
-std::vector<fs::path> read_paths(const ordered_json& json)
+std::vector<fs::path> read_paths(const JsonValue& json)
 {
-    const auto texts = json.get<std::vector<std::string>>();
+    const std::vector<std::string> texts = json.texts();
     return {texts.begin(), texts.end()};
 }
 
-SampleRange read_range(const ordered_json& json, const char* what)
+std::optional<fs::path> read_optional_path(const JsonValue& json, const char* key)
 {
-    const auto set = SampleSet::parse(json.get<std::string>());
+    if (!json.has(key) || json.at(key).is_null()) {
+        return std::nullopt;
+    }
+    return json.at(key).text();
+}
+
+/// Words of a command, of which a stranger may have written any: only `allowed` options.
+std::vector<std::string> read_words(const JsonValue& json, const std::vector<std::string>& allowed)
+{
+    std::vector<std::string> words;
+    for (const JsonValue& element : json.elements()) {
+        words.push_back(element.text());
+        const std::string& word = words.back();
+        const std::string name = word.substr(0, word.find('='));
+        const bool is_allowed = std::find(allowed.begin(), allowed.end(), name) != allowed.end();
+        const bool names_file = name == "--env" && word != "--env=none" && word != "--env=default";
+        if (!is_allowed || names_file) {
+            element.fail_expecting("an option that a plan may have");
+        }
+    }
+    return words;
+}
+
+SampleRange read_range(const JsonValue& json)
+{
+    const auto set = SampleSet::parse(json.text());
     if (!set || set->ranges().size() != 1) {
-        throw std::runtime_error(fmt::format("the {} of a task are no range", what));
+        json.fail_expecting("a range, like 0:64");
     }
     return set->ranges().front();
 }
 
-PlanTask read_task(const ordered_json& json, std::size_t images)
+PlanTask read_task(const JsonValue& json, std::size_t images)
 {
-    const SampleRange range = read_range(json.at("images"), "images");
+    const SampleRange range = read_range(json.at("images"));
     const auto first = static_cast<std::size_t>(range.begin);
     const auto end = static_cast<std::size_t>(range.end);
     if (end > images) {
-        throw std::runtime_error(
-            fmt::format("a task has the images {}:{}, but there are {}", first, end, images));
+        json.at("images").fail_expecting(fmt::format("a range of the {} images", images));
     }
-    return {.first_image = first,
-            .images = end - first,
-            .samples = read_range(json.at("samples"), "samples"),
-            .part = json.at("part").get<std::string>()};
+    PlanTask task{.first_image = first,
+                  .images = end - first,
+                  .samples = read_range(json.at("samples")),
+                  .part = json.at("part").text()};
+    if (!is_part_of_task(task.part.string())) {
+        json.at("part").fail_expecting("a name like task-0.part.exr");
+    }
+    return task;
 }
 
-PlanImage read_image(const ordered_json& json)
+PlanImage read_image(const JsonValue& json)
 {
     PlanImage image;
-    if (json.contains("frame")) {
-        image.frame = json["frame"].get<int>();
+    if (json.has("frame")) {
+        image.frame = json.at("frame").number<int>();
     }
-    if (json.contains("camera")) {
-        image.camera = json["camera"].get<std::string>();
+    if (json.has("camera")) {
+        image.camera = json.at("camera").text();
     }
-    if (json.contains("seed")) {
-        image.seed = json["seed"].get<std::uint64_t>();
+    if (json.has("seed")) {
+        image.seed = json.at("seed").number<std::uint64_t>();
     }
     return image;
 }
 
-Identity read_identity(const ordered_json& json)
+Identity read_identity(const JsonValue& json)
 {
     Identity identity;
-    for (const auto& [name, value] : json.items()) {
-        identity.components.push_back({.name = name, .value = value.get<std::string>()});
+    for (const auto& [name, value] : json.members()) {
+        identity.components.push_back({.name = name, .value = value.text()});
     }
     return identity;
 }
 
-Plan read(const ordered_json& json)
+void read_images_and_tasks(const JsonValue& json, Plan& plan)
 {
-    if (json.at("format").get<int>() != plan_format) {
-        throw std::runtime_error(fmt::format("format {}, where this program knows {}",
-                                             json.at("format").dump(), plan_format));
-    }
-    Plan plan{.scene = json.at("scene").get<std::string>()};
-    if (!json.at("environment").is_null()) {
-        plan.environment = json.at("environment").get<std::string>();
-    }
-    if (json.contains("volume")) {
-        plan.volume = json.at("volume").get<std::string>();
-    }
-    if (json.contains("rates")) {
-        plan.rates = json.at("rates").get<std::string>();
-    }
-    plan.render_options = json.at("render").get<std::vector<std::string>>();
-    plan.merge_options = json.at("merge").get<std::vector<std::string>>();
-    plan.outputs = read_paths(json.at("outputs"));
-    if (!json.at("strategies").is_null()) {
-        plan.strategies = json.at("strategies").get<std::string>();
-    }
-    plan.engine_files = read_paths(json.at("engine_files"));
     plan.images.clear();
-    for (const ordered_json& image : json.at("images")) {
+    for (const JsonValue& image : json.at("images").elements()) {
         plan.images.push_back(read_image(image));
     }
-    for (const ordered_json& task : json.at("tasks")) {
+    std::size_t parts = 0;
+    for (const JsonValue& task : json.at("tasks").elements()) {
         plan.tasks.push_back(read_task(task, plan.images.size()));
+        parts += plan.tasks.back().images;
+        if (parts > max_planned_parts) {
+            task.fail(fmt::format("has the part after {}, which is the most", max_planned_parts));
+        }
     }
     if (plan.tasks.empty()) {  // each names images that there are
-        throw std::runtime_error("no tasks");
+        json.at("tasks").fail_expecting("an array of one value or more");
     }
+}
+
+Plan read(const JsonValue& json)
+{
+    if (!json.is_object() || !json.has("format") || !json.has("tasks")) {
+        json.fail("is no plan of bdpt plan");
+    }
+    if (const auto format = json.at("format").number<std::int64_t>(); format != plan_format) {
+        json.fail(fmt::format("is no plan of bdpt plan: format {}, where this program knows {}",
+                              format, plan_format));
+    }
+    const PlannableOptions allowed = plannable_options();
+    Plan plan{.scene = json.at("scene").text(),
+              .environment = read_optional_path(json, "environment"),
+              .volume = read_optional_path(json, "volume"),
+              .rates = read_optional_path(json, "rates"),
+              .render_options = read_words(json.at("render"), allowed.render),
+              .merge_options = read_words(json.at("merge"), allowed.merge),
+              .outputs = read_paths(json.at("outputs")),
+              .strategies = read_optional_path(json, "strategies"),
+              .engine_files = read_paths(json.at("engine_files"))};
+    if (plan.rates && *plan.rates != rates_name) {
+        json.at("rates").fail_expecting(rates_name);
+    }
+    for (const JsonValue& name : json.at("engine_files").elements()) {
+        if (!is_engine_file(name.text())) {
+            name.fail_expecting("the name of a file of an engine");
+        }
+    }
+    read_images_and_tasks(json, plan);
     plan.identity = read_identity(json.at("identity"));
     plan.files = read_identity(json.at("files"));
     return plan;
-}
-
-std::string text_of(const fs::path& file)
-{
-    std::error_code ignored;
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream || fs::is_directory(file, ignored)) {
-        throw Error(ErrorCode::not_found,
-                    fmt::format("{}: {}", file.string(),
-                                fs::exists(file, ignored) ? "cannot be read" : "no such file"));
-    }
-    return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 }  // namespace
 
 Plan read_plan(const fs::path& file)
 {
-    const std::string text = text_of(file);
-    try {
-        return read(ordered_json::parse(text));
-    } catch (const std::bad_alloc&) {
-        throw;
-    } catch (const std::exception& error) {
-        throw Error(ErrorCode::invalid_input,
-                    fmt::format("{}: is no plan of bdpt plan: {}", file.string(), error.what()));
-    }
+    return read(JsonValue::read(file));
 }
 
 fs::path resolved(const fs::path& path, const fs::path& plan_file)
@@ -143,7 +165,7 @@ fs::path resolved(const fs::path& path, const fs::path& plan_file)
     // "job/.." is what the system takes it for, even where job is a symbolic link.
     std::error_code ignored;
     const fs::path folder = fs::absolute(plan_file, ignored).parent_path();
-    const fs::path result = fs::weakly_canonical(folder / path, ignored);
+    const fs::path result = fs::weakly_canonical(path == "." ? folder : folder / path, ignored);
     return result.empty() ? folder / path : result;
 }
 

@@ -1,25 +1,12 @@
 #include "plan/plan_split.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "plan/planned_files.h"
 #include "plan/sample_split.h"
 
 namespace bdpt::app {
-namespace {
-
-std::string part_name(const Plan& plan, std::size_t task, std::int64_t count)
-{
-    const std::size_t digits = std::to_string(count - 1).size();
-    const PlanImage& image = plan.images.front();
-    return fmt::format("task-{:0{}}{}{}.part.exr", task, digits, image.frame ? ".####" : "",
-                       image.camera ? ".{camera}" : "");
-}
-
-}  // namespace
-
 std::vector<PlanTask> split_plan(const Plan& plan, SampleRange samples, std::int64_t count,
                                  std::int64_t least)
 {
@@ -29,7 +16,8 @@ std::vector<PlanTask> split_plan(const Plan& plan, SampleRange samples, std::int
         tasks.push_back({.first_image = static_cast<std::size_t>(first),
                          .images = static_cast<std::size_t>(end - first),
                          .samples = range,
-                         .part = part_name(plan, tasks.size(), count)});
+                         .part = part_name(plan.images.front(), tasks.size(),
+                                           static_cast<std::size_t>(count))});
     };
     for (std::int64_t task = 0; task < count && count <= images; ++task) {
         add(task * images / count, (task + 1) * images / count, samples);

@@ -1,6 +1,9 @@
 #include <bdpt/error.h>
+#include <bdpt/io/json_value.h>
 #include <bdpt/version.h>
+#include <fmt/core.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
@@ -47,11 +50,12 @@ ordered_json to_json(const PlanTask& task)
 
 ordered_json to_json(const Identity& identity)
 {
-    ordered_json json = ordered_json::object();
+    // Names differ; to look for each of them would take the square of their number.
+    ordered_json::object_t members;
     for (const auto& [name, value] : identity.components) {
-        json[name] = value;
+        members.emplace_back(name, value);
     }
-    return json;
+    return members;
 }
 
 }  // namespace
@@ -86,11 +90,20 @@ std::string to_text(const Plan& plan)
     for (const PlanImage& image : plan.images) {
         json["images"].push_back(to_json(image));
     }
+    std::size_t parts = 0;
     for (const PlanTask& task : plan.tasks) {
         json["tasks"].push_back(to_json(task));
+        parts += task.images;
     }
     try {
-        return json.dump(2) + "\n";
+        std::string text = json.dump(2) + "\n";
+        if (parts > max_planned_parts || text.size() > io::JsonValue::max_bytes) {
+            throw Error(ErrorCode::usage,
+                        fmt::format("a plan of {} parts is too large: the most are {}, and {} "
+                                    "bytes of text",
+                                    parts, max_planned_parts, io::JsonValue::max_bytes));
+        }
+        return text;
     } catch (const ordered_json::type_error&) {
         throw Error(ErrorCode::usage,
                     "a plan holds UTF-8 only: the name of a file or a value of an option is not");

@@ -3,6 +3,7 @@
 #include <bdpt/io/file_contents.h>
 
 #include <algorithm>
+#include <map>
 #include <string_view>
 #include <vector>
 
@@ -46,13 +47,15 @@ std::optional<std::string> difference(const Identity& found, const PlannedIdenti
     if (planned.whole) {
         return difference(found, planned.identity);
     }
+    std::map<std::string_view, const IdentityComponent*> by_name;
+    for (const IdentityComponent& component : found.components) {
+        by_name.emplace(component.name, &component);
+    }
     Identity known;
     for (const IdentityComponent& component : planned.identity.components) {
-        const auto its =
-            std::find_if(found.components.begin(), found.components.end(),
-                         [&](const auto& other) { return other.name == component.name; });
-        if (its != found.components.end()) {
-            known.components.push_back(*its);
+        const auto its = by_name.find(component.name);
+        if (its != by_name.end()) {
+            known.components.push_back(*its->second);
         }
     }
     return difference(known, planned.identity);

@@ -12,6 +12,7 @@
 
 #include "options/arguments.h"
 #include "plan/plan_file.h"
+#include "plan/planned_files.h"
 
 namespace bdpt::app {
 namespace {
@@ -91,7 +92,7 @@ Words render_words(const Words& words, const Plan& plan, const fs::path& file)
     Words result(words.begin(), words.begin() + 2);
     append(result, shared_words(plan, file));
     result.push_back("--samples=" + SampleSet(task.samples).text());
-    result.push_back("--part=" + resolved(task.part, file).string());
+    result.push_back("--part=" + file_of_plan(task.part, resolved(".", file)).string());
     append(result, {words.begin() + 2, words.end()});
     return result;
 }
@@ -99,9 +100,6 @@ Words render_words(const Words& words, const Plan& plan, const fs::path& file)
 Words merge_words(const Words& words, const Plan& plan, const fs::path& file)
 {
     Words result(words.begin(), words.begin() + 2);
-    for (const fs::path& part : parts_of(plan)) {
-        result.push_back(resolved(part, file).string());
-    }
     append(result, plan.merge_options);
     if (std::none_of(words.begin() + 2, words.end(), names_output)) {
         for (const fs::path& output : plan.outputs) {
@@ -159,7 +157,7 @@ std::vector<std::string> shared_words(const Plan& plan, const fs::path& file)
         result.push_back("--volume=" + resolved(*plan.volume, file).string());
     }
     if (plan.rates) {
-        result.push_back("--rates=" + resolved(*plan.rates, file).string());
+        result.push_back("--rates=" + file_of_plan(*plan.rates, resolved(".", file)).string());
     }
     return result;
 }

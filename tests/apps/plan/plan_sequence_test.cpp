@@ -267,9 +267,9 @@ TEST_CASE("words about plans of frames that make no sense are refused", "[plan]"
         return run({"render", "--plan", path(folder, "job/broken.json"), "--task", "0"});
     };
     checked(broken({{"images", json::array()}}), 4,
-            {"broken.json", "the images 0:1, but there are 0"});
+            {"broken.json: /tasks/0/images: must be a range of the 0 images"});
     checked(broken({{"images", {{{"frame", 0}, {"seed", 1}}}}}), 4,
-            {"broken.json", "a task has the images 1:2, but there are 1"});
+            {"broken.json: /tasks/1/images: must be a range of the 1 images, but is \"1:2\""});
     json images = plan_of(folder)["images"];
     images.push_back(images.back());
     checked(broken({{"images", images}}), 4, {"it has 4 images, and its words 3"});

@@ -1,11 +1,13 @@
 #include "report/part/merged_files.h"
 
 #include <bdpt/error.h>
+#include <bdpt/io/json_value.h>
 #include <bdpt/io/tone_map.h>
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -25,11 +27,28 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
+/// The settings in `text`, which a part has. What is no JSON is discarded, and so is what is longer
+/// or deeper than any render's: keys are looked for one by one, and text is written recursively.
+ordered_json parsed_settings(const std::string& text)
+{
+    constexpr std::size_t max_length = std::size_t{64} << 10;
+    const ordered_json discarded = ordered_json::parse("", nullptr, false);
+    if (text.size() > max_length) {
+        return discarded;
+    }
+    try {
+        static_cast<void>(io::JsonValue::parse(text));
+    } catch (const Error&) {
+        return discarded;
+    }
+    return ordered_json::parse(text, nullptr, false);
+}
+
 /// The settings that the parts have, with the number of samples of all and what is put behind.
 std::string settings_of(const std::string& text, std::int64_t samples,
                         const std::optional<Backdrop>& backdrop)
 {
-    ordered_json settings = ordered_json::parse(text, nullptr, false);
+    ordered_json settings = parsed_settings(text);
     if (!settings.is_object()) {
         return text;
     }
@@ -46,7 +65,7 @@ std::string settings_of(const std::string& text, std::int64_t samples,
 
 DisplayArguments display_of_parts(const io::ImageMetadata& metadata, DisplayArguments display)
 {
-    const ordered_json settings = ordered_json::parse(metadata.settings, nullptr, false);
+    const ordered_json settings = parsed_settings(metadata.settings);
     std::optional<Backdrop> own;
     if (settings.is_object() && settings.contains("background") &&
         settings["background"].is_string()) {

@@ -5,11 +5,15 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <map>
 #include <system_error>
 #include <thread>
 #include <utility>
 
 #include "plan/planned_identity.h"
+#include "report/part/part_command.h"
 
 namespace bdpt::app {
 namespace {
@@ -21,15 +25,14 @@ using Seconds = std::chrono::duration<double>;
 
 /// Throws when `part` is of another render than `plan` or `first`.
 void check_same_render(const PartInfo& part, const MergeArguments& arguments,
-                       const std::optional<Plan>& plan, const PartInfo* first)
+                       const std::optional<PlannedIdentity>& planned, const PartInfo* first)
 {
     const auto refuse = [&part](const fs::path& file, const std::string& what) {
         throw Error(ErrorCode::invalid_input, fmt::format("{}: is of another render than {}: {}",
                                                           part.file.string(), file.string(), what));
     };
-    if (plan) {
-        const PlannedIdentity planned = planned_identity(*plan, arguments.image);
-        if (const auto what = difference(part.identity, planned)) {
+    if (planned) {
+        if (const auto what = difference(part.identity, *planned)) {
             refuse(*arguments.plan, *what);
         }
     }
@@ -45,12 +48,12 @@ struct ReadParts {
     std::vector<std::string> faults;  ///< of other files, when those may come
 };
 
-ReadParts read_parts(const MergeArguments& arguments, const std::optional<Plan>& plan)
+ReadParts read_parts(const MergeArguments& arguments, const std::optional<PlannedIdentity>& planned)
 {
     ReadParts result;
     for (const fs::path& file : arguments.parts) {
         std::error_code ignored;
-        if (plan && !arguments.wait && !fs::exists(file, ignored)) {
+        if (planned && !arguments.wait && !fs::exists(file, ignored)) {
             continue;
         }
         try {
@@ -65,40 +68,72 @@ ReadParts read_parts(const MergeArguments& arguments, const std::optional<Plan>&
             continue;
         }
         const PartInfo& part = result.parts.back();
-        check_same_render(part, arguments, plan,
+        check_same_render(part, arguments, planned,
                           result.parts.size() > 1 ? &result.parts.front() : nullptr);
     }
     return result;
 }
 
-/// Adds `part`, unless its samples are there.
-void add(PartCollection& collection, PartInfo part)
-{
-    std::vector<PartInfo>& parts = collection.parts;
-    const auto overlapping = std::find_if(parts.begin(), parts.end(), [&](const PartInfo& other) {
-        return !part.samples.overlap(other.samples).empty();
-    });
-    if (overlapping == parts.end()) {
-        collection.samples.add(part.samples);
-        parts.push_back(std::move(part));
-    } else if (overlapping->samples.contains(part.samples)) {
-        collection.notes.push_back(fmt::format("{}: left out, as {} has its samples {}",
-                                               part.file.string(), overlapping->file.string(),
-                                               part.samples.text()));
-    } else {
-        throw Error(ErrorCode::invalid_input,
-                    fmt::format("{} and {} both have the samples {}, and each has others",
-                                overlapping->file.string(), part.file.string(),
-                                part.samples.overlap(overlapping->samples).text()));
+/// Puts parts together, in n log n for n ranges of samples.
+class Collector {
+public:
+    /// Adds `part`, unless its samples are there. Throws `Error` (invalid_input) for some of them.
+    void add(PartInfo part)
+    {
+        const PartInfo* const other = overlapping(part.samples);
+        if (other == nullptr) {
+            for (const SampleRange& range : part.samples.ranges()) {
+                owners_.emplace(range.begin, Owner{range.end, result_.parts.size()});
+            }
+            result_.parts.push_back(std::move(part));
+        } else if (other->samples.contains(part.samples)) {
+            result_.notes.push_back(fmt::format("{}: left out, as {} has its samples {}",
+                                                part.file.string(), other->file.string(),
+                                                ranges_text(part.samples)));
+        } else {
+            throw Error(ErrorCode::invalid_input,
+                        fmt::format("{} and {} both have the samples {}, and each has others",
+                                    other->file.string(), part.file.string(),
+                                    ranges_text(part.samples.overlap(other->samples))));
+        }
     }
-}
+
+    [[nodiscard]] PartCollection collection() &&
+    {
+        for (const auto& [begin, owner] : owners_) {
+            result_.samples.add({.begin = begin, .end = owner.end});
+        }
+        return std::move(result_);
+    }
+
+private:
+    struct Owner {
+        std::int64_t end = 0;
+        std::size_t part = 0;
+    };
+
+    /// A part that has some of `samples`; null if there is none.
+    [[nodiscard]] const PartInfo* overlapping(const SampleSet& samples) const
+    {
+        for (const SampleRange& range : samples.ranges()) {
+            // The last one that begins before the end of the range.
+            auto last = owners_.lower_bound(range.end);
+            if (last != owners_.begin() && (--last)->second.end > range.begin) {
+                return &result_.parts[last->second.part];
+            }
+        }
+        return nullptr;
+    }
+
+    PartCollection result_;
+    std::map<std::int64_t, Owner> owners_;  // of ranges, by their beginning
+};
 
 /// The samples that the render was to have, as far as the user, the plan or the parts tell.
-SampleSet goal_of(const std::vector<PartInfo>& parts, const MergeArguments& arguments,
-                  const std::optional<Plan>& plan)
+SampleSet goal_of(const std::vector<PartInfo>& parts, const MergeArguments& arguments)
 {
-    if (plan) {
-        return samples_of(*plan);
+    if (arguments.goal) {
+        return *arguments.goal;
     }
     if (arguments.samples) {
         return SampleSet({.begin = 0, .end = *arguments.samples});
@@ -110,19 +145,24 @@ SampleSet goal_of(const std::vector<PartInfo>& parts, const MergeArguments& argu
     return SampleSet({.begin = 0, .end = end});
 }
 
-PartCollection collect_now(const MergeArguments& arguments, const std::optional<Plan>& plan)
+PartCollection collect_now(const MergeArguments& arguments,
+                           const std::optional<PlannedIdentity>& planned)
 {
-    PartCollection result;
-    auto [all, faults] = read_parts(arguments, plan);
-    result.faults = std::move(faults);
-    result.goal = goal_of(all, arguments, plan);
+    auto [all, faults] = read_parts(arguments, planned);
+    SampleSet goal = goal_of(all, arguments);
     // The larger ones first: what lies in another one comes behind it.
-    std::stable_sort(all.begin(), all.end(), [](const PartInfo& a, const PartInfo& b) {
-        return a.samples.count() > b.samples.count();
-    });
-    for (PartInfo& part : all) {
-        add(result, std::move(part));
+    std::vector<std::pair<std::int64_t, std::size_t>> order;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        order.emplace_back(-all[i].samples.count(), i);
     }
+    std::sort(order.begin(), order.end());
+    Collector collector;
+    for (const auto& [count, i] : order) {
+        collector.add(std::move(all[i]));
+    }
+    PartCollection result = std::move(collector).collection();
+    result.goal = std::move(goal);
+    result.faults = std::move(faults);
     return result;
 }
 
@@ -151,9 +191,11 @@ PartCollection collect_parts(const MergeArguments& arguments, const std::optiona
     constexpr Seconds least_pause{1.0};
     constexpr double pause_of_looks = 10.0;
     const Clock::time_point start = Clock::now();
+    const std::optional<PlannedIdentity> planned =
+        plan ? std::optional(planned_identity(*plan, arguments.image)) : std::nullopt;
     for (;;) {
         const Clock::time_point look = Clock::now();
-        PartCollection result = collect_now(arguments, plan);
+        PartCollection result = collect_now(arguments, planned);
         const Seconds passed = Clock::now() - start;
         const double left = arguments.wait.value_or(0.0) - passed.count();
         if (left <= 0.0 || is_complete(result, arguments)) {

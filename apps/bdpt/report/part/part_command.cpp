@@ -25,6 +25,18 @@ bool has(const Names& names, std::string_view word)
     return std::find(names.begin(), names.end(), word) != names.end();
 }
 
+/// `command(i)` of the first of `count` commands.
+template <typename Command>
+std::string text_of_commands(std::size_t count, const Command& command)
+{
+    constexpr std::size_t max_shown = 3;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(count, max_shown); ++i) {
+        text += (i == 0 ? "; to render them: " : " && ") + command(i);
+    }
+    return count > max_shown ? fmt::format("{} && ... ({} more)", text, count - max_shown) : text;
+}
+
 }  // namespace
 
 std::vector<std::string> render_words(const std::vector<std::string>& words)
@@ -42,34 +54,44 @@ std::vector<std::string> render_words(const std::vector<std::string>& words)
     return result;
 }
 
-std::vector<std::string> commands_for(const std::vector<std::string>& words,
-                                      const SampleSet& samples, const std::filesystem::path& folder)
+std::string ranges_text(const SampleSet& samples)
 {
-    std::vector<std::string> result;
-    for (const SampleRange& range : samples.ranges()) {
-        if (words.empty()) {
-            break;
-        }
-        std::string command;
-        for (const std::string& word : words) {
-            command += shell_word(word) + " ";
-        }
-        const auto file = folder / fmt::format("{}-{}.part.exr", range.begin, range.end);
-        result.push_back(fmt::format("{}--samples {}:{} --part {}", command, range.begin, range.end,
-                                     shell_word(one_line(file.string()))));
+    constexpr std::size_t max_shown = 16;
+    const std::vector<SampleRange>& ranges = samples.ranges();
+    if (ranges.size() <= max_shown) {
+        return samples.text();
     }
-    return result;
+    std::string text;
+    for (std::size_t i = 0; i < max_shown; ++i) {
+        text += fmt::format("{}:{},", ranges[i].begin, ranges[i].end);
+    }
+    return fmt::format("{}... ({} more)", text, ranges.size() - max_shown);
 }
 
-std::vector<std::string> commands_for(const std::filesystem::path& file,
-                                      const std::vector<std::size_t>& tasks)
+std::string commands_text(const std::vector<std::string>& words, const SampleSet& samples,
+                          const std::filesystem::path& folder)
 {
-    std::vector<std::string> result;
-    for (const std::size_t task : tasks) {
-        result.push_back(fmt::format("bdpt render --plan {} --task {}",
-                                     shell_word(one_line(file.string())), task));
+    if (words.empty()) {
+        return "";
     }
-    return result;
+    std::string start;
+    for (const std::string& word : words) {
+        start += shell_word(word) + " ";
+    }
+    return text_of_commands(samples.ranges().size(), [&](std::size_t i) {
+        const SampleRange& range = samples.ranges()[i];
+        const auto file = folder / fmt::format("{}-{}.part.exr", range.begin, range.end);
+        return fmt::format("{}--samples {}:{} --part {}", start, range.begin, range.end,
+                           shell_word(one_line(file.string())));
+    });
+}
+
+std::string commands_text(const std::filesystem::path& file, const std::vector<std::size_t>& tasks)
+{
+    return text_of_commands(tasks.size(), [&](std::size_t i) {
+        return fmt::format("bdpt render --plan {} --task {}", shell_word(one_line(file.string())),
+                           tasks[i]);
+    });
 }
 
 }  // namespace bdpt::app

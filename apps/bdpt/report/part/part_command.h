@@ -13,14 +13,17 @@ namespace bdpt::app {
 /// numbers of samples, and what changes no bit.
 [[nodiscard]] std::vector<std::string> render_words(const std::vector<std::string>& words);
 
-/// Commands, for a shell, that render `samples`, each into a file of its own in `folder`; empty
-/// without `words`.
-[[nodiscard]] std::vector<std::string> commands_for(const std::vector<std::string>& words,
-                                                    const SampleSet& samples,
-                                                    const std::filesystem::path& folder);
+/// "0:64,128:192" of ranges, as far as a message has room for them.
+[[nodiscard]] std::string ranges_text(const SampleSet& samples);
 
-/// Commands, for a shell, that render `tasks` of the plan in `file`.
-[[nodiscard]] std::vector<std::string> commands_for(const std::filesystem::path& file,
-                                                    const std::vector<std::size_t>& tasks);
+/// "; to render them: " and commands, for a shell, that render `samples`, each into a file of its
+/// own in `folder`; as far as a message has room for them. Empty without `words` or samples.
+[[nodiscard]] std::string commands_text(const std::vector<std::string>& words,
+                                        const SampleSet& samples,
+                                        const std::filesystem::path& folder);
+
+/// The same of commands that render `tasks` of the plan in `file`.
+[[nodiscard]] std::string commands_text(const std::filesystem::path& file,
+                                        const std::vector<std::size_t>& tasks);
 
 }  // namespace bdpt::app

@@ -9,8 +9,6 @@
 #include <system_error>
 #include <utility>
 
-#include "plan/plan_file.h"
-
 namespace bdpt::app {
 namespace {
 
@@ -22,16 +20,14 @@ constexpr double patience = 10.0;
 
 }  // namespace
 
-PartKeeper::PartKeeper(PartChoice choice, Console& console)
+PartKeeper::PartKeeper(PartChoice choice, std::optional<PlannedIdentity> planned, Console& console)
     : choice_(std::move(choice)),
       console_(console),
+      planned_(std::move(planned)),
       old_(choice_.existing == ExistingPart::restart ? io::OldPart::replace
                                                      : io::OldPart::keep_if_more),
       interval_(least_interval)
 {
-    if (choice_.plan) {
-        planned_ = planned_identity(read_plan(*choice_.plan), choice_.image);
-    }
     std::error_code ignored;
     const bool exists = std::filesystem::exists(choice_.file, ignored);
     if (!exists || choice_.existing == ExistingPart::restart) {

@@ -20,9 +20,9 @@ enum class Checkpoint : std::uint8_t { when_due, now };
 /// Reads the part that a render goes on with, and writes it in good time and at the end.
 class PartKeeper {
 public:
-    /// Throws `Error`: invalid_input when the file is there, is to be gone on with, and is no whole
-    /// part; what `read_plan` throws.
-    PartKeeper(PartChoice choice, Console& console);
+    /// `planned`: what the plan of `choice` says of the image, if there is a plan. Throws `Error`
+    /// (invalid_input) when the file is there, is to be gone on with, and is no whole part.
+    PartKeeper(PartChoice choice, std::optional<PlannedIdentity> planned, Console& console);
 
     /// Is nothing left to do: are all of these samples in the file, as the plan wants them?
     [[nodiscard]] bool is_complete(SampleRange samples) const;

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Writes the seeds of the fuzzers: make_seeds.py FOLDER [BDPT]. Needs oiiotool for JPEG and WebP, and BDPT for parts of
-renders; all else is made here.
+renders, plans and rates; all else is made here.
 
 FOLDER/scene holds scenes that use what the loader has code for; those of tests/data/compressed go with them.
 FOLDER/image holds an image of each format.
 FOLDER/part holds parts of renders, and what they say in JSON.
+FOLDER/plan holds plans of renders, FOLDER/rates rates of samples.
 """
 
 import base64
@@ -252,6 +253,24 @@ def parts(command):
     return files
 
 
+def plans_and_rates(command):
+    """Plans of an image, of frames and of cameras, and rates of a few pixels."""
+    project = pathlib.Path(__file__).resolve().parents[2]
+    kinds = {"image": ["--spp", "4", "--integrator", "bdpt", "--env", "none", "-o", "out.exr", "-o", "out.png", "--half", "--for", "make"],
+             "frames": ["--spp", "2", "--frames", "1:3", "--fps", "8", "-o", "out.####.exr", "--for", "slurm"],
+             "cameras": ["--spp", "2", "--cameras", "all", "-o", "out.{camera}.exr", "--strategies", "all.{camera}.exr", "--for", "opencue"],
+             "rates": ["--spp", "16", "--adaptive", "-o", "out.exr", "--denoise", "--exposure", "1", "--for", "kubernetes"]}
+    plans = {}
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = pathlib.Path(scratch)
+        (folder / "scene.gltf").write_bytes((project / "scenes/motion.gltf").read_bytes())
+        for name, words in kinds.items():
+            subprocess.run([pathlib.Path(command).resolve(), "plan", "scene.gltf", "--size", "4x3", "--parts", "2", "--quiet", "-d", name,
+                            *words], check=True, cwd=folder)
+            plans[f"{name}.json"] = (folder / name / "plan.json").read_bytes()
+        return plans, {"rates.exr": (folder / "rates/rates.exr").read_bytes()}
+
+
 def main():
     folder = pathlib.Path(sys.argv[1])
     images = {"grey.png": png(3, 3, 0), "rgb.png": png(5, 2, 2), "rgba.png": png(4, 4), "halves.exr": exr(4, 2), **environments()}
@@ -273,6 +292,7 @@ def main():
     seeds = {"image": images, "scene": scenes}
     if len(sys.argv) > 2:
         seeds["part"] = parts(sys.argv[2])
+        seeds["plan"], seeds["rates"] = plans_and_rates(sys.argv[2])
     for name, files in seeds.items():
         (folder / name).mkdir(parents=True, exist_ok=True)
         for file, data in files.items():

@@ -1,0 +1,115 @@
+#include <bdpt/io/denoise.h>
+
+#include <algorithm>
+#include <exception>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "commands/command_line.h"
+#include "fuzz_target.h"
+#include "input_file.h"
+#include "plan/plan_file.h"
+#include "plan/planned_words.h"
+#include "promises.h"
+
+using namespace bdpt;
+using namespace bdpt::app;
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+/// The words of the command line with those of the plan, as the command's parser has understood
+/// them; false if it has not.
+bool parse(CommandLine& line, const Words& typed)
+{
+    const Words words = with_planned_words(typed);
+    try {
+        line.app.parse(Words(words.rbegin(), words.rend() - 1));
+    } catch (const Error&) {
+        throw;
+    } catch (const std::exception&) {  // of the parser
+        return false;
+    }
+    return true;
+}
+
+bool is_in(const std::filesystem::path& file, const std::filesystem::path& folder)
+{
+    return std::filesystem::weakly_canonical(file).parent_path() ==
+           std::filesystem::weakly_canonical(folder);
+}
+
+/// A task writes its part, and nothing else.
+void check_render(const std::string& file)
+{
+    CommandLine line;
+    if (!parse(line, {"bdpt", "render", "--plan", file, "--task", "0"})) {
+        return;
+    }
+    const RenderArguments asked = understand(line.render_words);
+    fuzz::promise(asked.outputs.empty() && !asked.stats && !asked.viewer,
+                  "a task writes no files that its plan names");
+    fuzz::promise(!asked.denoise || !asked.denoise->library, "a plan loads no code");
+    fuzz::promise(!asked.part || is_in(asked.part->file, std::filesystem::path(file).parent_path()),
+                  "a task writes into the folder of its plan");
+}
+
+void check_merge(const std::string& file)
+{
+    CommandLine line;
+    if (!parse(line, {"bdpt", "merge", "--plan", file})) {
+        return;
+    }
+    const MergeArguments asked = understand(line.merge_words);
+    fuzz::promise(!asked.denoise || !asked.denoise->library, "a plan loads no code");
+}
+
+/// What is understood is written in the same words, and all that is asked of a plan has an answer.
+void check_plan(const std::string& file)
+{
+    const Plan plan = read_plan(file);
+    const std::string text = to_text(plan);
+    const fuzz::InputFile written;
+    const auto again =
+        written.write(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
+    fuzz::promise(read_plan(again) == plan, "a plan is read as written", text);
+    const SampleSet samples = samples_of(plan);
+    std::size_t parts = 0;
+    for (const auto& of_image : parts_by_image(plan)) {
+        parts += of_image.size();
+        for (const std::filesystem::path& part : of_image) {
+            fuzz::promise(part.filename() == part, "parts are in the folder of their plan");
+        }
+    }
+    fuzz::promise(parts <= max_planned_parts, "plans have a largest size");
+    const std::vector<SampleSet> missing(plan.images.size(), samples);
+    fuzz::promise(tasks_for(plan, missing).size() <= plan.tasks.size(),
+                  "tasks are those of the plan");
+}
+
+template <typename Check>
+void attempt(const Check& check)
+{
+    try {
+        check();
+    } catch (const Error& error) {
+        if (error.code() != ErrorCode::usage) {  // words that an option does not take
+            fuzz::check_refusal(error);
+        }
+    }
+}
+
+}  // namespace
+
+/// Plans of renders, and the command lines that they are filled into.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+    static const fuzz::InputFile input;
+    const std::string file = input.write(data, size).string();
+    attempt([&] { check_plan(file); });
+    attempt([&] { check_render(file); });
+    attempt([&] { check_merge(file); });
+    return 0;
+}

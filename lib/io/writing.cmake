@@ -8,6 +8,7 @@ target_sources(bdpt_io PRIVATE
   src/output/exr_metadata.cpp
   src/output/image_metadata.cpp
   src/output/output_file.cpp
+  src/output/output_target.cpp
   src/output/png.cpp
   src/output/temporary_file.cpp
   src/output/tone_curve.cpp

@@ -1,5 +1,6 @@
 #include <bdpt/io/output_file.h>
 
+#include "output/output_target.h"
 #include "output/size_signal_block.h"
 #include "output/temporary_file.h"
 
@@ -14,57 +15,12 @@
 #include <array>
 #include <cerrno>
 #include <cstddef>
-#include <string>
-#include <system_error>
 #include <utility>
 
 namespace bdpt::io {
 namespace {
 
 namespace fs = std::filesystem;
-
-[[noreturn]] void fail(const fs::path& name, const std::string& reason)
-{
-    throw Error(ErrorCode::output, fmt::format("{}: cannot write: {}", name.string(), reason));
-}
-
-std::string reason_of(int error_number)
-{
-    return std::generic_category().message(error_number);
-}
-
-bool is_standard_output(const fs::path& file)
-{
-    return file == "-";
-}
-
-fs::path resolve_link(const fs::path& file)
-{
-    std::error_code ignored;
-    if (!fs::is_symlink(file, ignored)) {
-        return file;
-    }
-    const fs::path target = fs::weakly_canonical(file, ignored);
-    return target.empty() ? file : target;
-}
-
-void check_target(const fs::path& name, const fs::path& target)
-{
-    if (!target.has_filename()) {
-        fail(name, "this names no file");
-    }
-    std::error_code ignored;
-    const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
-    if (!fs::exists(folder, ignored)) {
-        fail(name, fmt::format("there is no folder \"{}\"", folder.string()));
-    }
-    if (fs::is_directory(target, ignored)) {
-        fail(name, "this is a folder");
-    }
-    if (fs::exists(target, ignored) && ::access(target.c_str(), W_OK) != 0) {
-        fail(name, reason_of(errno));
-    }
-}
 
 /// So that the new name survives a power cut too. File systems that cannot do it need not.
 void sync_folder(const fs::path& target)
@@ -81,34 +37,26 @@ void sync_folder(const fs::path& target)
 
 fs::path OutputFile::temporary_path(const fs::path& file)
 {
-    if (is_standard_output(file)) {
-        return {};
-    }
-    fs::path temporary = resolve_link(file);
-    temporary += ".tmp-" + process_name();
-    return temporary;
+    return file == "-" ? fs::path() : temporary_name(follow_links(file));
 }
 
-OutputFile::OutputFile(const fs::path& file) : name_(file)
+OutputFile::OutputFile(const fs::path& file)
+    : name_(file == "-" ? fs::path("standard output") : file)
 {
-    if (is_standard_output(file)) {
-        name_ = "standard output";
-        if (::isatty(STDOUT_FILENO) != 0) {
-            fail(name_, "this is a terminal");
-        }
+    OutputTarget found = find_target(file);
+    target_ = std::move(found.path);
+    stream_ = found.descriptor;
+    if (found.kind == TargetKind::file) {
+        TemporaryFile created = create_temporary(temporary_name(target_), found.access);
+        descriptor_ = created.descriptor;
+        temporary_ = std::move(created.path);
+    } else {
         descriptor_ = ::memfd_create("bdpt output", MFD_CLOEXEC);
-        if (descriptor_ < 0) {
-            fail(name_, reason_of(errno));
-        }
-        return;
     }
-    target_ = resolve_link(file);
-    check_target(name_, target_);
-    TemporaryFile created = create_temporary(temporary_path(file));
-    descriptor_ = created.descriptor;
-    temporary_ = std::move(created.path);
     if (descriptor_ < 0) {
-        fail(name_, reason_of(errno));
+        const int reason = errno;
+        close_stream();
+        refuse_output(name_, error_text(reason));
     }
 }
 
@@ -119,6 +67,14 @@ OutputFile::~OutputFile()
         if (!temporary_.empty()) {
             ::unlink(temporary_.c_str());
         }
+    }
+    close_stream();
+}
+
+void OutputFile::close_stream()
+{
+    if (stream_ >= 0) {
+        ::close(std::exchange(stream_, -1));
     }
 }
 
@@ -134,7 +90,7 @@ void OutputFile::write(std::span<const char> bytes)
         if (count <= 0) {
             const int error_number = count < 0 ? errno : ENOSPC;
             first_error_ = first_error_ != 0 ? first_error_ : error_number;
-            fail(name_, reason_of(error_number));
+            refuse_output(name_, error_text(error_number));
         }
         position_ += static_cast<std::uint64_t>(count);
         size_ = std::max(size_, position_);
@@ -142,23 +98,32 @@ void OutputFile::write(std::span<const char> bytes)
     }
 }
 
-void OutputFile::copy_to_standard_output() const
+void OutputFile::send()
 {
     const SizeSignalBlock no_signal;
+    while (stream_ < 0) {
+        stream_ = ::open(target_.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);
+        if (stream_ < 0 && errno != EINTR) {
+            refuse_output(name_, error_text(errno));
+        }
+    }
     std::array<char, 65536> block{};
     for (std::uint64_t done = 0; done < size_;) {
         const auto length = std::min<std::uint64_t>(block.size(), size_ - done);
         const std::span<char> bytes(block.data(), static_cast<std::size_t>(length));
         read(done, bytes);
         for (std::size_t written = 0; written < bytes.size();) {
-            const ssize_t count =
-                ::write(STDOUT_FILENO, bytes.data() + written, bytes.size() - written);
+            const ssize_t count = ::write(stream_, bytes.data() + written, bytes.size() - written);
             if (count < 0 && errno != EINTR) {
-                fail(name_, reason_of(errno));
+                refuse_output(name_, error_text(errno));
             }
             written += count > 0 ? static_cast<std::size_t>(count) : 0;
         }
         done += length;
+    }
+    // Some file systems tell only now that a disk is full.
+    if (::close(std::exchange(stream_, -1)) != 0) {
+        refuse_output(name_, error_text(errno));
     }
 }
 
@@ -171,7 +136,7 @@ void OutputFile::read(std::uint64_t position, std::span<char> bytes) const
             continue;
         }
         if (count <= 0) {
-            fail(name_, count < 0 ? reason_of(errno) : "what was written is not there");
+            refuse_output(name_, count < 0 ? error_text(errno) : "what was written is not there");
         }
         position += static_cast<std::uint64_t>(count);
         bytes = bytes.subspan(static_cast<std::size_t>(count));
@@ -181,18 +146,22 @@ void OutputFile::read(std::uint64_t position, std::span<char> bytes) const
 void OutputFile::commit()
 {
     if (first_error_ != 0) {
-        fail(name_, reason_of(first_error_));
+        refuse_output(name_, error_text(first_error_));
     }
     if (temporary_.empty()) {
-        copy_to_standard_output();
+        send();
         return;
     }
     // EINVAL: a file system that has nothing to bring to a disk.
     if (::fsync(descriptor_) != 0 && errno != EINVAL) {
-        fail(name_, reason_of(errno));
+        refuse_output(name_, error_text(errno));
+    }
+    struct stat now {};
+    if (::stat(target_.c_str(), &now) == 0 && !S_ISREG(now.st_mode)) {
+        refuse_output(name_, "by now this is no regular file");
     }
     if (::rename(temporary_.c_str(), target_.c_str()) != 0) {
-        fail(name_, reason_of(errno));
+        refuse_output(name_, error_text(errno));
     }
     ::close(descriptor_);
     descriptor_ = -1;

@@ -25,6 +25,7 @@
 #include "report/image/image_files.h"
 #include "report/part/merged_files.h"
 #include "report/render_settings.h"
+#include "stage/input_files.h"
 
 namespace bdpt::python {
 namespace {
@@ -37,6 +38,7 @@ struct Render {
     io::PartNotes notes;
     std::optional<app::Backdrop> backdrop{};
     double seconds = 0.0;
+    std::vector<fs::path> inputs{};  ///< files that nothing is saved to
 };
 
 /// What one call renders.
@@ -92,7 +94,8 @@ Render render_scene(PythonScene& scene, const nb::object& progress, const nb::kw
     Render result{
         .part = {},
         .notes = {.goal = SampleSet(arguments.samples), .metadata = std::move(task.metadata)},
-        .backdrop = arguments.display.backdrop};
+        .backdrop = arguments.display.backdrop,
+        .inputs = app::input_files(arguments, scene.stage)};
     RenderControl control;
     control.time_limit = arguments.goal.seconds;
     control.noise_goal = arguments.goal.noise.value_or(0.0);
@@ -138,12 +141,12 @@ void save(const Render& render, const fs::path& file, const nb::kwargs& options)
     notes.metadata.samples_per_pixel = render.part.samples.count();
     notes.metadata.render_seconds = render.seconds;
     notes.metadata.created = std::chrono::system_clock::now();
+    const std::vector<fs::path> files{file};
+    app::check_outputs(files, render.inputs);
     if (app::is_part_name(file)) {
         io::write_part(file, render.part, notes, io::OldPart::replace);
         return;
     }
-    const std::vector<fs::path> files{file};
-    app::check_outputs(files, {});
     if (!asked.display.backdrop) {
         asked.display.backdrop = render.backdrop;
     } else if (!render.backdrop) {

@@ -1,5 +1,7 @@
 """Renders from Python: the bits of the command, parts that add up, progress and interrupts."""
 
+import base64
+import json
 import pathlib
 import subprocess
 import sys
@@ -154,6 +156,21 @@ def test_images_are_saved_as_the_command_saves_them(command, cornell_box, tmp_pa
     difference = subprocess.run(["idiff", "-a", "-fail", "0", tmp_path / "ours.png", tmp_path / "its.png"],
                                 capture_output=True, text=True)
     assert difference.returncode == 0, difference.stdout
+
+
+def test_an_image_is_not_saved_over_what_its_scene_is_made_of(tmp_path):
+    scene = json.loads((SCENES / "cornell-box.gltf").read_text())
+    data = base64.b64decode(scene["buffers"][0]["uri"].partition("base64,")[2])
+    scene["buffers"][0]["uri"] = "buffer.exr"
+    (tmp_path / "buffer.exr").write_bytes(data)
+    (tmp_path / "scene.gltf").write_text(json.dumps(scene))
+    (tmp_path / "link.part.exr").hardlink_to(tmp_path / "buffer.exr")
+    render = bdpt.render(bdpt.load(tmp_path / "scene.gltf"), spp=1, **SMALL)
+    for name in ("buffer.exr", "link.part.exr"):
+        with pytest.raises(bdpt.Error, match="is an input") as raised:
+            render.save(tmp_path / name)
+        assert raised.value.code == 2
+    assert (tmp_path / "buffer.exr").read_bytes() == data
 
 
 def test_errors_of_images():

@@ -18,6 +18,7 @@
 
 #include "options/values/output_files.h"
 #include "report/bench_text.h"
+#include "stage/input_files.h"
 #include "stage/prepared_scene.h"
 #include "terminal/interrupt.h"
 #include "terminal/text.h"
@@ -135,6 +136,7 @@ public:
         std::uint64_t content = 0;
         const PreparedScene stage = prepare_scene(
             subject.render, [&](const SceneDesc& desc) { content = eval::content_hash(desc); });
+        check_not_read(all_files(arguments_), input_files(subject.render, stage));
         for (const std::string& warning : stage.warnings) {
             console_.warning(warning);
         }
@@ -184,6 +186,9 @@ int run_bench(const BenchArguments& arguments, const std::vector<std::string>& c
     const std::vector<fs::path> files = all_files(arguments);
     for (const fs::path& file : std::span(files).first(3)) {
         io::check_writable(file);
+    }
+    for (const BenchSubject& subject : arguments.subjects) {
+        check_not_read(files, input_files(subject.render));
     }
     Console console(arguments.format, arguments.verbosity);
     Interrupt interrupt(temporary_paths(files), [&console] {

@@ -16,6 +16,7 @@
 #include "options/values/pipes.h"
 #include "report/direction_sheet.h"
 #include "report/inspect_text.h"
+#include "stage/input_files.h"
 #include "stage/prepared_scene.h"
 #include "terminal/console.h"
 
@@ -47,14 +48,16 @@ void write_directions(const InspectArguments& arguments, const PreparedScene& st
 int run_inspect(const InspectArguments& arguments)
 {
     const RenderArguments& what = arguments.stage;
-    if (arguments.directions) {
-        check_outputs(std::array{*arguments.directions},
-                      std::array{what.file, std::filesystem::path(what.environment.value_or("")),
-                                 what.volume ? what.volume->file : std::filesystem::path()});
-    }
+    const auto check_directions = [&](const FileSet& inputs) {
+        if (arguments.directions) {
+            check_outputs(std::array{*arguments.directions}, inputs);
+        }
+    };
+    check_directions(input_files(what));
     // stdout has the report alone.
     Console console(Format::text, what.verbosity);
     const PreparedScene stage = prepare_scene(what);
+    check_directions(input_files(what, stage));
     for (const std::string& warning : stage.warnings) {
         console.warning(warning);
     }
@@ -74,8 +77,8 @@ int run_inspect(const InspectArguments& arguments)
         print_report(json.dump(2) + "\n");
     } else {
         print_report(fmt::format("{}, camera {}, {}\n{}", what.file.string(), stage.camera.name,
-                                 integrator_text(options, chosen),
-                                 inspect_text(sample, arguments.sample)));
+                               integrator_text(options, chosen),
+                               inspect_text(sample, arguments.sample)));
     }
     return 0;
 }

@@ -259,9 +259,9 @@ int run_merge(const MergeArguments& asked)
     const std::optional<Plan> plan =
         asked.plan ? std::optional(read_plan(*asked.plan)) : std::nullopt;
     const std::vector<MergeArguments> images = images_of(asked, plan);
-    for (const MergeArguments& image : images) {
-        check_merged_files(image);
-        if (plan) {
+    check_merged_files(images);
+    if (plan) {
+        for (const MergeArguments& image : images) {
             check_planned_outputs(image, *plan);
         }
     }

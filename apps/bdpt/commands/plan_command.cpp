@@ -30,6 +30,7 @@
 #include "plan/planned_identity.h"
 #include "plan/planned_words.h"
 #include "report/strategy_files.h"
+#include "stage/input_files.h"
 #include "stage/render_preparation.h"
 #include "stage/sequence_viewpoint.h"
 #include "terminal/console.h"
@@ -161,20 +162,11 @@ PlanImage image_of(const RenderArguments& asked, const SequenceView& view)
     return image;
 }
 
-void check_files(const PlanArguments& arguments)
+void check_files(const PlanArguments& arguments, const FileSet& inputs)
 {
-    std::vector<fs::path> inputs{arguments.render.file};
-    if (arguments.render.environment) {
-        inputs.emplace_back(*arguments.render.environment);
-    }
-    if (arguments.render.volume) {
-        inputs.push_back(arguments.render.volume->file);
-    }
     check_outputs(arguments.render.outputs, inputs);
     if (arguments.render.strategies) {
-        inputs.insert(inputs.end(), arguments.render.outputs.begin(),
-                      arguments.render.outputs.end());
-        check_strategy_files(*arguments.render.strategies, inputs);
+        check_strategy_files(*arguments.render.strategies, inputs, arguments.render.outputs);
     }
     check_plan_folder(arguments.folder);
 }
@@ -216,6 +208,19 @@ Plan plan_of(const PlanArguments& arguments, const fs::path& folder, const Rende
         }
     }
     return plan;
+}
+
+/// What is written into the folder.
+std::vector<fs::path> files_of_plan(const fs::path& folder, const Plan& plan)
+{
+    std::vector<fs::path> files{folder / "plan.json"};
+    for (const fs::path& file : plan.engine_files) {
+        files.push_back(folder / file);
+    }
+    if (plan.rates) {
+        files.push_back(folder / *plan.rates);
+    }
+    return files;
 }
 
 /// The scene of the first image, seen as it is there.
@@ -290,7 +295,7 @@ int run_plan(const PlanArguments& arguments)
 {
     const RenderArguments& asked = arguments.render;
     check_patterns(asked);
-    check_files(arguments);
+    check_files(arguments, input_files(asked));
     Console console(asked.format, asked.verbosity);
     const fs::path folder =
         fs::weakly_canonical(fs::absolute(arguments.folder / "plan.json")).parent_path();
@@ -298,6 +303,8 @@ int run_plan(const PlanArguments& arguments)
         console.warning(*warning);
     }
     const PreparedScene stage = load_first_image(asked, console);
+    const FileSet inputs = input_files(asked, stage);
+    check_files(arguments, inputs);
     for (const std::string& warning : stage.warnings) {
         console.warning(warning);
     }
@@ -317,6 +324,7 @@ int run_plan(const PlanArguments& arguments)
     for (const EngineFile& file : files) {
         plan.engine_files.emplace_back(file.name);
     }
+    check_not_read(files_of_plan(arguments.folder, plan), inputs);
     write_plan(
         arguments.folder, plan, files,
         [&](const fs::path& file) { io::write_rates(file, *options.sampling.rates, {}); },

@@ -23,6 +23,7 @@
 #include "report/part/part_keeper.h"
 #include "report/render_files.h"
 #include "report/viewer/display.h"
+#include "stage/input_files.h"
 #include "stage/render_preparation.h"
 #include "stage/sequence_viewpoint.h"
 #include "terminal/console.h"
@@ -134,9 +135,14 @@ int run_render(const RenderArguments& typed, const std::vector<std::string>& wor
             Assignment{views_of(asked, stage ? camera_names(*stage) : std::vector<std::string>())};
     }
     const std::vector<SequenceView>& views = assignment->views;
-    for (const SequenceView& view : views) {
-        static_cast<void>(check_files(arguments_of(asked, view)));
-    }
+    const auto check_all = [&] {
+        const FileSet inputs = stage ? input_files(asked, *stage) : input_files(asked);
+        for (const SequenceView& view : views) {
+            static_cast<void>(check_files(arguments_of(asked, view), inputs));
+        }
+    };
+    check_all();
+    bool knows_scene = stage.has_value();
     std::optional<Display> display;
     if (asked.viewer) {
         display.emplace(*asked.viewer, console);
@@ -151,7 +157,7 @@ int run_render(const RenderArguments& typed, const std::vector<std::string>& wor
         }
         RenderArguments image = arguments_of(asked, view);
         console.begin_image(label_of(image));
-        interrupt.set_temporaries(temporary_paths(check_files(image)));
+        interrupt.set_temporaries(temporary_paths(check_files(image, input_files(asked))));
         std::optional<PartKeeper> keeper;
         if (image.part) {
             keeper.emplace(
@@ -172,6 +178,9 @@ int run_render(const RenderArguments& typed, const std::vector<std::string>& wor
             first.reset();
             stage = load(image, console);
             time = image.scene.time;
+        }
+        if (!std::exchange(knows_scene, true)) {
+            check_all();  // now it is known which files the scene names
         }
         if (!first) {
             first = Viewpoint{.camera = stage->camera, .size = stage->size};

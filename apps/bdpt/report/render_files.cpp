@@ -1,8 +1,12 @@
 #include "report/render_files.h"
 
+#include <bdpt/error.h>
+#include <fmt/core.h>
+
+#include <system_error>
+
 #include "options/arguments.h"
 #include "options/values/output_files.h"
-#include "report/stats_file.h"
 #include "report/strategy_files.h"
 
 namespace bdpt::app {
@@ -17,42 +21,49 @@ std::vector<std::filesystem::path> all_image_files(const RenderArguments& argume
     return files;
 }
 
-std::vector<std::filesystem::path> check_files(const RenderArguments& arguments)
+namespace {
+
+/// A part is read again, so it cannot be a device or a pipe.
+void check_part_file(const std::filesystem::path& file)
+{
+    std::error_code missing;
+    if (std::filesystem::exists(file, missing) &&
+        !std::filesystem::is_regular_file(file, missing)) {
+        throw Error(ErrorCode::output,
+                    fmt::format("--part \"{}\": cannot write: a part is read again, and this is no "
+                                "regular file",
+                                file.string()));
+    }
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> check_files(const RenderArguments& arguments,
+                                               const FileSet& inputs)
 {
     if (arguments.outputs.empty() && !arguments.part) {
         throw OptionError("--output is required");
     }
-    std::vector<std::filesystem::path> taken{arguments.file};
-    if (arguments.environment) {
-        taken.emplace_back(*arguments.environment);
-    }
-    if (arguments.volume) {
-        taken.push_back(arguments.volume->file);
-    }
-    if (arguments.rates && arguments.rates->file) {
-        taken.push_back(*arguments.rates->file);
-    }
-    const std::vector<std::filesystem::path> inputs = taken;
     check_outputs(arguments.outputs, inputs);
-    taken.insert(taken.end(), arguments.outputs.begin(), arguments.outputs.end());
+    FileSet outputs(arguments.outputs);
     std::vector<std::filesystem::path> written = all_image_files(arguments);
     if (arguments.strategies) {
-        check_strategy_files(*arguments.strategies, taken);
-        const auto more = arguments.strategies->both();
-        taken.insert(taken.end(), more.begin(), more.end());
+        check_strategy_files(*arguments.strategies, inputs, outputs);
+        outputs.add(arguments.strategies->both());
     }
     if (arguments.rates && arguments.rates->saved) {
         written.push_back(*arguments.rates->saved);
         check_outputs(written, inputs);
-        taken.push_back(*arguments.rates->saved);
+        outputs.add(*arguments.rates->saved);
     }
     if (arguments.part) {
-        check_part_file(arguments.part->file, taken);
-        taken.push_back(arguments.part->file);
+        check_output("--part", arguments.part->file, inputs, outputs);
+        check_part_file(arguments.part->file);
+        outputs.add(arguments.part->file);
         written.push_back(arguments.part->file);
     }
     if (arguments.stats) {
-        check_stats_file(*arguments.stats, taken);
+        check_output("--stats", *arguments.stats, inputs, outputs);
         written.push_back(*arguments.stats);
     }
     return written;

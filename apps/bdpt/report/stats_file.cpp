@@ -1,6 +1,5 @@
 #include "report/stats_file.h"
 
-#include <bdpt/error.h>
 #include <bdpt/io/output_file.h>
 #include <bdpt/noise.h>
 #include <fmt/core.h>
@@ -10,8 +9,6 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
-
-#include "options/values/output_files.h"
 
 namespace bdpt::app {
 namespace {
@@ -58,18 +55,6 @@ ordered_json clamp_json(const Film& film)
 ordered_json noise_json(double noise)
 {
     return std::isfinite(noise) ? ordered_json(noise) : ordered_json();
-}
-
-void check_stats_file(const fs::path& file, std::span<const fs::path> others)
-{
-    for (const fs::path& other : others) {
-        if (same_file(file, other)) {
-            throw Error(ErrorCode::usage,
-                        fmt::format("--stats \"{}\": the same file is an input or another output",
-                                    file.string()));
-        }
-    }
-    io::check_writable(file);
 }
 
 ordered_json profile_json(const TimeProfile& profile)

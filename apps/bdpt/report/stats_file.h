@@ -4,7 +4,6 @@
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
-#include <span>
 #include <string>
 
 namespace bdpt::app {
@@ -17,11 +16,6 @@ struct TimeSplit {
     double render = 0.0;
     double write = 0.0;  ///< images
 };
-
-/// Refuses, before anything is rendered, a file that could not be written: throws `Error` (usage)
-/// when it is also one of `others`, (output) for a place where nothing can be written.
-void check_stats_file(const std::filesystem::path& file,
-                      std::span<const std::filesystem::path> others);
 
 /// Where the time of samples went: `seconds` of threads, and the share of each phase.
 [[nodiscard]] nlohmann::ordered_json profile_json(const TimeProfile& profile);

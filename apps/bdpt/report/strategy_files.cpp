@@ -12,18 +12,15 @@ namespace bdpt::app {
 
 namespace fs = std::filesystem;
 
-void check_strategy_files(const StrategyFiles& files, std::span<const fs::path> others)
+void check_strategy_files(const StrategyFiles& files, const FileSet& inputs, const FileSet& outputs)
 {
     for (const fs::path& file : files.both()) {
-        for (const fs::path& other : others) {
-            if (same_file(file, other)) {
-                throw Error(
-                    ErrorCode::usage,
-                    fmt::format(
-                        "--strategies \"{}\": {} is an input or another output",
-                        files.layers.string(),
-                        file == files.layers ? "it" : "the sheet " + file.string() + " beside it"));
-            }
+        if (inputs.contains(file) || outputs.contains(file)) {
+            throw Error(
+                ErrorCode::usage,
+                fmt::format(
+                    "--strategies \"{}\": {} is an input or another output", files.layers.string(),
+                    file == files.layers ? "it" : "the sheet " + file.string() + " beside it"));
         }
         io::check_writable(file);
     }

@@ -4,17 +4,15 @@
 #include <bdpt/io/exr.h>
 #include <bdpt/render.h>
 
-#include <filesystem>
-#include <span>
-
 #include "options/groups/strategy_arguments.h"
+#include "options/values/file_set.h"
 
 namespace bdpt::app {
 
 /// Refuses, before anything is rendered, files that could not be written: throws `Error` (usage)
-/// when one is also one of `others`, (output) for a place where nothing can be written.
-void check_strategy_files(const StrategyFiles& files,
-                          std::span<const std::filesystem::path> others);
+/// when one is an input or one of `outputs`, (output) for a place where nothing can be written.
+void check_strategy_files(const StrategyFiles& files, const FileSet& inputs,
+                          const FileSet& outputs);
 
 /// Writes the image with the layers of all strategies, and the contact sheet. `exposure` [EV] is
 /// that of the image. Throws `Error` (output).

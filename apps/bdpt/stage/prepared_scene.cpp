@@ -248,7 +248,8 @@ PreparedScene prepare_scene(const RenderArguments& arguments,
             std::move(loaded.facts.xmp),
             lights,
             only_emitters,
-            std::move(loaded.cameras)};
+            std::move(loaded.cameras),
+            std::move(loaded.files)};
 }
 
 Viewpoint viewpoint(const PreparedScene& stage, std::size_t index, const RenderArguments& arguments)

@@ -4,6 +4,7 @@
 #include <bdpt/scene.h>
 
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -26,7 +27,8 @@ struct PreparedScene {
     std::size_t lights = 0;  ///< of the file and by --env, without what is added where all is dark
     /// The only lights are surfaces of the file that emit.
     bool only_emitters = false;
-    std::vector<CameraDesc> cameras{};  ///< those of the scene
+    std::vector<CameraDesc> cameras{};           ///< those of the scene
+    std::vector<std::filesystem::path> files{};  ///< that the scene names
 };
 
 /// A camera and the size of its image.

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cctype>
 #include <string>
-#include <system_error>
 
 #include "options/values/pipes.h"
 
@@ -25,15 +24,6 @@ std::optional<ImageType> type_of(const fs::path& output)
     return has_extension(output, ".png") ? std::optional(ImageType::png) : std::nullopt;
 }
 
-bool same_file(const fs::path& a, const fs::path& b)
-{
-    if (is_standard_output(a) || is_standard_output(b)) {
-        return is_standard_output(a) && is_standard_output(b);
-    }
-    std::error_code missing;
-    return fs::weakly_canonical(a, missing) == fs::weakly_canonical(b, missing);
-}
-
 bool has_extension(const fs::path& file, std::string_view extension)
 {
     std::string own = file.extension().string();
@@ -42,42 +32,42 @@ bool has_extension(const fs::path& file, std::string_view extension)
     return own == extension;
 }
 
-void check_outputs(std::span<const fs::path> outputs, std::span<const fs::path> inputs)
+void check_not_read(std::span<const fs::path> outputs, const FileSet& inputs)
 {
+    for (const fs::path& output : outputs) {
+        if (inputs.contains(output)) {
+            throw Error(
+                ErrorCode::usage,
+                fmt::format("{}: is an input and cannot be the output too", output.string()));
+        }
+    }
+}
+
+void check_outputs(std::span<const fs::path> outputs, const FileSet& inputs)
+{
+    check_not_read(outputs, inputs);
+    FileSet known;
     for (const fs::path& output : outputs) {
         if (!type_of(output)) {
             throw Error(ErrorCode::usage,
                         fmt::format("{}: unknown type of output file: name it .exr or .png",
                                     output.string()));
         }
-        for (const fs::path& input : inputs) {
-            std::error_code missing;
-            if (fs::equivalent(input, output, missing)) {
-                throw Error(
-                    ErrorCode::usage,
-                    fmt::format("{}: is an input and cannot be the output too", output.string()));
-            }
+        if (!known.add(output)) {
+            throw Error(ErrorCode::usage,
+                        fmt::format("{}: the same output is named twice", output.string()));
         }
         io::check_writable(written_file(output));
     }
-    for (std::size_t i = 0; i < outputs.size(); ++i) {
-        for (std::size_t k = 0; k < i; ++k) {
-            if (same_file(outputs[i], outputs[k])) {
-                throw Error(ErrorCode::usage,
-                            fmt::format("{}: the same output is named twice", outputs[i].string()));
-            }
-        }
-    }
 }
 
-void check_part_file(const fs::path& file, std::span<const fs::path> others)
+void check_output(std::string_view option, const fs::path& file, const FileSet& inputs,
+                  const FileSet& outputs)
 {
-    for (const fs::path& other : others) {
-        if (same_file(file, other)) {
-            throw Error(ErrorCode::usage,
-                        fmt::format("--part \"{}\": the same file is an input or another output",
-                                    file.string()));
-        }
+    if (inputs.contains(file) || outputs.contains(file)) {
+        throw Error(ErrorCode::usage,
+                    fmt::format("{} \"{}\": the same file is an input or another output", option,
+                                file.string()));
     }
     io::check_writable(file);
 }

@@ -7,10 +7,9 @@
 #include <string_view>
 #include <vector>
 
-namespace bdpt::app {
+#include "options/values/file_set.h"
 
-/// Are they one file, be it there or not?
-[[nodiscard]] bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
+namespace bdpt::app {
 
 /// The types of images that we write.
 enum class ImageType : std::uint8_t { exr, png };
@@ -21,16 +20,19 @@ enum class ImageType : std::uint8_t { exr, png };
 /// Does the name of `file` end with `extension`, like ".exr", in small or capital letters?
 [[nodiscard]] bool has_extension(const std::filesystem::path& file, std::string_view extension);
 
+/// Refuses outputs that would overwrite what is read: throws `Error` (usage) for one that is also
+/// in `inputs`.
+void check_not_read(std::span<const std::filesystem::path> outputs, const FileSet& inputs);
+
 /// Refuses, before anything is rendered, what could not be written afterwards: throws `Error`
 /// (usage) for a file type that we do not write, for a file that is also in `inputs` and for one
 /// that is named twice, (output) for a place where nothing can be written.
-void check_outputs(std::span<const std::filesystem::path> outputs,
-                   std::span<const std::filesystem::path> inputs);
+void check_outputs(std::span<const std::filesystem::path> outputs, const FileSet& inputs);
 
-/// The same of the file of --part, which may be there already: throws `Error` (usage) when it is
-/// one of `others`, (output) for a place where nothing can be written.
-void check_part_file(const std::filesystem::path& file,
-                     std::span<const std::filesystem::path> others);
+/// The same of a file that `option` names: throws `Error` (usage) when it is an input or one of
+/// `outputs`, (output) for a place where nothing can be written.
+void check_output(std::string_view option, const std::filesystem::path& file, const FileSet& inputs,
+                  const FileSet& outputs);
 
 /// Is one of `outputs` an EXR file?
 [[nodiscard]] bool writes_exr(std::span<const std::filesystem::path> outputs);

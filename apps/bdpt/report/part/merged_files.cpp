@@ -81,13 +81,23 @@ DisplayArguments display_of_parts(const io::ImageMetadata& metadata, DisplayArgu
     return display;
 }
 
-void check_merged_files(const MergeArguments& arguments)
+void check_merged_files(std::span<const MergeArguments> images)
 {
-    check_outputs(arguments.outputs, arguments.parts);
-    if (arguments.strategies) {
-        std::vector<fs::path> others = arguments.outputs;
-        others.insert(others.end(), arguments.parts.begin(), arguments.parts.end());
-        check_strategy_files(strategy_files(arguments.strategies->string()), others);
+    FileSet inputs;
+    for (const MergeArguments& image : images) {
+        inputs.add(image.parts);
+        if (image.plan) {
+            inputs.add(*image.plan);
+        }
+        if (image.denoise && image.denoise->library) {
+            inputs.add(*image.denoise->library);
+        }
+    }
+    for (const MergeArguments& image : images) {
+        check_outputs(image.outputs, inputs);
+        if (image.strategies) {
+            check_strategy_files(strategy_files(image.strategies->string()), inputs, image.outputs);
+        }
     }
 }
 

@@ -6,6 +6,7 @@
 #include <bdpt/part/render_part.h>
 
 #include <filesystem>
+#include <span>
 #include <vector>
 
 #include "options/groups/display_arguments.h"
@@ -19,8 +20,9 @@ namespace bdpt::app {
 [[nodiscard]] DisplayArguments display_of_parts(const io::ImageMetadata& metadata,
                                                 DisplayArguments asked);
 
-/// Refuses files that could not be written: what `check_outputs` and `check_strategy_files` do.
-void check_merged_files(const MergeArguments& arguments);
+/// Refuses files that could not be written: what `check_outputs` and `check_strategy_files` do. No
+/// file of an image is a part of any.
+void check_merged_files(std::span<const MergeArguments> images);
 
 /// Throws `Error` (invalid_input) when `part` has no images of strategies, and those are asked for.
 void check_strategies(const MergeArguments& arguments, const io::PartInfo& part);

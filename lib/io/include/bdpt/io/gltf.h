@@ -101,6 +101,9 @@ struct LoadedScene {
     std::vector<CameraDesc> cameras;    ///< those of the scene's nodes, in the order of the nodes
     std::vector<std::string> warnings;  ///< one line each, without the file's name
     GltfFacts facts;
+    /// All files that the document names, used or not, with symbolic links followed: an output that
+    /// is one of them would overwrite what the scene is made of.
+    std::vector<std::filesystem::path> files;
 };
 
 /// Reads a .gltf or .glb file [glTF 2.0] with all that it refers to; which of the two it is, its

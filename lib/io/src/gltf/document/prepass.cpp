@@ -103,9 +103,11 @@ std::vector<Bytes> read_buffers(const JsonPlace& root, std::optional<Bytes> bin,
     return buffers;
 }
 
-/// The URIs of all images or light profiles, also of those that nothing uses: a file that points
-/// outside of its folder is refused as a whole.
-void check_uris(const JsonPlace& holders, const std::filesystem::path& folder)
+using Paths = std::vector<std::filesystem::path>;
+
+/// Adds the files of all images or light profiles, also of those that nothing uses: a document that
+/// points outside of its folder is refused as a whole.
+void add_checked_uris(Paths& files, const JsonPlace& holders, const std::filesystem::path& folder)
 {
     for (std::size_t i = 0; i < holders.size(); ++i) {
         const JsonPlace holder = holders.element(i);
@@ -121,29 +123,54 @@ void check_uris(const JsonPlace& holders, const std::filesystem::path& folder)
             continue;
         }
         try {
-            static_cast<void>(resolve_uri(folder, uri));
+            files.push_back(resolve_uri(folder, uri));
         } catch (const Error& error) {
             place.fail(error.what(), error.code());
         }
     }
 }
 
-void check_uris_of_all(const JsonPlace& root, const std::filesystem::path& folder)
+/// Adds the files of buffers. What cannot be read is refused when it is: fallback buffers never
+/// are.
+void add_buffers(Paths& files, const JsonPlace& buffers, const std::filesystem::path& folder)
 {
+    for (std::size_t i = 0; i < buffers.size(); ++i) {
+        const JsonPlace buffer = buffers.element(i);
+        if (!buffer.has("uri")) {
+            continue;
+        }
+        const JsonPlace place = buffer.member("uri");
+        const auto& uri = place.value().get_ref<const std::string&>();
+        try {
+            if (!is_data_uri(uri)) {
+                files.push_back(resolve_uri(folder, uri));
+            }
+        } catch (const Error&) {
+        }
+    }
+}
+
+Paths checked_uris(const JsonPlace& root, const std::filesystem::path& folder)
+{
+    Paths files;
+    if (root.has("buffers")) {
+        add_buffers(files, root.member("buffers"), folder);
+    }
     if (root.has("images")) {
-        check_uris(root.member("images"), folder);
+        add_checked_uris(files, root.member("images"), folder);
     }
     if (!root.has("extensions")) {
-        return;
+        return files;
     }
     const JsonPlace extensions = root.member("extensions");
     if (!extensions.has("EXT_lights_ies")) {
-        return;
+        return files;
     }
     const JsonPlace profiles = extensions.member("EXT_lights_ies");
     if (profiles.has("lights")) {
-        check_uris(profiles.member("lights"), folder);
+        add_checked_uris(files, profiles.member("lights"), folder);
     }
+    return files;
 }
 
 }  // namespace
@@ -179,7 +206,7 @@ CheckedGltf read_checked_gltf(const std::filesystem::path& file, LoadContext& co
     check_schema(root, context);
     check_layout(root, context);
     check_node_graph(root, context.limits);
-    check_uris_of_all(root, context.folder);
+    result.files = checked_uris(root, context.folder);
     result.buffers = read_buffers(root, std::move(bin), context);
     decode_meshopt_views(result.document, result.buffers, context.limits);
     decode_draco_primitives(result.document, result.buffers, context.limits);

@@ -9,6 +9,7 @@
 #include "gltf/scene/scene_builder.h"
 
 #include <utility>
+#include <vector>
 
 namespace bdpt::io {
 
@@ -24,6 +25,7 @@ LoadedScene load(const std::filesystem::path& file, const GltfOptions& options)
     if (!facts.scene) {
         context.warn("the file has no scene; all its nodes are shown", "/scenes");
     }
+    std::vector<std::filesystem::path> files = std::move(checked.files);
     SceneChoice choice;
     choice.scene = facts.scene;
     if (options.variant) {
@@ -34,6 +36,7 @@ LoadedScene load(const std::filesystem::path& file, const GltfOptions& options)
     choice.shutter = options.shutter.value_or(Shutter{});
     LoadedScene loaded = build_scene(std::move(checked), choice, options.on_progress, context);
     loaded.facts = std::move(facts);
+    loaded.files = std::move(files);
     loaded.warnings = context.warnings.lines();
     return loaded;
 }

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace bdpt::app {
+
+/// Files by what they are, be they there or not: links, hard links and other spellings of a name do
+/// not matter.
+class FileSet {
+public:
+    FileSet() = default;
+    FileSet(const std::vector<std::filesystem::path>& files) { add(files); }
+
+    /// Whether it was not in the set before.
+    bool add(const std::filesystem::path& file);
+    void add(const std::vector<std::filesystem::path>& files);
+    [[nodiscard]] bool contains(const std::filesystem::path& file) const;
+
+private:
+    std::set<std::pair<dev_t, ino_t>> there_;
+    std::set<std::filesystem::path> not_there_;
+};
+
+}  // namespace bdpt::app

@@ -28,6 +28,7 @@
 #include "plan/planned_words.h"
 #include "terminal/cgroup_limits.h"
 #include "terminal/console.h"
+#include "terminal/standard_streams.h"
 
 namespace bdpt::app {
 namespace {
@@ -94,8 +95,8 @@ int run_help(const CommandLine& line)
 {
     if (line.topic.empty()) {
         // app.help() would be that of the command "help".
-        print_report(line.app.get_formatter()->make_help(&line.app, line.app.get_name(),
-                                                         CLI::AppFormatMode::Normal));
+        print_text(line.app.get_formatter()->make_help(&line.app, line.app.get_name(),
+                                                       CLI::AppFormatMode::Normal));
         return 0;
     }
     const auto topics = line.app.get_subcommands(
@@ -103,7 +104,7 @@ int run_help(const CommandLine& line)
     if (topics.empty()) {
         throw Error(ErrorCode::usage, unknown_command(line.topic, "bdpt --help"));
     }
-    print_report(topics.front()->help("bdpt"));
+    print_text(topics.front()->help("bdpt"));
     return 0;
 }
 
@@ -113,7 +114,7 @@ int run_command(const CommandLine& line, const std::vector<std::string>& words)
         return run_help(line);
     }
     if (line.version->parsed()) {
-        print_report(version_text() + "\n");
+        print_text(version_text() + "\n");
         return 0;
     }
     if (line.plan->parsed()) {
@@ -172,25 +173,15 @@ int within_quota(const Work& work)
     return quota > 0 && quota < available ? tbb::task_arena(quota).execute(work) : work();
 }
 
-}  // namespace
-}  // namespace bdpt::app
-
-int main(int argc, char** argv)
+/// The exit code. Whatever goes wrong becomes a message.
+int guarded_run(const std::vector<std::string>& words, Format format)
 {
-    using namespace bdpt;
-    // A reader of our messages who leaves must not take the image along.
-    ::signal(SIGPIPE, SIG_IGN);
-    const std::span<char*> words(argv, static_cast<std::size_t>(argc));
-    const bool json = std::any_of(words.begin(), words.end(), [](const char* word) {
-        return std::string_view(word) == "--json";
-    });
-    const app::Format format = json ? app::Format::json : app::Format::text;
     const auto fail = [format](ErrorCode code, const char* message) {
-        app::report_error(format, static_cast<int>(code), message);
+        report_error(format, static_cast<int>(code), message);
         return static_cast<int>(code);
     };
     try {
-        return app::within_quota([&] { return app::run({words.begin(), words.end()}, format); });
+        return within_quota([&] { return run(words, format); });
     } catch (const Error& error) {
         return fail(error.code(), error.what());
     } catch (const std::bad_alloc&) {
@@ -198,4 +189,21 @@ int main(int argc, char** argv)
     } catch (const std::exception& error) {
         return fail(ErrorCode::internal, error.what());
     }
+}
+
+}  // namespace
+}  // namespace bdpt::app
+
+int main(int argc, char** argv)
+{
+    using namespace bdpt;
+    app::guard_standard_streams();
+    // A reader of our messages who leaves must not take the image along.
+    ::signal(SIGPIPE, SIG_IGN);
+    const std::span<char*> words(argv, static_cast<std::size_t>(argc));
+    const bool json = std::any_of(words.begin(), words.end(), [](const char* word) {
+        return std::string_view(word) == "--json";
+    });
+    return app::finish_standard_streams(app::guarded_run(
+        {words.begin(), words.end()}, json ? app::Format::json : app::Format::text));
 }

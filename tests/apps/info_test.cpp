@@ -49,6 +49,37 @@ TEST_CASE("info tells which kind of camera and lens there is")
     CHECK(cameras[1]["focus_distance"] == 4.0);
 }
 
+TEST_CASE("names in a file cannot give orders to the terminal")
+{
+    const ScratchFolder folder;
+    // CSI in one byte of C1, and a text that runs backwards.
+    const std::string scene =
+        write_cube(folder, "cube", {.cameras = R"({"name": "a\u009b31mb", "camera": 0},
+                                  {"name": "c\u202ed", "camera": 1},)"})
+            .string();
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"info", scene},
+          {"info", scene, "--json"},
+          {"inspect", scene, "--camera", "0", "--pixel", "1,1", "--size", "4x4"},
+          {"render", scene, "--camera", "1", "-o", (folder / "a.exr").string(), "--spp", "1",
+           "--size", "4x4"},
+          {"render", scene, "--camera",
+           "c\xe2\x80\xae"
+           "e",
+           "-o", (folder / "a.exr").string()},
+          {"render", scene, "--cameras", "all", "-o", (folder / "{camera}.exr").string(), "--json",
+           "--spp", "1", "--size", "4x4"}}) {
+        const Outcome outcome = run(words);
+        const std::string all = outcome.out + outcome.err;
+        CAPTURE(all);
+        CHECK(all.find("\xc2\x9b") == std::string::npos);
+        CHECK(all.find("\xe2\x80\xae") == std::string::npos);
+        CHECK(all.find(words[0] == "render" ? "bdpt" : "a") != std::string::npos);
+    }
+    const auto json = nlohmann::json::parse(run({"info", scene, "--json"}).out);
+    CHECK(json.dump().find("\xc2\x9b") != std::string::npos);
+}
+
 TEST_CASE("info --json tells programs the same")
 {
     const ScratchFolder folder;

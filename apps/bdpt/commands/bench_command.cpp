@@ -8,7 +8,6 @@
 #include <fmt/core.h>
 
 #include <chrono>
-#include <cstdio>
 #include <ctime>
 #include <exception>
 #include <nlohmann/json.hpp>
@@ -172,9 +171,7 @@ void report_scene(const eval::SceneResult& scene, const BenchArguments& argument
     console.event(
         "scene", {{"name", scene.name}, {"runs", scene.runs.size()}, {"complete", scene.complete}});
     if (arguments.format == Format::text && arguments.verbosity == Verbosity::normal) {
-        const std::string text = bench_text(scene, arguments.options.seconds);
-        std::fwrite(text.data(), 1, text.size(), stdout);
-        std::fflush(stdout);
+        print_text(bench_text(scene, arguments.options.seconds));
     }
 }
 

@@ -88,10 +88,10 @@ int run_compare(const CompareArguments& arguments)
         }
     }
     if (arguments.format == Format::json) {
-        print_report(eval::comparison_json(report, results, arguments.image.string(),
-                                           arguments.reference.string()));
+        print_text(eval::comparison_json(report, results, arguments.image.string(),
+                                         arguments.reference.string()));
     } else if (arguments.verbosity == Verbosity::normal) {
-        print_report(compare_text(report, results));
+        print_text(compare_text(report, results));
     }
     if (failure) {
         std::rethrow_exception(failure);

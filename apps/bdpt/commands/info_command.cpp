@@ -123,7 +123,7 @@ int run_info(const InfoArguments& arguments)
     if (arguments.json) {
         text = json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
     }
-    print_report(text);
+    print_text(text);
     return 0;
 }
 

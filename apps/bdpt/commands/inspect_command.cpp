@@ -74,9 +74,9 @@ int run_inspect(const InspectArguments& arguments)
     if (what.format == Format::json) {
         nlohmann::ordered_json json = inspect_json(sample, arguments.sample);
         json["settings"] = transport_json(options);
-        print_report(json.dump(2) + "\n");
+        print_text(json.dump(2) + "\n");
     } else {
-        print_report(fmt::format("{}, camera {}, {}\n{}", what.file.string(), stage.camera.name,
+        print_text(fmt::format("{}, camera {}, {}\n{}", what.file.string(), stage.camera.name,
                                integrator_text(options, chosen),
                                inspect_text(sample, arguments.sample)));
     }

@@ -83,9 +83,9 @@ int run_verify(const VerifyArguments& arguments)
     const eval::VerifyReport report = eval::verify(stage.scene, stage.camera, options, control);
     console.end_progress();
     if (what.format == Format::json) {
-        print_report(eval::verify_json(report, file));
+        print_text(eval::verify_json(report, file));
     } else if (what.verbosity == Verbosity::normal) {
-        print_report(verify_text(report, options));
+        print_text(verify_text(report, options));
     }
     if (const std::optional<int> signal = interrupt.signal()) {
         return 128 + *signal;

@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "terminal/standard_streams.h"
 #include "terminal/text.h"
 
 namespace bdpt::app {
@@ -17,16 +18,9 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// A full disk or a reader that left must not end a render, so results are not looked at.
-void put(std::FILE* stream, const std::string& text)
-{
-    std::fwrite(text.data(), 1, text.size(), stream);
-    std::fflush(stream);
-}
-
 void put_object(const ordered_json& object)
 {
-    put(stdout, object.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n");
+    print_text(object.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n");
 }
 
 bool is_set(const char* variable)
@@ -278,12 +272,9 @@ bool Console::is_due(double seconds)
     return true;
 }
 
-void print_report(std::string_view text)
+void print_text(std::string_view text)
 {
-    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() ||
-        std::fflush(stdout) != 0) {
-        throw Error(ErrorCode::output, "stdout: cannot write the report");
-    }
+    put(stdout, escaped(text));
 }
 
 void report_error(Format format, int exit_code, std::string_view message) noexcept

@@ -105,8 +105,8 @@ private:
     double last_shown_ = -std::numeric_limits<double>::infinity();  // [s] of the render
 };
 
-/// Prints a result on stdout. Throws `Error` (output).
-void print_report(std::string_view text);
+/// Prints a result on stdout, text or JSON, without what a terminal would obey.
+void print_text(std::string_view text);
 
 /// The one line on stderr for a failure and, in JSON, an event. Throws nothing.
 void report_error(Format format, int exit_code, std::string_view message) noexcept;

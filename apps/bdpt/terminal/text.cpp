@@ -3,25 +3,102 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <cstddef>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
 namespace bdpt::app {
+namespace {
+
+struct CodeRange {
+    char32_t first;
+    char32_t last;
+};
+
+/// What is not shown, but obeyed: control characters, and those of Unicode that break lines, change
+/// the direction of text or hide in it. The joiners U+200C and U+200D are letters' business.
+constexpr std::array<CodeRange, 11> unprintable{{{0x00, 0x1f},
+                                                 {0x7f, 0x9f},
+                                                 {0x61c, 0x61c},
+                                                 {0x200b, 0x200b},
+                                                 {0x200e, 0x200f},
+                                                 {0x2028, 0x202e},
+                                                 {0x2060, 0x206f},
+                                                 {0xfeff, 0xfeff},
+                                                 {0xfff9, 0xfffb},
+                                                 {0xe0000, 0xe007f},
+                                                 {0xd800, 0xdfff}}};
+
+bool is_printable(char32_t code)
+{
+    return std::none_of(unprintable.begin(), unprintable.end(), [code](const CodeRange& range) {
+        return range.first <= code && code <= range.last;
+    });
+}
+
+std::string valid_utf8(std::string_view text)
+{
+    // The JSON library knows UTF-8; its text is safe to take apart when it is read back.
+    using nlohmann::json;
+    return json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace))
+        .get<std::string>();
+}
+
+/// Bytes of the character that begins with `lead`, in UTF-8.
+std::size_t length_of(unsigned char lead)
+{
+    return lead < 0x80 ? 1 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
+}
+
+/// The character in `bytes`, which are all of it.
+char32_t code_of(std::string_view bytes)
+{
+    constexpr std::array<unsigned char, 5> lead_bits{0, 0x7f, 0x1f, 0x0f, 0x07};
+    char32_t code = static_cast<unsigned char>(bytes[0]) & lead_bits.at(bytes.size());
+    for (const char c : bytes.substr(1)) {
+        code = code << 6U | (static_cast<unsigned char>(c) & 0x3fU);
+    }
+    return code;
+}
+
+/// `text`, UTF-8, with what `replacement` gives for each character that is not printable.
+template <typename Replacement>
+std::string with_replaced(std::string_view text, const Replacement& replacement)
+{
+    std::string result;
+    for (std::size_t i = 0; i < text.size();) {
+        const std::string_view bytes =
+            text.substr(i, length_of(static_cast<unsigned char>(text[i])));
+        const char32_t code = code_of(bytes);
+        result += is_printable(code) ? std::string(bytes) : replacement(code);
+        i += bytes.size();
+    }
+    return result;
+}
+
+}  // namespace
 
 std::string one_line(std::string_view text)
 {
-    // The JSON library knows UTF-8; its text is safe to print when it is read back.
-    using nlohmann::json;
-    const std::string utf8 =
-        json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace))
-            .get<std::string>();
-    std::string result;
-    for (const char c : utf8) {
-        const bool control = static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
-        result += control ? ' ' : c;
-    }
-    return result;
+    return with_replaced(valid_utf8(text), [](char32_t) { return std::string(" "); });
+}
+
+std::string escaped(std::string_view text)
+{
+    return with_replaced(valid_utf8(text), [](char32_t code) {
+        constexpr char32_t pairs = 0x10000;  // what JSON writes as two surrogates starts here
+        if (code == U'\n' || code == U'\t') {
+            return std::string(1, static_cast<char>(code));
+        }
+        if (code < pairs) {
+            return fmt::format("\\u{:04x}", std::uint32_t{code});
+        }
+        const std::uint32_t rest = code - pairs;
+        return fmt::format("\\u{:04x}\\u{:04x}", 0xd800U + (rest >> 10U),
+                           0xdc00U + (rest & 0x3ffU));
+    });
 }
 
 std::string counted(std::size_t count, std::string_view noun)

@@ -6,8 +6,12 @@
 
 namespace bdpt::app {
 
-/// `text` without line breaks and with what is not UTF-8 replaced.
+/// `text` without line breaks and whatever else a terminal would obey in place of showing it, and
+/// with what is not UTF-8 replaced.
 [[nodiscard]] std::string one_line(std::string_view text);
+
+/// `text` of several lines, or JSON, with the same written as JSON does, like "\u009b".
+[[nodiscard]] std::string escaped(std::string_view text);
 
 /// "1 light", "2 lights": `noun` has a plural in s.
 [[nodiscard]] std::string counted(std::size_t count, std::string_view noun);

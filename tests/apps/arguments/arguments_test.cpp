@@ -1,5 +1,6 @@
 #include "options/arguments.h"
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -85,6 +86,24 @@ TEST_CASE("messages are one line of UTF-8 whatever goes in")
     CHECK(one_line("caf\xc3\xa9") == "caf\xc3\xa9");
     CHECK(one_line("a\nb\tc\x1b[31m") == "a b c [31m");
     CHECK(one_line("a\xff z") == "a\xef\xbf\xbd z");
+    // C1 controls, as U+009B, which begins an escape sequence; and what turns text around.
+    CHECK(one_line("a\xc2\x9b"
+                   "31m") == "a 31m");
+    CHECK(one_line("a\xe2\x80\xaeg.exr") == "a g.exr");
+    CHECK(one_line("a\xe2\x81\xa6z\xef\xbb\xbf") == "a z ");
+    CHECK(one_line("\xf0\x9f\x98\x80 \xe2\x80\x8d") == "\xf0\x9f\x98\x80 \xe2\x80\x8d");
+    CHECK(one_line("\xf3\xa0\x81\x81x") == " x");
+}
+
+TEST_CASE("reports have nothing that a terminal obeys, and JSON keeps what it says")
+{
+    CHECK(escaped("caf\xc3\xa9\n\tb") == "caf\xc3\xa9\n\tb");
+    CHECK(escaped("a\xc2\x9b"
+                  "31m\x1b") == "a\\u009b31m\\u001b");
+    CHECK(escaped("\xe2\x80\xae") == "\\u202e");
+    const std::string json = nlohmann::json("\xc2\x9b\xf3\xa0\x81\x81").dump();
+    CHECK(escaped(json) == "\"\\u009b\\udb40\\udc41\"");
+    CHECK(nlohmann::json::parse(escaped(json)) == nlohmann::json::parse(json));
 }
 
 TEST_CASE("times are shown as on a clock")

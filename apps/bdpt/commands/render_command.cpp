@@ -111,12 +111,9 @@ int run_render(const RenderArguments& typed, const std::vector<std::string>& wor
     const RenderArguments asked = with_cache(typed);
     check_patterns(asked);
     Console console(asked.format, asked.verbosity);
-    Interrupt interrupt(
-        {},
-        [&console] {
-            console.note("stopping after the pass in flight; interrupt again to end at once");
-        },
-        asked.part ? UserSignal::checkpoint : UserSignal::default_action);
+    Interrupt interrupt({}, [&console] {
+        console.note("stopping after the pass in flight; interrupt again to end at once");
+    });
     if (const std::optional<std::string> warning = warning_of_flicker(asked)) {
         console.warning(*warning);
     }

@@ -31,13 +31,13 @@ constexpr const char* render_examples = R"(Examples:
   bdpt render model.glb -o out.png --env sky.hdr --from 3,2,4 --look-at 0,1,0 --fov 40
 
 A file without a camera is framed as a whole, one without light gets a soft sky (and a lamp, if it
-is a closed room); a warning says so. Ctrl-C finishes the current pass and writes the image; a
-second Ctrl-C quits at once. With --part, SIGUSR1 writes a checkpoint, and what was killed goes on
-when the same command runs again.
+is a closed room); a warning says so. Ctrl-C, or closing the terminal, finishes the current pass and
+writes the image; a second Ctrl-C quits at once. With --part, SIGUSR1 writes a checkpoint, and what
+was killed goes on when the same command runs again.
 
 Exit codes: 0 done, 1 internal error, 2 wrong usage, 3 input not found, 4 invalid input,
-5 unsupported feature, 6 output cannot be written, 7 out of memory, 130 stopped by SIGINT,
-143 stopped by SIGTERM.)";
+5 unsupported feature, 6 output cannot be written, 7 out of memory, 129 stopped by
+SIGHUP, 130 by SIGINT, 143 by SIGTERM.)";
 
 std::uint64_t to_seed(const std::string& word)
 {

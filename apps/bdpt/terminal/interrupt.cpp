@@ -8,17 +8,12 @@
 namespace bdpt::app {
 namespace {
 
-/// SIGINT, SIGTERM and perhaps SIGUSR1, unless who started us had them ignored (as nohup and
-/// background jobs do).
-sigset_t signals_to_watch(UserSignal user_signal)
+/// All that are handled, unless who started us had them ignored (as nohup and background jobs do).
+sigset_t signals_to_watch()
 {
-    std::vector<int> numbers{SIGINT, SIGTERM};
-    if (user_signal == UserSignal::checkpoint) {
-        numbers.push_back(SIGUSR1);
-    }
     sigset_t result;
     sigemptyset(&result);
-    for (const int signal_number : numbers) {
+    for (const int signal_number : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) {
         struct sigaction action {};
         sigaction(signal_number, nullptr, &action);
         if (action.sa_handler != SIG_IGN) {
@@ -30,11 +25,10 @@ sigset_t signals_to_watch(UserSignal user_signal)
 
 }  // namespace
 
-Interrupt::Interrupt(std::vector<std::filesystem::path> temporaries, std::function<void()> on_stop,
-                     UserSignal user_signal)
+Interrupt::Interrupt(std::vector<std::filesystem::path> temporaries, std::function<void()> on_stop)
     : temporaries_(std::move(temporaries)),
       on_stop_(std::move(on_stop)),
-      signals_(signals_to_watch(user_signal))
+      signals_(signals_to_watch())
 {
     pthread_sigmask(SIG_BLOCK, &signals_, &previous_);
     watcher_ = std::jthread([this](const std::stop_token& finished) { watch(finished); });
@@ -77,7 +71,7 @@ void Interrupt::handle(int signal_number)
         checkpoint_ = true;
         return;
     }
-    if (signal_number == SIGTERM && signal_ == SIGTERM) {
+    if (signal_number != SIGINT && signal_ != 0 && signal_ != SIGINT) {
         return;
     }
     if (stop_allowed_ && signal_ == 0) {
@@ -95,7 +89,7 @@ void Interrupt::handle(int signal_number)
 
 const char* signal_name(int signal_number)
 {
-    return signal_number == SIGTERM ? "SIGTERM" : "SIGINT";
+    return signal_number == SIGTERM ? "SIGTERM" : signal_number == SIGHUP ? "SIGHUP" : "SIGINT";
 }
 
 }  // namespace bdpt::app

@@ -3,7 +3,6 @@
 #include <signal.h>
 
 #include <atomic>
-#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <mutex>
@@ -14,21 +13,16 @@
 
 namespace bdpt::app {
 
-/// What SIGUSR1 does.
-enum class UserSignal : std::uint8_t {
-    default_action,
-    checkpoint,  ///< asks for a checkpoint
-};
-
-/// Turns SIGINT and SIGTERM into a polite request while it lives: the first one asks for a stop
-/// once `allow_stop()` was called; any other removes `temporaries` and ends the process with 128 +
-/// the signal's number. Only a SIGTERM after a SIGTERM waits for the stop: who takes machines back
-/// sends it twice. Make it before any other thread, which then inherits the blocked signals.
+/// Turns SIGINT, SIGTERM and SIGHUP into a polite request while it lives: the first one asks for a
+/// stop once `allow_stop()` was called; any other removes `temporaries` and ends the process with
+/// 128 + the signal's number. Only SIGTERM and SIGHUP wait for the stop that one of them asked for:
+/// who takes machines back, or closes a terminal, sends them twice. SIGUSR1 asks for a checkpoint;
+/// where there are none it does nothing. Make it before any other thread, which then inherits the
+/// blocked signals.
 class Interrupt {
 public:
     /// `on_stop` is called on another thread when a stop is requested.
-    Interrupt(std::vector<std::filesystem::path> temporaries, std::function<void()> on_stop,
-              UserSignal user_signal = UserSignal::default_action);
+    Interrupt(std::vector<std::filesystem::path> temporaries, std::function<void()> on_stop);
     ~Interrupt();
     Interrupt(const Interrupt&) = delete;
     Interrupt& operator=(const Interrupt&) = delete;
@@ -59,7 +53,7 @@ private:
     std::jthread watcher_;  // last: it uses all of the above
 };
 
-/// "SIGINT" or "SIGTERM".
+/// "SIGINT", "SIGTERM" or "SIGHUP".
 [[nodiscard]] const char* signal_name(int signal_number);
 
 }  // namespace bdpt::app

@@ -25,7 +25,7 @@ std::vector<std::string> endless(const ScratchFolder& folder, const std::string&
 
 TEST_CASE("a signal finishes the pass, writes the image and sets the exit code")
 {
-    const int signal_number = GENERATE(SIGINT, SIGTERM);
+    const int signal_number = GENERATE(SIGINT, SIGTERM, SIGHUP);
     const ScratchFolder folder;
     std::vector<std::string> words = endless(folder, "32x18");
     words.emplace_back("--json");
@@ -39,7 +39,9 @@ TEST_CASE("a signal finishes the pass, writes the image and sets the exit code")
     const std::size_t last_line = outcome.out.rfind('\n', outcome.out.size() - 2) + 1;
     const auto done = nlohmann::json::parse(outcome.out.substr(last_line));
     CHECK(done["event"] == "done");
-    CHECK(done["stopped_by"] == (signal_number == SIGINT ? "SIGINT" : "SIGTERM"));
+    CHECK(done["stopped_by"] == (signal_number == SIGINT    ? "SIGINT"
+                                 : signal_number == SIGTERM ? "SIGTERM"
+                                                            : "SIGHUP"));
     CHECK(folder.names() == std::set<std::string>{"cube.bin", "cube.gltf", "out.exr"});
 
     const ExrFile exr = read_exr(folder / "out.exr");
@@ -65,6 +67,45 @@ TEST_CASE("a second signal ends the render at once, with nothing half-written")
     CAPTURE(outcome.out, outcome.err);
     CHECK(outcome.exit_code == 128 + SIGTERM);
     CHECK(folder.names() == std::set<std::string>{"cube.bin", "cube.gltf"});
+}
+
+TEST_CASE("a terminal that is closed sends SIGHUP more than once, and the image is kept")
+{
+    const ScratchFolder folder;
+    std::vector<std::string> words = endless(folder, "1500x1500");
+    words.insert(words.end(), {"--threads", "1"});
+    Subprocess command(Launch{.arguments = words});
+    command.wait_for("camera auto");
+    command.send(SIGHUP);
+    command.wait_for("stopping after the pass in flight");
+    command.send(SIGHUP);
+    command.send(SIGTERM);
+    const Outcome outcome = command.finish();
+    CAPTURE(outcome.out, outcome.err);
+    CHECK(outcome.exit_code == 128 + SIGHUP);
+    CHECK(folder.names() == std::set<std::string>{"cube.bin", "cube.gltf", "out.exr"});
+}
+
+TEST_CASE("SIGUSR1 does nothing to a render without a part, and SIGHUP nothing below nohup")
+{
+    const ScratchFolder folder;
+    const int signal_number = GENERATE(SIGUSR1, SIGHUP);
+    const bool below_nohup = signal_number == SIGHUP;
+    const auto previous = below_nohup ? ::signal(SIGHUP, SIG_IGN) : SIG_DFL;
+    std::vector<std::string> words = endless(folder, "32x18");
+    words.emplace_back("--json");
+    Subprocess command(Launch{.arguments = words});
+    if (below_nohup) {
+        ::signal(SIGHUP, previous);
+    }
+    command.wait_for("\"progress\"");
+    command.send(signal_number);
+    command.wait_for("\"progress\"");
+    command.send(SIGTERM);
+    const Outcome outcome = command.finish();
+    CAPTURE(outcome.out, outcome.err);
+    CHECK(outcome.exit_code == 128 + SIGTERM);
+    CHECK(folder.names() == std::set<std::string>{"cube.bin", "cube.gltf", "out.exr"});
 }
 
 }  // namespace

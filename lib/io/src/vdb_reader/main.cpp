@@ -37,12 +37,13 @@ void limit(decltype(RLIMIT_AS) resource, std::uint64_t most)
     setrlimit(resource, &limits);
 }
 
-/// Before anything is read. What is interrupted on a terminal is who started this, and this ends
+/// Before anything is read. Signals to a group of processes are for who started this, and this ends
 /// with that.
 void limit_process(std::uint64_t bytes, std::uint64_t seconds)
 {
-    signal(SIGINT, SIG_IGN);
-    signal(SIGTERM, SIG_IGN);
+    for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) {
+        signal(number, SIG_IGN);
+    }
     limit(RLIMIT_CORE, 0);
     limit(RLIMIT_CPU, seconds);
     limit(RLIMIT_FSIZE, 1U << 20U);  // of messages

@@ -1,4 +1,5 @@
 #include <bdpt/error.h>
+#include <bdpt/thread_limit.h>
 #include <fmt/core.h>
 #include <signal.h>
 #include <tbb/task_arena.h>
@@ -11,6 +12,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "commands/bench_command.h"
@@ -163,14 +165,15 @@ int run(const std::vector<std::string>& given, Format format)
     }
 }
 
-/// `work`, by as many threads as the quota of a container lets run at a time: oneTBB knows of the
-/// processors that the process may run on, and not of quotas.
+/// `work`, by as many threads as the quota of a container lets run at a time, and the system lets
+/// start: oneTBB knows of the processors that the process may run on, and not of such limits.
 template <typename Work>
 int within_quota(const Work& work)
 {
     const int quota = cgroup_limits().processors.value_or(int{tbb::task_arena::automatic});
     const int available = tbb::this_task_arena::max_concurrency();
-    return quota > 0 && quota < available ? tbb::task_arena(quota).execute(work) : work();
+    const int allowed = limit_threads(quota > 0 ? std::min(quota, available) : available).allowed;
+    return allowed < available ? tbb::task_arena(allowed).execute(work) : work();
 }
 
 /// The exit code. Whatever goes wrong becomes a message.
@@ -186,6 +189,12 @@ int guarded_run(const std::vector<std::string>& words, Format format)
         return fail(error.code(), error.what());
     } catch (const std::bad_alloc&) {
         return fail(ErrorCode::out_of_memory, "out of memory");
+    } catch (const std::system_error& error) {
+        return error.code() == std::errc::resource_unavailable_try_again
+                   ? fail(ErrorCode::out_of_memory,
+                          "no thread can be started: the system limits how many this user or "
+                          "container may have")
+                   : fail(ErrorCode::internal, error.what());
     } catch (const std::exception& error) {
         return fail(ErrorCode::internal, error.what());
     }

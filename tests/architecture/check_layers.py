@@ -10,7 +10,7 @@ import pathlib
 import re
 import sys
 
-LAYERS = {"math": 1, "film": 2, "identity": 2, "profile": 2, "rates": 2, "texture": 2, "geometry": 3, "material": 3, "light": 4, "camera": 4,
+LAYERS = {"math": 1, "threads": 1, "film": 2, "identity": 2, "profile": 2, "rates": 2, "texture": 2, "geometry": 3, "material": 3, "light": 4, "camera": 4,
           "scene": 5, "path": 6, "integrator": 7, "pilot": 8, "render": 9, "inspect": 10}
 COMMAND_LAYERS = {"terminal": 1, "options": 2, "plan": 3, "stage": 3, "report": 4, "commands": 5}
 # The same of lib/io/src. Headers are named by their folder there too.
@@ -30,6 +30,7 @@ ALLOWED = {
     "lib/src/identity": [r"glm/", r"xxhash\.h"],
     "lib/src/geometry": [r"glm/", r"embree[34]/", INTRINSICS],
     "lib/src/scene": [r"glm/", r"(oneapi/)?tbb/"],
+    "lib/src/threads": [r"(oneapi/)?tbb/"],
     "lib/src/profile": [r"glm/", r"(oneapi/)?tbb/"],
     "lib/src/pilot": [r"glm/", r"(oneapi/)?tbb/"],
     "lib/src/render": [r"glm/", r"(oneapi/)?tbb/"],

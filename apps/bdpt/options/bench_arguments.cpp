@@ -29,7 +29,7 @@ CPU time of all threads. docs/bench.md explains the figures.
 
 Exit codes: 0 done, 2 wrong usage (also: the folder holds runs with other options), 3 input not found,
 4 invalid input (also: a file in the folder that is broken), 5 unsupported feature, 6 output cannot be
-written (finished runs are kept), 7 out of memory, 129 stopped by SIGHUP,
+written (finished runs are kept), 7 out of memory or threads, 129 stopped by SIGHUP,
 130 by SIGINT, 143 by SIGTERM.)";
 
 /// What `--quick` chooses, and what is chosen without.

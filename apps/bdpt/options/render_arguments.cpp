@@ -36,7 +36,7 @@ writes the image; a second Ctrl-C quits at once. With --part, SIGUSR1 writes a c
 was killed goes on when the same command runs again.
 
 Exit codes: 0 done, 1 internal error, 2 wrong usage, 3 input not found, 4 invalid input,
-5 unsupported feature, 6 output cannot be written, 7 out of memory, 129 stopped by
+5 unsupported feature, 6 output cannot be written, 7 out of memory or threads, 129 stopped by
 SIGHUP, 130 by SIGINT, 143 by SIGTERM.)";
 
 std::uint64_t to_seed(const std::string& word)

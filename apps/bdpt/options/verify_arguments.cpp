@@ -25,7 +25,7 @@ tiles. docs/verify.md explains the method and the numbers.
 
 Exit codes: 0 pass, 10 fail: something disagrees, 11 inconclusive: nothing disagrees, but the noise
 could hide it (give it more --time); 1 internal error, 2 wrong usage, 3 input not found, 4 invalid
-input, 5 unsupported feature, 6 output cannot be written, 7 out of memory, 129 stopped by
+input, 5 unsupported feature, 6 output cannot be written, 7 out of memory or threads, 129 stopped by
 SIGHUP, 130 by SIGINT, 143 by SIGTERM.)";
 
 /// Percent to a fraction.

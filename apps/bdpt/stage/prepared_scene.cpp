@@ -5,6 +5,7 @@
 #include <bdpt/framing.h>
 #include <bdpt/io/environment.h>
 #include <bdpt/io/volume.h>
+#include <bdpt/thread_limit.h>
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -194,10 +195,17 @@ PreparedScene prepare_scene(const RenderArguments& arguments,
 {
     const auto start = std::chrono::steady_clock::now();
     const std::string file = arguments.file.string();
+    const ThreadLimit threads = limit_threads(arguments.options.system.threads);
     std::vector<VolumeDesc> volumes = load_volumes(arguments);
     io::LoadedScene loaded = io::load_gltf(arguments.file, beside(volumes, arguments.scene));
 
     std::vector<std::string> warnings;
+    if (threads.allowed < threads.wanted) {
+        warnings.push_back(
+            fmt::format("{} of {} threads work: the system limits how many this user or container "
+                        "may have",
+                        threads.allowed, threads.wanted));
+    }
     for (const std::string& warning : loaded.warnings) {
         warnings.push_back(fmt::format("{}: {}", file, warning));
     }

@@ -3,7 +3,7 @@
 #include "pilot/pilot.h"
 #include "render/check_options.h"
 #include "render/open_camera.h"
-#include "render/threads.h"
+#include "threads/threads.h"
 
 #include <limits>
 

@@ -12,8 +12,8 @@
 #include "render/open_camera.h"
 #include "render/pass.h"
 #include "render/strategy_images.h"
-#include "render/threads.h"
 #include "scene/world.h"
+#include "threads/threads.h"
 
 #include <algorithm>
 #include <chrono>

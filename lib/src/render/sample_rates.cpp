@@ -6,7 +6,7 @@
 #include "render/check_options.h"
 #include "render/open_camera.h"
 #include "render/pass.h"
-#include "render/threads.h"
+#include "threads/threads.h"
 
 #include <bdpt/render.h>
 

@@ -3,6 +3,8 @@
 #include "geometry/rounding.h"
 #include "scene/world_builder.h"
 
+#include <bdpt/thread_limit.h>
+
 #include <glm/geometric.hpp>
 
 #include <tbb/blocked_range.h>
@@ -40,6 +42,7 @@ struct ForRowsAtOnce {
 
 World::World(SceneDesc desc, Isa isa) : desc_(std::move(desc)), mip_maps_(ForRowsAtOnce{})
 {
+    limit_threads(0);
     WorldBuilder(*this).build(isa);
 }
 

@@ -5,6 +5,7 @@
 #include "verify/verdict.h"
 
 #include <bdpt/error.h>
+#include <bdpt/thread_limit.h>
 
 #include <tbb/global_control.h>
 #include <tbb/info.h>
@@ -73,8 +74,7 @@ VerifyReport verify(const Scene& scene, const CameraDesc& camera, const VerifyOp
     const auto start = std::chrono::steady_clock::now();
     const TileGrid grid(options.width, options.height, options.grid);
     Evidence evidence(grid, options.max_depth, count_of_others(options));
-    const int threads =
-        options.threads > 0 ? options.threads : tbb::this_task_arena::max_concurrency();
+    const int threads = limit_threads(options.threads).allowed;
     // More threads than cores are allowed only while somebody asks for them.
     const tbb::global_control allowance(
         tbb::global_control::max_allowed_parallelism,

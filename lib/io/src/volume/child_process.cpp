@@ -21,8 +21,16 @@ namespace {
 
 [[noreturn]] void fail(std::string_view what, int error)
 {
-    throw Error(ErrorCode::unsupported,
-                fmt::format("{}: {}", what, std::generic_category().message(error)));
+    const std::string reason = std::generic_category().message(error);
+    if (error == EAGAIN) {
+        throw Error(
+            ErrorCode::out_of_memory,
+            fmt::format("{}: {}: the system limits how many processes this user or container "
+                        "may have",
+                        what, reason));
+    }
+    throw Error(error == ENOMEM ? ErrorCode::out_of_memory : ErrorCode::unsupported,
+                fmt::format("{}: {}", what, reason));
 }
 
 /// `descriptor` under a number that no standard stream has.

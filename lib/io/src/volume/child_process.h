@@ -42,7 +42,8 @@ struct ProcessEnd {
 /// goes is killed.
 class ChildProcess {
 public:
-    /// Throws `Error` (unsupported) when it cannot be started.
+    /// Throws `Error` when it cannot be started: out_of_memory where the system has no room for
+    /// another process, else unsupported.
     ChildProcess(const std::filesystem::path& program, const std::vector<std::string>& arguments);
     ~ChildProcess();
     ChildProcess(const ChildProcess&) = delete;

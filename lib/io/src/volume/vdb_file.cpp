@@ -12,10 +12,12 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 namespace bdpt::io {
 
@@ -47,6 +49,12 @@ std::filesystem::path find_reader()
     }
 }
 
+/// Libraries of OpenVDB start threads before anybody can ask them not to.
+bool lacks_threads(const ProcessEnd& end)
+{
+    return end.message.find(std::generic_category().message(EAGAIN)) != std::string::npos;
+}
+
 /// What went wrong, where the reader ended before it had written everything.
 [[noreturn]] void fail(const ProcessEnd& end, const ReadLimits& limits)
 {
@@ -58,6 +66,12 @@ std::filesystem::path find_reader()
     if (end.signal == SIGKILL) {
         throw Error(ErrorCode::out_of_memory,
                     fmt::format("{} was killed while it read, as systems do that lack memory",
+                                vdb_reader_name));
+    }
+    if (end.signal == SIGABRT && lacks_threads(end)) {
+        throw Error(ErrorCode::out_of_memory,
+                    fmt::format("{} could not start its threads: the system limits how many this "
+                                "user or container may have",
                                 vdb_reader_name));
     }
     if (end.signal != 0) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bdpt/thread_limit.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
@@ -17,6 +18,7 @@ public:
     /// succession.
     explicit Threads(int wanted)
     {
+        limit_threads(wanted);
         if (wanted == 0) {
             return;
         }

@@ -1,0 +1,83 @@
+#include <bdpt/thread_limit.h>
+
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <latch>
+#include <mutex>
+#include <new>
+#include <optional>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+namespace bdpt {
+namespace {
+
+/// How many more threads can be started, `wanted` at most.
+int startable_threads(int wanted)
+{
+    std::vector<std::thread> threads;
+    threads.reserve(static_cast<std::size_t>(wanted));
+    std::latch end(1);
+    try {
+        while (static_cast<int>(threads.size()) < wanted) {
+            threads.emplace_back([&end] { end.wait(); });
+        }
+    } catch (const std::system_error&) {
+        // So this is the limit.
+    } catch (const std::bad_alloc&) {
+        // There is no room for another stack.
+    }
+    end.count_down();
+    for (std::thread& thread : threads) {
+        thread.join();
+    }
+    return static_cast<int>(threads.size());
+}
+
+/// What is known so far.
+struct Knowledge {
+    std::mutex mutex;
+    int possible = 1;  ///< threads that there can be
+    int refused = 0;   ///< that were more than there can be
+    std::optional<tbb::global_control> limit;
+};
+
+Knowledge& knowledge()
+{
+    static Knowledge result;
+    return result;
+}
+
+/// For a process that reads volumes, which takes five, and for a thread that talks to a viewer.
+constexpr int spared_threads = 6;
+
+}  // namespace
+
+ThreadLimit limit_threads(int wanted)
+{
+    const int threads = wanted > 0 ? wanted : tbb::this_task_arena::max_concurrency();
+    Knowledge& known = knowledge();
+    const std::lock_guard lock(known.mutex);
+    if (threads > known.possible && !known.limit) {
+        const int more = startable_threads(threads - 1 + spared_threads);
+        known.possible = std::max(1, 1 + more - spared_threads);
+        if (known.possible < threads) {
+            known.refused = threads;
+            known.limit.emplace(tbb::global_control::max_allowed_parallelism,
+                                static_cast<std::size_t>(known.possible));
+            // The system counts threads for a moment after they have ended.
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        }
+    }
+    // Within a limit arenas are no larger than that, so they do not tell what was wanted.
+    const bool limited = wanted == 0 && threads >= known.possible;
+    return {.wanted = limited ? std::max(threads, known.refused) : threads,
+            .allowed = std::min(threads, known.possible)};
+}
+
+}  // namespace bdpt

@@ -3,6 +3,8 @@
 #include "geometry/length.h"
 #include "geometry/rounding.h"
 
+#include <bdpt/error.h>
+
 #include <tbb/parallel_for.h>
 
 #include <glm/common.hpp>
@@ -11,8 +13,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <limits>
+#include <numeric>
+#include <string>
 #include <utility>
 
 namespace bdpt {
@@ -23,10 +26,10 @@ const std::array<Vec3, 3> probe_directions{normalize(Vec3{0.4231f, 0.8317f, -0.3
                                            normalize(Vec3{-0.7411f, 0.2203f, 0.6342f}),
                                            normalize(Vec3{0.1873f, -0.6011f, 0.7769f})};
 /// Triangles that are asked where their mesh lies.
-constexpr std::size_t most_probes = 16;
+constexpr std::size_t max_probes = 16;
 /// Surfaces along one ray, beyond which nobody wants to know: files that nobody trusts can have any
 /// number of them.
-constexpr int most_crossings = 1024;
+constexpr int max_crossings = 1024;
 
 Bounds bounds_of(const PlacedMesh& placed)
 {
@@ -45,6 +48,18 @@ bool is_within(const Bounds& bounds, Vec3 p)
 {
     return p.x >= bounds.min.x && p.y >= bounds.min.y && p.z >= bounds.min.z &&
            p.x <= bounds.max.x && p.y <= bounds.max.y && p.z <= bounds.max.z;
+}
+
+/// Bounds of all that the bodies have, and a little more, so that rounding leaves nothing outside.
+Bounds around(std::span<const std::size_t> bodies, std::span<const Bounds> bounds)
+{
+    Bounds all = bounds[bodies.front()];
+    for (const std::size_t body : bodies) {
+        all.min = min(all.min, bounds[body].min);
+        all.max = max(all.max, bounds[body].max);
+    }
+    const Vec3 margin = 1e-3f * (all.max - all.min) + 1e-5f * max(abs(all.min), abs(all.max));
+    return {.min = all.min - margin, .max = all.max + margin};
 }
 
 float volume(const Bounds& bounds)
@@ -84,7 +99,7 @@ std::optional<Vec3> before(const PlacedMesh& placed, std::uint32_t triangle)
 /// mesh. Equal steps would meet the same ring of a turned one all the time.
 std::uint32_t probed(std::size_t probe, std::uint32_t count)
 {
-    if (count <= most_probes) {
+    if (count <= max_probes) {
         return static_cast<std::uint32_t>(probe) % count;
     }
     constexpr std::uint32_t golden_ratio_32 = 0x9e3779b9U;
@@ -102,26 +117,29 @@ EnclosingVolumes::EnclosingVolumes(std::span<const PlacedMesh> placed,
       embree_(embree),
       instances_(std::move(instances)),
       volume_of_instance_(placed.size()),
+      all_(instances_.size()),
       bounds_(instances_.size()),
-      depth_(instances_.size(), 0)
+      around_(instances_.size())
 {
+    std::iota(all_.begin(), all_.end(), std::size_t{0});
     for (std::size_t body = 0; body < instances_.size(); ++body) {
         volume_of_instance_[instances_[body]] = body;
     }
     tbb::parallel_for(std::size_t{0}, instances_.size(), [&](std::size_t body) {
         bounds_[body] = bounds_of(placed_[instances_[body]]);
     });
-    tbb::parallel_for(std::size_t{0}, instances_.size(), [&](std::size_t body) {
-        depth_[body] = containing(instances_[body]).size();
-    });
+    tbb::parallel_for(std::size_t{0}, instances_.size(),
+                      [&](std::size_t body) { around_[body] = containing(instances_[body]); });
 }
 
-/// The bodies that a ray leaves more often than it enters.
-EnclosingVolumes::Set EnclosingVolumes::left_by(Vec3 origin, Vec3 direction) const
+/// Those of `bodies` that a ray leaves more often than it enters.
+EnclosingVolumes::Set EnclosingVolumes::left_by(Vec3 origin, Vec3 direction,
+                                                const Set& bodies) const
 {
-    std::vector<std::pair<std::size_t, int>> crossings;  // and +1 where the ray leaves the body
+    const Bounds region = around(bodies, bounds_);
+    std::vector<int> balance(bodies.size(), 0);  // +1 each time that the ray leaves the body
     Ray ray{.origin = origin, .direction = direction};
-    for (int crossing = 0; crossing < most_crossings; ++crossing) {
+    for (int crossing = 0; crossing < max_crossings && is_within(region, ray.origin); ++crossing) {
         const auto hit = embree_.intersect(ray);
         if (!hit) {
             break;
@@ -132,37 +150,34 @@ EnclosingVolumes::Set EnclosingVolumes::left_by(Vec3 origin, Vec3 direction) con
         }
         const Vec3 normal = hit->at.ng;
         if (const auto body = volume_of_instance_[hit->instance]) {
-            crossings.emplace_back(*body, dot(normal, direction) > 0.0f ? 1 : -1);
+            const auto place = std::lower_bound(bodies.begin(), bodies.end(), *body);
+            if (place != bodies.end() && *place == *body) {
+                balance[static_cast<std::size_t>(place - bodies.begin())] +=
+                    dot(normal, direction) > 0.0f ? 1 : -1;
+            }
         }
         ray.origin = offset_origin(hit->at.point.p, hit->at.point.error, normal, direction);
     }
-    std::sort(crossings.begin(), crossings.end());
     Set result;
-    for (std::size_t i = 0; i < crossings.size();) {
-        const std::size_t body = crossings[i].first;
-        int balance = 0;
-        for (; i < crossings.size() && crossings[i].first == body; ++i) {
-            balance += crossings[i].second;
-        }
-        if (balance > 0 && is_within(bounds_[body], origin)) {
-            result.push_back(body);
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        if (balance[i] > 0) {
+            result.push_back(bodies[i]);
         }
     }
     return result;
 }
 
-EnclosingVolumes::Set EnclosingVolumes::containing(Vec3 p) const
+/// Those of `bodies` that contain the point, by vote.
+EnclosingVolumes::Set EnclosingVolumes::voted(Vec3 p, const Set& bodies) const
 {
-    constexpr std::size_t few = 256;  // enough that asking the bounds of all saves rays
-    const auto may_contain = [&](const Bounds& bounds) { return is_within(bounds, p); };
-    if (bounds_.size() <= few && std::none_of(bounds_.begin(), bounds_.end(), may_contain)) {
-        return {};
+    const Set first = left_by(p, probe_directions[0], bodies);
+    const Set second = left_by(p, probe_directions[1], bodies);
+    if (first == second) {
+        return first;
     }
-    Set votes;
-    for (const Vec3 direction : probe_directions) {
-        const Set left = left_by(p, direction);
-        votes.insert(votes.end(), left.begin(), left.end());
-    }
+    Set votes = left_by(p, probe_directions[2], bodies);
+    votes.insert(votes.end(), first.begin(), first.end());
+    votes.insert(votes.end(), second.begin(), second.end());
     std::sort(votes.begin(), votes.end());
     Set result;
     for (std::size_t i = 1; i < votes.size(); ++i) {
@@ -173,31 +188,39 @@ EnclosingVolumes::Set EnclosingVolumes::containing(Vec3 p) const
     return result;
 }
 
+/// Those of `bodies` that contain the point.
+EnclosingVolumes::Set EnclosingVolumes::containing(Vec3 p, Set bodies) const
+{
+    std::erase_if(bodies, [&](std::size_t body) { return !is_within(bounds_[body], p); });
+    if (bodies.empty()) {
+        return {};
+    }
+    Set result = voted(p, bodies);
+    if (result.size() > max_depth) {
+        throw Error(ErrorCode::invalid_input,
+                    std::to_string(result.size()) +
+                        " bodies that light passes through lie one in the other at (" +
+                        std::to_string(p.x) + ", " + std::to_string(p.y) + ", " +
+                        std::to_string(p.z) + "), but the limit is " + std::to_string(max_depth));
+    }
+    return result;
+}
+
+/// The bodies that contain all of the instance, itself excepted.
 EnclosingVolumes::Set EnclosingVolumes::containing(std::uint32_t instance) const
 {
     const PlacedMesh& mesh = placed_[instance];
     const std::uint32_t count = mesh.triangle_count();
-    std::optional<Set> common;
-    for (std::size_t probe = 0; probe < most_probes && count > 0; ++probe) {
-        const std::uint32_t triangle = probed(probe, count);
-        const std::optional<Vec3> p = before(mesh, triangle);
-        if (!p) {
-            continue;
+    Set common = all_;
+    std::erase_if(common, [&](std::size_t body) { return instances_[body] == instance; });
+    bool asked = false;
+    for (std::size_t probe = 0; probe < max_probes && count > 0 && !common.empty(); ++probe) {
+        if (const std::optional<Vec3> p = before(mesh, probed(probe, count))) {
+            common = containing(*p, std::move(common));
+            asked = true;
         }
-        Set here = containing(*p);
-        std::erase_if(here, [&](std::size_t body) { return instances_[body] == instance; });
-        if (common) {
-            Set both;
-            std::set_intersection(common->begin(), common->end(), here.begin(), here.end(),
-                                  std::back_inserter(both));
-            here = std::move(both);
-        }
-        if (here.empty()) {
-            return {};
-        }
-        common = std::move(here);
     }
-    return common.value_or(Set{});
+    return asked ? common : Set{};
 }
 
 /// That which lies in most others; of two the smaller one.
@@ -207,8 +230,8 @@ std::optional<std::uint32_t> EnclosingVolumes::innermost(const Set& bodies) cons
         return std::nullopt;
     }
     const auto deeper = [&](std::size_t a, std::size_t b) {
-        return depth_[a] != depth_[b] ? depth_[a] > depth_[b]
-                                      : volume(bounds_[a]) < volume(bounds_[b]);
+        return around_[a].size() != around_[b].size() ? around_[a].size() > around_[b].size()
+                                                      : volume(bounds_[a]) < volume(bounds_[b]);
     };
     return instances_[*std::min_element(bodies.begin(), bodies.end(), deeper)];
 }
@@ -217,14 +240,16 @@ std::vector<std::optional<std::uint32_t>> EnclosingVolumes::around_all() const
 {
     std::vector<std::optional<std::uint32_t>> result(placed_.size());
     tbb::parallel_for(std::size_t{0}, placed_.size(), [&](std::size_t instance) {
-        result[instance] = innermost(containing(static_cast<std::uint32_t>(instance)));
+        const auto body = volume_of_instance_[instance];
+        result[instance] =
+            innermost(body ? around_[*body] : containing(static_cast<std::uint32_t>(instance)));
     });
     return result;
 }
 
 std::optional<std::uint32_t> EnclosingVolumes::at(Vec3 p) const
 {
-    return innermost(containing(p));
+    return innermost(containing(p, all_));
 }
 
 }  // namespace bdpt

@@ -22,8 +22,11 @@ public:
     /// Of how many bodies it is worth looking for what lies in what: the work may grow with the
     /// square of their number.
     static constexpr std::size_t most = 1024;
+    /// How many may lie one in the other: the work grows with that for each of them.
+    static constexpr std::size_t max_depth = 64;
 
     /// `instances` are those whose meshes bound bodies, `most` of them. All else must outlive this.
+    /// Throws `Error` (invalid_input) if more than `max_depth` lie one in the other.
     EnclosingVolumes(std::span<const PlacedMesh> placed, std::vector<std::uint32_t> instances,
                      std::span<const Sphere> spheres, const EmbreeScene& embree);
 
@@ -37,8 +40,9 @@ private:
     /// Numbers of bodies in ascending order.
     using Set = std::vector<std::size_t>;
 
-    [[nodiscard]] Set left_by(Vec3 origin, Vec3 direction) const;
-    [[nodiscard]] Set containing(Vec3 p) const;
+    [[nodiscard]] Set left_by(Vec3 origin, Vec3 direction, const Set& bodies) const;
+    [[nodiscard]] Set voted(Vec3 p, const Set& bodies) const;
+    [[nodiscard]] Set containing(Vec3 p, Set bodies) const;
     [[nodiscard]] Set containing(std::uint32_t instance) const;
     [[nodiscard]] std::optional<std::uint32_t> innermost(const Set& bodies) const;
 
@@ -47,8 +51,9 @@ private:
     const EmbreeScene& embree_;
     std::vector<std::uint32_t> instances_;
     std::vector<std::optional<std::size_t>> volume_of_instance_;
-    std::vector<Bounds> bounds_;      // by body
-    std::vector<std::size_t> depth_;  // by body: in how many others it lies
+    Set all_;
+    std::vector<Bounds> bounds_;  // by body
+    std::vector<Set> around_;     // by body: those that it lies in
 };
 
 }  // namespace bdpt

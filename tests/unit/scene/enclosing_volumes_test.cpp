@@ -4,9 +4,11 @@
 #include "scene/world.h"
 #include "scene_builder.h"
 
+#include <bdpt/error.h>
 #include <bdpt/render.h>
 
 #include <cmath>
+#include <string>
 #include <utility>
 
 using namespace bdpt;
@@ -256,4 +258,28 @@ TEST_CASE("bodies with holes are judged by most rays", "[bodies]")
     check_absorption(world, {0.8f, 0.7f, 0.6f}, of_outer);
     check_absorption(world, {1.8f, 0.7f, 0.6f}, Rgb(0.0f));
     CHECK(world.warnings().size() == 1);
+}
+
+TEST_CASE("bodies that lie one in the other are found, up to a limit of their number", "[bodies]")
+{
+    const auto nested = [](int count) {
+        SceneBuilder builder;
+        for (int i = 0; i < count; ++i) {
+            const Rgb absorption(0.1f + 0.01f * static_cast<float>(i));
+            builder.cube({}, 1.0f - 0.9f * static_cast<float>(i) / static_cast<float>(count),
+                         medium(absorption, 1.3f));
+        }
+        return std::move(builder.desc);
+    };
+    const int most = static_cast<int>(EnclosingVolumes::max_depth);
+    const World world(nested(most));
+    check_absorption(world, Vec3(0.01f), Rgb(0.1f + 0.01f * static_cast<float>(most - 1)));
+    check_absorption(world, {0.995f, 0.0f, 0.0f}, Rgb(0.1f));
+    try {
+        const World too_deep(nested(1000));
+        FAIL("was not refused");
+    } catch (const Error& error) {
+        CHECK(error.code() == ErrorCode::invalid_input);
+        CHECK(std::string(error.what()).find("but the limit is 64") != std::string::npos);
+    }
 }

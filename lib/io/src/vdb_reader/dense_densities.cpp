@@ -22,6 +22,9 @@ namespace {
 using openvdb::Coord;
 using openvdb::CoordBBox;
 
+/// Slices that are written at a time: leaves of a tree are that deep.
+constexpr int slab_depth = 8;
+
 /// Calls `visit` with the grid as what it is.
 template <typename Visit>
 void with_values(const openvdb::GridBase& grid, const Visit& visit)
@@ -89,6 +92,16 @@ io::VdbReply header_of(const openvdb::GridBase& grid, std::uint64_t most_bytes)
     return header;
 }
 
+std::uint64_t density_bytes(const io::VdbReply& header)
+{
+    return std::uint64_t{header.size[0]} * header.size[1] * header.size[2] * sizeof(float);
+}
+
+std::uint64_t slab_bytes(const io::VdbReply& header)
+{
+    return std::uint64_t{header.size[0]} * header.size[1] * slab_depth * sizeof(float);
+}
+
 void write_densities(const openvdb::GridBase& grid, const io::VdbReply& header,
                      const std::function<void(std::span<const float>)>& write)
 {
@@ -96,11 +109,10 @@ void write_densities(const openvdb::GridBase& grid, const io::VdbReply& header,
     const auto side = [&](int axis) {
         return static_cast<int>(header.size[static_cast<std::size_t>(axis)]);
     };
-    constexpr int depth = 8;  // slices at a time, as leaves of the tree are that deep
     const std::size_t slice = static_cast<std::size_t>(side(0)) * static_cast<std::size_t>(side(1));
     std::vector<float> values;
-    for (int z = 0; z < side(2); z += depth) {
-        const int count = std::min(depth, side(2) - z);
+    for (int z = 0; z < side(2); z += slab_depth) {
+        const int count = std::min(slab_depth, side(2) - z);
         const CoordBBox box(first.offsetBy(0, 0, z),
                             first.offsetBy(side(0) - 1, side(1) - 1, z + count - 1));
         values.resize(slice * static_cast<std::size_t>(count));

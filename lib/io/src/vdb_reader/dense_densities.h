@@ -15,6 +15,10 @@ namespace bdpt::vdb {
 /// than `most_bytes`.
 [[nodiscard]] io::VdbReply header_of(const openvdb::GridBase& grid, std::uint64_t most_bytes);
 
+/// What all of them take, and what is in memory of them at a time [bytes].
+[[nodiscard]] std::uint64_t density_bytes(const io::VdbReply& header);
+[[nodiscard]] std::uint64_t slab_bytes(const io::VdbReply& header);
+
 /// Gives these densities to `write` in pieces, x fastest. Throws `Error` (invalid_input) before it
 /// gives one away that is negative, infinite or NaN.
 void write_densities(const openvdb::GridBase& grid, const io::VdbReply& header,

@@ -37,22 +37,31 @@ void limit(decltype(RLIMIT_AS) resource, std::uint64_t most)
     setrlimit(resource, &limits);
 }
 
+/// What the process may use besides what the program itself takes.
+struct Allowance {
+    std::uint64_t memory;   // [bytes]
+    std::uint64_t seconds;  // of a processor
+};
+
+void allow(const Allowance& allowance)
+{
+    limit(RLIMIT_CPU, allowance.seconds);
+#ifndef BDPT_SANITIZED  // sanitizers take far more, but do not use it
+    constexpr std::uint64_t program = std::uint64_t{256} << 20U;
+    limit(RLIMIT_AS, std::min(allowance.memory, UINT64_MAX / 2) + program);
+#endif
+}
+
 /// Before anything is read. Signals to a group of processes are for who started this, and this ends
 /// with that.
-void limit_process(std::uint64_t bytes, std::uint64_t seconds)
+void limit_process(const Allowance& allowance)
 {
     for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) {
         signal(number, SIG_IGN);
     }
     limit(RLIMIT_CORE, 0);
-    limit(RLIMIT_CPU, seconds);
     limit(RLIMIT_FSIZE, 1U << 20U);  // of messages
-#ifndef BDPT_SANITIZED               // sanitizers take far more, but do not use it
-    // The tree of a grid may be larger than what it stands for: leaves are full, and may hold
-    // doubles.
-    constexpr std::uint64_t program = std::uint64_t{512} << 20U;
-    limit(RLIMIT_AS, bytes > UINT64_MAX / 8 ? RLIM_INFINITY : 3 * bytes + program);
-#endif
+    allow(allowance);
 }
 
 void write(const void* bytes, std::size_t size)
@@ -68,7 +77,8 @@ void write(const void* bytes, std::size_t size)
     }
 }
 
-void read(const std::string& name, const std::string& wanted, std::uint64_t most_bytes)
+void read(const std::string& name, const std::string& wanted, std::uint64_t most_bytes,
+          Allowance allowance)
 {
     openvdb::initialize();
     check_whole_file(name);
@@ -77,6 +87,11 @@ void read(const std::string& name, const std::string& wanted, std::uint64_t most
     const openvdb::GridBase::Ptr grid = file.readGrid(chosen_grid(file, wanted));
     const io::VdbReply header = header_of(*grid, most_bytes);
     write(&header, sizeof(header));
+    // From here on the work is as large as the densities, which `header_of` has limited.
+    constexpr std::uint64_t bytes_per_second = std::uint64_t{64} << 20U;
+    allowance.memory += slab_bytes(header);
+    allowance.seconds += density_bytes(header) / bytes_per_second;
+    allow(allowance);
     write_densities(*grid, header, [](std::span<const float> densities) {
         write(densities.data(), densities.size_bytes());
     });
@@ -91,25 +106,26 @@ int failed(ErrorCode code, const std::string& message)
 
 int run(std::span<char*> words)
 {
-    if (words.size() != 5) {
+    if (words.size() != 6) {
         return failed(ErrorCode::usage,
-                      "expected FILE GRID BYTES SECONDS; bdpt --volume starts it");
+                      "expected FILE GRID BYTES MEMORY SECONDS; bdpt --volume starts it");
     }
-    const std::uint64_t bytes = std::strtoull(words[3], nullptr, 10);
-    limit_process(bytes, std::strtoull(words[4], nullptr, 10));
+    const auto number = [&](std::size_t word) { return std::strtoull(words[word], nullptr, 10); };
+    const Allowance allowance{.memory = number(4), .seconds = number(5)};
+    limit_process(allowance);
     // Threads would take address space, and change nothing: reading is not parallel.
     const tbb::global_control serial(tbb::global_control::max_allowed_parallelism, 1);
     try {
-        read(words[1], words[2], bytes);
+        read(words[1], words[2], number(3), allowance);
         return 0;
     } catch (const Error& error) {
         return failed(error.code(), error.what());
     } catch (const openvdb::LookupError& error) {  // a type of grid or transform
         return failed(ErrorCode::unsupported, plain(error.what(), 200));
     } catch (const std::bad_alloc&) {
-        return failed(ErrorCode::invalid_input,
-                      "broken, or too large: more memory is asked for than for densities of " +
-                          std::to_string(bytes) + " bytes, which is the limit");
+        return failed(ErrorCode::invalid_input, "broken, or too large: its tree takes more than " +
+                                                    std::to_string(allowance.memory) +
+                                                    " bytes, the limit for a file of its size");
     } catch (const std::exception& error) {
         return failed(ErrorCode::invalid_input, std::string("broken: ") + plain(error.what(), 200));
     }

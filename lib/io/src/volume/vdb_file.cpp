@@ -25,6 +25,28 @@ namespace {
 
 using namespace std::string_view_literals;
 
+/// What reading a file may cost.
+struct ReadingLimits {
+    std::uint64_t memory;   // of the tree that its grid becomes [bytes]
+    std::uint64_t seconds;  // of a processor
+};
+
+ReadingLimits reading_limits(std::uint64_t file_bytes, const VolumeOptions& options)
+{
+    // Each node of a tree stores its masks unpacked: with all values packed away, a leaf of doubles
+    // grows 32 times, an inner node 33 times.
+    constexpr std::uint64_t max_growth = 40;
+    constexpr std::uint64_t start_seconds = 10;
+    constexpr std::uint64_t bytes_per_second = 1'000'000;  // a tenth of what a slow machine reads
+    // A tree may be larger than the box that it becomes: its leaves are full, and may be doubles.
+    const std::uint64_t growth = std::min(max_growth, UINT64_MAX / (file_bytes + 1));
+    const ReadLimits& limits = options.limits;
+    return {
+        .memory =
+            std::min({growth * file_bytes, 3 * std::min(limits.volume_bytes, UINT64_MAX / 3)}),
+        .seconds = std::min(limits.volume_seconds, start_seconds + file_bytes / bytes_per_second)};
+}
+
 void check_start(const std::filesystem::path& file, const ReadLimits& limits)
 {
     constexpr std::string_view magic = " BDV\0\0\0\0"sv;
@@ -56,12 +78,13 @@ bool lacks_threads(const ProcessEnd& end)
 }
 
 /// What went wrong, where the reader ended before it had written everything.
-[[noreturn]] void fail(const ProcessEnd& end, const ReadLimits& limits)
+[[noreturn]] void fail(const ProcessEnd& end, const ReadingLimits& limits)
 {
     if (end.signal == SIGXCPU) {
         throw Error(ErrorCode::invalid_input,
-                    fmt::format("not read after {} s of a processor, but the limit is {} s",
-                                limits.volume_seconds, limits.volume_seconds));
+                    fmt::format("broken, or too large: not read after {} s of a processor, the "
+                                "limit for a file of its size",
+                                limits.seconds));
     }
     if (end.signal == SIGKILL) {
         throw Error(ErrorCode::out_of_memory,
@@ -112,17 +135,20 @@ VdbGrid read_vdb(const std::filesystem::path& file, const VolumeOptions& options
 {
     const ReadLimits& limits = options.limits;
     check_start(file, limits);
-    ChildProcess reader(find_reader(), {file.string(), options.grid.value_or(""),
-                                        std::to_string(limits.volume_bytes),
-                                        std::to_string(limits.volume_seconds)});
+    const ReadingLimits allowed = reading_limits(std::filesystem::file_size(file), options);
+    ChildProcess reader(
+        find_reader(),
+        {file.string(), options.grid.value_or(""), std::to_string(limits.volume_bytes),
+         std::to_string(allowed.memory), std::to_string(allowed.seconds)});
     VdbGrid grid;
     if (reader.read(&grid.header, sizeof(grid.header)) != sizeof(grid.header)) {
-        fail(reader.wait(), limits);
+        fail(reader.wait(), allowed);
     }
-    grid.density.resize(checked_count(grid.header, limits));
+    const std::size_t count = checked_count(grid.header, limits);
+    grid.density.resize(count);
     const std::size_t size = grid.density.size() * sizeof(float);
     if (reader.read(grid.density.data(), size) != size) {
-        fail(reader.wait(), limits);
+        fail(reader.wait(), allowed);
     }
     static_cast<void>(reader.wait());
     return grid;

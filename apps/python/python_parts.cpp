@@ -20,6 +20,7 @@
 #include "attributes.h"
 #include "options/values/view.h"
 #include "python_scene.h"
+#include "terminal/memory_limit.h"
 
 namespace bdpt::python {
 namespace {
@@ -166,7 +167,8 @@ void make_scene(PythonScene* self, const std::vector<ArrayMesh>& meshes,
                                      .size = {size.first, size.second},
                                      .warnings = std::move(warnings),
                                      .lights = count,
-                                     .cameras = {view}},
+                                     .cameras = {view},
+                                     .memory = io::MemoryBudget(app::memory_limit(std::nullopt))},
                            .file = {},
                            .words = {}};
 }

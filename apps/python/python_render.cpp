@@ -26,6 +26,8 @@
 #include "report/part/merged_files.h"
 #include "report/render_settings.h"
 #include "stage/input_files.h"
+#include "stage/render_preparation.h"
+#include "terminal/memory_limit.h"
 
 namespace bdpt::python {
 namespace {
@@ -65,6 +67,8 @@ Task prepare(PythonScene& scene, const nb::kwargs& options)
     }
     arguments.options.film.width = size.width;
     arguments.options.film.height = size.height;
+    io::MemoryBudget memory = scene.stage.memory;
+    spend_film(memory, arguments.options, size);
     arguments.options.sampling.samples = arguments.samples;
     const app::Size own_size = std::exchange(scene.stage.size, size);
     CameraDesc own_camera = std::exchange(scene.stage.camera, task.camera);
@@ -175,7 +179,8 @@ Render read_part(const fs::path& file)
 {
     const io::PartInfo info = io::read_part_info(file);
     Render render{.part = {}, .notes = info.notes};
-    io::merge_part(render.part, info);
+    io::MemoryBudget memory(app::memory_limit(std::nullopt));
+    io::merge_part(render.part, info, &memory);
     render.backdrop = app::display_of_parts(info.notes.metadata, {}).backdrop;
     return render;
 }

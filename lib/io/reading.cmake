@@ -7,6 +7,7 @@ target_sources(bdpt_io PRIVATE
   src/file/json_parser.cpp
   src/file/json_place.cpp
   src/file/json_value.cpp
+  src/file/memory_budget.cpp
   src/file/memory_figures.cpp
   src/file/read_file.cpp
   src/file/standard_input.cpp

@@ -147,9 +147,10 @@ TEST_CASE("files of volumes that cannot be read end a command in one line", "[vo
     write_text(cut, read_text(smoke).substr(0, 20'000));
     room.refuse({"--volume", cut}, 4, {cut + ": "});
     room.refuse({"--volume", smoke, "--max-memory", "400000"}, 4,
-                {"smoke.vdb: grid \"density\": its box of", "the limit is", "--max-memory 400000"});
+                {"smoke.vdb: grid \"density\" needs ", "of 400 kB are left (--max-memory)"});
     // Together with the scene it is too much.
-    room.refuse({"--volume", smoke, "--max-memory", "820000"}, 4, {"memory in all"});
+    room.refuse({"--volume", smoke, "--max-memory", "820000"}, 4,
+                {"of 820 kB are left (--max-memory)"});
     const Words over{"--volume", smoke, "-o", smoke};
     CHECK(run(room.words("render", over)).exit_code == 2);
 }

@@ -7,6 +7,7 @@
 #include <bdpt/scene.h>
 
 #include <CLI/CLI.hpp>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -106,7 +107,8 @@ void add_info_options(CLI::App& command, InfoArguments& arguments)
 int run_info(const InfoArguments& arguments)
 {
     using nlohmann::ordered_json;
-    const io::GltfOptions options = to_gltf_options(arguments.scene);
+    io::GltfOptions options = to_gltf_options(arguments.scene);
+    options.memory = std::make_shared<io::MemoryBudget>(memory_limit(arguments.scene));
     std::string text;
     ordered_json json = ordered_json::object();
     if (!arguments.file.empty()) {

@@ -30,6 +30,7 @@
 #include "report/stats_file.h"
 #include "terminal/console.h"
 #include "terminal/interrupt.h"
+#include "terminal/memory_limit.h"
 #include "terminal/text.h"
 
 namespace bdpt::app {
@@ -162,8 +163,9 @@ void merge(const MergeArguments& arguments, const PartCollection& collection,
     const DisplayArguments display =
         display_of_parts(parts.front().notes.metadata, arguments.display);
     RenderPart sum;
+    io::MemoryBudget memory(memory_limit(std::nullopt));
     for (const PartInfo& part : parts) {
-        io::merge_part(sum, part);
+        io::merge_part(sum, part, &memory);
     }
     io::PartNotes notes = parts.front().notes;
     notes.goal = collection.goal;

@@ -231,7 +231,7 @@ PreparedScene load_first_image(const RenderArguments& asked, Console& console)
         one.sequence->cameras = SequenceCameras::one;
     }
     const SequenceView frame = views_of(one, {}).front();
-    PreparedScene stage = prepare_within_memory(arguments_of(one, frame), console);
+    PreparedScene stage = prepare_with_progress(arguments_of(one, frame), console);
     console.end_progress();
     const SequenceView view = views_of(asked, camera_names(stage)).front();
     Viewpoint seen =

@@ -325,6 +325,9 @@ void render_view(const RenderArguments& asked, const PreparedScene& stage,
                                          .choose = choosing.count(),
                                          .render = result.seconds,
                                          .write = writing.count()}));
+        stats["memory"] = {{"estimated_bytes", stage.memory.spent()},
+                           {"limit_bytes", stage.memory.limit().bytes},
+                           {"limit", stage.memory.limit().source}};
         if (arguments.part) {
             stats["part"] = {{"file", arguments.part->file.string()},
                              {"samples", samples},

@@ -356,7 +356,7 @@ RenderArguments understand(const RenderWords& words)
     check_lens(words.lens);
     result.lens = words.lens;
     result.scene = to_gltf_options(words.scene);
-    result.max_memory = memory_limit(words.scene);
+    result.memory = memory_limit(words.scene);
     result.environment = words.environment;
     result.texture_filter =
         words.texture_filter == "mip" ? TextureFilter::mip_mapped : TextureFilter::bilinear;

@@ -90,9 +90,9 @@ struct RenderArguments {
     ViewOverrides view;
     LensWords lens;  ///< checked
     Isa isa = Isa::native;
-    io::GltfOptions scene;                    ///< what of the file is rendered
-    std::optional<std::uint64_t> max_memory;  ///< [bytes] for scene and film
-    std::optional<std::string> environment;   ///< file, "none" or "default"
+    io::GltfOptions scene;                   ///< what of the file is rendered
+    io::MemoryLimit memory;                  ///< for scene and film
+    std::optional<std::string> environment;  ///< file, "none" or "default"
     TextureFilter texture_filter = TextureFilter::bilinear;
     EnvironmentChange environment_change;  ///< of whichever environment it is
     std::optional<MediumDesc> fog;         ///< around all bodies, if any

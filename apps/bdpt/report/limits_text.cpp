@@ -22,23 +22,24 @@ std::vector<Limit> list(const io::ReadLimits& limits)
     const auto& [file_bytes, buffer_bytes, json_bytes, json_depth, json_values, nodes, node_depth,
                  instances, mesh_bytes, triangles, image_side, image_bytes, texture_bytes,
                  volume_bytes, volume_seconds, compression_ratio, memory_bytes] = limits;
-    return {{"file_bytes", file_bytes, "bytes of one file"},
-            {"buffer_bytes", buffer_bytes, "bytes of all buffers of a scene"},
-            {"json_bytes", json_bytes, "bytes of the JSON text, data URIs included"},
-            {"json_depth", json_depth, "nested objects and arrays"},
-            {"json_values", json_values, "objects, arrays, strings, numbers"},
-            {"nodes", nodes, "nodes of a scene"},
-            {"node_depth", node_depth, "nested nodes"},
-            {"instances", instances, "meshes placed in a scene"},
-            {"mesh_bytes", mesh_bytes, "bytes of vertices, key frames and instances, decoded"},
-            {"triangles", triangles, "triangles, each mesh once"},
-            {"image_side", static_cast<std::uint64_t>(image_side), "pixels a side of an image"},
-            {"image_bytes", image_bytes, "bytes of one image, decoded"},
-            {"texture_bytes", texture_bytes, "bytes of all images, decoded"},
-            {"volume_bytes", volume_bytes, "bytes of the densities of a volume"},
-            {"volume_seconds", volume_seconds, "seconds of a processor to read a volume"},
-            {"compression_ratio", compression_ratio, "decoded over encoded size"},
-            {"memory_bytes", memory_bytes, "bytes of all that a scene takes, as estimated"}};
+    return {
+        {"file_bytes", file_bytes, "bytes of one file"},
+        {"buffer_bytes", buffer_bytes, "bytes of all buffers of a scene"},
+        {"json_bytes", json_bytes, "bytes of the JSON text, data URIs included"},
+        {"json_depth", json_depth, "nested objects and arrays"},
+        {"json_values", json_values, "objects, arrays, strings, numbers"},
+        {"nodes", nodes, "nodes of a scene"},
+        {"node_depth", node_depth, "nested nodes"},
+        {"instances", instances, "meshes placed in a scene"},
+        {"mesh_bytes", mesh_bytes, "bytes of vertices, key frames and instances, decoded"},
+        {"triangles", triangles, "triangles, each mesh once"},
+        {"image_side", static_cast<std::uint64_t>(image_side), "pixels a side of an image"},
+        {"image_bytes", image_bytes, "bytes of one image, decoded"},
+        {"texture_bytes", texture_bytes, "bytes of all images, decoded"},
+        {"volume_bytes", volume_bytes, "bytes of the densities of a volume"},
+        {"volume_seconds", volume_seconds, "seconds of a processor to read a volume"},
+        {"compression_ratio", compression_ratio, "decoded over encoded size of compressed meshes"},
+        {"memory_bytes", memory_bytes, "bytes of all that a scene takes, as estimated"}};
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -17,6 +18,7 @@
 
 #include "options/values/view.h"
 #include "stage/environment_change.h"
+#include "stage/scene_memory.h"
 
 namespace bdpt::app {
 namespace {
@@ -75,7 +77,8 @@ LitScene add_environment(SceneDesc desc, const RenderArguments& arguments)
         lit.environment_name = choice;
         lit.desc.lights.push_back(default_environment());
     } else if (!choice.empty()) {
-        io::LoadedEnvironment loaded = io::load_environment(choice);
+        io::LoadedEnvironment loaded =
+            io::load_environment(choice, arguments.scene.limits, arguments.scene.memory.get());
         for (const std::string& warning : loaded.warnings) {
             lit.warnings.push_back(fmt::format("{}: {}", choice, warning));
         }
@@ -174,30 +177,26 @@ std::vector<VolumeDesc> load_volumes(const RenderArguments& arguments)
     if (arguments.volume) {
         io::VolumeOptions options = arguments.volume->options;
         options.limits = arguments.scene.limits;
+        options.memory = arguments.scene.memory;
         volumes.push_back(io::load_volume(arguments.volume->file, options));
     }
     return volumes;
 }
 
-/// `options` with the memory that `volumes` leave; they have less than all of it.
-io::GltfOptions beside(const std::vector<VolumeDesc>& volumes, io::GltfOptions options)
-{
-    for (const VolumeDesc& volume : volumes) {
-        options.limits.memory_bytes -= volume.density.size() * sizeof(float);
-    }
-    return options;
-}
-
 }  // namespace
 
-PreparedScene prepare_scene(const RenderArguments& arguments,
+PreparedScene prepare_scene(const RenderArguments& asked,
                             const std::function<void(const SceneDesc&)>& look)
 {
+    RenderArguments arguments = asked;
+    if (!arguments.scene.memory) {
+        arguments.scene.memory = std::make_shared<io::MemoryBudget>(asked.memory);
+    }
     const auto start = std::chrono::steady_clock::now();
     const std::string file = arguments.file.string();
     const ThreadLimit threads = limit_threads(arguments.options.system.threads);
     std::vector<VolumeDesc> volumes = load_volumes(arguments);
-    io::LoadedScene loaded = io::load_gltf(arguments.file, beside(volumes, arguments.scene));
+    io::LoadedScene loaded = io::load_gltf(arguments.file, arguments.scene);
 
     std::vector<std::string> warnings;
     if (threads.allowed < threads.wanted) {
@@ -225,6 +224,8 @@ PreparedScene prepare_scene(const RenderArguments& arguments,
     loaded.scene.volumes = std::move(volumes);
     LitScene lit = add_environment(std::move(loaded.scene), arguments);
     const bool only_emitters = lit.desc.lights.empty() && has_light(lit.desc);
+    spend_building(*arguments.scene.memory, lit.desc,
+                   lit.sky == Sky::fallback ? Copies::two : Copies::one);
     const auto loading_end = std::chrono::steady_clock::now();
     BuiltScene built = build(lit, arguments, aspect, look);
     const auto building_end = std::chrono::steady_clock::now();
@@ -257,7 +258,8 @@ PreparedScene prepare_scene(const RenderArguments& arguments,
             lights,
             only_emitters,
             std::move(loaded.cameras),
-            std::move(loaded.files)};
+            std::move(loaded.files),
+            *arguments.scene.memory};
 }
 
 Viewpoint viewpoint(const PreparedScene& stage, std::size_t index, const RenderArguments& arguments)

@@ -29,6 +29,7 @@ struct PreparedScene {
     bool only_emitters = false;
     std::vector<CameraDesc> cameras{};           ///< those of the scene
     std::vector<std::filesystem::path> files{};  ///< that the scene names
+    io::MemoryBudget memory;                     ///< of which the scene has taken its part
 };
 
 /// A camera and the size of its image.
@@ -38,7 +39,8 @@ struct Viewpoint {
 };
 
 /// Loads the file, and fills in what it lacks by the rules that `bdpt render --help` states.
-/// `look` is shown what the scene will be built from. Throws `Error`.
+/// What that takes is taken from `arguments.scene.memory`, or from `arguments.memory` if there is
+/// none. `look` is shown what the scene will be built from. Throws `Error`.
 [[nodiscard]] PreparedScene prepare_scene(const RenderArguments& arguments,
                                           const std::function<void(const SceneDesc&)>& look = {});
 

@@ -21,25 +21,6 @@
 namespace bdpt::app {
 namespace {
 
-/// What the film takes of --max-memory; 0 without a limit.
-std::uint64_t reserved_bytes(const RenderArguments& arguments)
-{
-    if (!arguments.max_memory) {
-        return 0;
-    }
-    // Without --size, as large as it can be.
-    const Size size = arguments.size.value_or(default_size(std::nullopt));
-    const std::uint64_t bytes = film_bytes(arguments.options, size);
-    if (bytes >= *arguments.max_memory) {
-        throw Error(ErrorCode::invalid_input,
-                    fmt::format("the film of {}x{} pixels takes {} bytes, but the limit is {} "
-                                "(--max-memory); a smaller --size, --crop or fewer layers of --aov "
-                                "take less",
-                                size.width, size.height, bytes, *arguments.max_memory));
-    }
-    return bytes;
-}
-
 /// `arguments`, whose loading shows on the console how far it is.
 RenderArguments with_progress(RenderArguments arguments, Console& console)
 {
@@ -68,13 +49,10 @@ RenderOptions options_for(const RenderArguments& arguments, const PreparedScene&
     options.film.width = stage.size.width;
     options.film.height = stage.size.height;
     options.sampling.samples = arguments.samples;
-    if (arguments.max_memory) {
-        options.bidirectional.strategy_memory =
-            std::min(options.bidirectional.strategy_memory,
-                     *arguments.max_memory - reserved_bytes(arguments));
-        options.bidirectional.light_path_memory =
-            std::min(options.bidirectional.light_path_memory,
-                     *arguments.max_memory - reserved_bytes(arguments));
+    const std::uint64_t left = stage.memory.left();
+    for (std::uint64_t* limit :
+         {&options.bidirectional.strategy_memory, &options.bidirectional.light_path_memory}) {
+        *limit = std::min(*limit, left);
     }
     if (arguments.strategies) {
         const StrategyDepth depth = strategy_depth(*arguments.strategies, options, stage.camera);
@@ -115,34 +93,32 @@ std::shared_ptr<const SampleRates> rates_of(const RenderArguments& arguments,
 
 std::uint64_t image_cache_bytes(const RenderArguments& arguments)
 {
-    constexpr std::uint64_t without_limit = std::uint64_t{2} << 30U;
-    return arguments.max_memory ? *arguments.max_memory / 4 : without_limit;
+    constexpr std::uint64_t most = std::uint64_t{2} << 30U;
+    return std::min(most, arguments.memory.bytes / 4);
+}
+
+void spend_film(io::MemoryBudget& memory, const RenderOptions& options, const Size& size)
+{
+    memory.spend(fmt::format("the film of {}x{} pixels", size.width, size.height),
+                 film_bytes(options, size));
+}
+
+PreparedScene prepare_with_progress(const RenderArguments& arguments, Console& console)
+{
+    return prepare_scene(with_progress(arguments, console));
 }
 
 PreparedScene prepare_within_memory(const RenderArguments& asked, Console& console)
 {
-    RenderArguments arguments = with_progress(asked, console);
-    const std::uint64_t film = reserved_bytes(arguments);
-    if (film == 0) {
-        return prepare_scene(arguments);
+    RenderArguments arguments = asked;
+    arguments.scene.memory = std::make_shared<io::MemoryBudget>(asked.memory);
+    // Without --size, as large as it can be.
+    spend_film(*arguments.scene.memory, asked.options,
+               asked.size.value_or(default_size(std::nullopt)));
+    if (asked.scene.images) {
+        arguments.scene.memory->spend("the images of other frames", image_cache_bytes(asked));
     }
-    const std::uint64_t kept = arguments.scene.images ? image_cache_bytes(arguments) : 0;
-    const std::uint64_t left = *arguments.max_memory - film;
-    arguments.scene.limits = io::limits_within(left - std::min(left - 1, kept));
-    try {
-        return prepare_scene(arguments);
-    } catch (const Error& error) {
-        const std::string message = error.what();
-        if (message.find("limit is") == std::string::npos &&
-            message.find("of memory in all") == std::string::npos) {
-            throw;
-        }
-        throw Error(
-            error.code(),
-            fmt::format("{} (--max-memory {} less {} for the film{})", message,
-                        *arguments.max_memory, film,
-                        kept > 0 ? fmt::format(" and {} for images of other frames", kept) : ""));
-    }
+    return prepare_with_progress(arguments, console);
 }
 
 RenderArguments with_choice(RenderArguments arguments, const PreparedScene& stage, Console& console)

@@ -10,11 +10,20 @@
 
 namespace bdpt::app {
 
-/// Memory for decoded images that stay from frame to frame [bytes]: a quarter of --max-memory.
+/// Memory for decoded images that stay from frame to frame [bytes]: a quarter of the limit, but not
+/// more than 2 GiB.
 [[nodiscard]] std::uint64_t image_cache_bytes(const RenderArguments& arguments);
 
+/// Loads the scene, and shows on the console how far it is. Throws `Error`.
+[[nodiscard]] PreparedScene prepare_with_progress(const RenderArguments& arguments,
+                                                  Console& console);
+
+/// Takes what the film of a render of `size` and its layers need. Throws `Error` if that is too
+/// much.
+void spend_film(io::MemoryBudget& memory, const RenderOptions& options, const Size& size);
+
 /// Loads the scene into the memory that the film and the cache of images, if there is one, leave of
-/// --max-memory, and shows on the console how far it is. Throws `Error`.
+/// `arguments.memory`, and shows on the console how far it is. Throws `Error`.
 [[nodiscard]] PreparedScene prepare_within_memory(const RenderArguments& arguments,
                                                   Console& console);
 

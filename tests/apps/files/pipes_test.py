@@ -56,6 +56,13 @@ def check_other_commands(folder):
 
 def check_refusals(folder):
     yield "empty input", bdpt("render", "-", *HOW, "-o", "-").returncode == 4
+    zeros = subprocess.Popen([COMMAND, "render", "-", *HOW, "-o", "-"], stdin=open("/dev/zero", "rb"),
+                             stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    line = zeros.stderr.read()
+    _, status, usage = os.wait4(zeros.pid, 0)
+    zeros.returncode = os.waitstatus_to_exitcode(status)
+    yield "an input without end", zeros.returncode == 4 and line.startswith(b"bdpt: error: -: ")
+    yield "the memory of an input without end", usage.ru_maxrss < 200_000  # [KiB]
     yield "two outputs", bdpt("render", SCENE, *HOW, "-o", "-", "-o", "png:-").returncode == 2
     yield "JSON beside an image", bdpt("render", SCENE, *HOW, "-o", "-", "--json").returncode == 2
     yield "two inputs", bdpt("render", "-", "--env", "-", *HOW, "-o", "-", source=SCENE).returncode == 2

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "options/arguments.h"
-#include "terminal/cgroup_limits.h"
+#include "terminal/memory_limit.h"
 
 namespace bdpt::app {
 namespace {
@@ -58,23 +58,22 @@ void add_scene_options(CLI::App& command, SceneWords& words, const std::string& 
     command
         .add_option("--max-memory", words.max_memory,
                     "Refuse scenes that need more memory than this, like 500M or 2G; a render "
-                    "counts its film and layers, too. Default: see bdpt info --limits, or what the "
-                    "container is allowed if that is less")
+                    "counts its film and layers, too. Default, and never more: what the machine "
+                    "has free, the container is allowed and ulimit -v leaves")
         ->type_name("SIZE")
         ->group(group);
 }
 
-std::optional<std::uint64_t> memory_limit(const SceneWords& words)
+io::MemoryLimit memory_limit(const SceneWords& words)
 {
     if (!words.max_memory) {
-        const std::optional<std::uint64_t> allowed = cgroup_limits().memory;
-        return allowed && *allowed < io::ReadLimits{}.memory_bytes ? allowed : std::nullopt;
+        return memory_limit(std::nullopt);
     }
     const std::optional<std::uint64_t> bytes = parse_bytes(*words.max_memory);
     if (!bytes) {
         reject("--max-memory", *words.max_memory, "a size like 500M or 2G");
     }
-    return bytes;
+    return memory_limit(bytes);
 }
 
 io::GltfOptions to_gltf_options(const SceneWords& words)
@@ -94,9 +93,7 @@ io::GltfOptions to_gltf_options(const SceneWords& words)
                    "seconds that are not negative, or OPEN,CLOSE with OPEN not after CLOSE");
         }
     }
-    if (const std::optional<std::uint64_t> bytes = memory_limit(words)) {
-        options.limits = io::limits_within(*bytes);
-    }
+    options.limits.memory_bytes = memory_limit(words).bytes;
     return options;
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <bdpt/io/gltf.h>
+#include <bdpt/io/memory_budget.h>
 
-#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -27,9 +27,8 @@ struct SceneWords {
 /// group `group` of the help text.
 void add_scene_options(CLI::App& command, SceneWords& words, const std::string& group);
 
-/// The limit of --max-memory [bytes], or that of the control group if it is below our default one.
-/// Throws `OptionError`.
-[[nodiscard]] std::optional<std::uint64_t> memory_limit(const SceneWords& words);
+/// That of --max-memory or of the machine, whichever is less. Throws `OptionError`.
+[[nodiscard]] io::MemoryLimit memory_limit(const SceneWords& words);
 
 /// Throws `Error` (usage) that names the option and the value.
 [[nodiscard]] io::GltfOptions to_gltf_options(const SceneWords& words);

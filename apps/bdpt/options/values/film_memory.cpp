@@ -44,7 +44,8 @@ std::uint64_t film_bytes(const RenderOptions& options, const Size& size)
     std::uint64_t pixel = halves * (splats ? 2 : 1) * color_sum + sizeof(Rgb);
     for (const AovCost& cost : aov_costs) {
         if (options.film.aovs.contains(cost.aov)) {
-            pixel += cost.sums + cost.channels * sizeof(float);
+            // Developed, and once more in the order of a file.
+            pixel += cost.sums + 2 * cost.channels * sizeof(float);
         }
     }
     const PixelRect region = options.film.crop.value_or(

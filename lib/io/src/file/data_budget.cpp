@@ -6,7 +6,18 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace bdpt::io {
+
+DataBudget::DataBudget(const ReadLimits& limits, std::shared_ptr<MemoryBudget> memory)
+    : limit_(limits.mesh_bytes), memory_(std::move(memory))
+{
+    if (!memory_) {
+        memory_ = std::make_shared<MemoryBudget>(
+            MemoryLimit{.bytes = limits.memory_bytes, .source = "the limit memory_bytes"});
+    }
+}
 
 void DataBudget::spend(const std::string& place, std::uint64_t count, std::uint64_t size)
 {
@@ -21,22 +32,7 @@ void DataBudget::spend(const std::string& place, std::uint64_t count, std::uint6
                         place, human_bytes(need), human_bytes(static_cast<long double>(limit_))));
     }
     spent_ += count * size;
-    try {
-        spend_memory(count * size);
-    } catch (const Error& error) {
-        throw Error(error.code(), place + ": " + error.what());
-    }
-}
-
-void DataBudget::spend_memory(std::uint64_t bytes)
-{
-    // What was there before may be more than the limit.
-    if (memory_ > memory_limit_ || bytes > memory_limit_ - memory_) {
-        throw Error(ErrorCode::invalid_input,
-                    fmt::format("the scene needs more than {} of memory in all",
-                                human_bytes(static_cast<long double>(memory_limit_))));
-    }
-    memory_ += bytes;
+    memory_->spend(place, count * size);
 }
 
 }  // namespace bdpt::io

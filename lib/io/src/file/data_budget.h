@@ -1,8 +1,10 @@
 #pragma once
 
+#include <bdpt/io/memory_budget.h>
 #include <bdpt/io/read_limits.h>
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
 namespace bdpt::io {
@@ -12,26 +14,21 @@ namespace bdpt::io {
 /// name one of gigabytes a thousand times.
 class DataBudget {
 public:
-    explicit DataBudget(const ReadLimits& limits)
-        : limit_(limits.mesh_bytes), memory_limit_(limits.memory_bytes)
-    {}
-
-    /// Counts bytes that are in memory already, whether the limit allows them or not.
-    void hold(std::uint64_t bytes) { memory_ += bytes; }
+    /// `memory` is for all that the file takes; null: one of `ReadLimits::memory_bytes` alone.
+    explicit DataBudget(const ReadLimits& limits, std::shared_ptr<MemoryBudget> memory = nullptr);
 
     /// Takes `count` elements of `size` bytes. `place` is the JSON pointer to what needs them.
     /// Throws `Error` (invalid_input) that names place, need and limit when there is no more.
     void spend(const std::string& place, std::uint64_t count, std::uint64_t size);
 
-    /// Takes `bytes` for something else; only the limit of all memory counts. Throws `Error`
-    /// (invalid_input), which names no place, when there is no more.
-    void spend_memory(std::uint64_t bytes);
+    /// For what is no vertex, key frame, light profile or instance.
+    [[nodiscard]] MemoryBudget& memory() { return *memory_; }
+    [[nodiscard]] const MemoryBudget& memory() const { return *memory_; }
 
 private:
-    std::uint64_t limit_ = 0;         // [bytes]
-    std::uint64_t spent_ = 0;         // [bytes]
-    std::uint64_t memory_limit_ = 0;  // [bytes]
-    std::uint64_t memory_ = 0;        // that all takes [bytes]
+    std::uint64_t limit_ = 0;  // [bytes]
+    std::uint64_t spent_ = 0;  // [bytes]
+    std::shared_ptr<MemoryBudget> memory_;
 };
 
 }  // namespace bdpt::io

@@ -7,6 +7,7 @@
 #include <bdpt/io/read_limits.h>
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
 namespace bdpt::io {
@@ -15,7 +16,8 @@ namespace bdpt::io {
 struct LoadContext {
     std::filesystem::path folder;  ///< that relative URIs start from
     ReadLimits limits{};
-    DataBudget budget{limits};
+    std::shared_ptr<MemoryBudget> memory{};  ///< of the caller, if there is one
+    DataBudget budget{limits, memory};
     Warnings warnings{};
     ImageCache* images = nullptr;  ///< of other loads, if there is one
 

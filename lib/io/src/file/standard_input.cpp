@@ -11,52 +11,82 @@
 #include <array>
 #include <cerrno>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <mutex>
+#include <optional>
+#include <span>
 #include <system_error>
 
 namespace bdpt::io {
 namespace {
 
-/// Appends what is left, but not more than makes it longer than `limit`.
-void read_rest(Bytes& bytes, std::uint64_t limit)
+constexpr std::uint64_t no_end = std::numeric_limits<std::uint64_t>::max();
+
+/// The next bytes, at most `block.size()`; 0 at the end.
+std::size_t read_some(std::span<std::uint8_t> block)
 {
-    std::array<std::uint8_t, 65536> block{};
-    while (bytes.size() <= limit) {
-        const ssize_t count = ::read(STDIN_FILENO, block.data(), block.size());
-        if (count == 0) {
-            return;
-        }
-        if (count < 0 && errno != EINTR) {
-            throw Error(ErrorCode::not_found,
-                        "standard input cannot be read: " + std::generic_category().message(errno));
-        }
-        if (count > 0) {
-            bytes.insert(bytes.end(), block.begin(), block.begin() + count);
-        }
+    ssize_t count = -1;
+    do {
+        count = ::read(STDIN_FILENO, block.data(), block.size());
+    } while (count < 0 && errno == EINTR);
+    if (count < 0) {
+        throw Error(ErrorCode::not_found,
+                    "standard input cannot be read: " + std::generic_category().message(errno));
     }
+    return static_cast<std::size_t>(count);
 }
 
-Bytes standard_input(std::uint64_t limit)
+/// All of it, or as much as is worth reading.
+Bytes read_all(std::uint64_t limit, const WorthReading& worth, const MemoryBudget* memory)
+{
+    constexpr std::size_t start_size = 4096;  // enough to know what it is
+    Bytes bytes;
+    std::array<std::uint8_t, 65536> block{};
+    std::uint64_t end = no_end;
+    bool judged = !worth;
+    for (std::size_t count = read_some(block); count > 0; count = read_some(block)) {
+        if (memory != nullptr && bytes.size() + count > bytes.capacity()) {
+            memory->check("standard input", 3 * bytes.size());  // it moves to twice the room
+        }
+        bytes.insert(bytes.end(), block.begin(),
+                     block.begin() + static_cast<std::ptrdiff_t>(count));
+        if (!judged && bytes.size() >= start_size) {
+            end = worth(bytes);
+            judged = true;
+        }
+        if (bytes.size() > limit) {
+            throw Error(ErrorCode::invalid_input,
+                        fmt::format("standard input has more than {} bytes, the limit", limit));
+        }
+        if (bytes.size() >= end) {
+            break;
+        }
+    }
+    return bytes;
+}
+
+Bytes standard_input(std::uint64_t limit, const WorthReading& worth, const MemoryBudget* memory)
 {
     static std::mutex mutex;
-    static Bytes all;
+    static std::optional<Bytes> all;
     const std::lock_guard lock(mutex);
     if (::isatty(STDIN_FILENO) != 0) {
         throw Error(ErrorCode::not_found, "standard input is a terminal: nothing comes from it");
     }
-    read_rest(all, limit);
-    if (all.size() > limit) {
-        throw Error(ErrorCode::invalid_input,
-                    fmt::format("standard input has more than {} bytes, the limit", limit));
+    if (!all) {
+        all = read_all(limit, worth, memory);
     }
-    return all;
+    return *all;
 }
 
 }  // namespace
 
-Bytes read_named(const std::filesystem::path& file, std::uint64_t limit)
+Bytes read_named(const std::filesystem::path& file, std::uint64_t limit, const WorthReading& worth,
+                 const MemoryBudget* memory)
 {
-    return file == "-" ? standard_input(limit) : read_file(file, limit);
+    return file == "-" ? standard_input(limit, worth, memory)
+                       : read_file(file, limit, no_end, memory);
 }
 
 }  // namespace bdpt::io

@@ -8,11 +8,9 @@
 
 namespace bdpt::io {
 
-void check_image_size(int width, int height, std::uint64_t bytes_per_pixel, std::uint64_t encoded,
-                      const ReadLimits& limits)
+void check_image_size(int width, int height, std::uint64_t bytes_per_pixel,
+                      const ReadLimits& limits, const MemoryBudget* memory)
 {
-    // Small images of one colour are packed a thousandfold in good faith.
-    constexpr std::uint64_t harmless = std::uint64_t{64} << 20;
     if (width > limits.image_side || height > limits.image_side) {
         throw Error(ErrorCode::invalid_input,
                     fmt::format("image of {} x {} pixels, but the limit is {} a side", width,
@@ -26,10 +24,8 @@ void check_image_size(int width, int height, std::uint64_t bytes_per_pixel, std:
                                 height, human_bytes(static_cast<long double>(decoded)),
                                 human_bytes(static_cast<long double>(limits.image_bytes))));
     }
-    if (decoded > harmless && decoded / limits.compression_ratio > encoded) {
-        throw Error(ErrorCode::invalid_input,
-                    fmt::format("image of {} x {} pixels in {} bytes: more than {} times packed",
-                                width, height, encoded, limits.compression_ratio));
+    if (memory != nullptr) {
+        memory->check(fmt::format("image of {} x {} pixels", width, height), decoded);
     }
 }
 

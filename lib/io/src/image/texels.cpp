@@ -57,7 +57,7 @@ EncodedImage::EncodedImage(ByteView bytes, const ReadLimits& limits) : file_(ope
     const TexelImage layout = layout_of(file_);
     const std::uint64_t texel_bytes =
         static_cast<std::uint64_t>(layout.channels) * size_of(layout.type);
-    check_image_size(layout.width, layout.height, texel_bytes, bytes.size(), limits);
+    check_image_size(layout.width, layout.height, texel_bytes, limits);
     decoded_bytes_ = static_cast<std::uint64_t>(layout.width) *
                      static_cast<std::uint64_t>(layout.height) * texel_bytes;
 }

@@ -9,6 +9,7 @@
 #include <bdpt/error.h>
 #include <bdpt/io/part_file.h>
 #include <bdpt/io/read_limits.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -134,6 +135,18 @@ void check_planes(const Imf::Header& exr, const PartHeader& header, const Sealed
     }
 }
 
+/// What the films take, and the image that they are developed to.
+void spend_films(MemoryBudget& memory, const Imf::Header& exr, const PixelRect& region)
+{
+    std::uint64_t pixel = sizeof(Rgb);
+    for (auto i = exr.channels().begin(); i != exr.channels().end(); ++i) {
+        pixel += sizeof(std::uint32_t);
+    }
+    memory.spend(fmt::format("its film of {}x{} pixels", region.width(), region.height()),
+                 pixel * static_cast<std::uint64_t>(region.width()) *
+                     static_cast<std::uint64_t>(region.height()));
+}
+
 void merge_header(RenderPart& part, const PartHeader& header)
 {
     if (part.samples.empty()) {
@@ -198,7 +211,7 @@ PartInfo read_part_info(const std::filesystem::path& path)
     });
 }
 
-void merge_part(RenderPart& part, const PartInfo& info)
+void merge_part(RenderPart& part, const PartInfo& info, MemoryBudget* memory)
 {
     with_part_file(info.file, [&](Imf::MultiPartInputFile& exr, const SealedFile& file) {
         if (file.hash() != info.hash) {
@@ -206,6 +219,9 @@ void merge_part(RenderPart& part, const PartInfo& info)
         }
         const PartHeader header = read_header(exr);
         check_planes(exr.header(1), header, file);
+        if (memory != nullptr && part.samples.empty()) {
+            spend_films(*memory, exr.header(1), header.layout.region);
+        }
         merge_header(part, header);
         Imf::InputPart input(exr, 1);
         PlaneRow row(part, header.ranks);

@@ -40,10 +40,11 @@ ReadingLimits reading_limits(std::uint64_t file_bytes, const VolumeOptions& opti
     constexpr std::uint64_t bytes_per_second = 1'000'000;  // a tenth of what a slow machine reads
     // A tree may be larger than the box that it becomes: its leaves are full, and may be doubles.
     const std::uint64_t growth = std::min(max_growth, UINT64_MAX / (file_bytes + 1));
+    const std::uint64_t left = options.memory ? options.memory->left() : UINT64_MAX;
     const ReadLimits& limits = options.limits;
     return {
-        .memory =
-            std::min({growth * file_bytes, 3 * std::min(limits.volume_bytes, UINT64_MAX / 3)}),
+        .memory = std::min(
+            {growth * file_bytes, 3 * std::min(limits.volume_bytes, UINT64_MAX / 3), left}),
         .seconds = std::min(limits.volume_seconds, start_seconds + file_bytes / bytes_per_second)};
 }
 
@@ -145,6 +146,10 @@ VdbGrid read_vdb(const std::filesystem::path& file, const VolumeOptions& options
         fail(reader.wait(), allowed);
     }
     const std::size_t count = checked_count(grid.header, limits);
+    if (options.memory) {
+        constexpr std::uint64_t voxel = sizeof(float);
+        options.memory->spend(fmt::format("grid \"{}\"", grid.header.name.data()), count * voxel);
+    }
     grid.density.resize(count);
     const std::size_t size = grid.density.size() * sizeof(float);
     if (reader.read(grid.density.data(), size) != size) {

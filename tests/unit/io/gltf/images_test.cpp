@@ -194,9 +194,6 @@ TEST_CASE("images beyond the limits are refused before they are decoded")
     const Error bomb = with_image(data_uri(png(30000, 30000, 8, 0, {raw({0})}))).error();
     CHECK(bomb.code() == ErrorCode::invalid_input);
     CHECK(contains(bomb.what(), "/images/0: image of 30000 x 30000 pixels"));
-    const Error packed = with_image(data_uri(png(10000, 10000, 8, 2, {raw({0})}))).error();
-    CHECK(packed.code() == ErrorCode::invalid_input);
-    CHECK(contains(packed.what(), "more than 1000 times packed"));
 
     GltfFixture fixture = with_image(data_uri(png(2, 1, 8, 0, {raw({7, 250})})));
     GltfOptions options;

@@ -206,3 +206,14 @@ TEST_CASE("environments that cannot be read are refused")
         folder.write("cut.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 2\n\x01"));
     CHECK(hdr.code() == ErrorCode::invalid_input);
 }
+
+TEST_CASE("a dark environment that is packed a thousandfold is read")
+{
+    const TempFolder folder;
+    const auto file = folder.path() / "night.exr";
+    const std::vector<float> dark(std::size_t{4096} * 2048);
+    write_exr_channels(file, box(0, 0, 4095, 2047), box(0, 0, 4095, 2047), Imf::HALF,
+                       {{"Y", dark}});
+    REQUIRE(dark.size() * sizeof(Rgb) > 1000 * std::filesystem::file_size(file));
+    CHECK(load_environment(file).light.radiance.width == 4096);
+}

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bdpt/export.h>
+#include <bdpt/io/memory_budget.h>
 #include <bdpt/io/read_limits.h>
 #include <bdpt/scene_desc.h>
 
@@ -19,12 +20,14 @@ struct LoadedEnvironment {
 /// Reads an equirectangular image in OpenEXR, Radiance HDR or TIFF format; which of these it is,
 /// its first bytes say; "-" is the standard input. Pixels are taken as linear Rec. 709 [nit];
 /// negative, infinite and NaN ones become 0, with a warning. TIFF images are of floats; they are
-/// read by OpenImageIO, which is opened for the first of them.
+/// read by OpenImageIO, which is opened for the first of them. What the environment takes until it
+/// lights a scene is taken from `memory`, if there is one.
 ///
 /// Throws `Error`, whose message starts with the file's path: not_found (missing or unreadable),
 /// invalid_input (broken, or over a limit), unsupported (another format or kind of pixels; TIFF
 /// where there is no OpenImageIO).
 [[nodiscard]] BDPT_EXPORT LoadedEnvironment load_environment(const std::filesystem::path& file,
-                                                             const ReadLimits& limits = {});
+                                                             const ReadLimits& limits = {},
+                                                             MemoryBudget* memory = nullptr);
 
 }  // namespace bdpt::io

@@ -2,6 +2,7 @@
 
 #include <bdpt/export.h>
 #include <bdpt/io/image_cache.h>
+#include <bdpt/io/memory_budget.h>
 #include <bdpt/io/read_limits.h>
 #include <bdpt/scene_desc.h>
 
@@ -44,6 +45,8 @@ struct GltfOptions {
     /// the image is of one moment.
     std::optional<Shutter> shutter{};
     ReadLimits limits{};
+    /// What the scene takes is taken from it; null: `ReadLimits::memory_bytes` are for it alone.
+    std::shared_ptr<MemoryBudget> memory{};
     /// Called while images are decoded, each time that one is done; on any thread, but never on
     /// two at once. What it throws ends the loading and reaches the caller.
     std::function<void(const LoadProgress&)> on_progress{};

@@ -2,6 +2,7 @@
 
 #include <bdpt/export.h>
 #include <bdpt/io/image_metadata.h>
+#include <bdpt/io/memory_budget.h>
 #include <bdpt/part/content_hash.h>
 #include <bdpt/part/identity.h>
 #include <bdpt/part/render_part.h>
@@ -61,7 +62,8 @@ BDPT_EXPORT PartWrite write_part(const std::filesystem::path& file, const Render
 /// Merges the part in the file of `info` into `part`, which takes it as it is if it has no samples.
 /// A row at a time: there is no second film in memory. Throws `Error`: what `read_part_info` and
 /// `merge` do, and invalid_input when the file is not the one that it was when `info` was read.
-/// After a failure nothing in `part` is of use.
-BDPT_EXPORT void merge_part(RenderPart& part, const PartInfo& info);
+/// After a failure nothing in `part` is of use. The films of a part without samples are taken from
+/// `memory`, if there is one.
+BDPT_EXPORT void merge_part(RenderPart& part, const PartInfo& info, MemoryBudget* memory = nullptr);
 
 }  // namespace bdpt::io

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -25,25 +24,14 @@ struct ReadLimits {
     std::uint64_t image_bytes = std::uint64_t{2} << 30;    ///< of one image, decoded
     std::uint64_t texture_bytes = std::uint64_t{8} << 30;  ///< of all images together, decoded
     std::uint64_t volume_bytes = std::uint64_t{4} << 30;   ///< of the densities of one volume
-    /// Time of a processor in which a volume has to be read; broken files may want all there is.
+    /// Time of a processor in which the largest volume has to be read; small files get less, as
+    /// broken ones may want all there is.
     std::uint64_t volume_seconds = 300;
-    /// Decoded over encoded size of an image. Images of less than 64 MiB are not asked.
+    /// Decoded over encoded size of compressed meshes; those below 64 MiB are not asked.
     std::uint64_t compression_ratio = 1000;
     /// Of buffers, vertices, images and what rays are traced with, together, as estimated while a
     /// scene is loaded.
     std::uint64_t memory_bytes = std::uint64_t{64} << 30;
 };
-
-/// The default limits, but for `bytes` of memory at most.
-[[nodiscard]] constexpr ReadLimits limits_within(std::uint64_t bytes)
-{
-    ReadLimits limits;
-    for (std::uint64_t* limit :
-         {&limits.file_bytes, &limits.buffer_bytes, &limits.json_bytes, &limits.mesh_bytes,
-          &limits.image_bytes, &limits.texture_bytes, &limits.volume_bytes, &limits.memory_bytes}) {
-        *limit = std::min(*limit, bytes);
-    }
-    return limits;
-}
 
 }  // namespace bdpt::io

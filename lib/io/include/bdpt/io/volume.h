@@ -1,11 +1,13 @@
 #pragma once
 
 #include <bdpt/export.h>
+#include <bdpt/io/memory_budget.h>
 #include <bdpt/io/read_limits.h>
 #include <bdpt/volume_desc.h>
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -26,6 +28,8 @@ struct VolumeOptions {
     float anisotropy = 0.0f;  ///< g of Henyey and Greenstein, in (-1, 1): > 0 forwards
     UpAxis up = UpAxis::y;
     ReadLimits limits{};
+    /// What the volume takes is taken from it; null: only `limits` count.
+    std::shared_ptr<MemoryBudget> memory{};
 };
 
 /// Reads the densities of a grid of an OpenVDB file [Museth 2013, "VDB: High-Resolution Sparse

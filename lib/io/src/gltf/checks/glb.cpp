@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <string_view>
 
 namespace bdpt::io {
 
@@ -34,6 +36,19 @@ std::uint32_t read_u32(ByteView file, std::size_t offset)
 bool is_glb(ByteView file)
 {
     return file.size() >= 4 && read_u32(file, 0) == magic;
+}
+
+std::uint64_t worth_reading(ByteView start, const ReadLimits& limits)
+{
+    if (is_glb(start) && start.size() >= header_size) {
+        return std::uint64_t{read_u32(start, 8)} + 1;
+    }
+    constexpr std::string_view before_object = " \t\r\n\xef\xbb\xbf";  // with the mark of UTF-8
+    const auto first = std::find_if(start.begin(), start.end(), [&](std::uint8_t byte) {
+        return before_object.find(static_cast<char>(byte)) == std::string_view::npos;
+    });
+    const bool may_be_json = first == start.end() || *first == '{';
+    return may_be_json ? limits.json_bytes + 1 : start.size();
 }
 
 GlbChunks find_glb_chunks(ByteView file, LoadContext& context)

@@ -4,6 +4,7 @@
 #include "file/load_context.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 
 namespace bdpt::io {
@@ -20,6 +21,11 @@ struct GlbChunks {
 
 /// Whether a file is a binary glTF file, by its first bytes.
 [[nodiscard]] bool is_glb(ByteView file);
+
+/// How much of a stream that starts like this is worth reading [bytes]: the length that a GLB file
+/// states and one byte more, `json_bytes` and one more of text, and just `start` of what is
+/// neither.
+[[nodiscard]] std::uint64_t worth_reading(ByteView start, const ReadLimits& limits);
 
 /// Finds the chunks; both lie within the file. Throws `Error`: unsupported for another container
 /// version than 2, invalid_input for lengths that do not fit.

@@ -23,6 +23,7 @@ void DecodedSize::add(const JsonPlace& place, std::uint64_t count, std::uint64_t
                                human_bytes(static_cast<long double>(bytes)), encoded,
                                limits_.compression_ratio));
     }
+    memory_.spend(place.pointer(), bytes);
     total_ += bytes;
 }
 

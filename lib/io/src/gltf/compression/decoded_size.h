@@ -1,6 +1,7 @@
 #pragma once
 
 #include "file/json.h"
+#include "file/load_context.h"
 
 #include <cstdint>
 
@@ -9,7 +10,9 @@ namespace bdpt::io {
 /// Counts what compressed meshes of a file become, before memory is spent on it.
 class DecodedSize {
 public:
-    explicit DecodedSize(const ReadLimits& limits) : limits_(limits) {}
+    explicit DecodedSize(LoadContext& context)
+        : limits_(context.limits), memory_(context.budget.memory())
+    {}
 
     /// Counts `count` elements of `size` bytes that `encoded` bytes hold. Throws `Error`
     /// (invalid_input) at `place` when that is more than the limits allow in all, or is packed more
@@ -22,6 +25,7 @@ public:
 
 private:
     const ReadLimits& limits_;
+    MemoryBudget& memory_;
     std::uint64_t total_ = 0;  // [bytes]
 };
 

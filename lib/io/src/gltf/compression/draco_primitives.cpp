@@ -23,8 +23,8 @@ constexpr std::uint64_t unsigned_int = 5125;
 /// Puts decoded primitives into a document.
 class DracoReplacer {
 public:
-    DracoReplacer(Json& document, std::vector<Bytes>& buffers, const ReadLimits& limits)
-        : document_(document), buffers_(buffers), size_(limits)
+    DracoReplacer(Json& document, std::vector<Bytes>& buffers, LoadContext& context)
+        : document_(document), buffers_(buffers), size_(context)
     {}
 
     /// Replaces the compressed data of primitive `primitive` of mesh `mesh`.
@@ -182,9 +182,9 @@ void check_plain(const JsonPlace& root, const JsonPlace& primitive)
 
 }  // namespace
 
-void decode_draco_primitives(Json& document, std::vector<Bytes>& buffers, const ReadLimits& limits)
+void decode_draco_primitives(Json& document, std::vector<Bytes>& buffers, LoadContext& context)
 {
-    DracoReplacer replacer(document, buffers, limits);
+    DracoReplacer replacer(document, buffers, context);
     const std::size_t mesh_count = document.contains("meshes") ? document["meshes"].size() : 0;
     for (std::size_t m = 0; m < mesh_count; ++m) {
         for (std::size_t p = 0; p < document["meshes"][m]["primitives"].size(); ++p) {

@@ -2,6 +2,7 @@
 
 #include "file/bytes.h"
 #include "file/json.h"
+#include "file/load_context.h"
 
 #include <vector>
 
@@ -11,6 +12,6 @@ namespace bdpt::io {
 /// document say so. The document has to be checked again afterwards. In builds without Draco,
 /// primitives that have plain data too are left as they are. Throws `Error` (invalid_input,
 /// unsupported).
-void decode_draco_primitives(Json& document, std::vector<Bytes>& buffers, const ReadLimits& limits);
+void decode_draco_primitives(Json& document, std::vector<Bytes>& buffers, LoadContext& context);
 
 }  // namespace bdpt::io

@@ -184,14 +184,14 @@ std::vector<bool> find_fallback_buffers(const JsonPlace& root)
     return stands_in;
 }
 
-void decode_meshopt_views(Json& document, std::vector<Bytes>& buffers, const ReadLimits& limits)
+void decode_meshopt_views(Json& document, std::vector<Bytes>& buffers, LoadContext& context)
 {
     if (!has_meshopt() || !document.contains("bufferViews")) {
         return;
     }
     const JsonPlace root(document);
     const std::vector<bool> fallback = find_fallback_buffers(root);
-    DecodedSize size(limits);
+    DecodedSize size(context);
     const std::size_t given = buffers.size();
     for (std::size_t i = 0; i < document["bufferViews"].size(); ++i) {
         const JsonPlace views = root.member("bufferViews");

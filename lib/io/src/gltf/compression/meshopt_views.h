@@ -2,6 +2,7 @@
 
 #include "file/bytes.h"
 #include "file/json.h"
+#include "file/load_context.h"
 
 #include <vector>
 
@@ -15,6 +16,6 @@ namespace bdpt::io {
 /// Decodes all compressed views into buffers of their own and makes the document say so; buffers
 /// that only stood in for them shrink to a byte. The document has to be checked again afterwards.
 /// Throws `Error` (invalid_input, unsupported).
-void decode_meshopt_views(Json& document, std::vector<Bytes>& buffers, const ReadLimits& limits);
+void decode_meshopt_views(Json& document, std::vector<Bytes>& buffers, LoadContext& context);
 
 }  // namespace bdpt::io

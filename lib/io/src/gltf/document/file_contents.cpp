@@ -22,6 +22,14 @@ ContentHash hash_of(ByteView bytes)
     return hasher.hash();
 }
 
+/// It may be large, and the scene is in memory already.
+ContentHash hash_by_blocks(const std::filesystem::path& file, std::uint64_t limit)
+{
+    ContentHasher hasher;
+    for_each_block(file, limit, [&](ByteView block) { hasher.add(block.data(), block.size()); });
+    return hasher.hash();
+}
+
 /// Adds the files that the elements of the list at `pointer` name.
 void add_uris(std::set<std::string>& uris, const Json& document, const char* pointer)
 {
@@ -59,7 +67,7 @@ std::set<std::string> uris_of(ByteView file, LoadContext& context)
 std::optional<ContentHash> hash_if_readable(const std::string& uri, const LoadContext& context)
 {
     try {
-        return hash_of(read_file(resolve_uri(context.folder, uri), context.limits.file_bytes));
+        return hash_by_blocks(resolve_uri(context.folder, uri), context.limits.file_bytes);
     } catch (const Error&) {
         return std::nullopt;
     }
@@ -69,7 +77,10 @@ std::optional<ContentHash> hash_if_readable(const std::string& uri, const LoadCo
 
 ContentHash hash_of_file(const std::filesystem::path& file, const ReadLimits& limits)
 {
-    return with_named_errors(file, [&] { return hash_of(read_named(file, limits.file_bytes)); });
+    return with_named_errors(file, [&] {
+        return file == "-" ? hash_of(read_named(file, limits.file_bytes))
+                           : hash_by_blocks(file, limits.file_bytes);
+    });
 }
 
 std::vector<FileContent> gltf_file_contents(const std::filesystem::path& file,

@@ -1,6 +1,7 @@
 #include "gltf/document/prepass.h"
 
 #include "file/file_kind.h"
+#include "file/memory_costs.h"
 #include "file/read_file.h"
 #include "file/standard_input.h"
 #include "file/uri.h"
@@ -60,7 +61,7 @@ Bytes read_buffer(const JsonPlace& buffer, std::uint64_t length, const LoadConte
         }
         const std::filesystem::path file = resolve_uri(context.folder, uri);
         try {
-            return read_file(file, context.limits.file_bytes, length + 1);
+            return read_file(file, context.limits.file_bytes, length + 1, &context.budget.memory());
         } catch (const Error& error) {
             throw Error(error.code(), quote(uri) + ": " + error.what());
         }
@@ -89,6 +90,9 @@ std::vector<Bytes> read_buffers(const JsonPlace& root, std::optional<Bytes> bin,
         }
         const std::uint64_t length = buffer.member("byteLength").as_unsigned();
         Bytes bytes = in_bin ? std::move(*bin) : read_buffer(buffer, length, context);
+        if (!in_bin) {
+            context.budget.memory().spend(buffer.pointer(), bytes.size());
+        }
         if (bytes.size() < length) {
             buffer.member("byteLength")
                 .fail(fmt::format("{} bytes, but there are {}", length, bytes.size()));
@@ -177,11 +181,15 @@ Paths checked_uris(const JsonPlace& root, const std::filesystem::path& folder)
 
 CheckedGltf read_checked_gltf(const std::filesystem::path& file, LoadContext& context)
 {
-    Bytes bytes = read_named(file, context.limits.file_bytes);
+    const auto worth = [&](ByteView start) { return worth_reading(start, context.limits); };
+    MemoryBudget& memory = context.budget.memory();
+    Bytes bytes = read_named(file, context.limits.file_bytes, worth, &memory);
+    memory.spend("the file", bytes.size());
     CheckedGltf result;
     std::optional<Bytes> bin;
     if (is_glb(bytes)) {
         const GlbChunks chunks = find_glb_chunks(bytes, context);
+        memory.spend("its JSON", chunks.json.size * parsed_growth);
         result.document = parse_json(ByteView(bytes).subspan(chunks.json.offset, chunks.json.size),
                                      context.limits);
         if (chunks.bin) {
@@ -195,6 +203,7 @@ CheckedGltf read_checked_gltf(const std::filesystem::path& file, LoadContext& co
         if (const std::optional<std::string_view> kind = other_kind(bytes)) {
             throw Error(ErrorCode::invalid_input, fmt::format("not a glTF file but {}", *kind));
         }
+        memory.spend("its JSON", bytes.size() * parsed_growth);
         result.document = parse_json(bytes, context.limits);
     }
     const JsonPlace root(result.document);
@@ -208,8 +217,8 @@ CheckedGltf read_checked_gltf(const std::filesystem::path& file, LoadContext& co
     check_node_graph(root, context.limits);
     result.files = checked_uris(root, context.folder);
     result.buffers = read_buffers(root, std::move(bin), context);
-    decode_meshopt_views(result.document, result.buffers, context.limits);
-    decode_draco_primitives(result.document, result.buffers, context.limits);
+    decode_meshopt_views(result.document, result.buffers, context);
+    decode_draco_primitives(result.document, result.buffers, context);
     // What was decoded is trusted no more than what was read.
     const Silence silence(context.warnings);
     check_layout(JsonPlace(result.document), context);

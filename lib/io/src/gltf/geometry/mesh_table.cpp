@@ -1,5 +1,6 @@
 #include "gltf/geometry/mesh_table.h"
 
+#include "file/memory_costs.h"
 #include "gltf/geometry/placement.h"
 #include "gltf/geometry/primitive_reader.h"
 #include "gltf/geometry/skin.h"
@@ -73,13 +74,7 @@ MeshId MeshTable::add(MeshDesc mesh, PrimitiveId id)
         throw Error(ErrorCode::invalid_input, fmt::format("{}: more than {} triangles",
                                                           id.pointer(), context_.limits.triangles));
     }
-    // Copies of the corners and the tree over them, by Embree (benchmarks/load_memory.py).
-    constexpr std::uint64_t traced_triangle = 100;  // [bytes]
-    try {
-        context_.budget.spend_memory(mesh.triangles.size() * traced_triangle);
-    } catch (const Error& error) {
-        throw Error(error.code(), id.pointer() + ": " + error.what());
-    }
+    context_.budget.memory().spend(id.pointer(), mesh.triangles.size() * traced_triangle);
     meshes_.push_back(std::move(mesh));
     return static_cast<MeshId>(meshes_.size() - 1);
 }

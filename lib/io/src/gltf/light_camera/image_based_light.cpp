@@ -1,5 +1,6 @@
 #include "gltf/light_camera/image_based_light.h"
 
+#include "file/memory_costs.h"
 #include "file/read_file.h"
 #include "gltf/animation/transform.h"
 #include "image/cube_map.h"
@@ -140,7 +141,9 @@ CubeMap read_cube(const tinygltf::Model& model, const std::vector<std::size_t>& 
                              face_place + ": " + damage);
             }
             Image& face = cube.faces[side];
-            bytes += texel_count(texels) * sizeof(Rgb);
+            const std::uint64_t taken = texel_count(texels) * sizeof(Rgb);
+            context.budget.memory().check(face_place, taken);
+            bytes += taken;
             if (bytes > context.limits.texture_bytes) {
                 throw Error(
                     ErrorCode::invalid_input,
@@ -190,7 +193,10 @@ Image flatten(CubeMap cube, const std::string& place, LoadContext& context)
     while (longest_side(cube) > 1 && 2 * longest_side(cube) > highest) {
         cube = halved(cube);
     }
-    return to_equirectangular(cube, std::min(std::max(2 * longest_side(cube), least), highest));
+    const int height = std::min(std::max(2 * longest_side(cube), least), highest);
+    const auto rows = static_cast<std::uint64_t>(height);
+    context.budget.memory().spend(place, 2 * rows * rows * environment_pixel);
+    return to_equirectangular(cube, height);
 }
 
 float read_intensity(const tinygltf::Value& light, const std::string& place, LoadContext& context)

@@ -10,7 +10,9 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <exception>
+#include <limits>
 #include <mutex>
 #include <stdexcept>
 #include <string>
@@ -29,7 +31,8 @@ Bytes read_image_file(const std::string& uri, const LoadContext& context)
 {
     const std::filesystem::path file = resolve_uri(context.folder, uri);
     try {
-        return read_file(file, context.limits.file_bytes);
+        return read_file(file, context.limits.file_bytes, std::numeric_limits<std::uint64_t>::max(),
+                         &context.budget.memory());
     } catch (const Error& error) {
         if (error.code() == ErrorCode::not_found) {
             throw UnreadableImage(quote(uri) + ": " + error.what());
@@ -90,6 +93,11 @@ void ImageTable::open(Job& job)
                             ? decode_data_uri(source.uri, context_.limits.file_bytes)
                             : read_image_file(source.uri, context_);
         job.bytes = job.own_bytes;
+        packed_bytes_ += job.own_bytes.size();
+        if (packed_bytes_ > most_packed_) {
+            context_.budget.memory().spend(
+                "the packed image", packed_bytes_ - std::exchange(most_packed_, packed_bytes_));
+        }
     }
     if (take_kept(job)) {
         spend(job.decoded.image.bytes.size());
@@ -124,7 +132,7 @@ void ImageTable::spend(std::uint64_t bytes)
             fmt::format("all images together need more than {}",
                         human_bytes(static_cast<long double>(context_.limits.texture_bytes))));
     }
-    context_.budget.spend_memory(bytes);
+    context_.budget.memory().spend("the image", bytes);
 }
 
 /// Decodes the images of a batch at once, and adds them in their order.
@@ -148,6 +156,7 @@ void ImageTable::finish(std::deque<Job>& batch, const std::function<void()>& tel
         add(job);
     }
     batch.clear();
+    packed_bytes_ = 0;
 }
 
 void ImageTable::add(Job& job)
@@ -200,6 +209,7 @@ void ImageTable::decode(const std::vector<std::size_t>& indices,
         if (!batch.empty() && job.memory() > context_.limits.image_bytes - batch_memory) {
             finish(batch, tell);
             batch_memory = 0;
+            packed_bytes_ = job.own_bytes.size();
         }
         batch_memory = std::min(context_.limits.image_bytes, batch_memory + job.memory());
         const bool last = job.fatal;

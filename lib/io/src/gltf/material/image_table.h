@@ -49,6 +49,8 @@ private:
     LoadContext& context_;
     std::map<std::size_t, std::optional<ImageId>> known_;
     std::uint64_t total_bytes_ = 0;
+    std::uint64_t packed_bytes_ = 0;  // of the batch
+    std::uint64_t most_packed_ = 0;   // of any batch so far
 };
 
 }  // namespace bdpt::io

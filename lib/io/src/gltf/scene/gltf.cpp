@@ -17,7 +17,8 @@ namespace {
 
 LoadedScene load(const std::filesystem::path& file, const GltfOptions& options)
 {
-    LoadContext context{.folder = file.parent_path(), .limits = options.limits};
+    LoadContext context{
+        .folder = file.parent_path(), .limits = options.limits, .memory = options.memory};
     context.images = options.images.get();
     CheckedGltf checked = read_checked_gltf(file, context);
     GltfFacts facts = collect_facts(checked);

@@ -1,5 +1,6 @@
 #include "gltf/scene/scene_builder.h"
 
+#include "file/memory_costs.h"
 #include "gltf/animation/animation.h"
 #include "gltf/animation/instancing.h"
 #include "gltf/animation/node_motion.h"
@@ -172,8 +173,9 @@ private:
         InstanceDesc instance;
         instance.name = source.name.empty() ? fmt::format("node_{}", node) : source.name;
         // Thousands of instances have one name, which may be of any length.
-        context_.budget.spend(fmt::format("/nodes/{}", node), 1,
-                              sizeof instance + instance.name.size());
+        const std::string place = fmt::format("/nodes/{}", node);
+        context_.budget.spend(place, 1, sizeof instance + instance.name.size());
+        context_.budget.memory().spend(place, placed_instance + worlds.size() * sizeof(Mat4));
         instance.mesh = mesh;
         instance.material = get_material(id);
         for (const glm::dmat4& world : worlds) {
@@ -256,9 +258,6 @@ LoadedScene build_scene(CheckedGltf checked, const SceneChoice& choice,
                         const std::function<void(const LoadProgress&)>& on_progress,
                         LoadContext& context)
 {
-    for (const Bytes& buffer : checked.buffers) {
-        context.budget.hold(buffer.size());
-    }
     check_animations(JsonPlace(checked.document), choice.animations, context);
     tinygltf::Model model = build_model(std::move(checked), choice.animations);
     std::vector<AnimatedProperty> properties;

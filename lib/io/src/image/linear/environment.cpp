@@ -2,6 +2,7 @@
 #include <bdpt/io/environment.h>
 
 #include "file/file_kind.h"
+#include "file/memory_costs.h"
 #include "file/named_errors.h"
 #include "file/standard_input.h"
 #include "file/warnings.h"
@@ -36,16 +37,17 @@ void mend_pixels(Image& image, Warnings& warnings)
     }
 }
 
-Image read_any(ByteView bytes, const ReadLimits& limits, Warnings& warnings)
+Image read_any(ByteView bytes, const ReadLimits& limits, Warnings& warnings,
+               const MemoryBudget* memory)
 {
     if (is_exr(bytes)) {
-        return read_exr(bytes, std::nullopt, limits, warnings).image;
+        return read_exr(bytes, std::nullopt, limits, warnings, memory).image;
     }
     if (is_hdr(bytes)) {
-        return read_hdr(bytes, limits, warnings);
+        return read_hdr(bytes, limits, warnings, memory);
     }
     if (is_tiff(bytes)) {
-        return read_tiff(bytes, limits);
+        return read_tiff(bytes, limits, memory);
     }
     const auto kind = other_kind(bytes);
     throw Error(ErrorCode::unsupported,
@@ -53,12 +55,21 @@ Image read_any(ByteView bytes, const ReadLimits& limits, Warnings& warnings)
                             kind ? fmt::format(", but {}", *kind) : std::string()));
 }
 
-LoadedEnvironment load(const std::filesystem::path& file, const ReadLimits& limits)
+LoadedEnvironment load(const std::filesystem::path& file, const ReadLimits& limits,
+                       MemoryBudget* memory)
 {
-    const Bytes bytes = read_named(file, limits.file_bytes);
+    const auto worth = [&](ByteView start) {
+        const bool known = is_exr(start) || is_hdr(start) || is_tiff(start);
+        return known ? limits.file_bytes : start.size();
+    };
+    const Bytes bytes = read_named(file, limits.file_bytes, worth, memory);
     Warnings warnings;
     LoadedEnvironment loaded;
-    loaded.light.radiance = read_any(bytes, limits, warnings);
+    loaded.light.radiance = read_any(bytes, limits, warnings, memory);
+    if (memory != nullptr) {
+        const std::uint64_t pixels = loaded.light.radiance.pixels.size();
+        memory->spend("the environment", pixels * environment_pixel);
+    }
     mend_pixels(loaded.light.radiance, warnings);
     const Image& image = loaded.light.radiance;
     if (image.width != 2 * image.height && image.width * image.height != 1) {
@@ -71,9 +82,10 @@ LoadedEnvironment load(const std::filesystem::path& file, const ReadLimits& limi
 
 }  // namespace
 
-LoadedEnvironment load_environment(const std::filesystem::path& file, const ReadLimits& limits)
+LoadedEnvironment load_environment(const std::filesystem::path& file, const ReadLimits& limits,
+                                   MemoryBudget* memory)
 {
-    return with_named_errors(file, [&] { return load(file, limits); });
+    return with_named_errors(file, [&] { return load(file, limits, memory); });
 }
 
 }  // namespace bdpt::io

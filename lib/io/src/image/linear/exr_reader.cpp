@@ -1,8 +1,8 @@
 #include "image/linear/exr_reader.h"
 
+#include "image/image_size.h"
 #include "image/linear/exr_channels.h"
 #include "image/linear/exr_header.h"
-#include "image/image_size.h"
 
 #include <bdpt/error.h>
 
@@ -25,6 +25,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace bdpt::io {
 
@@ -66,7 +67,7 @@ struct Window {
     int height = 0;
 };
 
-Window checked_size(const Imath::Box2i& box, std::size_t encoded, const ReadLimits& limits)
+Window checked_size(const Imath::Box2i& box, const ReadLimits& limits, const MemoryBudget* memory)
 {
     const std::int64_t width = std::int64_t{box.max.x} - box.min.x + 1;
     const std::int64_t height = std::int64_t{box.max.y} - box.min.y + 1;
@@ -77,7 +78,7 @@ Window checked_size(const Imath::Box2i& box, std::size_t encoded, const ReadLimi
             fmt::format("image of {} x {} pixels; 1 to {} a side are read", width, height, most));
     }
     const Window window{static_cast<int>(width), static_cast<int>(height)};
-    check_image_size(window.width, window.height, sizeof(Rgb), encoded, limits);
+    check_image_size(window.width, window.height, sizeof(Rgb), limits, memory);
     return window;
 }
 
@@ -130,10 +131,14 @@ std::vector<Rgb> read_chroma(ByteView file, const std::string& prefix, const Ima
 }
 
 /// Puts the data window where it belongs in the display window.
-Image place(const std::vector<Rgb>& pixels, const Imath::Box2i& data, const Imath::Box2i& display,
+Image place(std::vector<Rgb> pixels, const Imath::Box2i& data, const Imath::Box2i& display,
             const Window& data_size, const Window& size)
 {
     Image image{size.width, size.height, {}};
+    if (data == display) {
+        image.pixels = std::move(pixels);
+        return image;
+    }
     image.pixels.resize(
         static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height), Rgb(0.0f));
     const int left = std::max(data.min.x, display.min.x);
@@ -182,7 +187,7 @@ ColorChannels choose_channels(const Imf::ChannelList& channels,
 }
 
 ExrImage read(ByteView file, const std::optional<std::string>& layer, const ReadLimits& limits,
-              Warnings& warnings)
+              Warnings& warnings, const MemoryBudget* memory)
 {
     check_exr_header(file, limits);
     MemoryStream stream(file);
@@ -194,12 +199,11 @@ ExrImage read(ByteView file, const std::optional<std::string>& layer, const Read
     const ColorChannels colors = choose_channels(header.channels(), layer, warnings);
     const Imath::Box2i data = header.dataWindow();
     const Imath::Box2i display = header.displayWindow();
-    const Window data_size = checked_size(data, file.size(), limits);
-    const Window size = checked_size(display, file.size(), limits);
-    const std::vector<Rgb> pixels = colors.chroma
-                                        ? read_chroma(file, colors.prefix, data, data_size)
-                                        : read_channels(input, colors, data, data_size);
-    return {.image = place(pixels, data, display, data_size, size),
+    const Window data_size = checked_size(data, limits, memory);
+    const Window size = checked_size(display, limits, memory);
+    std::vector<Rgb> pixels = colors.chroma ? read_chroma(file, colors.prefix, data, data_size)
+                                            : read_channels(input, colors, data, data_size);
+    return {.image = place(std::move(pixels), data, display, data_size, size),
             .filled = filled_part(data, display)};
 }
 
@@ -211,10 +215,10 @@ bool is_exr(ByteView file)
 }
 
 ExrImage read_exr(ByteView file, const std::optional<std::string>& layer, const ReadLimits& limits,
-                  Warnings& warnings)
+                  Warnings& warnings, const MemoryBudget* memory)
 {
     try {
-        return read(file, layer, limits, warnings);
+        return read(file, layer, limits, warnings, memory);
     } catch (const Error&) {
         throw;
     } catch (const std::exception& error) {

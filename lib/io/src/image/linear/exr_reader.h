@@ -4,6 +4,7 @@
 #include "file/warnings.h"
 
 #include <bdpt/image.h>
+#include <bdpt/io/memory_budget.h>
 #include <bdpt/io/read_limits.h>
 #include <bdpt/pixel_rect.h>
 
@@ -27,6 +28,7 @@ struct ExrImage {
 /// Throws `Error`: not_found (no such layer), invalid_input (broken, or over a limit), unsupported
 /// (deep data, other channels).
 [[nodiscard]] ExrImage read_exr(ByteView file, const std::optional<std::string>& layer,
-                                const ReadLimits& limits, Warnings& warnings);
+                                const ReadLimits& limits, Warnings& warnings,
+                                const MemoryBudget* memory = nullptr);
 
 }  // namespace bdpt::io

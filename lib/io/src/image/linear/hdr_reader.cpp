@@ -1,8 +1,8 @@
 #include "image/linear/hdr_reader.h"
 
+#include "image/image_size.h"
 #include "image/linear/hdr_header.h"
 #include "image/linear/hdr_scanlines.h"
-#include "image/image_size.h"
 
 #include <fmt/format.h>
 
@@ -64,11 +64,12 @@ bool is_hdr(ByteView file)
     return starts_with("#?RADIANCE") || starts_with("#?RGBE");
 }
 
-Image read_hdr(ByteView file, const ReadLimits& limits, Warnings& warnings)
+Image read_hdr(ByteView file, const ReadLimits& limits, Warnings& warnings,
+               const MemoryBudget* memory)
 {
     const HdrHeader header = read_hdr_header(file);
     Image image{header.width(), header.height(), {}};
-    check_image_size(image.width, image.height, sizeof(Rgb), file.size(), limits);
+    check_image_size(image.width, image.height, sizeof(Rgb), limits, memory);
     tell_exposure(header.exposure, warnings);
     image.pixels.resize(static_cast<std::size_t>(image.width) *
                         static_cast<std::size_t>(image.height));

@@ -4,6 +4,7 @@
 #include "file/warnings.h"
 
 #include <bdpt/image.h>
+#include <bdpt/io/memory_budget.h>
 #include <bdpt/io/read_limits.h>
 
 namespace bdpt::io {
@@ -14,6 +15,7 @@ namespace bdpt::io {
 /// Decodes a Radiance HDR image as linear RGB, in any of its eight orientations. The exposure that
 /// the header tells of is divided out, with a warning. Throws `Error`: invalid_input (broken, or
 /// over a limit), unsupported (pixels other than 32-bit_rle_rgbe).
-[[nodiscard]] Image read_hdr(ByteView file, const ReadLimits& limits, Warnings& warnings);
+[[nodiscard]] Image read_hdr(ByteView file, const ReadLimits& limits, Warnings& warnings,
+                             const MemoryBudget* memory = nullptr);
 
 }  // namespace bdpt::io

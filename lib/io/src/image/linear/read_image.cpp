@@ -15,7 +15,9 @@ namespace {
 
 LoadedImage load(const std::filesystem::path& file, const ImageOptions& options)
 {
-    const Bytes bytes = read_named(file, options.limits.file_bytes);
+    const Bytes bytes = read_named(file, options.limits.file_bytes, [&](ByteView start) {
+        return is_exr(start) || is_hdr(start) ? options.limits.file_bytes : start.size();
+    });
     Warnings warnings;
     if (is_exr(bytes)) {
         ExrImage exr_image = read_exr(bytes, options.layer, options.limits, warnings);

@@ -36,7 +36,8 @@ OiioLibrary open_library()
 
 /// What headers say is checked before memory is taken: by us, and by OpenImageIO, which takes room
 /// for a tile.
-void check_header(const BdptImageHeader& header, std::size_t file_size, const ReadLimits& limits)
+void check_header(const BdptImageHeader& header, const ReadLimits& limits,
+                  const MemoryBudget* memory)
 {
     const auto refuse = [](const std::string& what) {
         throw Error(ErrorCode::unsupported, "TIFF: " + what);
@@ -49,8 +50,8 @@ void check_header(const BdptImageHeader& header, std::size_t file_size, const Re
     }
     const std::uint64_t channels = static_cast<std::uint64_t>(header.channels);
     const std::uint64_t pixel = std::max<std::uint64_t>(sizeof(Rgb), channels * sizeof(float));
-    check_image_size(header.width, header.height, pixel, file_size, limits);
-    check_image_size(header.tile_width, header.tile_height, pixel, file_size, limits);
+    check_image_size(header.width, header.height, pixel, limits, memory);
+    check_image_size(header.tile_width, header.tile_height, pixel, limits, memory);
 }
 
 }  // namespace
@@ -64,13 +65,13 @@ bool is_tiff(ByteView file)
     });
 }
 
-Image read_tiff(ByteView file, const ReadLimits& limits)
+Image read_tiff(ByteView file, const ReadLimits& limits, const MemoryBudget* memory)
 {
     const OiioLibrary library = open_library();
     try {
         const OiioImage tiff = library.open("tiff", file);
         const BdptImageHeader& header = tiff.header();
-        check_header(header, file.size(), limits);
+        check_header(header, limits, memory);
         std::vector<float> values(tiff.value_count());
         tiff.read(values.data());
         Image image{header.width, header.height, {}};

@@ -3,6 +3,7 @@
 #include "file/bytes.h"
 
 #include <bdpt/image.h>
+#include <bdpt/io/memory_budget.h>
 #include <bdpt/io/read_limits.h>
 
 namespace bdpt::io {
@@ -13,6 +14,7 @@ namespace bdpt::io {
 /// Decodes the first image of a TIFF file as linear RGB, by OpenImageIO: floats of any size, grey
 /// or RGB. Alpha and other channels are ignored. Throws `Error`: invalid_input (broken, or over a
 /// limit), unsupported (integers, another orientation; OpenImageIO is not there).
-[[nodiscard]] Image read_tiff(ByteView file, const ReadLimits& limits);
+[[nodiscard]] Image read_tiff(ByteView file, const ReadLimits& limits,
+                              const MemoryBudget* memory = nullptr);
 
 }  // namespace bdpt::io

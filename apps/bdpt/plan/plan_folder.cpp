@@ -47,10 +47,13 @@ void remove_plan(const fs::path& file)
 {
     const std::optional<Plan> plan = old_plan(file);
     const auto remove = [folder = file.parent_path()](const fs::path& name) {
-        std::error_code ignored;
-        fs::remove(folder / name.filename(), ignored);  // of a link, not of what it leads to
+        std::error_code nothing_there;
+        fs::remove(folder / name.filename(), nothing_there);  // of a link, not of what it leads to
     };
-    remove(plan_name);
+    std::error_code ignored;
+    if (fs::is_regular_file(fs::symlink_status(file, ignored))) {
+        remove(plan_name);  // a link or a device stays, and is written into
+    }
     if (!plan) {
         return;
     }

@@ -189,9 +189,9 @@ TEST_CASE("wrong words for images of strategies are refused before anything is r
             "--strategy-depth 2 takes less",
             "2400x2400");
     rejects({"--strategies", file}, 2,
-            "images of paths of up to 5 edges take 3840.0 GB, more than the limit of 4.0 GB; a "
+            "images of paths of up to 5 edges take 60.0 GB, more than the limit of 4.0 GB; a "
             "smaller --size or --crop takes less",
-            "40000x40000");
+            "5000x5000");
 }
 
 /// `words` of `bdpt render` for a part of a room, without numbers of samples.

@@ -58,7 +58,7 @@ TEST_CASE("what is left of the address space is a limit of memory", "[cgroup]")
 }
 #endif
 
-TEST_CASE("--max-memory lowers the limit of memory, and never raises it", "[cgroup]")
+TEST_CASE("the option --max-memory lowers the limit of memory, and never raises it", "[cgroup]")
 {
     const io::MemoryLimit machine = memory_limit(std::nullopt);
     const io::MemoryLimit asked = memory_limit(1000);

@@ -101,15 +101,15 @@ TEST_CASE("directions of a floor under a sky are those of the closed form", "[in
         inspect_directions(scene, test::room_camera(), options, which, 1, 64);
     REQUIRE(maps.product.width == 64);
     REQUIRE(maps.product.height == 32);
-    constexpr float pi = 3.14159265f;
+    constexpr float exact_pi = 3.14159265f;
     CHECK(integral(maps.product) == Approx(3.0 * 0.4).epsilon(0.01));
     CHECK(integral(maps.bsdf_pdf) == Approx(1.0).epsilon(0.01));
     // The floor does not hide the sky below from a point on it.
     CHECK(integral(maps.light_pdf) == Approx(1.0).epsilon(0.01));
     CHECK(maps.incident.at(32, 4).g == Approx(3.0f));
     CHECK(maps.scattering.at(32, 28).g == 0.0f);
-    CHECK(maps.light_pdf.at(32, 4).g == Approx(0.25f / pi).epsilon(1e-3));
-    CHECK(maps.bsdf_pdf.at(32, 1).g == Approx(std::cos(1.5f * pi / 32.0f) / pi).epsilon(0.01));
+    CHECK(maps.light_pdf.at(32, 4).g == Approx(0.25f / exact_pi).epsilon(1e-3));
+    CHECK(maps.bsdf_pdf.at(32, 1).g == Approx(std::cos(1.5f * exact_pi / 32.0f) / exact_pi).epsilon(0.01));
 }
 
 TEST_CASE("light sampling of a lamp that nothing hides has a density of one in all", "[inspect]")

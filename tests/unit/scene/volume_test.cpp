@@ -78,20 +78,20 @@ private:
     double count_ = 0.0;
 };
 
-struct Ray {
+struct TestRay {
     Vec3 origin;
     Vec3 direction;
     float length;
 };
 
 /// Through the volume in many ways: along its axes, from within, past it.
-std::vector<Ray> rays(const VolumeDesc& desc)
+std::vector<TestRay> rays(const VolumeDesc& desc)
 {
     const auto world = [&desc](Vec3 p) { return Vec3(desc.world_from_grid * Vec4(p, 1.0f)); };
     const auto from_to = [&](Vec3 a, Vec3 b) {
         const Vec3 along = world(b) - world(a);
         const float length = glm::length(along);
-        return Ray{world(a), along / length, length};
+        return TestRay{world(a), along / length, length};
     };
     return {from_to({-3, 12.3f, 4}, {25, 12.3f, 4}), from_to({10, -5, 6}, {10, 25, 6}),
             from_to({25, 20, 15}, {-5, 3, -2}),      from_to({10.5f, 10.5f, 2.5f}, {19, 16, 11}),
@@ -122,7 +122,7 @@ TEST_CASE("ratio tracking lets through what the optical depth says", "[volume]")
     const VolumeDesc desc = smoke();
     const Volumes volumes({&desc, 1});
     int opaque = 0;
-    for (const Ray& ray : rays(desc)) {
+    for (const TestRay& ray : rays(desc)) {
         const glm::dvec3 expected =
             left_of(volumes[0], ray.origin, ray.direction, static_cast<double>(ray.length));
         Mean mean;
@@ -146,7 +146,7 @@ TEST_CASE("delta tracking stops where the extinction is, and gets through as oft
     red.extinction = {0.9f, 0.0f, 0.3f};
     for (const VolumeDesc& desc : {grey, smoke(), red}) {
         const Volumes volumes({&desc, 1});
-        for (const Ray& ray : rays(desc)) {
+        for (const TestRay& ray : rays(desc)) {
             constexpr std::size_t bins = 10;
             std::vector<Mean> found(bins + 1);
             for (int i = 0; i < 40000; ++i) {
@@ -192,7 +192,7 @@ TEST_CASE("walks through volumes of other colours bring what both let through", 
     blue.world_from_grid = glm::translate(blue.world_from_grid, Vec3(3, -2, 1));
     const std::vector<VolumeDesc> both{red, blue};
     const Volumes volumes(both);
-    for (const Ray& ray : rays(red)) {
+    for (const TestRay& ray : rays(red)) {
         const auto length = static_cast<double>(ray.length);
         const glm::dvec3 left = left_of(volumes[0], ray.origin, ray.direction, length) *
                                 left_of(volumes[1], ray.origin, ray.direction, length);
@@ -216,7 +216,7 @@ TEST_CASE("a walk that passes a point in a coloured volume brings the light of t
 {
     const VolumeDesc desc = smoke();
     const Volumes volumes({&desc, 1});
-    for (const Ray& ray : rays(desc)) {
+    for (const TestRay& ray : rays(desc)) {
         const float half = 0.5f * ray.length;
         const glm::dvec3 left =
             left_of(volumes[0], ray.origin, ray.direction, static_cast<double>(half));

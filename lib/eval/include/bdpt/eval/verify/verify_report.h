@@ -40,9 +40,9 @@ struct StrategyFinding {
     double unweighted = 0.0;  ///< what it finds by itself, on average [nit]; may be very noisy
     /// Part of `weighted` along paths that no other strategy can make [nit].
     double solitary = 0.0;
-    MeanComparison whole;                  ///< in the whole image
-    std::vector<MeanComparison> tiles;     ///< in rows
-    std::vector<MeanComparison> channels;  ///< red, green and blue in the whole image
+    MeanComparison whole;                    ///< in the whole image
+    std::vector<MeanComparison> tiles;       ///< in rows
+    std::vector<MeanComparison> channels{};  ///< red, green and blue in the whole image
 };
 
 /// An integrator held against those paths of bdpt that it can make, at one length.
@@ -51,7 +51,7 @@ struct IntegratorFinding {
     int edges = 0;
     MeanComparison whole;
     std::vector<MeanComparison> tiles;
-    std::vector<MeanComparison> channels;
+    std::vector<MeanComparison> channels{};
 };
 
 /// Merging held against all that find the same paths, at one length.
@@ -59,7 +59,7 @@ struct MergeFinding {
     int edges = 0;
     double brought = 0.0;  ///< what merging brings to the image of vcm, on average [nit]
     MeanComparison whole;
-    std::vector<MeanComparison> channels;
+    std::vector<MeanComparison> channels{};
 };
 
 /// The light of all paths of one length.

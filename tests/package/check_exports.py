@@ -45,7 +45,8 @@ def check(symbols, folder, folders_below=()):
     missing = classes | functions
     for line in symbols.splitlines():
         name = re.sub(r"^[0-9a-f]* *\w ", "", line)
-        head = re.sub(r"\[abi:\w+\]", "", name).partition("(")[0]
+        # Templates of functions are told with their return type.
+        head = re.sub(r"\[abi:\w+\]|^(?:(?:unsigned|long|int|bool|float|double) )+(?=bdpt::)", "", name).partition("(")[0]
         owner = next((c for c in classes if re.match(rf"{OF_CLASS}{c}(::|$)", head)), None)
         if owner or head in functions:
             missing.discard(owner or head)

@@ -46,12 +46,10 @@ const SecondMoment& second_moment(const LengthSums& sums, IntegratorKind integra
     }
 }
 
-}  // namespace
-
-MeanComparison compare_strategy(const Evidence& evidence, std::size_t cell, std::size_t index)
+/// `found` has both sides of the same samples: evidence of a strategy, or of merging.
+template <typename PairedEvidence>
+MeanComparison compare_paired(const PairedEvidence& found, double samples)
 {
-    const StrategyEvidence& found = evidence.strategy(cell, index);
-    const double samples = evidence.bdpt_samples_in(cell);
     const double variance = squared_error(found.difference);
     const double rare = unseen_variance({.samples = samples,
                                          .seen = found.sums.seen,
@@ -63,6 +61,13 @@ MeanComparison compare_strategy(const Evidence& evidence, std::size_t cell, std:
                           .sample_variance = variance,
                           .rare_variance = rare,
                           .freedom = static_cast<double>(found.difference.count() - 1)});
+}
+
+}  // namespace
+
+MeanComparison compare_strategy(const Evidence& evidence, std::size_t cell, std::size_t index)
+{
+    return compare_paired(evidence.strategy(cell, index), evidence.bdpt_samples_in(cell));
 }
 
 MeanComparison compare_integrator(const Evidence& evidence, std::size_t cell, int edges,
@@ -101,19 +106,8 @@ MeanComparison compare_integrator(const Evidence& evidence, std::size_t cell, in
 
 MeanComparison compare_merges(const Evidence& evidence, int edges)
 {
-    const MergeEvidence& found = evidence.merges(edges);
-    const double samples = evidence.samples_in(evidence.whole(), IntegratorKind::vcm, edges);
-    const double variance = squared_error(found.difference);
-    const double rare = unseen_variance({.samples = samples,
-                                         .seen = found.sums.seen,
-                                         .expected_samples = samples,
-                                         .expected = found.sums.second_moment},
-                                        variance);
-    return compare_means({.found = found.sums.tested / samples,
-                          .expected = found.sums.expected / samples,
-                          .sample_variance = variance,
-                          .rare_variance = rare,
-                          .freedom = static_cast<double>(found.difference.count() - 1)});
+    return compare_paired(evidence.merges(edges),
+                          evidence.samples_in(evidence.whole(), IntegratorKind::vcm, edges));
 }
 
 }  // namespace bdpt::eval

@@ -15,7 +15,7 @@
 #include "scratch_folder.h"
 #include "subprocess.h"
 
-namespace bdpt::test {
+namespace bdpt::test::denoise_test {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -189,4 +189,4 @@ TEST_CASE("a denoiser that fails is an error with its message")
     CHECK_FALSE(folder.has("a.exr"));
 }
 
-}  // namespace bdpt::test
+}  // namespace bdpt::test::denoise_test

@@ -8,7 +8,7 @@
 #include "scratch_folder.h"
 #include "subprocess.h"
 
-namespace bdpt::test {
+namespace bdpt::test::errors_test {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -300,4 +300,4 @@ TEST_CASE("with --json an error is an event too")
 }
 
 }  // namespace
-}  // namespace bdpt::test
+}  // namespace bdpt::test::errors_test

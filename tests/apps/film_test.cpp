@@ -12,7 +12,7 @@
 #include "scratch_folder.h"
 #include "subprocess.h"
 
-namespace bdpt::test {
+namespace bdpt::test::film_test {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -244,4 +244,4 @@ TEST_CASE("wrong words for the film are refused before anything is rendered")
 }
 
 }  // namespace
-}  // namespace bdpt::test
+}  // namespace bdpt::test::film_test

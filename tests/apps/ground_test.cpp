@@ -15,7 +15,7 @@
 #include "scratch_folder.h"
 #include "subprocess.h"
 
-namespace bdpt::test {
+namespace bdpt::test::ground_test {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -266,4 +266,4 @@ TEST_CASE("with --denoise the shadow on the ground is denoised, and the noisy on
 }
 
 }  // namespace
-}  // namespace bdpt::test
+}  // namespace bdpt::test::ground_test

@@ -8,7 +8,7 @@
 #include "scratch_folder.h"
 #include "subprocess.h"
 
-namespace bdpt::test {
+namespace bdpt::test::info_test {
 namespace {
 
 TEST_CASE("info tells people what a file holds")
@@ -257,4 +257,4 @@ TEST_CASE("info reads what others made")
 }
 
 }  // namespace
-}  // namespace bdpt::test
+}  // namespace bdpt::test::info_test

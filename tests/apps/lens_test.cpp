@@ -9,7 +9,7 @@
 #include "scratch_folder.h"
 #include "subprocess.h"
 
-namespace bdpt::test {
+namespace bdpt::test::lens_test {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -124,4 +124,4 @@ TEST_CASE("cameras of the file may be orthographic or have a lens")
 }
 
 }  // namespace
-}  // namespace bdpt::test
+}  // namespace bdpt::test::lens_test

@@ -9,7 +9,7 @@
 #include "scratch_folder.h"
 #include "subprocess.h"
 
-namespace bdpt::test {
+namespace bdpt::test::light_messages_test {
 namespace {
 
 /// What bdpt says while it renders `scene` small.
@@ -90,4 +90,4 @@ TEST_CASE("an image without light but for a token emitter is warned of, with wha
 }
 
 }  // namespace
-}  // namespace bdpt::test
+}  // namespace bdpt::test::light_messages_test

@@ -13,7 +13,7 @@
 #include "scratch_folder.h"
 #include "subprocess.h"
 
-namespace bdpt::test {
+namespace bdpt::test::noise_test {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -114,4 +114,4 @@ TEST_CASE("words about noise that make no sense are refused", "[noise]")
 }
 
 }  // namespace
-}  // namespace bdpt::test
+}  // namespace bdpt::test::noise_test

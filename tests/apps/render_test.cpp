@@ -14,7 +14,7 @@
 #include "scratch_folder.h"
 #include "subprocess.h"
 
-namespace bdpt::test {
+namespace bdpt::test::render_test {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -387,4 +387,4 @@ TEST_CASE("a scene of nothing but lights with a radius is rendered")
 }
 
 }  // namespace
-}  // namespace bdpt::test
+}  // namespace bdpt::test::render_test

@@ -13,7 +13,7 @@
 #include "scratch_folder.h"
 #include "subprocess.h"
 
-namespace bdpt::test {
+namespace bdpt::test::scene_choice_test {
 namespace {
 
 /// A cube with two variants, the second of which shines.
@@ -291,4 +291,4 @@ TEST_CASE("info tells the limits, with and without a file")
 }
 
 }  // namespace
-}  // namespace bdpt::test
+}  // namespace bdpt::test::scene_choice_test

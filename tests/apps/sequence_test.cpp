@@ -18,7 +18,7 @@
 #include "scratch_folder.h"
 #include "subprocess.h"
 
-namespace bdpt::test {
+namespace bdpt::test::sequence_test {
 namespace {
 
 using app::FrameRange;
@@ -274,4 +274,4 @@ TEST_CASE("words about several images that make no sense are refused", "[sequenc
 }
 
 }  // namespace
-}  // namespace bdpt::test
+}  // namespace bdpt::test::sequence_test

@@ -16,7 +16,7 @@
 #include "scratch_folder.h"
 #include "subprocess.h"
 
-namespace bdpt::test {
+namespace bdpt::test::strategies_test {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -314,9 +314,9 @@ TEST_CASE("what cannot be written leaves nothing of the images of strategies")
 }
 
 }  // namespace
-}  // namespace bdpt::test
+}  // namespace bdpt::test::strategies_test
 
-namespace bdpt::app {
+namespace bdpt::app::strategies_test {
 namespace {
 
 TEST_CASE("images of strategies are made of as long paths as memory is allowed for")
@@ -356,4 +356,4 @@ TEST_CASE("images of strategies are made of as long paths as memory is allowed f
 }
 
 }  // namespace
-}  // namespace bdpt::app
+}  // namespace bdpt::app::strategies_test

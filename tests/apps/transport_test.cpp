@@ -9,7 +9,7 @@
 #include "scratch_folder.h"
 #include "subprocess.h"
 
-namespace bdpt::test {
+namespace bdpt::test::transport_test {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -127,4 +127,4 @@ TEST_CASE("every integrator and heuristic shows the same light")
 }
 
 }  // namespace
-}  // namespace bdpt::test
+}  // namespace bdpt::test::transport_test

@@ -12,7 +12,7 @@
 
 #include "catch.hpp"
 
-namespace bdpt::app {
+namespace bdpt::app::view_test {
 namespace {
 
 std::vector<CameraDesc> cameras()
@@ -126,4 +126,4 @@ TEST_CASE("the default size is the largest in 1280 x 720 with the camera's aspec
 }
 
 }  // namespace
-}  // namespace bdpt::app
+}  // namespace bdpt::app::view_test

@@ -8,7 +8,7 @@
 #include "scratch_folder.h"
 #include "subprocess.h"
 
-namespace bdpt::test {
+namespace bdpt::test::volume_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -228,4 +228,4 @@ TEST_CASE("without OpenVDB a volume is refused by name", "[volume]")
 
 #endif
 
-}  // namespace bdpt::test
+}  // namespace bdpt::test::volume_test

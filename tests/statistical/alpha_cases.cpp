@@ -24,7 +24,7 @@ MaterialDesc textured(MaterialDesc material, AlphaMode mode)
 }
 
 /// Image 0 has spots of different colours with holes in between.
-SceneBuilder room()
+SceneBuilder leafy_room()
 {
     SceneBuilder builder;
     TexelImage leaves{.width = 4, .height = 4, .bytes = {}};
@@ -40,7 +40,7 @@ SceneBuilder room()
 
 SceneBuilder closed_room()
 {
-    SceneBuilder builder = room();
+    SceneBuilder builder = leafy_room();
     builder.ceiling(lambertian(Rgb(0.7f)));
     return builder;
 }
@@ -95,7 +95,7 @@ std::vector<EqualityCase> alpha_cases()
     leaves.light(PointLightDesc{.position = {0.2f, 0.6f, 0.6f}, .intensity = Rgb(1.5f)});
     cases.push_back(in_room("masked leaves before a point light", std::move(leaves)));
 
-    SceneBuilder sky = room();
+    SceneBuilder sky = leafy_room();
     hang(sky, textured(plastic(Rgb(0.8f), 0.5f), AlphaMode::mask));
     sky.quad({-1, 1, -1}, {1, 1, -1}, {1, 1, 1}, {-1, 1, 1},
              see_through(lambertian({0.3f, 0.6f, 0.3f}), 0.6f));

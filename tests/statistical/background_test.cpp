@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <string>
 
-namespace bdpt::test {
+namespace bdpt::test::background_test {
 namespace {
 
 RenderOptions hidden(const EqualityCase& test, IntegratorKind integrator, std::uint64_t seed)
@@ -48,4 +48,4 @@ TEST_CASE("all integrators agree: without the background", "[equality][backgroun
     }
 }
 
-}  // namespace bdpt::test
+}  // namespace bdpt::test::background_test

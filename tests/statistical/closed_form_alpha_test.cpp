@@ -4,7 +4,7 @@
 #include "equal_means.h"
 #include "scene_builder.h"
 
-namespace bdpt::test {
+namespace bdpt::test::closed_form_alpha_test {
 namespace {
 
 constexpr IntegratorKind integrators[] = {IntegratorKind::pt, IntegratorKind::mis,
@@ -109,4 +109,4 @@ TEST_CASE("panes that shine add up to Le (1 - (1 - a)^n)", "[closed-form][alpha]
 }
 
 }  // namespace
-}  // namespace bdpt::test
+}  // namespace bdpt::test::closed_form_alpha_test

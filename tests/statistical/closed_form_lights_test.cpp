@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-namespace bdpt::test {
+namespace bdpt::test::closed_form_lights_test {
 namespace {
 
 void check_irradiance(SceneBuilder builder, double irradiance)
@@ -150,4 +150,4 @@ TEST_CASE("quad light: the contour integral of Lambert", "[closed-form]")
     check_irradiance(std::move(builder), std::abs(sum));
 }
 
-}  // namespace bdpt::test
+}  // namespace bdpt::test::closed_form_lights_test

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <utility>
 
-namespace bdpt::test {
+namespace bdpt::test::closed_form_media_test {
 namespace {
 
 constexpr double pi_double = 3.14159265358979323846;
@@ -136,4 +136,4 @@ TEST_CASE("single scattering of a point light", "[closed-form][media]")
     }
 }
 
-}  // namespace bdpt::test
+}  // namespace bdpt::test::closed_form_media_test

@@ -13,7 +13,7 @@
 #include <functional>
 #include <utility>
 
-namespace bdpt::test {
+namespace bdpt::test::closed_form_motion_test {
 namespace {
 
 double mean(const std::function<double(double)>& irradiance)
@@ -139,4 +139,4 @@ TEST_CASE("a shutter of the sun: something between for a part of the time", "[cl
         std::move(builder), [](double t) { return t > 0.75 ? 2.0 : 0.0; }, 0.03);
 }
 
-}  // namespace bdpt::test
+}  // namespace bdpt::test::closed_form_motion_test

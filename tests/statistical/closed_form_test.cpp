@@ -9,7 +9,7 @@
 #include <tuple>
 #include <utility>
 
-namespace bdpt::test {
+namespace bdpt::test::closed_form_test {
 namespace {
 
 const Rgb albedo(0.2f, 0.5f, 0.8f);
@@ -147,4 +147,4 @@ TEST_CASE("a clear glass sphere in a white furnace is invisible", "[closed-form]
     }
 }
 
-}  // namespace bdpt::test
+}  // namespace bdpt::test::closed_form_test

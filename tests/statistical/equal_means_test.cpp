@@ -8,7 +8,7 @@
 #include <cmath>
 #include <utility>
 
-namespace bdpt::test {
+namespace bdpt::test::equal_means_test {
 namespace {
 
 /// A square before a camera that sees nothing else in the left half of the film, or in all of it,
@@ -84,4 +84,4 @@ TEST_CASE("each tile counts, not only that with the greatest z", "[statistics]")
     CHECK(both.found_bias == Approx(0.5).epsilon(0.1));
 }
 
-}  // namespace bdpt::test
+}  // namespace bdpt::test::equal_means_test

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace bdpt::test {
+namespace bdpt::test::equality_test {
 namespace {
 
 /// `mis`: means of all paths.
@@ -319,4 +319,4 @@ TEST_CASE("Sobol points and independent numbers agree", "[equality]")
     }
 }
 
-}  // namespace bdpt::test
+}  // namespace bdpt::test::equality_test

@@ -14,7 +14,7 @@
 #include "math/rgb.h"
 #include "scene_builder.h"
 
-namespace bdpt::test {
+namespace bdpt::test::ground_shadow_test {
 namespace {
 
 constexpr int side = 24;
@@ -168,4 +168,4 @@ TEST_CASE("a pixel has the mean shadow of the pixels that it could be", "[ground
     CHECK(sum == Approx(mean_of(many.opacity)).epsilon(0.01));
 }
 
-}  // namespace bdpt::test
+}  // namespace bdpt::test::ground_shadow_test

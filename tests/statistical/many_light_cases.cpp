@@ -16,14 +16,14 @@ void add_panel(SceneBuilder& builder, Vec3 p, float h, const MaterialDesc& mater
     builder.quad(p - x - z, p + x - z, p + x + z, p - x + z, material);
 }
 
-SceneBuilder room()
+SceneBuilder bare_room()
 {
     SceneBuilder builder;
     builder.walls(lambertian(white), lambertian({0.7f, 0.5f, 0.3f})).ceiling(lambertian(white));
     return builder;
 }
 
-EqualityCase in_room(std::string name, SceneBuilder builder)
+EqualityCase in_bare_room(std::string name, SceneBuilder builder)
 {
     return {.name = std::move(name), .scene = std::move(builder.desc), .camera = room_camera()};
 }
@@ -32,7 +32,7 @@ EqualityCase in_room(std::string name, SceneBuilder builder)
 /// and a sphere with smooth normals.
 EqualityCase panels()
 {
-    SceneBuilder builder = room();
+    SceneBuilder builder = bare_room();
     const MaterialDesc front = emitter({6.0f, 5.0f, 4.0f});
     MaterialDesc both = emitter({2.0f, 3.0f, 4.0f});
     both.double_sided = true;
@@ -45,13 +45,13 @@ EqualityCase panels()
     paper.diffuse_transmission.factor = 0.6f;
     add_panel(builder, {0.4f, -0.2f, 0.2f}, 0.45f, paper, true);
     builder.sphere({-0.5f, -0.5f, 0.1f}, 0.4f, plastic(white, 0.4f), 16);
-    return in_room("panels", std::move(builder));
+    return in_bare_room("panels", std::move(builder));
 }
 
 /// Points and spots, with and without a radius, among panels.
 EqualityCase punctual()
 {
-    SceneBuilder builder = room();
+    SceneBuilder builder = bare_room();
     for (int i = 0; i < 8; ++i) {
         const float x = 0.4f * static_cast<float>(i % 4) - 0.6f;
         const float z = i < 4 ? -0.4f : 0.4f;
@@ -70,7 +70,7 @@ EqualityCase punctual()
     }
     add_panel(builder, {0.5f, 0.8f, 0.0f}, 0.3f, emitter(Rgb(3.0f)), false);
     builder.sphere({0.3f, -0.6f, 0.1f}, 0.35f, plastic({0.6f, 0.2f, 0.2f}, 0.4f));
-    return in_room("points, spots and spheres", std::move(builder));
+    return in_bare_room("points, spots and spheres", std::move(builder));
 }
 
 /// The tree beside a sun and a sky.
@@ -87,7 +87,7 @@ EqualityCase with_sky()
         DirectionalLightDesc{.direction = {0.3f, -1.0f, -0.4f}, .illuminance = Rgb(1.0f)});
     builder.light(
         EnvironmentLightDesc{.radiance = {.width = 1, .height = 1, .pixels = {Rgb(0.5f)}}});
-    EqualityCase result = in_room("panels, sun and sky", std::move(builder));
+    EqualityCase result = in_bare_room("panels, sun and sky", std::move(builder));
     result.seen_by_lt = 2;
     return result;
 }

@@ -25,7 +25,7 @@ Mat3 hanging(float turned)
     return Mat3(glm::rotate(Mat4(1.0f), turned, Vec3(0.0f, 1.0f, 0.0f)) * down);
 }
 
-SceneBuilder room()
+SceneBuilder profile_room()
 {
     const Rgb white(0.7f);
     SceneBuilder builder;
@@ -40,7 +40,7 @@ SceneBuilder room()
 std::vector<EqualityCase> profile_cases()
 {
     std::vector<EqualityCase> cases;
-    SceneBuilder alone = room();
+    SceneBuilder alone = profile_room();
     alone.light(ProfileLightDesc{.position = {-0.3f, 0.6f, 0.2f},
                                  .world_from_light = hanging(0.7f),
                                  .scale = {0.9f, 0.8f, 0.7f}});
@@ -48,7 +48,7 @@ std::vector<EqualityCase> profile_cases()
         {.name = "light profile", .scene = std::move(alone.desc), .camera = room_camera()});
 
     // Two of one profile, one of them mirrored, beside a lamp and a point.
-    SceneBuilder among = room();
+    SceneBuilder among = profile_room();
     Mat3 mirrored = hanging(-0.4f);
     mirrored[0] = -mirrored[0];
     among.lamp(0.9f, 0.4f, Rgb(2.0f));

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace bdpt::test {
+namespace bdpt::test::refinement_test {
 namespace {
 
 constexpr std::array<int, compared_cells> some{32, 32, 32, 32};
@@ -97,4 +97,4 @@ TEST_CASE("batches that are there are used, and a known mean needs none", "[stat
     CHECK(alone.a[1] == 5000);
 }
 
-}  // namespace bdpt::test
+}  // namespace bdpt::test::refinement_test

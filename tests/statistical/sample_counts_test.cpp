@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace bdpt::test {
+namespace bdpt::test::sample_counts_test {
 
 TEST_CASE("bdpt with any numbers of light paths and connections agrees with mis",
           "[equality][light-paths]")
@@ -98,4 +98,4 @@ TEST_CASE("several light paths have the time of their sample", "[equality][motio
     check_equal(test, "mis = bdpt, shared light paths", mis, sharing);
 }
 
-}  // namespace bdpt::test
+}  // namespace bdpt::test::sample_counts_test

@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-namespace bdpt::test {
+namespace bdpt::test::sample_rates_test {
 namespace {
 
 /// Quarters of it are fairly bright, in different ways.
@@ -192,4 +192,4 @@ TEST_CASE("rates that a pilot has found are unbiased, those of a render's own sa
     CHECK(own < -6.0);
 }
 
-}  // namespace bdpt::test
+}  // namespace bdpt::test::sample_rates_test

@@ -14,7 +14,7 @@
 #include <string>
 #include <utility>
 
-namespace bdpt::test {
+namespace bdpt::test::strategies_test {
 namespace {
 
 /// Surfaces that do not touch each other: where they do, a strategy alone has no finite variance.
@@ -382,4 +382,4 @@ TEST_CASE("strategies that are left out are made up for by the others", "[strate
     check_equal("no light paths", mis, path_tracing, 0.03);
 }
 
-}  // namespace bdpt::test
+}  // namespace bdpt::test::strategies_test

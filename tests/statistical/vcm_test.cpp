@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace bdpt::test {
+namespace bdpt::test::vcm_test {
 namespace {
 
 RenderOptions options(const EqualityCase& test, IntegratorKind integrator, std::uint64_t seed)
@@ -186,4 +186,4 @@ TEST_CASE("merging is biased by its radius, and less so as that shrinks", "[vcm]
     }
 }
 
-}  // namespace bdpt::test
+}  // namespace bdpt::test::vcm_test

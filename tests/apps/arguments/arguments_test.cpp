@@ -7,7 +7,7 @@
 #include "catch.hpp"
 #include "terminal/text.h"
 
-namespace bdpt::app {
+namespace bdpt::app::arguments_test {
 namespace {
 
 TEST_CASE("sizes are two whole numbers and a cross")
@@ -116,4 +116,4 @@ TEST_CASE("times are shown as on a clock")
 }
 
 }  // namespace
-}  // namespace bdpt::app
+}  // namespace bdpt::app::arguments_test

@@ -2,7 +2,7 @@
 
 #include "catch.hpp"
 
-namespace bdpt::app {
+namespace bdpt::app::film_arguments_test {
 namespace {
 
 TEST_CASE("filters have a name and perhaps a radius")
@@ -46,4 +46,4 @@ TEST_CASE("crops are four whole numbers in order")
 }
 
 }  // namespace
-}  // namespace bdpt::app
+}  // namespace bdpt::app::film_arguments_test

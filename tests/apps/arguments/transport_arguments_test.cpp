@@ -6,7 +6,7 @@
 
 #include "catch.hpp"
 
-namespace bdpt::app {
+namespace bdpt::app::transport_arguments_test {
 namespace {
 
 TEST_CASE("strategies are two numbers of vertices")
@@ -148,4 +148,4 @@ TEST_CASE("direct and indirect light share the lengths of paths")
 }
 
 }  // namespace
-}  // namespace bdpt::app
+}  // namespace bdpt::app::transport_arguments_test

@@ -9,7 +9,7 @@
 #include "scratch_folder.h"
 #include "subprocess.h"
 
-namespace bdpt::test {
+namespace bdpt::test::usage_test {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -162,4 +162,4 @@ TEST_CASE("with --json, --quiet leaves the result and nothing else")
 }
 
 }  // namespace
-}  // namespace bdpt::test
+}  // namespace bdpt::test::usage_test

@@ -10,7 +10,7 @@
 #include "scratch_folder.h"
 #include "subprocess.h"
 
-namespace bdpt::test {
+namespace bdpt::test::output_test {
 namespace {
 
 TEST_CASE("help and version are worth reading and no errors")
@@ -132,4 +132,4 @@ TEST_CASE("option --exposure fixes the brightness of PNG files")
 }
 
 }  // namespace
-}  // namespace bdpt::test
+}  // namespace bdpt::test::output_test

@@ -18,7 +18,7 @@
 #include "sealed_part.h"
 #include "subprocess.h"
 
-namespace bdpt::test {
+namespace bdpt::test::part_test {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -316,4 +316,4 @@ TEST_CASE("a part that was given another film is refused by name", "[part]")
 }
 
 }  // namespace
-}  // namespace bdpt::test
+}  // namespace bdpt::test::part_test

@@ -15,7 +15,7 @@
 
 // A plan.json may come from a stranger.
 
-namespace bdpt::test {
+namespace bdpt::test::plan_safety_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -259,4 +259,4 @@ TEST_CASE("a plan of many images and tasks is merged in time", "[plan]")
 }
 
 }  // namespace
-}  // namespace bdpt::test
+}  // namespace bdpt::test::plan_safety_test

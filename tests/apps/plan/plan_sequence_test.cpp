@@ -12,7 +12,7 @@
 #include "scratch_folder.h"
 #include "subprocess.h"
 
-namespace bdpt::test {
+namespace bdpt::test::plan_sequence_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -309,4 +309,4 @@ TEST_CASE("tasks share all images and samples out, and take about one time")
 }
 
 }  // namespace
-}  // namespace bdpt::test
+}  // namespace bdpt::test::plan_sequence_test

@@ -16,7 +16,7 @@
 #include "scratch_folder.h"
 #include "subprocess.h"
 
-namespace bdpt::test {
+namespace bdpt::test::plan_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -378,4 +378,4 @@ TEST_CASE("words about plans that make no sense are refused, and nothing is writ
 }
 
 }  // namespace
-}  // namespace bdpt::test
+}  // namespace bdpt::test::plan_test

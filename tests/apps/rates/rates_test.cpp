@@ -15,7 +15,7 @@
 #include "image_files.h"
 #include "scratch_folder.h"
 
-namespace bdpt::test {
+namespace bdpt::test::rates_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -189,4 +189,4 @@ TEST_CASE("what does not go with rates is refused", "[command]")
     check_refused(folder, {"--rates", path(folder, "small.exr")}, 4, {"small.exr", "pixel ("});
 }
 
-}  // namespace bdpt::test
+}  // namespace bdpt::test::rates_test

@@ -7,7 +7,7 @@
 #include "scratch_folder.h"
 #include "subprocess.h"
 
-namespace bdpt::app {
+namespace bdpt::app::console_test {
 namespace {
 
 using test::Launch;
@@ -79,4 +79,4 @@ TEST_CASE("option --quiet prints nothing")
 }
 
 }  // namespace
-}  // namespace bdpt::app
+}  // namespace bdpt::app::console_test

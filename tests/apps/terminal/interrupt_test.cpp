@@ -11,7 +11,7 @@
 #include "scratch_folder.h"
 #include "subprocess.h"
 
-namespace bdpt::test {
+namespace bdpt::test::interrupt_test {
 namespace {
 
 /// A render that nobody waits for.
@@ -109,4 +109,4 @@ TEST_CASE("SIGUSR1 does nothing to a render without a part, and SIGHUP nothing b
 }
 
 }  // namespace
-}  // namespace bdpt::test
+}  // namespace bdpt::test::interrupt_test

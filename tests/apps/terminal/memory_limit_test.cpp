@@ -9,7 +9,7 @@
 #include "catch.hpp"
 #include "scratch_folder.h"
 
-namespace bdpt::app {
+namespace bdpt::app::memory_limit_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -69,4 +69,4 @@ TEST_CASE("the option --max-memory lowers the limit of memory, and never raises 
 }
 
 }  // namespace
-}  // namespace bdpt::app
+}  // namespace bdpt::app::memory_limit_test

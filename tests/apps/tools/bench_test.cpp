@@ -12,7 +12,7 @@
 #include "scratch_folder.h"
 #include "subprocess.h"
 
-namespace bdpt::test {
+namespace bdpt::test::bench_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -225,4 +225,4 @@ TEST_CASE("images of a benchmark have the wanted number of pixels and the camera
 }
 
 }  // namespace
-}  // namespace bdpt::test
+}  // namespace bdpt::test::bench_test

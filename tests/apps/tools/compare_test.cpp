@@ -15,7 +15,7 @@
 #include "scratch_folder.h"
 #include "subprocess.h"
 
-namespace bdpt::test {
+namespace bdpt::test::compare_test {
 namespace {
 
 using nlohmann::json;
@@ -295,4 +295,4 @@ TEST_CASE("an error image that cannot be written does not take the report along"
 }
 
 }  // namespace
-}  // namespace bdpt::test
+}  // namespace bdpt::test::compare_test

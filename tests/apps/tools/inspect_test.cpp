@@ -6,7 +6,7 @@
 #include "scratch_folder.h"
 #include "subprocess.h"
 
-namespace bdpt::test {
+namespace bdpt::test::inspect_test {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -78,4 +78,4 @@ TEST_CASE("inspect refuses pixels, vertices and files that there are not", "[ins
     CHECK_FALSE(std::filesystem::exists(folder / "a.png"));
 }
 
-}  // namespace bdpt::test
+}  // namespace bdpt::test::inspect_test

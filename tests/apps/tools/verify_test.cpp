@@ -16,7 +16,7 @@
 #include "scratch_folder.h"
 #include "subprocess.h"
 
-namespace bdpt::test {
+namespace bdpt::test::verify_test {
 namespace {
 
 using nlohmann::json;
@@ -246,4 +246,4 @@ TEST_CASE("verify: the text says what has failed, and where")
     CHECK(contains(text, "7 of 1000 paths"));
 }
 
-}  // namespace bdpt::test
+}  // namespace bdpt::test::verify_test

@@ -18,7 +18,7 @@
 #include "scratch_folder.h"
 #include "subprocess.h"
 
-namespace bdpt::test {
+namespace bdpt::test::display_test {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -270,4 +270,4 @@ TEST_CASE("the default environment is brighter with --env-intensity, too")
 }
 
 }  // namespace
-}  // namespace bdpt::test
+}  // namespace bdpt::test::display_test

@@ -13,7 +13,7 @@
 #include "scratch_folder.h"
 #include "subprocess.h"
 
-namespace bdpt::test {
+namespace bdpt::test::viewer_test {
 namespace {
 
 using app::DisplayAddress;
@@ -131,4 +131,4 @@ TEST_CASE("a viewer that is not there is a warning, once", "[display]")
 }
 
 }  // namespace
-}  // namespace bdpt::test
+}  // namespace bdpt::test::viewer_test

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace bdpt {
+namespace bdpt::camera_test {
 
 TEST_CASE("sample_lens finds the raster position that generate_ray came from", "[camera]")
 {
@@ -125,4 +125,4 @@ TEST_CASE("pixels are as wide as the rays through them are apart", "[camera]")
     CHECK(orthographic.pixel_cone().width_at({50, 2, -700}) == Approx(apart(orthographic)));
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::camera_test

@@ -18,7 +18,7 @@
 #include "catch.hpp"
 #include "test_images.h"
 
-namespace bdpt::eval {
+namespace bdpt::eval::bench_parts_test {
 namespace {
 
 using test::flat;
@@ -245,4 +245,4 @@ TEST_CASE("shrinking takes means, smaller ones at the border")
 }
 
 }  // namespace
-}  // namespace bdpt::eval
+}  // namespace bdpt::eval::bench_parts_test

@@ -17,7 +17,7 @@
 #include "scratch_folder.h"
 #include "test_images.h"
 
-namespace bdpt::eval {
+namespace bdpt::eval::bench_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -379,4 +379,4 @@ TEST_CASE("JSON, CSV and page have all runs and what is needed to repeat them")
 }
 
 }  // namespace
-}  // namespace bdpt::eval
+}  // namespace bdpt::eval::bench_test

@@ -5,7 +5,7 @@
 #include "catch.hpp"
 #include "test_images.h"
 
-namespace bdpt::eval {
+namespace bdpt::eval::color_spaces_test {
 namespace {
 
 void check_near(Vec3 a, Vec3 b, float tolerance)
@@ -46,4 +46,4 @@ TEST_CASE("colours survive the way there and back")
 }
 
 }  // namespace
-}  // namespace bdpt::eval
+}  // namespace bdpt::eval::color_spaces_test

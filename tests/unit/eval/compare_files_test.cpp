@@ -11,7 +11,7 @@
 #include "scratch_folder.h"
 #include "test_images.h"
 
-namespace bdpt::eval {
+namespace bdpt::eval::compare_files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -100,4 +100,4 @@ TEST_CASE("the seeds of a folder are its images, by name, without the reference"
 }
 
 }  // namespace
-}  // namespace bdpt::eval
+}  // namespace bdpt::eval::compare_files_test

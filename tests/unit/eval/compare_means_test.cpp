@@ -10,7 +10,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace bdpt::eval {
+namespace bdpt::eval::compare_means_test {
 
 TEST_CASE("means are compared in standard errors")
 {
@@ -134,4 +134,4 @@ TEST_CASE("tiles cover the image, and each pixel is in the tile that it is said 
     CHECK(TileGrid(8, 8, 2).tile_at(Vec2(8.0f, 8.0f)) == 3);  // rounded up to the border
 }
 
-}  // namespace bdpt::eval
+}  // namespace bdpt::eval::compare_means_test

@@ -10,7 +10,7 @@
 #include "catch.hpp"
 #include "test_images.h"
 
-namespace bdpt::eval {
+namespace bdpt::eval::comparison_test {
 namespace {
 
 using test::flat;
@@ -200,4 +200,4 @@ TEST_CASE("JSON has null for what is not a number")
 }
 
 }  // namespace
-}  // namespace bdpt::eval
+}  // namespace bdpt::eval::comparison_test

@@ -13,7 +13,7 @@
 
 #include "catch.hpp"
 
-namespace bdpt::eval {
+namespace bdpt::eval::contact_sheet_test {
 namespace {
 
 constexpr std::array<Strategy, 5> two_rows{
@@ -187,4 +187,4 @@ TEST_CASE("large images are shrunk on a contact sheet, small ones have room for 
 }
 
 }  // namespace
-}  // namespace bdpt::eval
+}  // namespace bdpt::eval::contact_sheet_test

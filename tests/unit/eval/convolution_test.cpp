@@ -2,7 +2,7 @@
 
 #include "catch.hpp"
 
-namespace bdpt::eval {
+namespace bdpt::eval::convolution_test {
 namespace {
 
 Plane plane_of(int width, int height, const std::vector<float>& values)
@@ -48,4 +48,4 @@ TEST_CASE("kernels may be larger than the image")
 }
 
 }  // namespace
-}  // namespace bdpt::eval
+}  // namespace bdpt::eval::convolution_test

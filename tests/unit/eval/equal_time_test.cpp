@@ -8,7 +8,7 @@
 #include "bench_scene.h"
 #include "catch.hpp"
 
-namespace bdpt::eval {
+namespace bdpt::eval::equal_time_test {
 namespace {
 
 struct Fixture {
@@ -115,4 +115,4 @@ TEST_CASE("a reference is the render of its samples by bdpt, its noise that of i
 }
 
 }  // namespace
-}  // namespace bdpt::eval
+}  // namespace bdpt::eval::equal_time_test

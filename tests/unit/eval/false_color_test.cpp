@@ -10,7 +10,7 @@
 #include "image/glyphs.h"
 #include "metrics/color_spaces.h"
 
-namespace bdpt::eval {
+namespace bdpt::eval::false_color_test {
 namespace {
 
 float decode_srgb(std::uint8_t value)
@@ -137,4 +137,4 @@ TEST_CASE("all letters that are used have an image of their own")
 }
 
 }  // namespace
-}  // namespace bdpt::eval
+}  // namespace bdpt::eval::false_color_test

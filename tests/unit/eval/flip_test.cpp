@@ -8,7 +8,7 @@
 #include "catch.hpp"
 #include "test_images.h"
 
-namespace bdpt::eval {
+namespace bdpt::eval::flip_test {
 namespace {
 
 using test::flat;
@@ -172,4 +172,4 @@ TEST_CASE("extreme pixels give finite errors")
 }
 
 }  // namespace
-}  // namespace bdpt::eval
+}  // namespace bdpt::eval::flip_test

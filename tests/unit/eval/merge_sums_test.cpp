@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 
-namespace bdpt::eval {
+namespace bdpt::eval::merge_sums_test {
 namespace {
 
 /// Of an image of 4 x 4 pixels. Paths of two edges are points x of [0, 1), all of them as bright: 1
@@ -73,4 +73,4 @@ TEST_CASE("merging with a wrong factor fails, however little weight it has")
     }
 }
 
-}  // namespace bdpt::eval
+}  // namespace bdpt::eval::merge_sums_test

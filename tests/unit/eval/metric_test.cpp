@@ -8,7 +8,7 @@
 #include "catch.hpp"
 #include "test_images.h"
 
-namespace bdpt::eval {
+namespace bdpt::eval::metric_test {
 namespace {
 
 using test::flat;
@@ -197,4 +197,4 @@ TEST_CASE("numbers that no metric can use are refused")
 }
 
 }  // namespace
-}  // namespace bdpt::eval
+}  // namespace bdpt::eval::metric_test

@@ -11,7 +11,7 @@
 #include "catch.hpp"
 #include "statistics.h"
 
-namespace bdpt::eval {
+namespace bdpt::eval::statistics_test {
 namespace {
 
 TEST_CASE("Student's t distribution has the values of its closed forms")
@@ -117,4 +117,4 @@ TEST_CASE("blocks see that neighbours depend on each other")
 }
 
 }  // namespace
-}  // namespace bdpt::eval
+}  // namespace bdpt::eval::statistics_test

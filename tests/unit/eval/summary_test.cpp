@@ -6,7 +6,7 @@
 
 #include "catch.hpp"
 
-namespace bdpt::eval {
+namespace bdpt::eval::summary_test {
 namespace {
 
 /// Errors that fall from `first` with the inverse of the samples, at `seconds` each.
@@ -162,4 +162,4 @@ TEST_CASE("without pt there is no speed-up, without runs no summary")
 }
 
 }  // namespace
-}  // namespace bdpt::eval
+}  // namespace bdpt::eval::summary_test

@@ -3,7 +3,7 @@
 
 #include "catch.hpp"
 
-namespace bdpt::eval {
+namespace bdpt::eval::threshold_test {
 namespace {
 
 ComparisonReport report_of(double relmse, double psnr)
@@ -57,4 +57,4 @@ TEST_CASE("thresholds are read strictly")
 }
 
 }  // namespace
-}  // namespace bdpt::eval
+}  // namespace bdpt::eval::threshold_test

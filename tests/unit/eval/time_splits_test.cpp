@@ -12,7 +12,7 @@
 #include "catch.hpp"
 #include "scratch_folder.h"
 
-namespace bdpt::eval {
+namespace bdpt::eval::time_splits_test {
 namespace {
 
 using nlohmann::json;
@@ -103,4 +103,4 @@ TEST_CASE("a time split that is stopped is not kept")
     CHECK_FALSE(std::filesystem::exists(bench.files.time_split(IntegratorKind::pt)));
 }
 
-}  // namespace bdpt::eval
+}  // namespace bdpt::eval::time_splits_test

@@ -12,7 +12,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace bdpt::eval {
+namespace bdpt::eval::verdict_roulette_test {
 namespace {
 
 constexpr int edges = 5;
@@ -173,4 +173,4 @@ TEST_CASE("a sound renderer does not fail in a room that is nearly black")
     }
 }
 
-}  // namespace bdpt::eval
+}  // namespace bdpt::eval::verdict_roulette_test

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace bdpt::eval {
+namespace bdpt::eval::verdict_test {
 namespace {
 
 using test::ToyFault;
@@ -375,4 +375,4 @@ TEST_CASE("false alarms are as rare as promised")
     CHECK(alarms <= 30);
 }
 
-}  // namespace bdpt::eval
+}  // namespace bdpt::eval::verdict_test

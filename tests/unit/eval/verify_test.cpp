@@ -13,7 +13,7 @@
 #include <stop_token>
 #include <string>
 
-namespace bdpt::eval {
+namespace bdpt::eval::verify_test {
 namespace {
 
 using test::SceneBuilder;
@@ -201,4 +201,4 @@ TEST_CASE("the report is JSON")
     CHECK(json["strategies"][5]["whole"].contains("p_adjusted"));
 }
 
-}  // namespace bdpt::eval
+}  // namespace bdpt::eval::verify_test

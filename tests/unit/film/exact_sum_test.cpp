@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-namespace bdpt {
+namespace bdpt::exact_sum_test {
 namespace {
 
 double exact_sum(const std::vector<float>& values)
@@ -177,4 +177,4 @@ TEST_CASE("ExactSum of both signs is the same for any threads", "[film]")
     CHECK(shared == sum_of(values));
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::exact_sum_test

@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-namespace bdpt {
+namespace bdpt::film_test {
 namespace {
 
 FilmLayout layout(int width, int height, SplatImage splats = SplatImage::present)
@@ -212,4 +212,4 @@ TEST_CASE("Film holds a region of the image and uses the image's positions", "[f
     CHECK_THROWS_AS(Film(layout(2, 3)).merge(film), Error);
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::film_test

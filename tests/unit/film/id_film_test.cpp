@@ -12,7 +12,7 @@
 
 #include "catch.hpp"
 
-namespace bdpt {
+namespace bdpt::id_film_test {
 namespace {
 
 constexpr PixelRect region{.x0 = 2, .y0 = 1, .x1 = 5, .y1 = 3};
@@ -228,4 +228,4 @@ TEST_CASE("planes that no film has are refused", "[ids]")
 }
 
 }  // namespace
-}  // namespace bdpt
+}  // namespace bdpt::id_film_test

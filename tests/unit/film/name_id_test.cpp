@@ -7,7 +7,7 @@
 
 #include "catch.hpp"
 
-namespace bdpt {
+namespace bdpt::name_id_test {
 namespace {
 
 float pixel_of(const std::string& name)
@@ -65,4 +65,4 @@ TEST_CASE("an id is a number that floats keep: bit 23 is flipped where it would 
 }
 
 }  // namespace
-}  // namespace bdpt
+}  // namespace bdpt::name_id_test

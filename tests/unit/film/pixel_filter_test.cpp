@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-namespace bdpt {
+namespace bdpt::pixel_filter_test {
 namespace {
 
 const std::vector<FilterOptions> filters{{.kind = FilterKind::box},
@@ -169,4 +169,4 @@ TEST_CASE("filters stay finite at the ends of the random numbers", "[filter]")
     }
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::pixel_filter_test

@@ -6,7 +6,7 @@
 #include <random>
 #include <string>
 
-namespace bdpt {
+namespace bdpt::sample_set_test {
 namespace {
 
 constexpr std::int64_t most = 40;
@@ -100,4 +100,4 @@ TEST_CASE("sets of a million ranges are compared and added in time", "[part]")
     CHECK(SampleSet({.begin = 0, .end = 5'000'000}).overlap(a) == a);
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::sample_set_test

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace bdpt {
+namespace bdpt::strategy_film_test {
 namespace {
 
 constexpr PixelRect region{.x0 = 2, .y0 = 3, .x1 = 5, .y1 = 5};
@@ -120,4 +120,4 @@ TEST_CASE("images of strategies are merged exactly", "[strategy film]")
     CHECK_THROWS_AS(one.merge(StrategyFilm()), Error);
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::strategy_film_test

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-namespace bdpt {
+namespace bdpt::embree_device_test {
 namespace {
 
 #if defined(__x86_64__)
@@ -85,4 +85,4 @@ TEST_CASE("instruction sets have the names that Embree knows", "[geometry]")
 }
 
 }  // namespace
-}  // namespace bdpt
+}  // namespace bdpt::embree_device_test

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace bdpt {
+namespace bdpt::embree_scene_test {
 namespace {
 
 using test::SceneBuilder;
@@ -245,4 +245,4 @@ TEST_CASE("rays of impossible numbers meet nothing, and end nothing", "[geometry
     CHECK(scene.embree->occluded({.origin = above, .direction = down, .t_max = nan}));
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::embree_scene_test

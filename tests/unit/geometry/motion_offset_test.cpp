@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <utility>
 
-namespace bdpt {
+namespace bdpt::motion_offset_test {
 namespace {
 
 using test::SceneBuilder;
@@ -114,4 +114,4 @@ TEST_CASE("rays that leave large, level things that move do not meet them again"
     }
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::motion_offset_test

@@ -23,7 +23,7 @@
 #include <utility>
 #include <vector>
 
-namespace bdpt {
+namespace bdpt::geometry_motion_test {
 namespace {
 
 using test::SceneBuilder;
@@ -336,4 +336,4 @@ TEST_CASE("normals and tangents follow what moves", "[motion][geometry]")
     }
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::geometry_motion_test

@@ -5,7 +5,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace bdpt {
+namespace bdpt::placed_mesh_test {
 namespace {
 
 /// A square in the plane z = 0 that looks along +z, with the image upright: u to the right (+x)
@@ -118,4 +118,4 @@ TEST_CASE("a pixel covers texture coordinates as the triangle is placed", "[geom
     CHECK(doubled.uv_footprint(2, 0.1f, 0.0f)[0].across == Vec2(0.0f));  // no area
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::placed_mesh_test

@@ -9,7 +9,7 @@
 
 #include <vector>
 
-namespace bdpt {
+namespace bdpt::sphere_test {
 namespace {
 
 /// Two instances of one mesh, which Embree gets as instances, and some spheres.
@@ -150,4 +150,4 @@ TEST_CASE("the error bound of a point on a sphere holds", "[geometry]")
     }
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::sphere_test

@@ -10,7 +10,7 @@
 #include <numeric>
 #include <utility>
 
-namespace bdpt {
+namespace bdpt::inspect_test {
 namespace {
 
 using test::SceneBuilder;
@@ -150,4 +150,4 @@ TEST_CASE("what cannot be inspected is refused", "[inspect]")
                     Error);
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::inspect_test

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace bdpt {
+namespace bdpt::environment_sampling_test {
 namespace {
 
 using test::SceneBuilder;
@@ -86,4 +86,4 @@ TEST_CASE("environment sampling is compensated only where s = 0 finds the rest",
     }
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::environment_sampling_test

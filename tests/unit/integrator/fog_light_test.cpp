@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <utility>
 
-namespace bdpt {
+namespace bdpt::fog_light_test {
 namespace {
 
 /// Nothing but fog so thin that one walk of hundreds is scattered in it, beside a lamp that is not
@@ -87,4 +87,4 @@ TEST_CASE("the ways to find a lamp share its light in fog, however often each is
     CHECK(mean_of_globe(LightSampling::tree, 4) == Approx(expected).epsilon(0.03));
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::fog_light_test

@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace bdpt {
+namespace bdpt::hot_path_test {
 namespace {
 
 using test::RuntimeCalls;
@@ -298,4 +298,4 @@ TEST_CASE("hot path: nor does a profile", "[hot_path]")
     }
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::hot_path_test

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace bdpt {
+namespace bdpt::light_samples_test {
 namespace {
 
 /// A wide lamp over a floor, in which all light is direct.
@@ -110,4 +110,4 @@ TEST_CASE("the light samples of bdpt at a camera vertex are points apart", "[int
     }
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::light_samples_test

@@ -5,7 +5,7 @@
 #include <limits>
 #include <random>
 
-namespace bdpt {
+namespace bdpt::light_techniques_test {
 namespace {
 
 constexpr LightTechnique techniques[] = {LightTechnique::light_sample, LightTechnique::bsdf_sample,
@@ -55,4 +55,4 @@ TEST_CASE("a lamp so small that its density is infinite is found by light sample
     CHECK(mis_weight(densities, LightTechnique::bsdf_sample, Heuristic::power) == 0.0f);
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::light_techniques_test

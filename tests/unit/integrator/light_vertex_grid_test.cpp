@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-namespace bdpt {
+namespace bdpt::light_vertex_grid_test {
 namespace {
 
 constexpr int side = 12;
@@ -116,4 +116,4 @@ TEST_CASE("a grid without light vertices finds none", "[vcm]")
     SUCCEED();
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::light_vertex_grid_test

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-namespace bdpt::test {
+namespace bdpt::test::sample_schedule_test {
 namespace {
 
 /// A row of pixels, one of each rate.
@@ -102,4 +102,4 @@ TEST_CASE("without rates each round is one sample", "[rates]")
     CHECK(schedule.count(7, 7, {.begin = 5, .end = 9}) == 4);
 }
 
-}  // namespace bdpt::test
+}  // namespace bdpt::test::sample_schedule_test

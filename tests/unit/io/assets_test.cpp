@@ -15,7 +15,7 @@
 #include <optional>
 #include <utility>
 
-using namespace bdpt;
+namespace bdpt::test::assets_test {
 using namespace bdpt::io;
 
 namespace {
@@ -236,3 +236,5 @@ TEST_CASE("auto takes path tracing for a car with small lamps in a studio", "[!s
     const CameraDesc camera = frame_scene(scene, 240.0f / 135.0f).camera;
     CHECK(chosen_options(scene, camera, options).integrator == IntegratorKind::mis);
 }
+
+}  // namespace bdpt::test::assets_test

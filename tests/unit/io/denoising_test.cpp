@@ -11,7 +11,7 @@
 #include "catch.hpp"
 #include "scratch_folder.h"
 
-namespace bdpt::test {
+namespace bdpt::test::denoising_test {
 namespace {
 
 Layer layer(const char* name, float value, int width = 2)
@@ -89,4 +89,4 @@ TEST_CASE("what is no denoiser is refused by name")
     CHECK(std::string(error.what()).find("oidnNewDevice") != std::string::npos);
 }
 
-}  // namespace bdpt::test
+}  // namespace bdpt::test::denoising_test

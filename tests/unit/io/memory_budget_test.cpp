@@ -5,7 +5,7 @@
 
 #include <string>
 
-using namespace bdpt;
+namespace bdpt::test::memory_budget_test {
 using namespace bdpt::io;
 
 namespace {
@@ -46,3 +46,5 @@ TEST_CASE("a budget of memory says who asks for how much, what is left of it and
         {.bytes = 10, .source = "free memory of the machine", .code = ErrorCode::out_of_memory});
     CHECK(refusal(machine, "it", 11).code() == ErrorCode::out_of_memory);
 }
+
+}  // namespace bdpt::test::memory_budget_test

@@ -14,7 +14,7 @@
 
 // Light paths leave every kind of light as its densities say (sphere lights: sphere_light_test).
 
-namespace bdpt {
+namespace bdpt::emission_test {
 namespace {
 
 using test::bin_of;
@@ -181,4 +181,4 @@ TEST_CASE("environment: light comes by luminance, and enters evenly on the disk"
     test::check_uniform(places);
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::emission_test

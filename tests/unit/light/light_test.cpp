@@ -15,7 +15,7 @@
 #include <utility>
 #include <variant>
 
-namespace bdpt {
+namespace bdpt::light_test {
 namespace {
 
 using test::SceneBuilder;
@@ -323,4 +323,4 @@ TEST_CASE("a spot is dark outside of its cone and full inside of the inner one",
     CHECK(intensity(0.4f) == Approx(8.0f * x * x).epsilon(1e-3));
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::light_test

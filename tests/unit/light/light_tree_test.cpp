@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace bdpt {
+namespace bdpt::light_tree_test {
 namespace {
 
 using test::Random;
@@ -246,4 +246,4 @@ TEST_CASE("among lights that shine along their row all behind are seen", "[light
     }
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::light_tree_test

@@ -13,7 +13,7 @@
 #include <utility>
 #include <variant>
 
-namespace bdpt {
+namespace bdpt::moving_light_test {
 namespace {
 
 using test::SceneBuilder;
@@ -159,4 +159,4 @@ TEST_CASE("the tree of lights loses none of those that move, at any time", "[mot
     CHECK(contributions > 2000);
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::moving_light_test

@@ -12,7 +12,7 @@
 #include <cmath>
 #include <vector>
 
-namespace bdpt {
+namespace bdpt::profile_light_test {
 namespace {
 
 constexpr double full_sphere = 12.566370614359172;
@@ -287,4 +287,4 @@ TEST_CASE("profile light: the node turns it, and mirrors it", "[light]")
     }
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::profile_light_test

@@ -14,7 +14,7 @@
 #include <cmath>
 #include <vector>
 
-namespace bdpt {
+namespace bdpt::sphere_light_test {
 namespace {
 
 using test::bin_of;
@@ -278,4 +278,4 @@ TEST_CASE("a sphere never hides its own outline from far away", "[world]")
     CHECK(seen > 10000);
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::sphere_light_test

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <vector>
 
-namespace bdpt {
+namespace bdpt::triangle_light_test {
 namespace {
 
 /// Dark but for one bright texel and a dim one.
@@ -196,4 +196,4 @@ TEST_CASE("coordinates without bounds do not stop the texture from being measure
     CHECK(pdf > 0.0f);
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::triangle_light_test

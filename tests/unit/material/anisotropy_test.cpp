@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-using namespace bdpt;
+namespace bdpt::test::anisotropy_test {
 
 TEST_CASE("the normals of a brushed surface fill its area once")
 {
@@ -69,3 +69,5 @@ TEST_CASE("brushed metal has the values of the extension's formula")
     };
     CHECK(towards({0.9f, 0.0f, 1.0f}) > 2.0f * towards({0.0f, 0.9f, 1.0f}));
 }
+
+}  // namespace bdpt::test::anisotropy_test

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-using namespace bdpt;
+namespace bdpt::test::bsdf_chi_square_test {
 
 TEST_CASE("samples of every BSDF are distributed by its density")
 {
@@ -41,3 +41,5 @@ TEST_CASE("samples of every BSDF are distributed by its density")
     }
     CHECK(tested >= 80);
 }
+
+}  // namespace bdpt::test::bsdf_chi_square_test

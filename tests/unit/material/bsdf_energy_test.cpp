@@ -8,8 +8,7 @@
 #include <utility>
 #include <vector>
 
-using namespace bdpt;
-
+namespace bdpt::test::bsdf_energy_test {
 namespace {
 
 /// The share of light from `wo` that is scattered at all: the mean weight of importance samples.
@@ -120,3 +119,5 @@ TEST_CASE("rough metal loses what single scattering must lose")
     // Nearly smooth metal loses nearly nothing.
     CHECK(albedo_of(white_metal(0.2f), up, 100000)[0].mean() > 0.995);
 }
+
+}  // namespace bdpt::test::bsdf_energy_test

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <vector>
 
-using namespace bdpt;
-
+namespace bdpt::test::bsdf_robustness_test {
 namespace {
 
 /// Directions where divisions and roots are at their worst.
@@ -94,3 +93,5 @@ TEST_CASE("parameters out of range are clamped")
     CHECK(a->weight == b->weight);
     CHECK(a->pdf_fwd.value == b->pdf_fwd.value);
 }
+
+}  // namespace bdpt::test::bsdf_robustness_test

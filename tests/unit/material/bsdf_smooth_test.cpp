@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-using namespace bdpt;
-
+namespace bdpt::test::bsdf_smooth_test {
 namespace {
 
 const float ior = 1.5f;
@@ -185,3 +184,5 @@ TEST_CASE("total reflection keeps its energy where specular is low")
     CHECK(sampled->wi.z == wo.z);
     CHECK(sampled->weight == Rgb{1.0f});
 }
+
+}  // namespace bdpt::test::bsdf_smooth_test

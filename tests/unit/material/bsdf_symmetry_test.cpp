@@ -5,8 +5,7 @@
 
 #include <cmath>
 
-using namespace bdpt;
-
+namespace bdpt::test::bsdf_symmetry_test {
 namespace {
 
 /// A direction that scattering makes likely, or any; so that narrow lobes are tested too.
@@ -173,3 +172,5 @@ TEST_CASE("BSDFs have the values worked out by hand")
         CHECK(!bsdf.sample(up, 0.3f, {0.1f, 0.9f}, TransportMode::radiance));
     }
 }
+
+}  // namespace bdpt::test::bsdf_symmetry_test

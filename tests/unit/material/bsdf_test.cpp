@@ -7,8 +7,7 @@
 
 #include <cmath>
 
-using namespace bdpt;
-
+namespace bdpt::test::bsdf_test {
 namespace {
 
 Vec3 tilted_normal()
@@ -167,3 +166,5 @@ TEST_CASE("equal normals leave importance and radiance equal to the bit")
               bsdf.eval(wi, TransportMode::importance).f_cos);
     }
 }
+
+}  // namespace bdpt::test::bsdf_test

@@ -11,8 +11,7 @@
 #include <utility>
 #include <vector>
 
-using namespace bdpt;
-
+namespace bdpt::test::henyey_greenstein_test {
 namespace {
 
 /// Probability that the cosine to the way of the light is below `c`.
@@ -172,3 +171,5 @@ TEST_CASE("a dense body has its multi-scatter colour, whatever the anisotropy is
         }
     }
 }
+
+}  // namespace bdpt::test::henyey_greenstein_test

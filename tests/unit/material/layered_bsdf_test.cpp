@@ -8,8 +8,7 @@
 #include <cmath>
 #include <optional>
 
-using namespace bdpt;
-
+namespace bdpt::test::layered_bsdf_test {
 namespace {
 
 /// The delta sample of `wo` that leads to `wi`, by whichever number chooses it.
@@ -100,3 +99,5 @@ TEST_CASE("what comes through diffusely has the values worked out by hand")
     const BsdfEval back = bsdf.eval(up, -down, TransportMode::radiance);
     CHECK(back.f_cos.g == Approx(0.75f * 0.5f * 0.8f * 0.31831f).epsilon(1e-3));
 }
+
+}  // namespace bdpt::test::layered_bsdf_test

@@ -15,8 +15,7 @@
 #include <string>
 #include <vector>
 
-using namespace bdpt;
-
+namespace bdpt::test::lobe_test {
 namespace {
 
 /// A lobe of any type.
@@ -238,3 +237,5 @@ TEST_CASE("surfaces have the simplest model that there is for them")
     CHECK(
         std::holds_alternative<MetallicRoughness>(model({.specular = 0.0f, .body = Body::solid})));
 }
+
+}  // namespace bdpt::test::lobe_test

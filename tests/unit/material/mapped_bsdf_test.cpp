@@ -9,8 +9,7 @@
 #include <cmath>
 #include <vector>
 
-using namespace bdpt;
-
+namespace bdpt::test::mapped_bsdf_test {
 namespace {
 
 constexpr TransportMode radiance = TransportMode::radiance;
@@ -308,3 +307,5 @@ TEST_CASE("a map that does not lean leaves the model as it is")
         CHECK(mapped.pdf_rev.value == Approx(even.pdf_rev.value).epsilon(1e-4));
     }
 }
+
+}  // namespace bdpt::test::mapped_bsdf_test

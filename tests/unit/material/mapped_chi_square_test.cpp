@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-using namespace bdpt;
-
+namespace bdpt::test::mapped_chi_square_test {
 namespace {
 
 // Bins of the sphere, even in the angle from the normal and the azimuth; those above and below the
@@ -111,3 +110,5 @@ TEST_CASE("samples over normal maps are distributed by their density, from both 
     }
     CHECK(tested == 11);
 }
+
+}  // namespace bdpt::test::mapped_chi_square_test

@@ -8,8 +8,7 @@
 #include <functional>
 #include <vector>
 
-using namespace bdpt;
-
+namespace bdpt::test::material_layers_test {
 namespace {
 
 constexpr TextureRef first_image{};
@@ -216,3 +215,5 @@ TEST_CASE("unlit materials have no layers, and layers of factor 0 are none")
         CHECK(!has_layers(changed));
     }
 }
+
+}  // namespace bdpt::test::material_layers_test

@@ -7,8 +7,7 @@
 
 #include <cmath>
 
-using namespace bdpt;
-
+namespace bdpt::test::material_test {
 namespace {
 
 constexpr TextureRef first_image{};
@@ -271,3 +270,5 @@ TEST_CASE("absorption leaves the attenuation colour after the attenuation distan
     desc.thickness = 0.0f;  // a thin sheet has no inside
     CHECK(medium_within(desc).extinction == Rgb{0.0f});
 }
+
+}  // namespace bdpt::test::material_test

@@ -7,8 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-using namespace bdpt;
-
+namespace bdpt::test::sheen_albedo_test {
 namespace {
 
 constexpr double exact_pi = 3.14159265358979323846;
@@ -104,3 +103,5 @@ TEST_CASE("sheen is the formula of the extension, but where that makes light")
         CHECK(albedo(sheen, cosine, 0.25f) < 1.001);
     }
 }
+
+}  // namespace bdpt::test::sheen_albedo_test

@@ -7,8 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-using namespace bdpt;
-
+namespace bdpt::test::specular_albedo_test {
 namespace {
 
 /// What the table holds, by random samples of visible normals.
@@ -126,3 +125,5 @@ TEST_CASE("the average of SpecularAlbedo fits its directional values")
     const SpecularAlbedo::Split smooth = albedo.average(SpecularAlbedo::at_roughness(0.0f));
     CHECK(0.04f * smooth.f0 + smooth.f90 == Approx(0.0918f).margin(3e-4));
 }
+
+}  // namespace bdpt::test::specular_albedo_test

@@ -6,8 +6,7 @@
 #include <cmath>
 #include <complex>
 
-using namespace bdpt;
-
+namespace bdpt::test::thin_film_test {
 namespace {
 
 constexpr double exact_pi = 3.14159265358979323846;
@@ -134,3 +133,5 @@ TEST_CASE("a film reflects no more than its bound, and between nothing and every
         }
     }
 }
+
+}  // namespace bdpt::test::thin_film_test

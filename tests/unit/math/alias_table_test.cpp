@@ -7,8 +7,7 @@
 #include <numeric>
 #include <vector>
 
-using namespace bdpt;
-
+namespace bdpt::test::alias_table_test {
 namespace {
 
 /// Counts of `samples` draws.
@@ -142,3 +141,5 @@ TEST_CASE("AliasTable without weight is empty")
     CHECK(some.probability(1) == 1.0f);
     CHECK(probabilities(some)[0] == 0.0);
 }
+
+}  // namespace bdpt::test::alias_table_test

@@ -4,7 +4,7 @@
 
 #include <array>
 
-using namespace bdpt::test;
+namespace bdpt::test::chi_square_test {
 
 // The tools that judge the rest.
 
@@ -44,3 +44,5 @@ TEST_CASE("chi_square says what it cannot see")
     CHECK(chi_square(few, probabilities).least_detectable(0.01) > 0.3);
     CHECK(chi_square(many, probabilities).least_detectable(0.01) < 0.01);
 }
+
+}  // namespace bdpt::test::chi_square_test

@@ -7,8 +7,7 @@
 #include <cmath>
 #include <limits>
 
-using namespace bdpt;
-
+namespace bdpt::test::elementary_test {
 namespace {
 
 constexpr int steps = 400000;
@@ -112,3 +111,5 @@ TEST_CASE("log_exact is within 1e-6 over all normal floats")
     CHECK(log_exact(1.0f) == 0.0f);
     CHECK(log_exact(1.0f + 0x1p-20f) == Approx(std::log1p(0x1p-20)).epsilon(1e-6));
 }
+
+}  // namespace bdpt::test::elementary_test

@@ -12,7 +12,7 @@
 #include <functional>
 #include <utility>
 
-namespace bdpt {
+namespace bdpt::sampler_distribution_test {
 namespace {
 
 using test::half_points;
@@ -267,4 +267,4 @@ TEST_CASE("the halves of the film tell the error of their mean", "[sampler]")
     }
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::sampler_distribution_test

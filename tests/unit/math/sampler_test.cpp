@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace bdpt {
+namespace bdpt::sampler_test {
 namespace {
 
 using test::numbers;
@@ -161,4 +161,4 @@ TEST_CASE("a choice has 48 bits", "[sampler]")
     }
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::sampler_test

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace bdpt {
+namespace bdpt::sobol_test {
 namespace {
 
 constexpr SobolTable table;
@@ -91,4 +91,4 @@ TEST_CASE("the permutation changes bits by those below them only", "[sobol]")
     }
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::sobol_test

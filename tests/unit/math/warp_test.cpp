@@ -9,8 +9,7 @@
 #include <functional>
 #include <vector>
 
-using namespace bdpt;
-
+namespace bdpt::test::warp_test {
 namespace {
 
 constexpr int grid = 16;
@@ -123,3 +122,5 @@ TEST_CASE("one_minus_cos keeps the digits of narrow cones")
         CHECK(one_minus_cos(static_cast<float>(sine * sine)) == Approx(exact).epsilon(1e-6));
     }
 }
+
+}  // namespace bdpt::test::warp_test

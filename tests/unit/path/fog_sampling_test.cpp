@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace bdpt {
+namespace bdpt::fog_sampling_test {
 namespace {
 
 /// A room with lights of all kinds, as `lights` says how they are chosen.
@@ -123,4 +123,4 @@ TEST_CASE("fog is sampled where the lamp is near", "[media]")
     CHECK(sampling.pdf_distance(fog, sun, 1.2f) == Approx(1.0f / 1.8f));
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::fog_sampling_test

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace bdpt::test {
+namespace bdpt::test::merge_test {
 namespace {
 
 constexpr double merge_radius = 0.05;
@@ -86,4 +86,4 @@ TEST_CASE("a merge takes the light of a sun from where the sun is", "[vcm]")
                   static_cast<double>(floor_albedo) / pi_double * flux / disk);
 }
 
-}  // namespace bdpt::test
+}  // namespace bdpt::test::merge_test

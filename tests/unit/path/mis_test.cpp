@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-namespace bdpt {
+namespace bdpt::mis_test {
 namespace {
 
 /// A path with random densities, and strategies that exist or not.
@@ -142,4 +142,4 @@ TEST_CASE("MIS weights of long paths neither overflow nor vanish", "[mis]")
     CHECK(mis_weight(path, 0, Heuristic::balance) == 0.0f);
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::mis_test

@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace bdpt {
+namespace bdpt::path_weights_test {
 namespace {
 
 using test::SceneBuilder;
@@ -216,4 +216,4 @@ TEST_CASE("next-event estimation has the density that others are weighed against
     CHECK(through > 50);  // glass and paper
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::path_weights_test

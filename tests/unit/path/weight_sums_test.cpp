@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace bdpt {
+namespace bdpt::weight_sums_test {
 namespace {
 
 using test::SceneBuilder;
@@ -169,4 +169,4 @@ TEST_CASE("sets of strategies with gaps are not weighed by sums", "[mis]")
     CHECK(applies(other));
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::weight_sums_test

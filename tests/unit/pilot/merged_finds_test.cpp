@@ -10,7 +10,7 @@
 #include <cmath>
 #include <utility>
 
-namespace bdpt::test {
+namespace bdpt::test::merged_finds_test {
 namespace {
 
 constexpr float albedo = 0.5f;
@@ -86,4 +86,4 @@ TEST_CASE("a pilot leaves out light that no render of usual length finds", "[pil
     }
 }
 
-}  // namespace bdpt::test
+}  // namespace bdpt::test::merged_finds_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace bdpt::test {
+namespace bdpt::test::path_shares_test {
 namespace {
 
 /// Of a path of four vertices, by the number of those from the light. In the pilot those with
@@ -214,4 +214,4 @@ TEST_CASE("cross terms of a sample are those of its definition", "[pilot]")
     }
 }
 
-}  // namespace bdpt::test
+}  // namespace bdpt::test::path_shares_test

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <vector>
 
-namespace bdpt::test {
+namespace bdpt::test::pilot_brightness_test {
 namespace {
 
 constexpr int side = 5;  // of so few pixels each has a cell
@@ -100,4 +100,4 @@ TEST_CASE("a splat does not count for its own place", "[pilot]")
     CHECK(brightness.scale(splats.front()) == Approx(1.0 / (others * others + floor_of_squares)));
 }
 
-}  // namespace bdpt::test
+}  // namespace bdpt::test::pilot_brightness_test

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace bdpt::test {
+namespace bdpt::test::pilot_errors_test {
 namespace {
 
 constexpr float radiance = 3.0f;
@@ -71,4 +71,4 @@ TEST_CASE("of the variance of sums a part is left, of direct light another than 
     }
 }
 
-}  // namespace bdpt::test
+}  // namespace bdpt::test::pilot_errors_test

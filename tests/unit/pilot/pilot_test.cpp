@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-namespace bdpt::test {
+namespace bdpt::test::pilot_test {
 namespace {
 
 constexpr int side = 24;
@@ -297,4 +297,4 @@ TEST_CASE("points of lamps are joined to the lens where that is worth its cost",
     CHECK(with_best(pilot, small()).integrator == IntegratorKind::bdpt);
 }
 
-}  // namespace bdpt::test
+}  // namespace bdpt::test::pilot_test

@@ -14,7 +14,7 @@
 #include <functional>
 #include <thread>
 
-namespace bdpt {
+namespace bdpt::time_profile_test {
 namespace {
 
 constexpr int columns = 24;
@@ -291,4 +291,4 @@ TEST_CASE("what reading the clock takes is not in a profile", "[profile]")
     }
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::time_profile_test

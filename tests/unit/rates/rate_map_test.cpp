@@ -10,7 +10,7 @@
 #include <limits>
 #include <vector>
 
-namespace bdpt::test {
+namespace bdpt::test::rate_map_test {
 namespace {
 
 RateEvidence evidence(int width, int height, double variance = 1.0)
@@ -146,4 +146,4 @@ TEST_CASE("a film clamps what a sample brings, whatever it counts", "[rates]")
     CHECK(film.clamp_loss().radiance == Rgb((24.0f + 1.5f + 3.0f) / 2.0f));
 }
 
-}  // namespace bdpt::test
+}  // namespace bdpt::test::rate_map_test

@@ -10,7 +10,7 @@
 #include <limits>
 #include <string>
 
-namespace bdpt {
+namespace bdpt::aov_test {
 namespace {
 
 constexpr int size = 24;
@@ -205,4 +205,4 @@ TEST_CASE("AOVs of different regions or kinds are not merged", "[aov]")
                     Error);
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::aov_test

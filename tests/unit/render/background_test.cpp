@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace bdpt {
+namespace bdpt::background_test {
 namespace {
 
 constexpr int size = 24;
@@ -168,4 +168,4 @@ TEST_CASE("lights that are no environment stay visible", "[background]")
     }
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::background_test

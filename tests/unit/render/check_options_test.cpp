@@ -9,7 +9,7 @@
 #include <limits>
 #include <string>
 
-namespace bdpt {
+namespace bdpt::check_options_test {
 namespace {
 
 std::string message_of(const std::function<void()>& action, ErrorCode expected)
@@ -160,4 +160,4 @@ TEST_CASE("cameras without a view are refused by name", "[render]")
           std::string::npos);
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::check_options_test

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace bdpt::test {
+namespace bdpt::test::chosen_options_test {
 namespace {
 
 RenderOptions small()
@@ -217,4 +217,4 @@ TEST_CASE("light paths that nobody connects to are not kept in memory", "[light-
     CHECK(result.stats.rays.shadow_to_lens > 0);
 }
 
-}  // namespace bdpt::test
+}  // namespace bdpt::test::chosen_options_test

@@ -15,7 +15,7 @@
 
 // Several renders at once in one process. Assertions are made by the test's own thread only.
 
-namespace bdpt {
+namespace bdpt::concurrency_test {
 namespace {
 
 using test::room;
@@ -215,4 +215,4 @@ TEST_CASE("results outlive the scene that they are of", "[concurrency]")
     CHECK(result.aovs.develop(result.film).size() == 2);
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::concurrency_test

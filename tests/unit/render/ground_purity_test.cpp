@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace bdpt::test {
+namespace bdpt::test::ground_purity_test {
 namespace {
 
 /// Things that move, shine, let some rays pass and refract each colour in its own way, under a sky.
@@ -118,4 +118,4 @@ TEST_CASE("a shadow alone needs no other layer", "[ground]")
     CHECK(shadow_of(alone).opacity == both.opacity);
 }
 
-}  // namespace bdpt::test
+}  // namespace bdpt::test::ground_purity_test

@@ -15,7 +15,7 @@
 #include <functional>
 #include <limits>
 
-namespace bdpt::test {
+namespace bdpt::test::ground_shadow_test {
 namespace {
 
 constexpr int side = 32;
@@ -369,4 +369,4 @@ TEST_CASE("heights of the ground that are none are refused", "[ground]")
     }
 }
 
-}  // namespace bdpt::test
+}  // namespace bdpt::test::ground_shadow_test

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace bdpt {
+namespace bdpt::id_test {
 namespace {
 
 constexpr int size = 20;
@@ -329,4 +329,4 @@ TEST_CASE("names that are too long for the header of a part are refused", "[ids]
     }
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::id_test

@@ -27,7 +27,7 @@
 // lists of fields, which the compiler keeps complete; its name is then in `without_influence`, or
 // the identity must change with it.
 
-namespace bdpt::test {
+namespace bdpt::test::identity_test {
 namespace {
 
 RenderOptions options()
@@ -325,4 +325,4 @@ TEST_CASE("builds of other versions and instruction sets are told apart", "[part
 }
 
 }  // namespace
-}  // namespace bdpt::test
+}  // namespace bdpt::test::identity_test

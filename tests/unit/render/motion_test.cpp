@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace bdpt {
+namespace bdpt::render_motion_test {
 namespace {
 
 using test::SceneBuilder;
@@ -309,4 +309,4 @@ TEST_CASE("cameras that move through nothing are refused", "[motion][validate]")
           std::string::npos);
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::render_motion_test

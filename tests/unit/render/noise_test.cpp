@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace bdpt::test {
+namespace bdpt::test::noise_test {
 namespace {
 
 constexpr int side = 320;  // [pixels], 400 tiles
@@ -290,4 +290,4 @@ TEST_CASE("a render that stops and goes on stops at the same level of noise", "[
 }
 
 }  // namespace
-}  // namespace bdpt::test
+}  // namespace bdpt::test::noise_test

@@ -10,7 +10,7 @@
 #include <numeric>
 #include <vector>
 
-namespace bdpt {
+namespace bdpt::path_contribution_test {
 namespace {
 
 /// All that makes strategies blind: glass, a mirror, a point light, a lamp that is seen.
@@ -143,4 +143,4 @@ TEST_CASE("path tracers tell strategies with at most one vertex from the light",
     }
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::path_contribution_test

@@ -13,7 +13,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace bdpt {
+namespace bdpt::purity_test {
 namespace {
 
 using test::check_region;
@@ -363,4 +363,4 @@ TEST_CASE("a time limit ends the render early, but not before one pass", "[rende
     CHECK(result.samples.end < 1000000);
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::purity_test

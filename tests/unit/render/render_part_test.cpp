@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace bdpt::test {
+namespace bdpt::test::render_part_test {
 namespace {
 
 RenderOptions options()
@@ -278,4 +278,4 @@ TEST_CASE("a part that has the identity of a render and other films is refused",
 }
 
 }  // namespace
-}  // namespace bdpt::test
+}  // namespace bdpt::test::render_part_test

@@ -20,7 +20,7 @@
 #include <utility>
 #include <vector>
 
-namespace bdpt::test {
+namespace bdpt::test::sample_rates_test {
 namespace {
 
 constexpr int width = 29;
@@ -307,4 +307,4 @@ TEST_CASE("any image has rates", "[rates]")
     CHECK(none.greatest() == 1.0f);
 }
 
-}  // namespace bdpt::test
+}  // namespace bdpt::test::sample_rates_test

@@ -21,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-namespace bdpt::test {
+namespace bdpt::test::shared_light_paths_test {
 namespace {
 
 constexpr int width = 37;
@@ -225,4 +225,4 @@ TEST_CASE("scenes without light leave shared light paths empty", "[light-paths]"
     CHECK(result.film.defects().invalid == 0);
 }
 
-}  // namespace bdpt::test
+}  // namespace bdpt::test::shared_light_paths_test

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace bdpt {
+namespace bdpt::stats_test {
 namespace {
 
 constexpr std::uint64_t samples = 4;
@@ -141,4 +141,4 @@ TEST_CASE("a crop takes the camera rays of its pixels and the light rays of the 
           PathCounts{.camera = samples * 20, .light = 0});
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::stats_test

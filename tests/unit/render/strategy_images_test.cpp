@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace bdpt {
+namespace bdpt::strategy_images_test {
 namespace {
 
 /// Lamp and surfaces that do not touch, so that each strategy alone has little noise.
@@ -341,4 +341,4 @@ TEST_CASE("only integrators with light paths have images of strategies", "[strat
     CHECK_THROWS_AS(render(scene, pinhole(), o), Error);
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::strategy_images_test

@@ -16,7 +16,7 @@
 #include <tuple>
 #include <utility>
 
-namespace bdpt::test {
+namespace bdpt::test::vcm_test {
 namespace {
 
 RenderOptions options(IntegratorKind integrator = IntegratorKind::vcm)
@@ -224,4 +224,4 @@ TEST_CASE("scenes without light have nothing to merge with", "[vcm]")
     CHECK(result.film.defects().invalid == 0);
 }
 
-}  // namespace bdpt::test
+}  // namespace bdpt::test::vcm_test

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace bdpt {
+namespace bdpt::alpha_test {
 namespace {
 
 using test::SceneBuilder;
@@ -354,4 +354,4 @@ TEST_CASE("unlit surfaces shine with their base colour and scatter nothing", "[a
     CHECK(power == Approx(3.14159265f * 2.0f * (double_sided ? 2.0f : 1.0f)).epsilon(0.02));
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::alpha_test

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <numbers>
 
-namespace bdpt {
+namespace bdpt::default_lights_test {
 namespace {
 
 const MaterialDesc wall = test::lambertian(Rgb(0.7f));
@@ -89,4 +89,4 @@ TEST_CASE("a scene without light gets a sky, and a closed room a lamp, too", "[d
     }
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::default_lights_test

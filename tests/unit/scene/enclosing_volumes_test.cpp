@@ -11,7 +11,7 @@
 #include <string>
 #include <utility>
 
-using namespace bdpt;
+namespace bdpt::test::enclosing_volumes_test {
 using test::SceneBuilder;
 
 namespace {
@@ -283,3 +283,5 @@ TEST_CASE("bodies that lie one in the other are found, up to a limit of their nu
         CHECK(std::string(error.what()).find("but the limit is 64") != std::string::npos);
     }
 }
+
+}  // namespace bdpt::test::enclosing_volumes_test

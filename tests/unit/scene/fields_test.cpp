@@ -13,7 +13,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace bdpt {
+namespace bdpt::fields_test {
 namespace {
 
 // A list that has not all members, or one of them at another's place, does not compile.
@@ -89,4 +89,4 @@ TEST_CASE("each texture of a material is checked", "[fields]")
     CHECK(slots.size() == 18);
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::fields_test

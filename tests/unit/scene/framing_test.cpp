@@ -7,7 +7,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace bdpt {
+namespace bdpt::framing_test {
 namespace {
 
 using test::SceneBuilder;
@@ -107,4 +107,4 @@ TEST_CASE("a camera that goes around stays level, at its distance, and moves as 
     CHECK(near(back.world_from_camera[3], camera.world_from_camera[3]));
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::framing_test

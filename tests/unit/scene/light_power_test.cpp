@@ -11,7 +11,7 @@
 #include <string>
 #include <utility>
 
-namespace bdpt {
+namespace bdpt::light_power_test {
 namespace {
 
 using test::SceneBuilder;
@@ -99,4 +99,4 @@ TEST_CASE("light so faint that its power is no float does no harm", "[light_powe
     CHECK_FALSE(world.lights().choose_for_emission(Vec2(0.5f)).has_value());
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::light_power_test

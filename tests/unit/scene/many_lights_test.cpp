@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace bdpt {
+namespace bdpt::many_lights_test {
 namespace {
 
 using test::Random;
@@ -231,4 +231,4 @@ TEST_CASE("a lamp beside the sun is chosen often enough, however large the scene
     CHECK(p(0) + p(1) + p(2) == Approx(1.0f));
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::many_lights_test

@@ -10,7 +10,7 @@
 #include <limits>
 #include <vector>
 
-namespace bdpt {
+namespace bdpt::media_test {
 namespace {
 
 const Rgb chromatic(0.5f, 1.0f, 3.0f);
@@ -211,4 +211,4 @@ TEST_CASE("fog is around bodies and lights, and what bodies hold within them", "
     CHECK(extinction(lights[LightId{2}].media().ahead) == 0.1f);
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::media_test

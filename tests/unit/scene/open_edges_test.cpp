@@ -6,7 +6,7 @@
 
 #include <string>
 
-using namespace bdpt;
+namespace bdpt::test::open_edges_test {
 using test::SceneBuilder;
 
 TEST_CASE("closed meshes have no open edges, whatever their seams", "[bodies]")
@@ -50,3 +50,5 @@ TEST_CASE("open bodies are told, sheets and walls are not", "[bodies]")
     CHECK(warnings(test::thin_glass(0.2f)).empty());
     CHECK(warnings(test::lambertian(Rgb(0.5f))).empty());
 }
+
+}  // namespace bdpt::test::open_edges_test

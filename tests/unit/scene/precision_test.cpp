@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace bdpt {
+namespace bdpt::precision_test {
 namespace {
 
 using test::SceneBuilder;
@@ -126,4 +126,4 @@ TEST_CASE("a lamp that is too near to a vast plane is named", "[precision]")
     CHECK(warnings[0].find("but point light 0 \"lamp\" is nearer") != std::string::npos);
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::precision_test

@@ -9,7 +9,7 @@
 #include <limits>
 #include <string>
 
-namespace bdpt {
+namespace bdpt::validate_test {
 namespace {
 
 constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
@@ -272,4 +272,4 @@ TEST_CASE("light profiles", "[validate]")
                   with([](LightProfile&, ProfileLightDesc& l) { l.position.y = 1e16f; }));
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::validate_test

@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace bdpt {
+namespace bdpt::volume_test {
 namespace {
 
 /// Of 20 x 17 x 12 voxels with a few dense ones, in a box that is turned and stretched.
@@ -268,4 +268,4 @@ TEST_CASE("rays from far away come to the end of a block that is dense in one co
     CHECK_FALSE(volumes.walk({0, 6.5f, 6.5f}, {1, 0, 0}, 1e8f, key(0)).event);
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::volume_test

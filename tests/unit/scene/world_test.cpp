@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace bdpt {
+namespace bdpt::world_test {
 namespace {
 
 using test::SceneBuilder;
@@ -236,4 +236,4 @@ TEST_CASE("surfaces are met, shaded and hidden as they are at the segment's time
     }
 }
 
-}  // namespace bdpt
+}  // namespace bdpt::world_test

@@ -9,8 +9,7 @@
 #include <cmath>
 #include <cstring>
 
-using namespace bdpt;
-
+namespace bdpt::test::mip_maps_test {
 namespace {
 
 void in_two_parts(int count, const std::function<void(int, int)>& work)
@@ -206,3 +205,5 @@ TEST_CASE("what emits, lets light pass or bends normals is looked up as it is")
     const Material without(bumpy, images, albedo);
     CHECK(with_copies.bsdf(point).shading_normal() == without.bsdf(point).shading_normal());
 }
+
+}  // namespace bdpt::test::mip_maps_test

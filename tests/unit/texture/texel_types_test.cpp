@@ -6,8 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-using namespace bdpt;
-
+namespace bdpt::test::texel_types_test {
 namespace {
 
 template <typename Value>
@@ -106,3 +105,5 @@ TEST_CASE("texels of all types are mixed bilinearly and averaged")
     CHECK(texture.mean().w == Approx(0.6f));
     CHECK(texture.alpha_range() == std::pair(0.2f, 1.0f));
 }
+
+}  // namespace bdpt::test::texel_types_test

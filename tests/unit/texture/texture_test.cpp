@@ -5,8 +5,7 @@
 #include <cmath>
 #include <limits>
 
-using namespace bdpt;
-
+namespace bdpt::test::texture_test {
 namespace {
 
 /// 4 x 2 texels, all different: red counts columns, green rows.
@@ -207,3 +206,5 @@ TEST_CASE("the mean of a texture is that of its decoded texels")
                                   std::pow((0.4 + 0.055) / 1.055, 2.4))));
     CHECK(srgb.w == Approx(0.5f));
 }
+
+}  // namespace bdpt::test::texture_test

@@ -8,7 +8,7 @@
 #include <functional>
 #include <limits>
 
-using namespace bdpt;
+namespace bdpt::test::animation_test {
 using namespace bdpt::io;
 
 namespace {
@@ -237,3 +237,5 @@ TEST_CASE("what cannot be animated rests, with a warning")
     CHECK(odd.matrix(2.0)[3] == Vec4(5, 6, 7, 1));
     CHECK(warns(odd.fixture.load({.time = 2.0}).warnings, {"has a matrix"}));
 }
+
+}  // namespace bdpt::test::animation_test

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace bdpt::io {
+namespace bdpt::io::cameras_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -134,4 +134,4 @@ TEST_CASE("values of a lens that make no sense are ignored with a warning")
     CHECK(warns(none.warnings, {"/cameras/0/extras", "orthographic"}));
 }
 
-}  // namespace bdpt::io
+}  // namespace bdpt::io::cameras_test

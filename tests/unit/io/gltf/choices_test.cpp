@@ -3,7 +3,7 @@
 
 #include <bdpt/scene_desc.h>
 
-using namespace bdpt;
+namespace bdpt::test::choices_test {
 using namespace bdpt::io;
 
 namespace {
@@ -180,3 +180,5 @@ TEST_CASE("attributes of instances must fit")
     CHECK(error.code() == ErrorCode::invalid_input);
     CHECK(contains(error.what(), "50000000 instances, but the limits allow"));
 }
+
+}  // namespace bdpt::test::choices_test

@@ -16,7 +16,7 @@
 #include <iterator>
 #include <limits>
 
-using namespace bdpt;
+namespace bdpt::test::compressed_test {
 using namespace bdpt::io;
 
 namespace {
@@ -398,3 +398,5 @@ TEST_CASE("truncated compressed data is refused")
         }
     }
 }
+
+}  // namespace bdpt::test::compressed_test

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-using namespace bdpt;
+namespace bdpt::test::deformation_test {
 using namespace bdpt::io;
 
 namespace {
@@ -299,3 +299,5 @@ TEST_CASE("triangles without area are counted")
     CHECK(only_mesh(loaded).triangles.size() == 3);
     CHECK(warns(loaded.warnings, {"/meshes/0/primitives/0: 2 of 3", "without area"}));
 }
+
+}  // namespace bdpt::test::deformation_test

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-using namespace bdpt;
+namespace bdpt::test::files_test {
 using namespace bdpt::io;
 using namespace std::string_literals;
 
@@ -266,3 +266,5 @@ TEST_CASE("the contents of what is no scene are refused by its name")
     CHECK_THROWS_AS(hash_of_file(folder.path() / "none"), Error);
     CHECK_THROWS_AS(hash_of_file(folder.write("long", "1234"), {.file_bytes = 3}), Error);
 }
+
+}  // namespace bdpt::test::files_test

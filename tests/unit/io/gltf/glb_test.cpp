@@ -1,7 +1,7 @@
 #include "../gltf_fixture.h"
 #include "catch.hpp"
 
-using namespace bdpt;
+namespace bdpt::test::glb_test {
 using namespace bdpt::io;
 
 namespace {
@@ -127,3 +127,5 @@ TEST_CASE("a file cut anywhere is refused or loads, but nothing else")
         CHECK(error.code() == ErrorCode::invalid_input);
     }
 }
+
+}  // namespace bdpt::test::glb_test

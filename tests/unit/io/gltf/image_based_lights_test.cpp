@@ -13,7 +13,7 @@
 #include <variant>
 #include <vector>
 
-using namespace bdpt;
+namespace bdpt::test::image_based_lights_test {
 using namespace bdpt::io;
 
 namespace {
@@ -320,3 +320,5 @@ TEST_CASE("environments that are wrong are refused")
         message({{"scenes", {{{"nodes", {0}}, {"extensions", {{"EXT_lights_image_based", 3}}}}}}}),
         "EXT_lights_image_based: must be an object"));
 }
+
+}  // namespace bdpt::test::image_based_lights_test

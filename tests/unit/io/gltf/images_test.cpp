@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 
-using namespace bdpt;
+namespace bdpt::test::gltf_images_test {
 using namespace bdpt::io;
 
 namespace {
@@ -206,3 +206,5 @@ TEST_CASE("images beyond the limits are refused before they are decoded")
     options.limits.texture_bytes = 1;
     CHECK(contains(fixture.error(options).what(), "all images together need more than 1 B"));
 }
+
+}  // namespace bdpt::test::gltf_images_test

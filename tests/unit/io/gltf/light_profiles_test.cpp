@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-using namespace bdpt;
+namespace bdpt::test::light_profiles_test {
 using namespace bdpt::io;
 
 namespace {
@@ -398,3 +398,5 @@ TEST_CASE("light profiles are files, data or views, each read once and only if i
     node_light(index) = {{"light", 0}, {"multiplier", "bright"}};
     CHECK(contains(index.error().what(), "EXT_lights_ies/multiplier: must be a number"));
 }
+
+}  // namespace bdpt::test::light_profiles_test

@@ -5,7 +5,7 @@
 
 #include <variant>
 
-using namespace bdpt;
+namespace bdpt::test::lights_test {
 using namespace bdpt::io;
 
 namespace {
@@ -172,3 +172,5 @@ TEST_CASE("lights that are wrong are refused")
     CHECK(contains(fixture.error().what(),
                    "/nodes/0/extensions/KHR_lights_punctual/light: index 1, but there are 1"));
 }
+
+}  // namespace bdpt::test::lights_test

@@ -4,7 +4,7 @@
 
 #include <bdpt/scene_desc.h>
 
-using namespace bdpt;
+namespace bdpt::test::many_images_test {
 using namespace bdpt::io;
 
 namespace {
@@ -196,3 +196,5 @@ TEST_CASE("a WebP image is refused by its header, before it is decoded")
     CHECK(error.code() == ErrorCode::invalid_input);
     CHECK(contains(error.what(), "12288 x 12288 pixels needs 453 MB, but the limit is 400 MB"));
 }
+
+}  // namespace bdpt::test::many_images_test

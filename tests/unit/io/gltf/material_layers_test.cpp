@@ -4,7 +4,7 @@
 
 #include <bdpt/scene_desc.h>
 
-using namespace bdpt;
+namespace bdpt::test::material_layers_test {
 using namespace bdpt::io;
 
 namespace {
@@ -201,3 +201,5 @@ TEST_CASE("values of layers beyond their ranges are brought back, of a wrong typ
     CHECK(contains(error.what(),
                    "/materials/0/extensions/KHR_materials_clearcoat/clearcoatFactor: must be"));
 }
+
+}  // namespace bdpt::test::material_layers_test

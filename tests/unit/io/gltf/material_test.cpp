@@ -6,7 +6,7 @@
 
 #include <limits>
 
-using namespace bdpt;
+namespace bdpt::test::material_test {
 using namespace bdpt::io;
 
 namespace {
@@ -346,3 +346,5 @@ TEST_CASE("materials with wrong references are refused")
     CHECK(contains(fixture.error().what(), "/materials/0/doubleSided: must be true or false"));
     CHECK(fixture.error().code() == ErrorCode::invalid_input);
 }
+
+}  // namespace bdpt::test::material_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-using namespace bdpt;
+namespace bdpt::test::mesh_test {
 using namespace bdpt::io;
 
 namespace {
@@ -251,3 +251,5 @@ TEST_CASE("attributes with too few values are refused, with too many cut")
     CHECK(loaded.scene.meshes.at(0).uvs[0].size() == 3);
     CHECK(warns(loaded.warnings, {"attributes/TEXCOORD_0", "more values"}));
 }
+
+}  // namespace bdpt::test::mesh_test

@@ -15,7 +15,7 @@
 #include <limits>
 #include <variant>
 
-using namespace bdpt;
+namespace bdpt::test::motion_test {
 using namespace bdpt::io;
 
 namespace {
@@ -324,3 +324,5 @@ TEST_CASE("shutters that make no sense are refused")
         CHECK(contains(error.what(), "no times of a shutter"));
     }
 }
+
+}  // namespace bdpt::test::motion_test

@@ -3,7 +3,7 @@
 
 #include <bdpt/scene_desc.h>
 
-using namespace bdpt;
+namespace bdpt::test::nodes_test {
 using namespace bdpt::io;
 
 namespace {
@@ -210,3 +210,5 @@ TEST_CASE("facts count the whole file")
         CHECK(fixture.load().facts.xmp.empty());
     }
 }
+
+}  // namespace bdpt::test::nodes_test

@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-using namespace bdpt;
+namespace bdpt::test::refusals_test {
 using namespace bdpt::io;
 
 namespace {
@@ -371,3 +371,5 @@ TEST_CASE("a world transform that overflows is refused")
     CHECK(error.code() == ErrorCode::invalid_input);
     CHECK(contains(error.what(), "/nodes/1: the transform to world space is not finite"));
 }
+
+}  // namespace bdpt::test::refusals_test

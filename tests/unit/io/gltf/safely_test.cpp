@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-using namespace bdpt;
+namespace bdpt::test::safely_test {
 using namespace bdpt::io;
 
 namespace {
@@ -168,3 +168,5 @@ TEST_CASE("a Draco mesh of more points than its head says keeps to the limit")
         CHECK(contains(error.what(), "are left of the limit"));
     }
 }
+
+}  // namespace bdpt::test::safely_test

@@ -19,7 +19,7 @@
 #include "scene_builder.h"
 #include "scratch_folder.h"
 
-namespace bdpt::io {
+namespace bdpt::io::id_files_test {
 namespace {
 
 using test::ScratchFolder;
@@ -194,4 +194,4 @@ TEST_CASE("images of ids have the metadata of Cryptomatte", "[ids]")
 }
 
 }  // namespace
-}  // namespace bdpt::io
+}  // namespace bdpt::io::id_files_test

@@ -13,7 +13,7 @@
 #include <fstream>
 #include <iterator>
 
-using namespace bdpt;
+namespace bdpt::test::against_openimageio_test {
 using namespace bdpt::io;
 
 namespace {
@@ -161,3 +161,5 @@ TEST_CASE("Radiance HDR images are read as OpenImageIO reads them")
     }
     CHECK(count >= 2);
 }
+
+}  // namespace bdpt::test::against_openimageio_test

@@ -14,7 +14,7 @@
 #include <functional>
 #include <stdexcept>
 
-using namespace bdpt;
+namespace bdpt::test::damaged_test {
 using namespace bdpt::io;
 
 namespace {
@@ -250,3 +250,5 @@ TEST_CASE("a broken PNG image is told of once, by its warning")
     REQUIRE(loaded.warnings.size() == 1);
     CHECK(warns(loaded.warnings, {"/images/0: PNG: IDAT: "}));
 }
+
+}  // namespace bdpt::test::damaged_test

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
-using namespace bdpt;
+namespace bdpt::test::decoding_test {
 using namespace bdpt::io;
 
 namespace {
@@ -143,3 +143,5 @@ TEST_CASE("images that are decoded at once are as if each were alone, broken one
         REQUIRE(together[i].empty() == (i % 9 > 6));
     }
 }
+
+}  // namespace bdpt::test::decoding_test

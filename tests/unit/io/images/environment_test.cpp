@@ -15,7 +15,7 @@
 #include <limits>
 #include <map>
 
-using namespace bdpt;
+namespace bdpt::test::environment_test {
 using namespace bdpt::io;
 
 namespace {
@@ -217,3 +217,5 @@ TEST_CASE("a dark environment that is packed a thousandfold is read")
     REQUIRE(dark.size() * sizeof(Rgb) > 1000 * std::filesystem::file_size(file));
     CHECK(load_environment(file).light.radiance.width == 4096);
 }
+
+}  // namespace bdpt::test::environment_test

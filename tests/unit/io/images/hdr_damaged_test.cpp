@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <optional>
 
-using namespace bdpt;
+namespace bdpt::test::hdr_damaged_test {
 using namespace bdpt::io;
 
 namespace {
@@ -189,3 +189,5 @@ TEST_CASE("Radiance HDR images with any byte changed are read or refused in one 
     }
     CHECK(refused > 1000);
 }
+
+}  // namespace bdpt::test::hdr_damaged_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-using namespace bdpt;
+namespace bdpt::test::hdr_test {
 using namespace bdpt::io;
 
 namespace {
@@ -178,3 +178,5 @@ TEST_CASE("lines that change no pixel of a Radiance HDR image do not count")
     CHECK(read(other).pixels == plain.image.pixels);
     CHECK(read(other + "more").pixels == plain.image.pixels);
 }
+
+}  // namespace bdpt::test::hdr_test

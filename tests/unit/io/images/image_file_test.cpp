@@ -10,7 +10,7 @@
 #include "catch.hpp"
 #include "scratch_folder.h"
 
-namespace bdpt::io {
+namespace bdpt::io::image_file_test {
 namespace {
 
 using test::ScratchFolder;
@@ -121,4 +121,4 @@ TEST_CASE("read_image reads Radiance HDR, and nothing else")
 }
 
 }  // namespace
-}  // namespace bdpt::io
+}  // namespace bdpt::io::image_file_test

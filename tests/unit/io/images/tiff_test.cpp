@@ -6,7 +6,7 @@
 
 #include <optional>
 
-using namespace bdpt;
+namespace bdpt::test::tiff_test {
 using namespace bdpt::io;
 
 namespace {
@@ -152,3 +152,5 @@ TEST_CASE("TIFF environments that are cut off are refused")
         check_refusal(whole.substr(0, size), ErrorCode::invalid_input, "TIFF: ");
     }
 }
+
+}  // namespace bdpt::test::tiff_test

@@ -11,7 +11,7 @@
 #include "catch.hpp"
 #include "scratch_folder.h"
 
-namespace bdpt::io {
+namespace bdpt::io::json_value_test {
 namespace {
 
 /// The message of the `Error` that `call` throws.
@@ -130,4 +130,4 @@ TEST_CASE("objects of a million keys are read in time", "[json]")
 }
 
 }  // namespace
-}  // namespace bdpt::io
+}  // namespace bdpt::io::json_value_test

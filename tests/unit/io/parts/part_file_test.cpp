@@ -22,7 +22,7 @@
 #include "scene_builder.h"
 #include "scratch_folder.h"
 
-namespace bdpt::io {
+namespace bdpt::io::part_file_test {
 namespace {
 
 using test::ScratchFolder;
@@ -373,4 +373,4 @@ TEST_CASE("a part that cannot be written leaves the one before", "[part]")
 }
 
 }  // namespace
-}  // namespace bdpt::io
+}  // namespace bdpt::io::part_file_test

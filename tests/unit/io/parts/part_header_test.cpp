@@ -14,7 +14,7 @@
 #include "catch.hpp"
 #include "scene_builder.h"
 
-namespace bdpt::io {
+namespace bdpt::io::part_header_test {
 namespace {
 
 PartHeader header()
@@ -120,4 +120,4 @@ TEST_CASE("headers of a million components and ranges are read in time", "[part]
 }
 
 }  // namespace
-}  // namespace bdpt::io
+}  // namespace bdpt::io::part_header_test

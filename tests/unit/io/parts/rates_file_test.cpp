@@ -20,7 +20,7 @@
 #include "scene_builder.h"
 #include "scratch_folder.h"
 
-namespace bdpt::io {
+namespace bdpt::io::rates_file_test {
 namespace {
 
 using test::ScratchFolder;
@@ -121,4 +121,4 @@ TEST_CASE("a part file holds how many samples pixels took", "[rates]")
     CHECK(layers[1].values[11] == 16.0f * options.sampling.rates->rate(3, 2));
 }
 
-}  // namespace bdpt::io
+}  // namespace bdpt::io::rates_file_test

@@ -13,7 +13,7 @@
 
 #include "catch.hpp"
 
-using namespace bdpt;
+namespace bdpt::test::child_process_test {
 using namespace bdpt::io;
 
 namespace {
@@ -105,3 +105,5 @@ TEST_CASE("a process is read from where signals interrupt, and children are not 
     }
     ::signal(SIGCHLD, old_child);
 }
+
+}  // namespace bdpt::test::child_process_test

@@ -12,9 +12,7 @@
 #include "catch.hpp"
 #include "vdb_fixture.h"
 
-using namespace bdpt;
-using namespace bdpt::test;
-
+namespace bdpt::test::mutants_test {
 namespace {
 
 std::string mutant(std::string bytes, std::mt19937& random)
@@ -81,3 +79,5 @@ TEST_CASE("broken OpenVDB files are refused or read, and do no harm", "[volume]"
     CHECK(peak_of_children() < std::uint64_t{320} << 20U);
 #endif
 }
+
+}  // namespace bdpt::test::mutants_test

@@ -10,9 +10,7 @@
 #include "catch.hpp"
 #include "vdb_fixture.h"
 
-using namespace bdpt;
-using namespace bdpt::test;
-
+namespace bdpt::test::refusals_test {
 namespace {
 
 /// Loads what must be refused with `code`, in one line that names the file and holds `parts`.
@@ -171,3 +169,5 @@ TEST_CASE("OpenVDB files that stand for too much are refused", "[volume]")
     options.limits.file_bytes = 100;
     refuse(file, invalid, {"the limit is 100"}, options);
 }
+
+}  // namespace bdpt::test::refusals_test

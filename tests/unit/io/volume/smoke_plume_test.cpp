@@ -8,12 +8,25 @@
 
 #include "catch.hpp"
 
-using namespace bdpt;
+namespace bdpt::test::smoke_plume_test {
+namespace {
 
-TEST_CASE("scenes/smoke.vdb is what its program writes", "[volume]")
+const auto file = std::filesystem::path(BDPT_SOURCE_DIR) / "scenes" / "smoke.vdb";
+
+}  // namespace
+
+// Runs only when it is asked for by its name.
+TEST_CASE("write scenes/smoke.vdb", "[.write-smoke]")
 {
     openvdb::initialize();
-    const auto file = std::filesystem::path(BDPT_SOURCE_DIR) / "scenes" / "smoke.vdb";
+    openvdb::io::File out(file.string());
+    out.setCompression(openvdb::io::COMPRESS_ZIP | openvdb::io::COMPRESS_ACTIVE_MASK);
+    out.write({smoke_plume()});
+}
+
+TEST_CASE("scenes/smoke.vdb is what this program writes", "[volume]")
+{
+    openvdb::initialize();
     CHECK(std::filesystem::file_size(file) < 150'000);
     const VolumeDesc volume = io::load_volume(file);
     const auto grid = test::smoke_plume();
@@ -32,3 +45,5 @@ TEST_CASE("scenes/smoke.vdb is what its program writes", "[volume]")
     }
     CHECK(*std::max_element(volume.density.begin(), volume.density.end()) > 0.5f);
 }
+
+}  // namespace bdpt::test::smoke_plume_test

@@ -13,9 +13,7 @@
 #include "scene/volume.h"
 #include "vdb_fixture.h"
 
-using namespace bdpt;
-using namespace bdpt::test;
-
+namespace bdpt::test::volume_test {
 namespace {
 
 /// The density at the index `i` of the file, in a volume whose first voxel has the index `first`.
@@ -229,3 +227,5 @@ TEST_CASE("a volume by OpenVDB has the image of the same densities by hand, to t
     }
     CHECK(sum.x > 0.0f);
 }
+
+}  // namespace bdpt::test::volume_test

@@ -15,7 +15,7 @@
 #include "image_files.h"
 #include "scratch_folder.h"
 
-namespace bdpt::io {
+namespace bdpt::io::display_test {
 namespace {
 
 using test::ScratchFolder;
@@ -180,4 +180,4 @@ TEST_CASE("images that no PNG file can hold are refused")
 }
 
 }  // namespace
-}  // namespace bdpt::io
+}  // namespace bdpt::io::display_test

@@ -17,7 +17,7 @@
 #include "image_files.h"
 #include "scratch_folder.h"
 
-namespace bdpt::io {
+namespace bdpt::io::writing_images_test {
 namespace {
 
 using test::ScratchFolder;
@@ -283,4 +283,4 @@ TEST_CASE("a disk that fills up in the middle leaves no half image")
 }
 
 }  // namespace
-}  // namespace bdpt::io
+}  // namespace bdpt::io::writing_images_test

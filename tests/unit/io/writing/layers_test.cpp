@@ -14,7 +14,7 @@
 #include "image_files.h"
 #include "scratch_folder.h"
 
-namespace bdpt::io {
+namespace bdpt::io::layers_test {
 namespace {
 
 using test::ScratchFolder;
@@ -158,4 +158,4 @@ TEST_CASE("layers that do not fit are refused and nothing is written")
 }
 
 }  // namespace
-}  // namespace bdpt::io
+}  // namespace bdpt::io::layers_test

@@ -19,7 +19,7 @@
 #include "catch.hpp"
 #include "scratch_folder.h"
 
-namespace bdpt::io {
+namespace bdpt::io::output_file_test {
 namespace {
 
 using test::ScratchFolder;
@@ -255,4 +255,4 @@ TEST_CASE("checking a place leaves nothing behind")
 }
 
 }  // namespace
-}  // namespace bdpt::io
+}  // namespace bdpt::io::output_file_test

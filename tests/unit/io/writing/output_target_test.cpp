@@ -20,7 +20,7 @@
 
 // What is at the name of an output stays what it is.
 
-namespace bdpt::io {
+namespace bdpt::io::output_target_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -211,4 +211,4 @@ TEST_CASE("names of open descriptors lead to those", "[output]")
 }
 
 }  // namespace
-}  // namespace bdpt::io
+}  // namespace bdpt::io::output_target_test

@@ -9,7 +9,7 @@
 
 #include "catch.hpp"
 
-namespace bdpt::io {
+namespace bdpt::io::tone_curves_test {
 namespace {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
@@ -133,4 +133,4 @@ TEST_CASE("each curve has its name, and tone mapping uses it")
 }
 
 }  // namespace
-}  // namespace bdpt::io
+}  // namespace bdpt::io::tone_curves_test

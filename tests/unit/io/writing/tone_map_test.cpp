@@ -10,7 +10,7 @@
 
 #include "catch.hpp"
 
-namespace bdpt::io {
+namespace bdpt::io::tone_map_test {
 namespace {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
@@ -196,4 +196,4 @@ TEST_CASE("sRGB encoding follows the standard")
 }
 
 }  // namespace
-}  // namespace bdpt::io
+}  // namespace bdpt::io::tone_map_test

@@ -226,7 +226,6 @@ make_wheel() {
   done
   TMPDIR=$folder/tmp CMAKE_BUILD_PARALLEL_LEVEL=2 "${pip[@]}" wheel "$folder/source" --no-deps -w "$folder" \
     --config-settings=cmake.build-type=Debug --config-settings=cmake.define.CMAKE_CXX_FLAGS_DEBUG=-O0 \
-    --config-settings=cmake.define.CMAKE_UNITY_BUILD=ON --config-settings=cmake.define.CMAKE_UNITY_BUILD_BATCH_SIZE=32 \
     --config-settings=cmake.define.CMAKE_CXX_COMPILER_LAUNCHER="$LAUNCHER" \
     --config-settings="build.targets=bdpt_python;bdpt_python_stub;bdpt_app"
   rm -rf "$folder/source" "$folder/tmp"

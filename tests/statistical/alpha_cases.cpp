@@ -52,7 +52,8 @@ SceneBuilder& hang(SceneBuilder& builder, const MaterialDesc& material)
                         {-0.6f, 0.5f, -0.1f}, material);
 }
 
-EqualityCase in_room(std::string name, SceneBuilder builder, std::optional<int> seen_by_lt = 1)
+EqualityCase in_leafy_room(std::string name, SceneBuilder builder,
+                           std::optional<int> seen_by_lt = 1)
 {
     return {.name = std::move(name),
             .scene = std::move(builder.desc),
@@ -88,12 +89,12 @@ std::vector<EqualityCase> alpha_cases()
     panes.quad({-0.9f, 0.5f, -0.9f}, {0.9f, 0.5f, -0.9f}, {0.9f, 0.5f, 0.9f}, {-0.9f, 0.5f, 0.9f},
                see_through(plastic({0.2f, 0.6f, 0.8f}, 0.4f), 0.5f));
     hang(panes, textured(lambertian({0.8f, 0.8f, 0.3f}), AlphaMode::blend));
-    cases.push_back(in_room("blended panes before an area light", std::move(panes)));
+    cases.push_back(in_leafy_room("blended panes before an area light", std::move(panes)));
 
     SceneBuilder leaves = closed_room();
     hang(leaves, textured(lambertian(Rgb(0.8f)), AlphaMode::mask));
     leaves.light(PointLightDesc{.position = {0.2f, 0.6f, 0.6f}, .intensity = Rgb(1.5f)});
-    cases.push_back(in_room("masked leaves before a point light", std::move(leaves)));
+    cases.push_back(in_leafy_room("masked leaves before a point light", std::move(leaves)));
 
     SceneBuilder sky = leafy_room();
     hang(sky, textured(plastic(Rgb(0.8f), 0.5f), AlphaMode::mask));
@@ -101,14 +102,15 @@ std::vector<EqualityCase> alpha_cases()
              see_through(lambertian({0.3f, 0.6f, 0.3f}), 0.6f));
     sky.light(EnvironmentLightDesc{
         .radiance = {.width = 2, .height = 1, .pixels = {Rgb(2.0f, 1.0f, 1.0f), Rgb(0.5f)}}});
-    cases.push_back(in_room("masked leaves and a blended roof under a sky", std::move(sky), 2));
+    cases.push_back(
+        in_leafy_room("masked leaves and a blended roof under a sky", std::move(sky), 2));
 
     SceneBuilder lamps = closed_room();
     MaterialDesc lantern = emitter({3.0f, 2.0f, 1.0f});
     hang(lamps, textured(lantern, AlphaMode::blend));
     lamps.quad({-0.9f, 0.8f, -0.9f}, {0.9f, 0.8f, -0.9f}, {0.9f, 0.8f, 0.9f}, {-0.9f, 0.8f, 0.9f},
                textured(emitter(Rgb(1.0f)), AlphaMode::mask));
-    cases.push_back(in_room("emitters with alpha", std::move(lamps)));
+    cases.push_back(in_leafy_room("emitters with alpha", std::move(lamps)));
 
     SceneBuilder labels = closed_room();
     MaterialDesc label = textured(lambertian(Rgb(1.0f)), AlphaMode::blend);
@@ -119,10 +121,10 @@ std::vector<EqualityCase> alpha_cases()
     labels.quad({-0.8f, 0.9f, -0.8f}, {0.8f, 0.9f, -0.8f}, {0.8f, 0.9f, 0.8f}, {-0.8f, 0.9f, 0.8f},
                 panel);
     labels.sphere({0.4f, -0.6f, 0.2f}, 0.35f, metal(Rgb(0.9f), 0.2f));
-    cases.push_back(in_room("unlit panels", std::move(labels)));
+    cases.push_back(in_leafy_room("unlit panels", std::move(labels)));
     cases.back().detectable_bias_of_light_sampling = 0.07;  // a glossy sphere before many lights
 
-    cases.push_back(in_room("instances with alpha", instances()));
+    cases.push_back(in_leafy_room("instances with alpha", instances()));
 
     SceneBuilder glasses = closed_room();
     MaterialDesc tinted = see_through(glass(0.2f), 0.7f);
@@ -130,7 +132,7 @@ std::vector<EqualityCase> alpha_cases()
     tinted.attenuation_distance = 0.5f;
     glasses.lamp(0.98f, 0.85f, Rgb(3.0f)).sphere({0.4f, -0.5f, 0.1f}, 0.4f, tinted);
     glasses.sphere({-0.4f, -0.5f, 0.1f}, 0.4f, see_through(thin_glass(0.0f), 0.5f));
-    cases.push_back(in_room("glass with alpha", std::move(glasses), std::nullopt));
+    cases.push_back(in_leafy_room("glass with alpha", std::move(glasses), std::nullopt));
     cases.back().detectable_bias_of_light_sampling = 0.06;  // nee finds rough glass hard
     return cases;
 }

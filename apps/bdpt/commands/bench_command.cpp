@@ -85,9 +85,9 @@ std::string time_now()
 }
 
 /// Turns work in CPU time into what is left on the clock at the wall.
-class Clock {
+class BenchClock {
 public:
-    Clock(Console& console, double seconds_a_scene, std::size_t scenes)
+    BenchClock(Console& console, double seconds_a_scene, std::size_t scenes)
         : console_(&console), seconds_a_scene_(seconds_a_scene), scenes_left_(scenes)
     {}
 
@@ -161,7 +161,7 @@ public:
 private:
     const BenchArguments& arguments_;
     Console& console_;
-    Clock clock_;
+    BenchClock clock_;
     std::stop_token stop_;
 };
 

@@ -6,17 +6,14 @@
 #include <cstddef>
 #include <string_view>
 
+#include "terminal/text.h"
+
 namespace bdpt::app {
 namespace {
 
 using eval::ComparisonReport;
 
 constexpr std::array<const char*, 4> channel_names{"red", "green", "blue", "mean"};
-
-std::string rect_text(const PixelRect& rect)
-{
-    return fmt::format("{},{},{},{}", rect.x0, rect.y0, rect.x1, rect.y1);
-}
 
 std::string optional_text(const std::optional<double>& value)
 {

@@ -10,6 +10,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "terminal/text.h"
+
 namespace bdpt::app {
 namespace {
 
@@ -27,11 +29,6 @@ std::string percent(double fraction)
 std::string percent(double part, double all)
 {
     return all > 0.0 ? percent(part / all) : "-";
-}
-
-std::string rect_text(const PixelRect& rect)
-{
-    return fmt::format("{},{},{},{}", rect.x0, rect.y0, rect.x1, rect.y1);
 }
 
 std::string images_text(const VerifyReport& report)

@@ -122,6 +122,11 @@ std::string shell_word(const std::string& word)
     return result + "'";
 }
 
+std::string rect_text(const PixelRect& rect)
+{
+    return fmt::format("{},{},{},{}", rect.x0, rect.y0, rect.x1, rect.y1);
+}
+
 std::string clock_time(double seconds)
 {
     // A week and more is shown as that; also keeps infinity out of the conversion.

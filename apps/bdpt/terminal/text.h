@@ -1,5 +1,7 @@
 #pragma once
 
+#include <bdpt/pixel_rect.h>
+
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -18,6 +20,9 @@ namespace bdpt::app {
 
 /// `word` as a shell reads it back.
 [[nodiscard]] std::string shell_word(const std::string& word);
+
+/// "x0,y0,x1,y1"
+[[nodiscard]] std::string rect_text(const PixelRect& rect);
 
 /// Seconds as "1:07" or "2:03:09".
 [[nodiscard]] std::string clock_time(double seconds);

@@ -15,7 +15,7 @@ std::size_t area(const PixelRect& region)
     return static_cast<std::size_t>(region.width()) * static_cast<std::size_t>(region.height());
 }
 
-void add(std::array<ExactSum, 3>& sums, Rgb value) noexcept
+void add_finite(std::array<ExactSum, 3>& sums, Rgb value) noexcept
 {
     const auto sound = [](float x) { return x >= 0.0f && x <= std::numeric_limits<float>::max(); };
     if (!sound(value.r) || !sound(value.g) || !sound(value.b)) {
@@ -26,7 +26,7 @@ void add(std::array<ExactSum, 3>& sums, Rgb value) noexcept
     }
 }
 
-void add(std::array<ExactSum, 3>& sums, const std::array<ExactSum, 3>& others) noexcept
+void add_sums(std::array<ExactSum, 3>& sums, const std::array<ExactSum, 3>& others) noexcept
 {
     for (std::size_t c = 0; c < 3; ++c) {
         sums[c].add(others[c]);
@@ -95,8 +95,8 @@ void StrategyFilm::add(Strategy strategy, Vec2 raster, const StrategyShare& shar
     const auto x = static_cast<std::size_t>(static_cast<int>(raster.x) - region_.x0);
     const auto y = static_cast<std::size_t>(static_cast<int>(raster.y) - region_.y0);
     Pixel& pixel = pixels_[begin + y * static_cast<std::size_t>(region_.width()) + x];
-    bdpt::add(pixel.weighted, share.weighted);
-    bdpt::add(pixel.unweighted, share.unweighted);
+    add_finite(pixel.weighted, share.weighted);
+    add_finite(pixel.unweighted, share.unweighted);
 }
 
 void StrategyFilm::merge(const StrategyFilm& other)
@@ -106,8 +106,8 @@ void StrategyFilm::merge(const StrategyFilm& other)
                     "images of strategies to merge differ in their region or in the strategies");
     }
     for (std::size_t i = 0; i < pixels_.size(); ++i) {
-        bdpt::add(pixels_[i].weighted, other.pixels_[i].weighted);
-        bdpt::add(pixels_[i].unweighted, other.pixels_[i].unweighted);
+        add_sums(pixels_[i].weighted, other.pixels_[i].weighted);
+        add_sums(pixels_[i].unweighted, other.pixels_[i].unweighted);
     }
     samples_ += other.samples_;
 }

@@ -30,7 +30,7 @@ std::vector<int> borders(int length)
     return result;
 }
 
-struct Tile {
+struct NoiseTile {
     double luminance = 0.0;  // sum over its pixels
     double variance = 0.0;   // of the mean of both halves; sum over its pixels
     double pixels = 0.0;
@@ -38,7 +38,7 @@ struct Tile {
 
 /// The tiles between two borders of rows.
 void measure_row_of_tiles(const Image& even, const Image& odd, int top, int bottom,
-                          const std::vector<int>& columns, Tile* tiles)
+                          const std::vector<int>& columns, NoiseTile* tiles)
 {
     for (int y = top; y < bottom; ++y) {
         for (std::size_t i = 0; i + 1 < columns.size(); ++i) {
@@ -66,19 +66,19 @@ double noise_of(const Film& film)
     const std::vector<int> rows = borders(film.height());
     const std::vector<int> columns = borders(film.width());
     const std::size_t across = columns.size() - 1;
-    std::vector<Tile> tiles((rows.size() - 1) * across);
+    std::vector<NoiseTile> tiles((rows.size() - 1) * across);
     tbb::parallel_for(std::size_t{0}, rows.size() - 1, [&](std::size_t i) {
         measure_row_of_tiles(even, odd, rows[i], rows[i + 1], columns, &tiles[i * across]);
     });
     double mean = 0.0;
-    for (const Tile& tile : tiles) {
+    for (const NoiseTile& tile : tiles) {
         mean += tile.luminance / (static_cast<double>(film.width()) * film.height());
     }
     if (!(mean > 0.0)) {
         return unknown;
     }
     std::vector<double> errors;
-    for (const Tile& tile : tiles) {
+    for (const NoiseTile& tile : tiles) {
         if (tile.variance > 0.0) {
             const double error = std::sqrt(tile.variance / tile.pixels);
             errors.push_back(error / std::max(tile.luminance / tile.pixels, dark * mean));

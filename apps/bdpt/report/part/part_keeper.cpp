@@ -12,11 +12,11 @@
 namespace bdpt::app {
 namespace {
 
-constexpr std::chrono::duration<double> least_interval{60.0};
+constexpr std::chrono::duration<double> least_write_interval{60.0};
 /// Of the time that the last write took: checkpoints take at most 1 % of the time.
 constexpr double interval_of_writes = 100.0;
 /// Of the interval, after a write that failed.
-constexpr double patience = 10.0;
+constexpr double interval_after_failure = 10.0;
 
 }  // namespace
 
@@ -26,7 +26,7 @@ PartKeeper::PartKeeper(PartChoice choice, std::optional<PlannedIdentity> planned
       planned_(std::move(planned)),
       old_(choice_.existing == ExistingPart::restart ? io::OldPart::replace
                                                      : io::OldPart::keep_if_more),
-      interval_(least_interval)
+      interval_(least_write_interval)
 {
     std::error_code ignored;
     const bool exists = std::filesystem::exists(choice_.file, ignored);
@@ -85,7 +85,7 @@ void PartKeeper::after_pass(const RenderPart& part, Checkpoint checkpoint)
             throw;
         }
         last_ = Clock::now();
-        interval_ *= patience;
+        interval_ *= interval_after_failure;
         console_.warning(fmt::format("{}; the render goes on, and so it will be tried again in "
                                      "{:.0f} minutes",
                                      error.what(), interval_.count() / 60.0),
@@ -106,7 +106,7 @@ void PartKeeper::write(const RenderPart& part)
     const io::PartWrite write = io::write_part(choice_.file, part, notes_, old_);
     last_ = Clock::now();
     const std::chrono::duration<double> taken = last_ - start;
-    interval_ = std::max(least_interval, interval_of_writes * taken);
+    interval_ = std::max(least_write_interval, interval_of_writes * taken);
     if (write == io::PartWrite::kept) {
         console_.note(
             fmt::format("{}: has more samples by now, and stays as it is", choice_.file.string()));

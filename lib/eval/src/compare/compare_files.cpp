@@ -66,7 +66,7 @@ private:
     std::vector<std::string> warnings_;
 };
 
-void check_size(const NamedImage& input, const NamedImage& reference)
+void check_same_size(const NamedImage& input, const NamedImage& reference)
 {
     const auto size = [](const Image& image) {
         return std::to_string(image.width) + " x " + std::to_string(image.height);
@@ -98,7 +98,7 @@ FileComparison compare_files(std::span<const fs::path> files, const fs::path& re
     Reader reader(layer);
     const NamedImage truth = reader.read(reference);
     NamedImage input = reader.read(files[0]);
-    check_size(input, truth);
+    check_same_size(input, truth);
     const PixelRect region = common_region(input, truth);
     if (region.width() < truth.image.width || region.height() < truth.image.height) {
         reader.warn(input.name + ": compared within " + to_text(region) +
@@ -111,7 +111,7 @@ FileComparison compare_files(std::span<const fs::path> files, const fs::path& re
     comparison.add(input.name, crop(input.image, region));
     for (const fs::path& file : files.subspan(1)) {
         input = reader.read(file);
-        check_size(input, truth);
+        check_same_size(input, truth);
         if (!(intersection(input.filled, region) == region)) {
             throw Error(ErrorCode::invalid_input, input.name + ": has data within " +
                                                       to_text(input.filled) + ", but " +

@@ -6,22 +6,14 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "report/json_values.h"
+
 namespace bdpt::eval {
 namespace {
 
 using nlohmann::ordered_json;
 
 constexpr std::array<const char*, 4> channel_names{"red", "green", "blue", "mean"};
-
-ordered_json number(std::optional<double> value)
-{
-    return value && std::isfinite(*value) ? ordered_json(*value) : ordered_json();
-}
-
-ordered_json rect_json(const PixelRect& rect)
-{
-    return ordered_json::array({rect.x0, rect.y0, rect.x1, rect.y1});
-}
 
 ordered_json scale_json(const MetricScale& scale)
 {

@@ -9,20 +9,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "report/json_values.h"
+
 namespace bdpt::eval {
 namespace {
 
 using nlohmann::ordered_json;
-
-ordered_json number(double value)
-{
-    return std::isfinite(value) ? ordered_json(value) : ordered_json();
-}
-
-ordered_json to_json(const PixelRect& rect)
-{
-    return {rect.x0, rect.y0, rect.x1, rect.y1};
-}
 
 ordered_json to_json(const MeanComparison& test, const VerifyReport& report)
 {
@@ -57,7 +49,7 @@ void add_tests(ordered_json& object, const Finding& finding, const VerifyReport&
     ordered_json tiles = ordered_json::array();
     for (std::size_t i = 0; i < finding.tiles.size(); ++i) {
         ordered_json tile = to_json(finding.tiles[i], report);
-        tile["tile"] = to_json(report.tiles[i]);
+        tile["tile"] = rect_json(report.tiles[i]);
         tiles.push_back(std::move(tile));
     }
     object["tiles"] = std::move(tiles);

@@ -25,7 +25,7 @@ std::string_view trimmed(std::string_view text)
 }
 
 /// The lines of a text; each is taken off its front.
-struct Lines {
+struct IesLines {
     std::string_view rest;
     std::size_t number = 0;  // of the line that was taken last
 
@@ -131,7 +131,7 @@ IesFile read_ies(ByteView bytes, const std::string& place, Warnings& warnings)
     }
     const std::string all(bytes.begin(), bytes.end());
     constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
-    Lines lines{.rest = all};
+    IesLines lines{.rest = all};
     if (lines.rest.starts_with(byte_order_mark)) {
         lines.rest.remove_prefix(byte_order_mark.size());
     }

@@ -67,7 +67,7 @@ void check_values(const std::string& item, const char* what, const std::vector<T
     }
 }
 
-void check(const MeshDesc& mesh, const std::string& item)
+void check_moving(const MeshDesc& mesh, const std::string& item)
 {
     check_steps(item, mesh.motion.size());
     for (std::size_t i = 0; i < mesh.motion.size(); ++i) {
@@ -80,8 +80,8 @@ void check(const MeshDesc& mesh, const std::string& item)
 }
 
 /// `extent`: of the mesh in all of its poses.
-void check(const InstanceDesc& instance, const std::string& item, const MeshDesc& mesh, Vec3 extent,
-           float reach)
+void check_moving(const InstanceDesc& instance, const std::string& item, const MeshDesc& mesh,
+                  Vec3 extent, float reach)
 {
     const std::span<const Mat4> motion = instance.motion;
     check_steps(item, motion.size());
@@ -136,7 +136,7 @@ void check_directions(const std::string& item, Vec3 first, std::span<const Vec3>
 }
 
 template <typename Light>
-void check(const Light& light, std::size_t index, float reach)
+void check_moving(const Light& light, std::size_t index, float reach)
 {
     if constexpr (requires { light.motion; }) {
         check_positions(light_label(light, index), light.motion, reach);
@@ -154,19 +154,19 @@ void check_motion(const SceneDesc& desc, float reach)
     extents.reserve(desc.meshes.size());
     for (std::size_t i = 0; i < desc.meshes.size(); ++i) {
         const MeshDesc& mesh = desc.meshes[i];
-        check(mesh, label("mesh", i, mesh.name));
+        check_moving(mesh, label("mesh", i, mesh.name));
         extents.push_back(extent_of(mesh));
     }
     for (std::size_t i = 0; i < desc.instances.size(); ++i) {
         const InstanceDesc& instance = desc.instances[i];
         const auto mesh = static_cast<std::size_t>(instance.mesh);
         if (!instance.motion.empty() || !desc.meshes[mesh].motion.empty()) {
-            check(instance, label("instance", i, instance.name), desc.meshes[mesh], extents[mesh],
-                  reach);
+            check_moving(instance, label("instance", i, instance.name), desc.meshes[mesh],
+                         extents[mesh], reach);
         }
     }
     for (std::size_t i = 0; i < desc.lights.size(); ++i) {
-        std::visit([&](const auto& light) { check(light, i, reach); }, desc.lights[i]);
+        std::visit([&](const auto& light) { check_moving(light, i, reach); }, desc.lights[i]);
     }
 }
 

@@ -15,11 +15,11 @@ namespace bdpt::io {
 
 namespace {
 
-constexpr const char* extension_name = "EXT_mesh_gpu_instancing";
+constexpr const char* instancing_extension = "EXT_mesh_gpu_instancing";
 
 std::string pointer(std::size_t node)
 {
-    return fmt::format("/nodes/{}/extensions/{}/attributes", node, extension_name);
+    return fmt::format("/nodes/{}/extensions/{}/attributes", node, instancing_extension);
 }
 
 template <typename V>
@@ -58,7 +58,7 @@ std::vector<glm::dmat4> instance_transforms(const tinygltf::Model& model, std::s
                                             std::size_t most, LoadContext& context)
 {
     const tinygltf::ExtensionMap& extensions = model.nodes[node].extensions;
-    const auto found = extensions.find(extension_name);
+    const auto found = extensions.find(instancing_extension);
     if (found == extensions.end() || !found->second.Has("attributes")) {
         return {glm::dmat4(1.0)};
     }

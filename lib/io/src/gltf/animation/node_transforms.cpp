@@ -11,7 +11,7 @@ namespace bdpt::io {
 
 namespace {
 
-constexpr std::size_t no_parent = static_cast<std::size_t>(-1);
+constexpr std::size_t no_node = static_cast<std::size_t>(-1);
 
 void check_finite(const glm::dmat4& world, std::size_t node)
 {
@@ -26,7 +26,7 @@ void check_finite(const glm::dmat4& world, std::size_t node)
 NodeTransforms::NodeTransforms(const tinygltf::Model& model, LoadContext& context)
     : model_(model),
       context_(context),
-      parents_(model.nodes.size(), no_parent),
+      parents_(model.nodes.size(), no_node),
       world_(model.nodes.size())
 {
     for (std::size_t i = 0; i < model.nodes.size(); ++i) {
@@ -39,14 +39,14 @@ NodeTransforms::NodeTransforms(const tinygltf::Model& model, LoadContext& contex
 const glm::dmat4& NodeTransforms::world(std::size_t node)
 {
     std::vector<std::size_t> unknown;  // from the node upwards
-    for (std::size_t i = node; i != no_parent && !world_[i]; i = parents_[i]) {
+    for (std::size_t i = node; i != no_node && !world_[i]; i = parents_[i]) {
         unknown.push_back(i);
     }
     for (; !unknown.empty(); unknown.pop_back()) {
         const std::size_t i = unknown.back();
         const std::size_t parent = parents_[i];
         const glm::dmat4 local = local_transform(model_, i, context_);
-        const glm::dmat4 world = parent == no_parent ? local : *world_[parent] * local;
+        const glm::dmat4 world = parent == no_node ? local : *world_[parent] * local;
         check_finite(world, i);
         world_[i] = world;
     }

@@ -15,10 +15,10 @@ namespace bdpt::io {
 
 namespace {
 
-constexpr const char* extension_name = "KHR_draco_mesh_compression";
+constexpr const char* draco_extension = "KHR_draco_mesh_compression";
 constexpr std::uint64_t triangle_list = 4;
 constexpr std::uint64_t triangle_strip = 5;
-constexpr std::uint64_t unsigned_int = 5125;
+constexpr std::uint64_t component_unsigned_int = 5125;
 
 /// Puts decoded primitives into a document.
 class DracoReplacer {
@@ -35,7 +35,7 @@ public:
         target["indices"] = plain["indices"];
         target["mode"] = triangle_list;
         target["attributes"].update(plain["attributes"]);
-        target["extensions"].erase(extension_name);
+        target["extensions"].erase(draco_extension);
     }
 
 private:
@@ -54,7 +54,7 @@ private:
         const JsonPlace primitives = mesh_place.member("primitives");
         const JsonPlace source = primitives.element(primitive);
         const JsonPlace extensions = source.member("extensions");
-        const JsonPlace packed = extensions.member(extension_name);
+        const JsonPlace packed = extensions.member(draco_extension);
         const std::vector<Wanted> wanted = find_wanted(source, packed);
         // Primitives may share data; what they make of it depends on their accessors.
         std::string key = std::to_string(packed.member("bufferView").as_unsigned());
@@ -138,7 +138,7 @@ private:
         const auto* bytes = reinterpret_cast<const std::uint8_t*>(mesh.indices.data());
         plain["indices"] = add_accessor(
             Bytes(bytes, bytes + mesh.indices.size() * sizeof(std::uint32_t)),
-            {{"componentType", unsigned_int}, {"type", "SCALAR"}}, mesh.indices.size());
+            {{"componentType", component_unsigned_int}, {"type", "SCALAR"}}, mesh.indices.size());
         return plain;
     }
 
@@ -194,7 +194,7 @@ void decode_draco_primitives(Json& document, std::vector<Bytes>& buffers, LoadCo
             const JsonPlace primitives = mesh.member("primitives");
             const JsonPlace primitive = primitives.element(p);
             if (!primitive.has("extensions") ||
-                !primitive.value()["extensions"].contains(extension_name)) {
+                !primitive.value()["extensions"].contains(draco_extension)) {
                 continue;
             }
             const std::uint64_t mode = primitive.unsigned_or("mode", triangle_list);

@@ -20,7 +20,7 @@ std::string text_or_empty(const Json& object, const char* key)
     return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
-std::size_t count(const Json& document, const char* section)
+std::size_t section_size(const Json& document, const char* section)
 {
     const auto found = document.find(section);
     return found != document.end() && found->is_array() ? found->size() : 0;
@@ -60,19 +60,19 @@ GltfFacts collect_facts(const CheckedGltf& checked)
     facts.version = text_or_empty(asset, "version");
     facts.generator = text_or_empty(asset, "generator");
     facts.copyright = text_or_empty(asset, "copyright");
-    facts.nodes = count(document, "nodes");
-    facts.meshes = count(document, "meshes");
-    facts.materials = count(document, "materials");
-    facts.textures = count(document, "textures");
-    facts.images = count(document, "images");
-    facts.cameras = count(document, "cameras");
-    facts.skins = count(document, "skins");
-    facts.animations = count(document, "animations");
+    facts.nodes = section_size(document, "nodes");
+    facts.meshes = section_size(document, "meshes");
+    facts.materials = section_size(document, "materials");
+    facts.textures = section_size(document, "textures");
+    facts.images = section_size(document, "images");
+    facts.cameras = section_size(document, "cameras");
+    facts.skins = section_size(document, "skins");
+    facts.animations = section_size(document, "animations");
     facts.extensions = checked.extensions;
     facts.xmp = find_xmp(document);
-    if (count(document, "meshes") > 0) {
+    if (section_size(document, "meshes") > 0) {
         for (const Json& mesh : document["meshes"]) {
-            facts.primitives += count(mesh, "primitives");
+            facts.primitives += section_size(mesh, "primitives");
         }
     }
     const auto names = [&document](const char* place) {
@@ -83,7 +83,7 @@ GltfFacts collect_facts(const CheckedGltf& checked)
     facts.animation_names = names("/animations");
     const auto extensions = document.find("extensions");
     if (extensions != document.end() && extensions->contains("KHR_lights_punctual")) {
-        facts.lights = count((*extensions)["KHR_lights_punctual"], "lights");
+        facts.lights = section_size((*extensions)["KHR_lights_punctual"], "lights");
     }
     return facts;
 }

@@ -39,7 +39,7 @@ Function find_function(void* module, const char* name)
     return reinterpret_cast<Function>(address);
 }
 
-using Message = std::array<char, 512>;
+using OiioMessage = std::array<char, 512>;
 
 }  // namespace
 
@@ -66,7 +66,7 @@ OiioImage OiioLibrary::open(const char* format, ByteView bytes) const
 OiioImage::OiioImage(const Functions& functions, const char* format, ByteView bytes)
     : functions_(functions), image_(nullptr, functions.close)
 {
-    Message message{};
+    OiioMessage message{};
     image_.reset(functions_.open(format, bytes.data(), bytes.size(), &header_, message.data(),
                                  message.size()));
     if (!image_) {
@@ -86,7 +86,7 @@ std::size_t OiioImage::value_count() const
 
 void OiioImage::read(float* values) const
 {
-    Message message{};
+    OiioMessage message{};
     if (functions_.read_floats(image_.get(), values, message.data(), message.size()) == 0) {
         throw std::runtime_error(message.data());
     }

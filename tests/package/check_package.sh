@@ -191,7 +191,7 @@ use_add_subdirectory() {
   build_consumer "$folder" programs -DBDPT_SOURCE="$SOURCE" -DBDPT_BUILD_IO=ON -DBDPT_BUILD_EVAL=ON \
     -DBDPT_BUILD_APPS=ON -DBDPT_BUILD_FUZZERS=ON \
     -DBDPT_SANITIZE=address,undefined -DCMAKE_EXE_LINKER_FLAGS=-fsanitize=address,undefined \
-    -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" \
+    -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O0 -g1" \
     -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=32 "${unneeded[@]}"
   expect_version "$folder/render_box"
   write_tiff >"$folder/sky.tif"

@@ -53,8 +53,6 @@ if(BDPT_BUILD_IO)
 endif()
 if(BDPT_BUILD_EVAL)
   configure_file(cmake/bdpt_eval.pc.in cmake/bdpt_eval.pc @ONLY)
-  configure_file(cmake/bdpt_harness.pc.in cmake/bdpt_harness.pc @ONLY)
   install(FILES "${CMAKE_CURRENT_BINARY_DIR}/cmake/bdpt_eval.pc"
-                "${CMAKE_CURRENT_BINARY_DIR}/cmake/bdpt_harness.pc"
           DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT bdpt_development)
 endif()

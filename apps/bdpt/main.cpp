@@ -61,12 +61,40 @@ std::string help_of(const CommandLine& line)
     return command != nullptr ? fmt::format("bdpt {} --help", command->get_name()) : "bdpt --help";
 }
 
+constexpr const char* commands = "render, plan, merge, info, compare, bench, verify and inspect";
+
 std::string unknown_command(const std::string& word, const std::string& help)
 {
-    return fmt::format(
-        "unknown command \"{}\": there are render, plan, merge, info, compare, bench, verify and "
-        "inspect; see \"{}\"",
-        word, help);
+    return fmt::format("unknown command \"{}\": there are {}; see \"{}\"", word, commands, help);
+}
+
+/// The parser's message, where we say the same in other words.
+std::string in_our_words(const CommandLine& line, const CLI::ParseError& error)
+{
+    const std::string message = error.what();
+    if (dynamic_cast<const CLI::ConversionError*>(&error) != nullptr) {
+        // "Could not convert: --fov = x"; words are never converted, only numbers.
+        const std::size_t colon = message.find(": ");
+        const std::size_t equals = message.find(" = ");
+        if (colon != std::string::npos && equals != std::string::npos && colon < equals) {
+            return fmt::format("{}: expected a number, but got \"{}\"",
+                               message.substr(colon + 2, equals - colon - 2),
+                               message.substr(equals + 3));
+        }
+    }
+    if (dynamic_cast<const CLI::ExcludesError*>(&error) != nullptr) {
+        // "--a excludes --b"
+        constexpr std::string_view excludes = " excludes ";
+        const std::size_t at = message.find(excludes);
+        if (at != std::string::npos) {
+            return fmt::format("{} cannot be combined with {}", message.substr(0, at),
+                               message.substr(at + excludes.size()));
+        }
+    }
+    if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && command_of(line) == nullptr) {
+        return fmt::format("no command: there are {}", commands);
+    }
+    return message;
 }
 
 /// One line for what the parser did not like, with a hint.
@@ -76,7 +104,7 @@ std::string explain(const CommandLine& line, const CLI::ParseError& error)
     const std::string help = help_of(line);
     const std::vector<std::string> extras = line.app.remaining(true);
     if (extras.empty()) {
-        return fmt::format("{}; see \"{}\"", error.what(), help);
+        return fmt::format("{}; see \"{}\"", in_our_words(line, error), help);
     }
     const std::string& word = extras.front();
     if (command == nullptr && !word.starts_with("-")) {

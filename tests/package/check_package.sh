@@ -131,7 +131,6 @@ use_find_package() {
   expect_version "$WORK/find_package/render_box"
   "$WORK/find_package/read_sky" "$sky"
   "$WORK/find_package/judge"
-  "$WORK/find_package/judge_by_former_names"
 }
 
 # compile PROGRAM SOURCE PACKAGE: as one does by hand. What is hidden in the program must not hide what
@@ -158,8 +157,6 @@ use_pkg_config() {
   ./read_sky "$sky"
   compile judge "$consumer/judge.cpp" bdpt_eval
   ./judge
-  [[ $("$PKG_CONFIG" --libs bdpt_harness) == "$("$PKG_CONFIG" --libs bdpt_eval)" ]] \
-    || fail "the former name of bdpt_eval is another library"
 
   # The program in the README, with fewer pixels.
   awk '/^```cpp$/ {inside = 1; next} /^```$/ {inside = 0} inside' "$SOURCE/README.md" \

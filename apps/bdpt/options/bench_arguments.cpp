@@ -11,7 +11,7 @@
 #include <system_error>
 
 #include "options/arguments.h"
-#include "options/values/number.h"
+#include "options/values/value_checks.h"
 
 namespace bdpt::app {
 namespace {
@@ -155,7 +155,7 @@ void add_image_options(CLI::App& command, RenderWords& words)
         ->group(group);
     command
         .add_option("--sampler", words.sampler, "Random numbers: sobol (default) or independent")
-        ->check(CLI::IsMember({"sobol", "independent"}))
+        ->check(one_of({"sobol", "independent"}))
         ->type_name("sobol|independent")
         ->group(group);
     command

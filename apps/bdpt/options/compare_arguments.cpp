@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "options/arguments.h"
-#include "options/values/number.h"
+#include "options/values/value_checks.h"
 
 namespace bdpt::app {
 namespace {

@@ -3,8 +3,8 @@
 #include <CLI/CLI.hpp>
 
 #include "options/arguments.h"
-#include "options/values/number.h"
 #include "options/values/output_files.h"
+#include "options/values/value_checks.h"
 
 namespace bdpt::app {
 namespace {

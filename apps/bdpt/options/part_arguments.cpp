@@ -9,9 +9,9 @@
 #include "options/arguments.h"
 #include "options/groups/strategy_arguments.h"
 #include "options/render_arguments.h"
-#include "options/values/number.h"
 #include "options/values/output_files.h"
 #include "options/values/pipes.h"
+#include "options/values/value_checks.h"
 
 namespace bdpt::app {
 namespace {
@@ -85,6 +85,9 @@ void add_samples_option(CLI::App& command, PartWords& words, const char* group)
 
 std::optional<PartChoice> part_choice(const PartWords& words)
 {
+    if (words.task && !words.plan) {
+        throw OptionError("--task: expected --plan FILE with it");
+    }
     if (!words.file) {
         if (words.restart) {
             throw OptionError("--restart: expected --part FILE with it");

@@ -11,8 +11,8 @@
 
 #include "options/arguments.h"
 #include "options/command_options.h"
-#include "options/values/number.h"
 #include "options/values/pipes.h"
+#include "options/values/value_checks.h"
 
 namespace bdpt::app {
 namespace {
@@ -152,7 +152,7 @@ void add_plan_options(CLI::App& command, PlanWords& words)
     const std::vector<std::string> names = engine_names();
     command.add_option("--for", words.engine, "What starts the tasks")
         ->required()
-        ->check(CLI::IsMember(names))
+        ->check(one_of(names))
         ->type_name(fmt::format("{}", fmt::join(names, "|")))
         ->group(group);
     command

@@ -11,9 +11,9 @@
 #include <limits>
 #include <numbers>
 
-#include "options/values/number.h"
 #include "options/values/output_files.h"
 #include "options/values/pipes.h"
+#include "options/values/value_checks.h"
 
 namespace bdpt::app {
 namespace {
@@ -155,7 +155,7 @@ void add_how(CLI::App& command, RenderWords& words)
         .add_option("--sampler", words.sampler,
                     "Random numbers: sobol (default; Owen-scrambled, less noise, best with a power "
                     "of two as --spp) or independent")
-        ->check(CLI::IsMember({"sobol", "independent"}))
+        ->check(one_of({"sobol", "independent"}))
         ->type_name("sobol|independent")
         ->group(group);
     add_rates_options(command, words.rates, group);
@@ -165,7 +165,7 @@ void add_how(CLI::App& command, RenderWords& words)
             "--isa", words.isa,
             "Instruction set of Embree. Images are equal to the bit only for equal sets: on a "
             "render farm, choose one that all machines have. Default: the best of this CPU")
-        ->check(CLI::IsMember(isa_names()))
+        ->check(one_of(isa_names()))
         ->type_name("sse2|sse4.2|avx|avx2|avx512|native")
         ->group(group);
 }
@@ -246,7 +246,7 @@ std::optional<double> to_noise(const std::optional<std::string>& word)
     }
     const std::optional<double> noise = parse_share(*word);
     if (!noise) {
-        reject("--noise", *word, "a relative error above 0, like 2% or 0.02");
+        reject("--noise", *word, "a relative error above 0% and up to 100%, like 2% or 0.02");
     }
     return noise;
 }
@@ -282,7 +282,7 @@ void add_view_options(CLI::App& command, RenderWords& words)
         .add_option("--texture-filter", words.texture_filter,
                     "Texture filter: bilinear (default) or mip (mip maps: faster for large "
                     "textures, but blurs what mirrors and lenses magnify)")
-        ->check(CLI::IsMember({"bilinear", "mip"}))
+        ->check(one_of({"bilinear", "mip"}))
         ->type_name("bilinear|mip")
         ->group(group);
     add_lens_options(command, words.lens);

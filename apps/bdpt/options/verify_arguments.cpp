@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "options/arguments.h"
-#include "options/values/number.h"
+#include "options/values/value_checks.h"
 
 namespace bdpt::app {
 namespace {
@@ -77,7 +77,7 @@ void add_how(CLI::App& command, VerifyWords& words)
                     "What is verified: bdpt (default), or auto: bdpt with the light paths and "
                     "connections that auto chooses for the scene, or vcm: beside bdpt its image, "
                     "which is right if --merge-radius is small enough")
-        ->check(CLI::IsMember({"bdpt", "auto", "vcm"}))
+        ->check(one_of({"bdpt", "auto", "vcm"}))
         ->type_name("bdpt|auto|vcm")
         ->group(group);
     add_light_path_options(command, words.render.transport, group);

@@ -85,12 +85,12 @@ std::string strategies_text(const VerifyReport& report)
 
 std::string integrators_text(const VerifyReport& report)
 {
-    std::string result = fmt::format("\n{:<12}{:<8}{}\n", "against bdpt", "edges", comparison_head);
+    std::string result = fmt::format("\n{:<14}{:<8}{}\n", "against bdpt", "edges", comparison_head);
     for (const IntegratorFinding& finding : report.integrators) {
         if (finding.whole.found == 0.0 && finding.whole.expected == 0.0) {
             continue;
         }
-        result += fmt::format("{:<12}{:<8}{}\n", eval::to_string(finding.integrator), finding.edges,
+        result += fmt::format("{:<14}{:<8}{}\n", eval::to_string(finding.integrator), finding.edges,
                               comparison_text(finding.whole));
     }
     return result;

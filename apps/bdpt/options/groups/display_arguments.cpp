@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "options/arguments.h"
+#include "options/values/value_checks.h"
 
 namespace bdpt::app {
 namespace {
@@ -86,7 +87,7 @@ void add_display_options(CLI::App& command, DisplayWords& words, const char* gro
         .add_option("--tone-map", words.tone_map,
                     "Tone mapping of .png: filmic (default), pbr-neutral (keeps base colours under "
                     "grey light, best with --exposure), agx, or none (clamps)")
-        ->check(CLI::IsMember(curve_names()))
+        ->check(one_of(curve_names()))
         ->type_name("filmic|pbr-neutral|agx|none")
         ->group(group);
     command
@@ -98,7 +99,7 @@ void add_display_options(CLI::App& command, DisplayWords& words, const char* gro
         ->group(group);
     command
         .add_option("--png-bits", words.png_bits, "Bits of each channel of .png: 8 (default) or 16")
-        ->check(CLI::IsMember({8, 16}))
+        ->check(one_of({"8", "16"}))
         ->type_name("8|16")
         ->group(group);
 }

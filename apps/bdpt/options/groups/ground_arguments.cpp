@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "options/arguments.h"
+#include "options/values/value_checks.h"
 
 namespace bdpt::app {
 
@@ -17,7 +18,7 @@ void add_ground_options(CLI::App& command, GroundWords& words, const char* group
                     "itself, and is in no reflection. The shadow is black, and adds to the alpha "
                     "of --background, which has to be given; .exr also gets it as layer shadow.A. "
                     "none (default)")
-        ->check(CLI::IsMember({"shadow", "none"}))
+        ->check(one_of({"shadow", "none"}))
         ->type_name("shadow|none")
         ->group(group);
     command

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "options/arguments.h"
-#include "options/values/number.h"
+#include "options/values/value_checks.h"
 
 namespace bdpt::app {
 namespace {
@@ -57,7 +57,7 @@ void add_light_sampling_options(CLI::App& command, LightSamplingWords& words, co
     const auto add_choice = [&](const char* name, std::string& value,
                                 const std::vector<std::string>& values, const std::string& help) {
         command.add_option(name, value, help)
-            ->check(CLI::IsMember(values))
+            ->check(one_of(values))
             ->type_name(fmt::format("{}", fmt::join(values, "|")))
             ->group(group);
     };

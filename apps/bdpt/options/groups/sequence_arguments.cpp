@@ -10,7 +10,7 @@
 
 #include "options/arguments.h"
 #include "options/render_arguments.h"
-#include "options/values/number.h"
+#include "options/values/value_checks.h"
 
 namespace bdpt::app {
 namespace {
@@ -108,7 +108,7 @@ void add_sequence_options(CLI::App& command, SequenceWords& words)
         .add_option("--cameras", words.cameras,
                     "Render what each camera of the scene sees; {camera} in names of files becomes "
                     "its name, or its index if it has none")
-        ->check(CLI::IsMember({"all"}))
+        ->check(one_of({"all"}))
         ->type_name("all")
         ->group(group);
     command

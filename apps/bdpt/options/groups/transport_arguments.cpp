@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "options/arguments.h"
-#include "options/values/number.h"
+#include "options/values/value_checks.h"
 
 namespace bdpt::app {
 namespace {
@@ -158,7 +158,7 @@ void add_limits(CLI::App& command, TransportWords& words, const char* group)
         .add_option("--only", words.only,
                     "direct: emission and direct light (paths of 1 or 2 edges); indirect: longer "
                     "paths, up to --max-depth. The two images add up to the whole")
-        ->check(CLI::IsMember({"direct", "indirect"}))
+        ->check(one_of({"direct", "indirect"}))
         ->type_name("direct|indirect")
         ->group(group);
     command
@@ -249,7 +249,7 @@ void add_transport_options(CLI::App& command, TransportWords& words)
     const auto add_choice = [&](const char* name, std::string& value,
                                 const std::vector<std::string>& values, const std::string& help) {
         command.add_option(name, value, help)
-            ->check(CLI::IsMember(values))
+            ->check(one_of(values))
             ->type_name(fmt::format("{}", fmt::join(values, "|")))
             ->group(group);
     };

@@ -6,6 +6,7 @@
 
 #include "options/arguments.h"
 #include "options/values/medium_values.h"
+#include "options/values/value_checks.h"
 
 namespace bdpt::app {
 namespace {
@@ -59,7 +60,7 @@ void add_volume_options(CLI::App& command, VolumeWords& words, const char* group
     command
         .add_option("--volume-up", words.up,
                     "The axis of the file that points up: y (default) or z, as in Blender")
-        ->check(CLI::IsMember({"y", "z"}))
+        ->check(one_of({"y", "z"}))
         ->type_name("y|z")
         ->group(group);
 }

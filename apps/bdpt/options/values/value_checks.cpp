@@ -1,9 +1,11 @@
-#include "options/values/number.h"
+#include "options/values/value_checks.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
-#include <string>
+#include <span>
+#include <utility>
 
 namespace bdpt::app {
 
@@ -31,6 +33,20 @@ CLI::Validator number(double least, double most)
         return good ? std::string()
                     : fmt::format("expected a number from {} to {}, but got \"{}\"", least, most,
                                   word);
+    };
+    return CLI::Validator(check, "");
+}
+
+CLI::Validator one_of(std::vector<std::string> words)
+{
+    const auto check = [words = std::move(words)](const std::string& word) {
+        if (std::find(words.begin(), words.end(), word) != words.end()) {
+            return std::string();
+        }
+        const std::span<const std::string> all(words);
+        const std::string last = all.size() > 1 ? " or " + all.back() : all.back();
+        const auto others = all.first(all.size() > 1 ? all.size() - 1 : 0);
+        return fmt::format("expected {}{}, but got \"{}\"", fmt::join(others, ", "), last, word);
     };
     return CLI::Validator(check, "");
 }

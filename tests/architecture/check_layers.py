@@ -2,7 +2,7 @@
 """Fails when the source tree breaks the rules of docs/architecture.md: check_layers.py ROOT.
 
 A folder of lib/src, lib/io/src or apps/bdpt includes only folders of a lower layer, public headers need nothing but GLM and the standard
-library, each third-party library stays where it belongs, no file is longer than 400 lines, and every source file is
+library, each third-party library stays where it belongs, no file is longer than 600 lines, and every source file is
 listed in a CMakeLists.txt or in a .cmake file beside one.
 """
 
@@ -17,7 +17,7 @@ COMMAND_LAYERS = {"terminal": 1, "options": 2, "plan": 3, "stage": 3, "report": 
 IO_LAYERS = {"file": 1, "image": 2, "ies": 2, "output": 2, "volume": 2, "denoise": 2, "image/linear": 3, "part": 4, "oiio_module": 4, "vdb_reader": 4, "gltf/checks": 3, "gltf/compression": 4,
              "gltf/document": 5, "gltf/animation": 6, "gltf/geometry": 7, "gltf/material": 7, "gltf/light_camera": 7,
              "gltf/scene": 8}
-MAX_LINES = 400
+MAX_LINES = 600
 AREAS = ("lib", "apps", "tests", "benchmarks")
 
 # Area of the tree (the longest prefix counts) -> third-party and system headers that it may include.

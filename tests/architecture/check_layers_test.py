@@ -89,7 +89,7 @@ VIOLATIONS = {
     "CLI11 in eval": ("lib/eval/src/metrics/flip.cpp", "#include <CLI/CLI.hpp>", "<CLI/CLI.hpp>"),
     "io includes eval": ("lib/io/src/output/exr.cpp", "#include <bdpt/eval/metrics/flip.h>", "<bdpt/eval/"),
     "C header": ("lib/src/math/warp.h", "#include <math.h>", "may not include <math.h>"),
-    "file too long": ("lib/src/path/walk.h", "\n" * 400, "401 lines, 400 at most"),
+    "file too long": ("lib/src/path/walk.h", "\n" * 600, "601 lines, 600 at most"),
     "source not listed": ("lib/src/math/forgotten.cpp", '#include "math/warp.h"', "is in no list of CMake"),
     "source listed in part": ("apps/bdpt/ain.cpp", "", "is in no list of CMake"),
     "test not listed": ("tests/unit/math/frame_test.cpp", '#include "catch.hpp"', "is in no list of CMake"),

@@ -17,15 +17,15 @@ constexpr std::array<const char*, 4> channel_names{"red", "green", "blue", "mean
 
 ordered_json scale_json(const MetricScale& scale)
 {
-    return {{"epsilon", number(scale.epsilon)},
-            {"squared_epsilon", number(scale.squared_epsilon)},
-            {"peak", number(scale.peak)},
-            {"pixels_per_degree", number(scale.pixels_per_degree)},
+    return {{"epsilon", number_or_null(scale.epsilon)},
+            {"squared_epsilon", number_or_null(scale.squared_epsilon)},
+            {"peak", number_or_null(scale.peak)},
+            {"pixels_per_degree", number_or_null(scale.pixels_per_degree)},
             {"flip_exposures",
-             {{"start", number(scale.exposures.start)},
-              {"stop", number(scale.exposures.stop)},
+             {{"start", number_or_null(scale.exposures.start)},
+              {"stop", number_or_null(scale.exposures.stop)},
               {"count", scale.exposures.count}}},
-            {"flip_ldr_exposure", number(static_cast<double>(scale.exposure))}};
+            {"flip_ldr_exposure", number_or_null(static_cast<double>(scale.exposure))}};
 }
 
 ordered_json metrics_json(const ComparisonReport& report)
@@ -33,10 +33,10 @@ ordered_json metrics_json(const ComparisonReport& report)
     ordered_json result = ordered_json::object();
     for (const MetricSummary& metric : report.metrics) {
         result[std::string(to_string(metric.metric))] = {
-            {"mean", number(metric.mean)},
-            {"standard_deviation", number(metric.deviation)},
-            {"min", number(metric.least)},
-            {"max", number(metric.greatest)}};
+            {"mean", number_or_null(metric.mean)},
+            {"standard_deviation", number_or_null(metric.deviation)},
+            {"min", number_or_null(metric.least)},
+            {"max", number_or_null(metric.greatest)}};
     }
     return result;
 }
@@ -45,11 +45,12 @@ ordered_json bias_json(const Bias& bias)
 {
     ordered_json result{{"from", bias.source == BiasSource::seeds ? "seeds" : "blocks"}};
     for (std::size_t c = 0; c < bias.channels.size(); ++c) {
-        result[channel_names[c]] = {{"value", number(bias.channels[c].value)},
-                                    {"standard_error", number(bias.channels[c].standard_error)}};
+        result[channel_names[c]] = {
+            {"value", number_or_null(bias.channels[c].value)},
+            {"standard_error", number_or_null(bias.channels[c].standard_error)}};
     }
-    result["pixel_standard_error"] = number(bias.pixel_standard_error);
-    result["tile_standard_error"] = number(bias.tile_standard_error);
+    result["pixel_standard_error"] = number_or_null(bias.pixel_standard_error);
+    result["tile_standard_error"] = number_or_null(bias.tile_standard_error);
     return result;
 }
 
@@ -57,16 +58,16 @@ ordered_json tiles_json(const ComparisonReport& report)
 {
     ordered_json worst = ordered_json::array();
     for (const TileError& tile : report.worst_tiles) {
-        worst.push_back({{"rect", rect_json(tile.tile)}, {"value", number(tile.value)}});
+        worst.push_back({{"rect", rect_json(tile.tile)}, {"value", number_or_null(tile.value)}});
     }
     ordered_json biased = ordered_json::array();
     for (const TileBias& tile : report.biased_tiles) {
         biased.push_back({{"rect", rect_json(tile.tile)},
                           {"channel", channel_names[static_cast<std::size_t>(tile.channel)]},
-                          {"bias", number(tile.bias)},
-                          {"standard_error", number(tile.standard_error)},
-                          {"t", number(tile.t)},
-                          {"p", number(tile.p)}});
+                          {"bias", number_or_null(tile.bias)},
+                          {"standard_error", number_or_null(tile.standard_error)},
+                          {"t", number_or_null(tile.t)},
+                          {"p", number_or_null(tile.p)}});
     }
     return {{"size", report.tile_size},
             {"metric", std::string(to_string(report.map_metric))},
@@ -80,7 +81,8 @@ ordered_json images_json(const ComparisonReport& report)
     for (const ImageErrors& image : report.images) {
         ordered_json errors = ordered_json::object();
         for (std::size_t i = 0; i < image.values.size(); ++i) {
-            errors[std::string(to_string(report.metrics[i].metric))] = number(image.values[i]);
+            errors[std::string(to_string(report.metrics[i].metric))] =
+                number_or_null(image.values[i]);
         }
         result.push_back({{"file", image.name}, {"metrics", errors}});
     }
@@ -98,8 +100,8 @@ std::string comparison_json(const ComparisonReport& report,
     for (const ThresholdResult& threshold : thresholds) {
         passed = passed && threshold.passed;
         results.push_back({{"name", threshold.name},
-                           {"limit", number(threshold.limit)},
-                           {"value", number(threshold.value)},
+                           {"limit", number_or_null(threshold.limit)},
+                           {"value", number_or_null(threshold.value)},
                            {"passed", threshold.passed}});
     }
     const ordered_json result{{"image", image},

@@ -9,7 +9,7 @@
 namespace bdpt::eval {
 
 /// JSON has no NaN and no infinity: null in their place, and where there is no value.
-inline nlohmann::ordered_json number(std::optional<double> value)
+inline nlohmann::ordered_json number_or_null(std::optional<double> value)
 {
     return value && std::isfinite(*value) ? nlohmann::ordered_json(*value)
                                           : nlohmann::ordered_json();

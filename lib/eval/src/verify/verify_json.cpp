@@ -18,10 +18,10 @@ using nlohmann::ordered_json;
 
 ordered_json to_json(const MeanComparison& test, const VerifyReport& report)
 {
-    return {{"found", number(test.found)},
-            {"expected", number(test.expected)},
-            {"error", number(test.error)},
-            {"z", number(test.z)},
+    return {{"found", number_or_null(test.found)},
+            {"expected", number_or_null(test.expected)},
+            {"error", number_or_null(test.error)},
+            {"z", number_or_null(test.z)},
             {"p", test.p},
             {"p_adjusted", test.p_adjusted},
             {"failed", fails(test, report)}};
@@ -34,7 +34,7 @@ ordered_json channels_json(const std::vector<MeanComparison>& channels, const Ve
     ordered_json object = ordered_json::object();
     for (std::size_t i = 0; i < channels.size(); ++i) {
         object[names[i]] = to_json(channels[i], report);
-        object[names[i]]["detectable"] = number(channels[i].detectable);
+        object[names[i]]["detectable"] = number_or_null(channels[i].detectable);
     }
     return object;
 }
@@ -44,7 +44,7 @@ template <typename Finding>
 void add_tests(ordered_json& object, const Finding& finding, const VerifyReport& report)
 {
     object["whole"] = to_json(finding.whole, report);
-    object["whole"]["detectable"] = number(finding.whole.detectable);
+    object["whole"]["detectable"] = number_or_null(finding.whole.detectable);
     object["channels"] = channels_json(finding.channels, report);
     ordered_json tiles = ordered_json::array();
     for (std::size_t i = 0; i < finding.tiles.size(); ++i) {
@@ -57,12 +57,10 @@ void add_tests(ordered_json& object, const Finding& finding, const VerifyReport&
 
 ordered_json to_json(const ImageFinding& image)
 {
-    ordered_json object{{"integrator", to_string(image.integrator)},
-                        {"radiance", number(image.radiance)},
-                        {"error", number(image.error)},
-                        {"invalid", image.defects.invalid},
-                        {"saturated", image.defects.saturated},
-                        {"lost", number(image.lost)}};
+    ordered_json object{
+        {"integrator", to_string(image.integrator)}, {"radiance", number_or_null(image.radiance)},
+        {"error", number_or_null(image.error)},      {"invalid", image.defects.invalid},
+        {"saturated", image.defects.saturated},      {"lost", number_or_null(image.lost)}};
     if (const auto& place = image.defects.first_invalid) {
         object["first_invalid"] = {
             {"x", place->x}, {"y", place->y}, {"sample", place->sample_index}};
@@ -90,32 +88,32 @@ std::string verify_json(const VerifyReport& report, std::string_view scene)
     ordered_json object{{"scene", scene},
                         {"verdict", to_string(report.verdict)},
                         {"batches", report.batches},
-                        {"seconds", number(report.seconds)},
-                        {"radiance", number(report.radiance)},
-                        {"detectable", number(report.detectable)},
-                        {"unchecked", number(report.unchecked)},
-                        {"false_alarm", number(report.false_alarm)},
+                        {"seconds", number_or_null(report.seconds)},
+                        {"radiance", number_or_null(report.radiance)},
+                        {"detectable", number_or_null(report.detectable)},
+                        {"unchecked", number_or_null(report.unchecked)},
+                        {"false_alarm", number_or_null(report.false_alarm)},
                         {"weights",
                          {{"paths", report.weights.paths},
                           {"wrong", report.weights.wrong},
-                          {"worst", number(report.weights.worst)}}}};
+                          {"worst", number_or_null(report.weights.worst)}}}};
     for (const ImageFinding& image : report.images) {
         object["integrators"].push_back(to_json(image));
     }
     for (const LengthFinding& length : report.lengths) {
         object["lengths"].push_back({{"edges", length.edges},
-                                     {"radiance", number(length.radiance)},
-                                     {"error", number(length.error)},
-                                     {"seen_from_camera", number(length.seen_from_camera)},
-                                     {"seen_from_light", number(length.seen_from_light)}});
+                                     {"radiance", number_or_null(length.radiance)},
+                                     {"error", number_or_null(length.error)},
+                                     {"seen_from_camera", number_or_null(length.seen_from_camera)},
+                                     {"seen_from_light", number_or_null(length.seen_from_light)}});
     }
     for (const StrategyFinding& strategy : report.strategies) {
         ordered_json entry{{"s", strategy.strategy.s},
                            {"t", strategy.strategy.t},
-                           {"blind", number(strategy.blind)},
-                           {"weighted", number(strategy.weighted)},
-                           {"unweighted", number(strategy.unweighted)},
-                           {"solitary", number(strategy.solitary)}};
+                           {"blind", number_or_null(strategy.blind)},
+                           {"weighted", number_or_null(strategy.weighted)},
+                           {"unweighted", number_or_null(strategy.unweighted)},
+                           {"solitary", number_or_null(strategy.solitary)}};
         add_tests(entry, strategy, report);
         object["strategies"].push_back(std::move(entry));
     }
@@ -127,13 +125,13 @@ std::string verify_json(const VerifyReport& report, std::string_view scene)
     }
     for (const MergeFinding& merges : report.merges) {
         ordered_json entry{{"edges", merges.edges},
-                           {"brought", number(merges.brought)},
+                           {"brought", number_or_null(merges.brought)},
                            {"whole", to_json(merges.whole, report)},
                            {"channels", channels_json(merges.channels, report)}};
         object["merges"].push_back(std::move(entry));
     }
     if (!report.merges.empty()) {
-        object["detectable_of_merging"] = number(report.detectable_of_merging);
+        object["detectable_of_merging"] = number_or_null(report.detectable_of_merging);
     }
     return object.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }

@@ -37,7 +37,7 @@ TEST_CASE("wrong usage gives exit code 2 and names the option")
         words.insert(words.end(), more.begin(), more.end());
         check_error(folder, words, 2, text);
     };
-    check_error(folder, {}, 2, "subcommand");
+    check_error(folder, {}, 2, "no command");
     check_error(folder, {scene, "-o", out}, 2, "unknown command \"" + scene + "\"");
     check_error(folder, {"render", scene}, 2, "--output is required");
     check_error(folder, {"render", "-o", out}, 2, "file is required");

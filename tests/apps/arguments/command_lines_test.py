@@ -5,7 +5,6 @@ and the files that it wrote (+). The lines run one after the other in one folder
 sky.hdr and empty.gltf. --record writes what the command says now: read the difference before it is committed.
 """
 
-import os
 import pathlib
 import shlex
 import shutil
@@ -26,9 +25,8 @@ def answer(bdpt, folder, line):
     """The block of one command line."""
     words = shlex.split(line)[1:]
     before = files_in(folder)
-    environment = {**os.environ, "COLUMNS": "100", "BDPT_WIDTH": "100"}
-    ran = subprocess.run([bdpt, *words], cwd=folder, env=environment, capture_output=True, stdin=subprocess.DEVNULL,
-                         timeout=300, check=False)
+    ran = subprocess.run([bdpt, *words], cwd=folder, capture_output=True, stdin=subprocess.DEVNULL, timeout=300,
+                         check=False)
     written = sorted(name for name, time in files_in(folder).items() if before.get(name) != time)
     lines = [f"$ {line}", f"exit code {ran.returncode}"]
     lines += ["> " + text for text in ran.stdout.decode().splitlines()]

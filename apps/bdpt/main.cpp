@@ -68,8 +68,8 @@ std::string unknown_command(const std::string& word, const std::string& help)
     return fmt::format("unknown command \"{}\": there are {}; see \"{}\"", word, commands, help);
 }
 
-/// The parser's message, where we say the same in other words.
-std::string in_our_words(const CommandLine& line, const CLI::ParseError& error)
+/// The message of CLI11, reworded where CLI11 does not say what is expected.
+std::string message_of(const CommandLine& line, const CLI::ParseError& error)
 {
     const std::string message = error.what();
     if (dynamic_cast<const CLI::ConversionError*>(&error) != nullptr) {
@@ -104,7 +104,7 @@ std::string explain(const CommandLine& line, const CLI::ParseError& error)
     const std::string help = help_of(line);
     const std::vector<std::string> extras = line.app.remaining(true);
     if (extras.empty()) {
-        return fmt::format("{}; see \"{}\"", in_our_words(line, error), help);
+        return fmt::format("{}; see \"{}\"", message_of(line, error), help);
     }
     const std::string& word = extras.front();
     if (command == nullptr && !word.starts_with("-")) {

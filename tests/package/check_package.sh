@@ -176,12 +176,10 @@ use_add_subdirectory() {
   for package in Catch2 Python3 benchmark; do
     unneeded+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON")
   done
-  local folder=$WORK/add_subdirectory clang
-  clang=$(command -v clang++ || true)
+  local folder=$WORK/add_subdirectory
   mkdir -p "$WORK"
-  if [[ -n $clang ]] && echo 'extern "C" int LLVMFuzzerTestOneInput(const char*, unsigned long) { return 0; }' \
-    | "$clang" -fsanitize=fuzzer,address,undefined -x c++ - -o "$WORK/libfuzzer"; then
-    CXX=$clang
+  if [[ -n $FUZZER_CXX ]]; then
+    CXX=$FUZZER_CXX
   else
     echo "no clang++ with libFuzzer: the fuzz targets only run mutants of seeds"
   fi
@@ -206,8 +204,8 @@ use_add_subdirectory() {
   [[ ! -e $trap/caught ]] || fail "a program of the current folder was run"
 }
 
-# Builds a wheel as "pip wheel ." does, though as quickly as compilers can, and with the command, as nothing else is
-# built without optimization. What it was built from is gone when the wheel is used, in an environment of its own.
+# Builds a wheel as "pip wheel ." does, though without optimization, and with the command, so that it is seen to link
+# that way. What it was built from is gone when the wheel is used, in an environment of its own.
 make_wheel() {
   local folder=$WORK/wheel python name
   rm -rf "$folder"

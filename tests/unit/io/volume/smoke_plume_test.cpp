@@ -15,7 +15,7 @@ const auto file = std::filesystem::path(BDPT_SOURCE_DIR) / "scenes" / "smoke.vdb
 
 }  // namespace
 
-// Runs only when it is asked for by its name.
+// This runs only when it is asked for by its tag.
 TEST_CASE("write scenes/smoke.vdb", "[.write-smoke]")
 {
     openvdb::initialize();

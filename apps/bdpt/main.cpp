@@ -4,10 +4,8 @@
 #include <signal.h>
 #include <tbb/task_arena.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <exception>
-#include <memory>
 #include <new>
 #include <span>
 #include <string>
@@ -15,18 +13,8 @@
 #include <system_error>
 #include <vector>
 
-#include "commands/bench_command.h"
 #include "commands/command_line.h"
-#include "commands/compare_command.h"
-#include "commands/info_command.h"
-#include "commands/inspect_command.h"
-#include "commands/merge_command.h"
-#include "commands/plan_command.h"
-#include "commands/render_command.h"
-#include "commands/verify_command.h"
-#include "commands/version_command.h"
-#include "options/arguments.h"
-#include "options/command_options.h"
+#include "options/option_list.h"
 #include "plan/planned_words.h"
 #include "terminal/cgroup_limits.h"
 #include "terminal/console.h"
@@ -35,161 +23,20 @@
 namespace bdpt::app {
 namespace {
 
-/// All long names of the options of `command`.
-std::vector<std::string> option_names(const CLI::App& command)
-{
-    std::vector<std::string> names;
-    for (const CLI::Option* option : command.get_options()) {
-        for (const std::string& name : option->get_lnames()) {
-            names.push_back("--" + name);
-        }
-    }
-    return names;
-}
-
-/// The command that was given, or null.
-const CLI::App* command_of(const CommandLine& line)
-{
-    const std::vector<CLI::App*> commands = line.app.get_subcommands();
-    return commands.empty() ? nullptr : commands.front();
-}
-
-/// Where all about the command is told.
-std::string help_of(const CommandLine& line)
-{
-    const CLI::App* command = command_of(line);
-    return command != nullptr ? fmt::format("bdpt {} --help", command->get_name()) : "bdpt --help";
-}
-
-constexpr const char* commands = "render, plan, merge, info, compare, bench, verify and inspect";
-
-std::string unknown_command(const std::string& word, const std::string& help)
-{
-    return fmt::format("unknown command \"{}\": there are {}; see \"{}\"", word, commands, help);
-}
-
-/// The message of CLI11, reworded where CLI11 does not say what is expected.
-std::string message_of(const CommandLine& line, const CLI::ParseError& error)
-{
-    const std::string message = error.what();
-    if (dynamic_cast<const CLI::ConversionError*>(&error) != nullptr) {
-        // "Could not convert: --fov = x"; words are never converted, only numbers.
-        const std::size_t colon = message.find(": ");
-        const std::size_t equals = message.find(" = ");
-        if (colon != std::string::npos && equals != std::string::npos && colon < equals) {
-            return fmt::format("{}: expected a number, but got \"{}\"",
-                               message.substr(colon + 2, equals - colon - 2),
-                               message.substr(equals + 3));
-        }
-    }
-    if (dynamic_cast<const CLI::ExcludesError*>(&error) != nullptr) {
-        // "--a excludes --b"
-        constexpr std::string_view excludes = " excludes ";
-        const std::size_t at = message.find(excludes);
-        if (at != std::string::npos) {
-            return fmt::format("{} cannot be combined with {}", message.substr(0, at),
-                               message.substr(at + excludes.size()));
-        }
-    }
-    if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && command_of(line) == nullptr) {
-        return fmt::format("no command: there are {}", commands);
-    }
-    return message;
-}
-
-/// One line for what the parser did not like, with a hint.
-std::string explain(const CommandLine& line, const CLI::ParseError& error)
-{
-    const CLI::App* command = command_of(line);
-    const std::string help = help_of(line);
-    const std::vector<std::string> extras = line.app.remaining(true);
-    if (extras.empty()) {
-        return fmt::format("{}; see \"{}\"", message_of(line, error), help);
-    }
-    const std::string& word = extras.front();
-    if (command == nullptr && !word.starts_with("-")) {
-        return unknown_command(word, help);
-    }
-    if (!word.starts_with("-")) {
-        return fmt::format("unexpected argument \"{}\"; see \"{}\"", word, help);
-    }
-    const std::string name = word.substr(0, word.find('='));
-    const std::optional<std::string> meant =
-        closest(name, option_names(command != nullptr ? *command : line.app));
-    return fmt::format("unknown option {}{}; see \"{}\"", name,
-                       meant ? fmt::format(" (did you mean {}?)", *meant) : "", help);
-}
-
-/// `bdpt help` and `bdpt help COMMAND`: as `--help`.
-int run_help(const CommandLine& line)
-{
-    if (line.topic.empty()) {
-        // app.help() would be that of the command "help".
-        print_text(line.app.get_formatter()->make_help(&line.app, line.app.get_name(),
-                                                       CLI::AppFormatMode::Normal));
-        return 0;
-    }
-    const auto topics = line.app.get_subcommands(
-        [&line](const CLI::App* command) { return command->get_name() == line.topic; });
-    if (topics.empty()) {
-        throw Error(ErrorCode::usage, unknown_command(line.topic, "bdpt --help"));
-    }
-    print_text(topics.front()->help("bdpt"));
-    return 0;
-}
-
-int run_command(const CommandLine& line, const std::vector<std::string>& words)
-{
-    if (line.help->parsed()) {
-        return run_help(line);
-    }
-    if (line.version->parsed()) {
-        print_text(version_text() + "\n");
-        return 0;
-    }
-    if (line.plan->parsed()) {
-        return run_plan(understand(line.plan_words));
-    }
-    if (line.merge->parsed()) {
-        return run_merge(understand(line.merge_words));
-    }
-    if (line.compare->parsed()) {
-        return run_compare(understand(line.compare_words));
-    }
-    if (line.bench->parsed()) {
-        return run_bench(understand(line.bench_words), words);
-    }
-    if (line.verify->parsed()) {
-        return run_verify(understand(line.verify_words));
-    }
-    if (line.inspect->parsed()) {
-        return run_inspect(understand(line.inspect_words));
-    }
-    return line.info->parsed() ? run_info(line.info_arguments)
-                               : run_render(understand(line.render_words), words);
-}
-
-int run(const std::vector<std::string>& given, Format format)
+int run(const std::vector<std::string>& given)
 {
     CommandLine line;
-    std::vector<std::string> words = given;
     try {
-        words = with_planned_words(given);
-        line.app.parse(words_for_parser(std::span(words).subspan(1)));
-    } catch (const CLI::Success& help_or_version) {
-        return line.app.exit(help_or_version);
+        const std::vector<std::string> words = with_planned_words(given);
+        const ParsedLine parsed = parse(line.program, {words.begin() + 1, words.end()});
+        if (parsed.text) {
+            print_text(*parsed.text);
+            return 0;
+        }
+        return line.run(parsed, words);
     } catch (const OptionError& error) {
         throw Error(error.code(),
                     fmt::format("{}; see \"bdpt {} --help\"", error.what(), given[1]));
-    } catch (const CLI::ParseError& error) {
-        const int code = static_cast<int>(ErrorCode::usage);
-        report_error(format, code, explain(line, error));
-        return code;
-    }
-    try {
-        return run_command(line, words);
-    } catch (const OptionError& error) {
-        throw Error(error.code(), fmt::format("{}; see \"{}\"", error.what(), help_of(line)));
     }
 }
 
@@ -212,7 +59,7 @@ int guarded_run(const std::vector<std::string>& words, Format format)
         return static_cast<int>(code);
     };
     try {
-        return within_quota([&] { return run(words, format); });
+        return within_quota([&] { return run(words); });
     } catch (const Error& error) {
         return fail(error.code(), error.what());
     } catch (const std::bad_alloc&) {

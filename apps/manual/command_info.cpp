@@ -1,10 +1,7 @@
 #include "command_info.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <sstream>
-
-#include "terminal/help_formatter.h"
 
 namespace bdpt::manual {
 namespace {
@@ -43,24 +40,17 @@ bool is_word(const std::string& choice)
     });
 }
 
-OptionInfo option_info(const CLI::Option& option)
+OptionInfo option_info(const app::Option& option)
 {
-    OptionInfo info{.names = {},
-                    .value = option.get_items_expected_max() == 0 ? "" : app::value_of(option),
-                    .value_may_be_left_out = option.get_items_expected_min() == 0,
-                    .repeats = option.get_items_expected_max() > 1,
-                    .text = option.get_description(),
-                    .group = option.get_positional() ? "" : option.get_group(),
+    OptionInfo info{.names = split(option.names, ','),
+                    .value = option.value,
+                    .value_may_be_left_out = option.is_flag(),
+                    .repeats = option.repeats,
+                    .text = option.help,
+                    .group = option.is_argument()     ? ""
+                             : option.section.empty() ? "Options"
+                                                      : option.section,
                     .choices = {}};
-    if (option.get_positional()) {
-        info.names.push_back(option.get_single_name());
-    }
-    for (const std::string& name : option.get_snames()) {
-        info.names.push_back("-" + name);
-    }
-    for (const std::string& name : option.get_lnames()) {
-        info.names.push_back("--" + name);
-    }
     for (const std::string& choice : split(info.value, '|')) {
         if (is_word(choice)) {
             info.choices.push_back(choice);
@@ -91,24 +81,39 @@ std::string summary_of(const std::string& text)
     return shown.substr(0, std::min(shown.find(". "), shown.find("; ")));
 }
 
-CommandInfo info_of(const CLI::App& app)
+CommandInfo info_of(const app::Program& program)
 {
-    CommandInfo info{.name = app.get_name(),
-                     .text = app.get_description(),
-                     .options = {},
-                     .arguments = {},
-                     .footer = paragraphs(app.get_footer())};
-    for (const CLI::Option* option : app.get_options()) {
-        (option->get_positional() ? info.arguments : info.options).push_back(option_info(*option));
-    }
-    return info;
+    const OptionInfo help{.names = {"-h", "--help"},
+                          .value = "",
+                          .text = "Print this help message and exit",
+                          .group = "Options",
+                          .choices = {}};
+    const OptionInfo version{.names = {"--version"},
+                             .value = "",
+                             .text =
+                                 "Print the version, that of libraries, and the instruction "
+                                 "set",
+                             .group = "Options",
+                             .choices = {}};
+    return {.name = program.name,
+            .text = program.summary,
+            .options = {help, version},
+            .arguments = {},
+            .footer = paragraphs(program.footer)};
 }
 
-std::vector<CommandInfo> commands_of(const CLI::App& app)
+std::vector<CommandInfo> commands_of(const app::Program& program)
 {
     std::vector<CommandInfo> commands;
-    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
-        commands.push_back(info_of(*command));
+    for (const app::Command& command : program.commands) {
+        CommandInfo& info = commands.emplace_back();
+        info.name = command.name;
+        info.text = command.summary;
+        info.options.push_back(info_of(program).options.front());
+        info.footer = paragraphs(command.footer);
+        for (const app::Option& option : command.options.all()) {
+            (option.is_argument() ? info.arguments : info.options).push_back(option_info(option));
+        }
     }
     std::vector<std::string> names;
     for (const CommandInfo& command : commands) {

@@ -4,9 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
+#include "options/command_parser.h"
 
 namespace bdpt::manual {
 
@@ -38,9 +36,9 @@ struct CommandInfo {
 [[nodiscard]] std::string summary_of(const std::string& text);
 
 /// The program itself: its name, its options, its footer.
-[[nodiscard]] CommandInfo info_of(const CLI::App& app);
+[[nodiscard]] CommandInfo info_of(const app::Program& program);
 
 /// Its commands, in the order of the help text.
-[[nodiscard]] std::vector<CommandInfo> commands_of(const CLI::App& app);
+[[nodiscard]] std::vector<CommandInfo> commands_of(const app::Program& program);
 
 }  // namespace bdpt::manual

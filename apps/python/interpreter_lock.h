@@ -4,9 +4,22 @@
 #include <nanobind/nanobind.h>
 #include <unistd.h>
 
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <thread>
 #include <utility>
 
 namespace bdpt::python {
+
+/// Sleeps until the process has ended.
+[[noreturn]] inline void sleep_forever()
+{
+    for (;;) {
+        ::pause();
+    }
+}
 
 /// What `work` returns, which may take the interpreter's lock. While the interpreter ends, Python
 /// up to 3.13 unwinds the stack of another thread that wants the lock, and the C++ functions below
@@ -18,19 +31,91 @@ decltype(auto) sleep_when_python_ends(Work&& work)
     try {
         return std::forward<Work>(work)();
     } catch (const abi::__forced_unwind&) {
-        for (;;) {
-            ::pause();
-        }
+        sleep_forever();
     }
 }
+
+/// The threads that work in C++ without the interpreter's lock. When Python ends, the process
+/// destroys what they work with (the threads of oneTBB, devices of Embree), so the end waits for
+/// them.
+class Workers {
+public:
+    static Workers& all()
+    {
+        static Workers& workers = *new Workers;  // never destroyed: threads may outlive main()
+        return workers;
+    }
+
+    /// After the lock was given away.
+    void begin()
+    {
+        std::unique_lock lock(mutex_);
+        if (must_sleep()) {
+            lock.unlock();
+            sleep_forever();
+        }
+        ++count_;
+    }
+    /// Takes the lock by `take`, which the end waits for; when Python ends, this does not return.
+    template <typename Take>
+    void end(const Take& take)
+    {
+        {
+            std::unique_lock lock(mutex_);
+            if (must_sleep()) {
+                --count_;
+                lock.unlock();
+                none_.notify_all();
+                sleep_forever();
+            }
+        }
+        sleep_when_python_ends(take);
+        {
+            const std::lock_guard lock(mutex_);
+            --count_;
+        }
+        none_.notify_all();
+    }
+
+    /// Renders that have it stop after the pass in flight when Python ends.
+    [[nodiscard]] std::stop_token stop()
+    {
+        const std::lock_guard lock(mutex_);
+        return ending_thread_ == std::this_thread::get_id() ? std::stop_token()
+                                                            : python_ends_.get_token();
+    }
+
+    /// Called without the interpreter's lock, when Python ends: returns when no thread works. None
+    /// begins afterwards but the caller's own.
+    void finish()
+    {
+        std::unique_lock lock(mutex_);
+        ending_thread_ = std::this_thread::get_id();
+        python_ends_.request_stop();
+        none_.wait(lock, [this] { return count_ == 0; });
+    }
+
+private:
+    Workers() = default;
+    [[nodiscard]] bool must_sleep() const
+    {
+        return ending_thread_ && ending_thread_ != std::this_thread::get_id();
+    }
+
+    std::mutex mutex_;
+    std::condition_variable none_;
+    int count_ = 0;
+    std::optional<std::thread::id> ending_thread_;
+    std::stop_source python_ends_;
+};
 
 /// Lets other threads of Python run meanwhile.
 class Unlocked {
 public:
-    Unlocked() : state_(PyEval_SaveThread()) {}
+    Unlocked() : state_(PyEval_SaveThread()) { Workers::all().begin(); }
     ~Unlocked()
     {
-        sleep_when_python_ends([this] { PyEval_RestoreThread(state_); });
+        Workers::all().end([this] { PyEval_RestoreThread(state_); });
     }
     Unlocked(const Unlocked&) = delete;
     Unlocked& operator=(const Unlocked&) = delete;
@@ -42,13 +127,20 @@ private:
 /// Holds the lock again, within the life of an `Unlocked`.
 class Locked {
 public:
-    Locked() : state_(sleep_when_python_ends([] { return PyGILState_Ensure(); })) {}
-    ~Locked() { PyGILState_Release(state_); }
+    Locked()
+    {
+        Workers::all().end([this] { state_ = PyGILState_Ensure(); });
+    }
+    ~Locked()
+    {
+        PyGILState_Release(state_);
+        Workers::all().begin();
+    }
     Locked(const Locked&) = delete;
     Locked& operator=(const Locked&) = delete;
 
 private:
-    PyGILState_STATE state_;
+    PyGILState_STATE state_{};
 };
 
 }  // namespace bdpt::python

@@ -4,6 +4,7 @@
 
 #include <exception>
 
+#include "interpreter_lock.h"
 #include "python_scene.h"
 
 namespace {
@@ -24,6 +25,14 @@ void translate(const std::exception_ptr& exception, void* /*payload*/)
     }
 }
 
+/// Called when Python ends, before it takes anything down.
+void wait_for_renders()
+{
+    PyThreadState* state = PyEval_SaveThread();
+    bdpt::python::Workers::all().finish();
+    PyEval_RestoreThread(state);
+}
+
 }  // namespace
 
 NB_MODULE(_bdpt, module)
@@ -37,6 +46,7 @@ NB_MODULE(_bdpt, module)
         PyExc_RuntimeError, nullptr)));
     module.attr("Error") = *error_type;
     nb::register_exception_translator(translate);
+    nb::module_::import_("atexit").attr("register")(nb::cpp_function(&wait_for_renders));
     bdpt::python::bind_scene(module);
     bdpt::python::bind_parts_of_scenes(module);
     bdpt::python::bind_render(module);

@@ -101,6 +101,7 @@ Render render_scene(PythonScene& scene, const nb::object& progress, const nb::kw
         .backdrop = arguments.display.backdrop,
         .inputs = app::input_files(arguments, scene.stage)};
     RenderControl control;
+    control.stop = Workers::all().stop();
     control.time_limit = arguments.goal.seconds;
     control.noise_goal = arguments.goal.noise.value_or(0.0);
     control.on_progress = [&progress](const Progress& done) { tell(done, progress); };
@@ -160,10 +161,9 @@ void save(const Render& render, const fs::path& file, const nb::kwargs& options)
     const auto denoiser = app::open_denoiser(asked.denoise, files, 0);
     app::write_image_files(
         files, render.part.film.develop(),
-        {.exr = {.type =
-                     asked.half ? io::ExrChannelType::half_float : io::ExrChannelType::single_float,
+        {.exr = {.type = asked.exr.channel_type,
                  .metadata = notes.metadata,
-                 .storage = asked.tiled ? io::ExrStorage::tiles : io::ExrStorage::scanlines,
+                 .storage = asked.exr.storage,
                  .placement = io::ExrPlacement{.x = layout.region.x0,
                                                .y = layout.region.y0,
                                                .full_width = layout.width,

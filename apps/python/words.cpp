@@ -4,89 +4,78 @@
 #include <fmt/core.h>
 #include <nanobind/stl/string.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
 #include <string_view>
+#include <utility>
 
-#include "options/command_options.h"
+#include "options/command_parser.h"
 
 namespace bdpt::python {
 namespace {
 
 namespace nb = nanobind;
 
-struct SaveWords {
-    app::DisplayWords display;
-    app::DenoiseWords denoise;
-    bool half = false;
-    bool tiled = false;
+/// The options of save(), and where they go.
+struct SaveRequest {
+    SaveRequest()
+    {
+        options.section("", {.python_save = true});
+        app::add_display_options(options, arguments.display);
+        app::add_denoise_options(options, denoise);
+        app::add_half_option(options, arguments.exr);
+        app::add_tiled_option(options, arguments.exr);
+    }
+    SaveRequest(const SaveRequest&) = delete;
+    SaveRequest& operator=(const SaveRequest&) = delete;
+
+    SaveArguments arguments{};
+    app::DenoiseArguments denoise{};
+    app::OptionList options{};
 };
 
-void describe_save(CLI::App& parser, SaveWords& words)
-{
-    app::add_display_options(parser, words.display, "Output");
-    app::add_denoise_options(parser, words.denoise, "Output");
-    parser.add_flag("--half", words.half, "Store .exr as 16-bit floats");
-    parser.add_flag("--tiled", words.tiled, "Store .exr in tiles");
-    app::let_the_last_count(parser);
-}
-
-template <typename Names>
-bool has(const Names& names, std::string_view name)
+bool has(const std::vector<std::string>& names, std::string_view name)
 {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// Does the option of bdpt render belong to that call?
-bool belongs(const CLI::Option& option, Call call)
+bool belongs(const app::Option& option, Call call)
 {
-    static constexpr std::array of_load{"isa", "size"};
-    static constexpr std::array of_neither{"isa", "profile"};
-    const std::string name = option.get_lnames().empty() ? "" : option.get_lnames().front();
-    const std::string group = option.get_group();
-    if (call == Call::load) {
-        return group == "What to render" || has(of_load, name);
-    }
-    return ((group == "How to render" || group == "Film") && !has(of_neither, name)) ||
-           name == "background";
+    const app::OptionUses& uses = option.uses;
+    return call == Call::load     ? uses.python_load
+           : call == Call::render ? uses.python_render
+                                  : uses.python_save;
 }
 
-/// The options of a call, as the parser of the command has them.
-class CallOptions {
-public:
-    explicit CallOptions(Call call)
-    {
-        if (call == Call::save) {
-            describe_save(parser_, save_);
-        } else {
-            app::add_render_options(parser_, render_);
-        }
-        for (const CLI::Option* option : parser_.get_options()) {
-            const auto& names = option->get_lnames();
-            const bool wanted =
-                call == Call::save ? !names.empty() && !has(names, "help") : belongs(*option, call);
-            if (wanted) {
-                options_.push_back(option);
-            }
-        }
-    }
-    const std::vector<const CLI::Option*>& options() const { return options_; }
-    std::vector<std::string> names() const
-    {
-        std::vector<std::string> names;
-        for (const CLI::Option* option : options_) {
-            names.push_back(option->get_lnames().front());
-        }
-        return names;
-    }
-
-private:
-    CLI::App parser_;
-    app::RenderWords render_;
-    SaveWords save_;
-    std::vector<const CLI::Option*> options_;
+/// An option as Python has it: "look_at", and what it does.
+struct Keyword {
+    std::string name;
+    std::string help;
 };
+
+std::vector<Keyword> keywords_of(Call call)
+{
+    SaveRequest save;
+    app::RenderRequest render;
+    app::OptionList render_options;
+    app::add_render_options(render_options, render);
+    std::vector<Keyword> keywords;
+    for (const app::Option& option :
+         call == Call::save ? save.options.all() : render_options.all()) {
+        if (belongs(option, call)) {
+            keywords.push_back({.name = option.name().substr(2), .help = option.help});
+        }
+    }
+    return keywords;
+}
+
+std::vector<std::string> names_of(Call call)
+{
+    std::vector<std::string> names;
+    for (Keyword& keyword : keywords_of(call)) {
+        names.push_back(std::move(keyword.name));
+    }
+    return names;
+}
 
 /// "from_" is "from": the word without it means something else to Python.
 std::string option_of(std::string keyword)
@@ -112,15 +101,6 @@ std::string value_of(const std::string& name, nb::handle value)
     return text;
 }
 
-void parse(CLI::App& parser, const Words& words)
-{
-    try {
-        parser.parse(app::words_for_parser(words));
-    } catch (const CLI::ParseError& error) {
-        throw Error(ErrorCode::usage, error.what());
-    }
-}
-
 const char* function_of(Call call)
 {
     return call == Call::load ? "load()" : call == Call::render ? "render()" : "save()";
@@ -130,14 +110,14 @@ const char* function_of(Call call)
 
 Words words_of(const nb::kwargs& options, Call call)
 {
-    const std::vector<std::string> known = CallOptions(call).names();
+    const std::vector<std::string> known = names_of(call);
     Words words;
     for (const auto& [key, value] : options) {
         const auto keyword = nb::cast<std::string>(key);
         const std::string name = option_of(keyword);
         if (!has(known, name)) {
             for (const Call other : {Call::load, Call::render, Call::save}) {
-                if (has(CallOptions(other).names(), name)) {
+                if (has(names_of(other), name)) {
                     throw Error(ErrorCode::usage,
                                 fmt::format("{} is an option of {}, not of {}", keyword,
                                             function_of(other), function_of(call)));
@@ -160,38 +140,27 @@ Words words_of(const nb::kwargs& options, Call call)
 
 app::RenderArguments understand_render(const Words& words)
 {
-    CLI::App parser;
-    app::RenderWords render;
-    app::add_render_options(parser, render);
-    app::let_the_last_count(parser);
     Words all = words;
     // Where files go is said later, to save(); layers are kept for it.
     all.insert(all.end(), {"--output=image.exr", "scene"});
-    parse(parser, all);
-    return app::understand(render);
+    return app::render_arguments(all);
 }
 
 SaveArguments understand_save(const Words& words)
 {
-    CLI::App parser;
-    SaveWords save;
-    describe_save(parser, save);
-    parse(parser, words);
-    return {.display = understand(save.display),
-            .denoise = understand(save.denoise),
-            .half = save.half,
-            .tiled = save.tiled};
+    SaveRequest save;
+    app::parse(save.options, words);
+    save.arguments.denoise = checked(save.denoise, save.options);
+    return save.arguments;
 }
 
 std::string option_list(Call call)
 {
     std::string text;
-    const CallOptions options(call);
-    for (const CLI::Option* option : options.options()) {
-        std::string name = option->get_lnames().front();
+    for (const Keyword& keyword : keywords_of(call)) {
+        std::string name = keyword.name;
         std::replace(name.begin(), name.end(), '-', '_');
-        text +=
-            fmt::format("    {}: {}\n", name == "from" ? "from_" : name, option->get_description());
+        text += fmt::format("    {}: {}\n", name == "from" ? "from_" : name, keyword.help);
     }
     return text;
 }

@@ -27,10 +27,9 @@ enum class Call { load, render, save };
 
 /// How a file is written.
 struct SaveArguments {
-    app::DisplayArguments display;
-    std::optional<app::DenoiseArguments> denoise;
-    bool half = false;
-    bool tiled = false;
+    app::DisplayArguments display{};
+    std::optional<app::DenoiseArguments> denoise{};
+    app::ExrFormat exr{};
 };
 
 [[nodiscard]] SaveArguments understand_save(const Words& words);

@@ -174,10 +174,11 @@ TEST_CASE("words about a ground that make no sense are refused by name")
     refused(joined(clear, {"--ground", "foo"}), "--ground", "foo");
     refused(joined(catcher, {"--ground-height", "nan"}), "--ground-height", "nan");
     refused(joined(catcher, {"--ground-height", "inf"}), "--ground-height", "inf");
-    refused(joined(catcher, {"--ground-height", "1e30"}), "--ground-height", "1e+30");
+    refused(joined(catcher, {"--ground-height", "1e30"}), "--ground-height", "1e30");
     refused(joined(catcher, {"--ground-height", "low"}), "--ground-height", "low");
     refused(joined(clear, {"--ground-height", "2"}), "--ground-height", "--ground shadow");
-    refused(joined(clear, {"--ground", "none", "--ground-height", "2"}), "--ground-height", "2");
+    refused(joined(clear, {"--ground", "none", "--ground-height", "2"}), "--ground-height",
+            "--ground shadow");
     refused({"--ground", "shadow"}, "--ground", "--background");
 }
 
@@ -199,7 +200,7 @@ TEST_CASE("parts of a shadow on the ground are merged to the one of a render")
     };
     const Outcome refused = merge("c.part.exr");
     CHECK(refused.exit_code == 4);
-    CHECK(refused.err.find("ground height (-2, not none)") != std::string::npos);
+    CHECK(refused.err.find("ground_height (-2, not none)") != std::string::npos);
     CHECK_FALSE(folder.has("m.png"));
     GroundFolder::check(merge("b.part.exr"));
     for (const char* name : {"A", "shadow.A", "R"}) {

@@ -110,7 +110,8 @@ TEST_CASE("words about noise that make no sense are refused", "[noise]")
     };
     refused({"-o", out, "--noise", "2"}, "--noise \"2\"");
     refused({"-o", out, "--noise", "-2%"}, "--noise \"-2%\"");
-    refused({"-o", out, "--noise", "2%", "--samples", "0:64"}, "--noise \"2%\"");
+    refused({"-o", out, "--noise", "2%", "--samples", "0:64"},
+            "--noise cannot be combined with --samples");
 }
 
 }  // namespace

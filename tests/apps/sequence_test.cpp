@@ -257,10 +257,10 @@ TEST_CASE("words about several images that make no sense are refused", "[sequenc
         CHECK(lines_with(outcome.err, "") == 1);
         CHECK(folder.names() == std::set<std::string>{"cube.bin", "cube.gltf"});
     };
-    refused({"--frames", "1:2", "-o", many}, "--fps with it");
+    refused({"--frames", "1:2", "-o", many}, "--frames needs --fps or --orbit");
     refused({"--frames", "2:1", "--fps", "24", "-o", many}, "--frames \"2:1\"");
     refused({"--frames", "1:2", "--fps", "0", "-o", many}, "--fps \"0\"");
-    refused({"--fps", "24", "-o", one}, "--fps \"24\"");
+    refused({"--fps", "24", "-o", one}, "--fps needs --frames or --orbit");
     refused({"--same-noise", "-o", one}, "--same-noise");
     refused({"--orbit", "3", "-o", one}, one + ": expected #### in the name");
     refused({"--orbit", "3", "-o", many, "--stats", (folder / "s.json").string()}, "s.json");
@@ -269,7 +269,8 @@ TEST_CASE("words about several images that make no sense are refused", "[sequenc
     refused({"--orbit", "3", "--frames", "2:4", "-o", many}, "views from 1 to 3");
     refused({"--orbit", "2", "-o", (folder / "#.##.exr").string()}, "one run of #");
     refused({"--cameras", "all", "-o", one}, "{camera} in the name");
-    refused({"--cameras", "all", "--camera", "front", "-o", camera}, "--cameras \"all\"");
+    refused({"--cameras", "all", "--camera", "front", "-o", camera},
+            "--cameras cannot be combined with --camera");
     refused({"--cameras", "some", "-o", camera}, "--cameras");
 }
 

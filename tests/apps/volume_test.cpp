@@ -84,11 +84,11 @@ float green(const std::vector<Rgb>& pixels)
 TEST_CASE("options about volumes that make no sense are refused", "[volume]")
 {
     const Room room;
-    room.refuse({"--volume-grid", "heat"}, 2, {"--volume-grid \"heat\"", "--volume with it"});
-    room.refuse({"--volume-extinction", "2"}, 2, {"--volume-extinction", "--volume with it"});
-    room.refuse({"--volume-albedo", "0.5"}, 2, {"--volume-albedo", "--volume with it"});
-    room.refuse({"--volume-anisotropy", "0.5"}, 2, {"--volume-anisotropy", "--volume with it"});
-    room.refuse({"--volume-up", "z"}, 2, {"--volume-up", "--volume with it"});
+    room.refuse({"--volume-grid", "heat"}, 2, {"--volume-grid needs --volume"});
+    room.refuse({"--volume-extinction", "2"}, 2, {"--volume-extinction needs --volume"});
+    room.refuse({"--volume-albedo", "0.5"}, 2, {"--volume-albedo needs --volume"});
+    room.refuse({"--volume-anisotropy", "0.5"}, 2, {"--volume-anisotropy needs --volume"});
+    room.refuse({"--volume-up", "z"}, 2, {"--volume-up needs --volume"});
     const auto refuse = [&](const Words& more, const Words& texts) {
         room.refuse(joined({"--volume", smoke}, more), 2, texts);
     };
@@ -100,7 +100,8 @@ TEST_CASE("options about volumes that make no sense are refused", "[volume]")
     refuse({"--volume-anisotropy", "1"}, {"--volume-anisotropy \"1\""});
     refuse({"--volume-up", "x"}, {"--volume-up"});
     refuse({"--volume-grid", ""}, {"--volume-grid"});
-    refuse({"--ground", "shadow", "--background", "black"}, {"--volume", "--ground shadow"});
+    refuse({"--ground", "shadow", "--background", "black"},
+           {"--ground cannot be combined with --volume"});
     room.refuse({"--volume", "-"}, 2, {"--volume \"-\""});
     room.refuse({"--volume", room.path("none.vdb")}, 3, {"none.vdb: no such file"});
     room.refuse({"--volume", scene}, 5, {"room-spot.gltf: no OpenVDB file"});

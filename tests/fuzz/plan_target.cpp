@@ -1,7 +1,6 @@
 #include <bdpt/io/denoise.h>
 
 #include <algorithm>
-#include <exception>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -20,19 +19,11 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// The words of the command line with those of the plan, as the command's parser has understood
-/// them; false if it has not.
-bool parse(CommandLine& line, const Words& typed)
+/// The options of the command in `line` that `typed` names, with those of the plan.
+const OptionList& parsed(CommandLine& line, const Words& typed)
 {
     const Words words = with_planned_words(typed);
-    try {
-        line.app.parse(Words(words.rbegin(), words.rend() - 1));
-    } catch (const Error&) {
-        throw;
-    } catch (const std::exception&) {  // of the parser
-        return false;
-    }
-    return true;
+    return parse(line.program, Words(words.begin() + 1, words.end())).command->options;
 }
 
 bool is_in(const std::filesystem::path& file, const std::filesystem::path& folder)
@@ -45,10 +36,8 @@ bool is_in(const std::filesystem::path& file, const std::filesystem::path& folde
 void check_render(const std::string& file)
 {
     CommandLine line;
-    if (!parse(line, {"bdpt", "render", "--plan", file, "--task", "0"})) {
-        return;
-    }
-    const RenderArguments asked = understand(line.render_words);
+    const OptionList& options = parsed(line, {"bdpt", "render", "--plan", file, "--task", "0"});
+    const RenderArguments asked = checked(line.render, options);
     fuzz::promise(asked.outputs.empty() && !asked.stats && !asked.viewer,
                   "a task writes no files that its plan names");
     fuzz::promise(!asked.denoise || !asked.denoise->library, "a plan loads no code");
@@ -59,10 +48,8 @@ void check_render(const std::string& file)
 void check_merge(const std::string& file)
 {
     CommandLine line;
-    if (!parse(line, {"bdpt", "merge", "--plan", file})) {
-        return;
-    }
-    const MergeArguments asked = understand(line.merge_words);
+    const OptionList& options = parsed(line, {"bdpt", "merge", "--plan", file});
+    const MergeArguments asked = checked(line.merge, options);
     fuzz::promise(!asked.denoise || !asked.denoise->library, "a plan loads no code");
 }
 

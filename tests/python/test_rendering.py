@@ -133,7 +133,7 @@ def test_a_daemon_thread_does_not_disturb_the_end_of_python(progress):
     (lambda scene: bdpt.render(scene, intregator="mis"), 2, "did you mean integrator"),
     (lambda scene: bdpt.render(scene, spp=-1), 2, "-1"),
     (lambda scene: bdpt.render(scene, spp=1, aov=[]), 2, '--aov "":'),
-    (lambda scene: bdpt.render(scene, spp=1, integrator=""), 2, "--integrator:"),
+    (lambda scene: bdpt.render(scene, spp=1, integrator=""), 2, '--integrator "":'),
     (lambda scene: bdpt.render(scene, spp=2**32), 2, "4294967296"),
     (lambda scene: bdpt.render(scene, spp=1, size=(2**32, 1)), 2, "4294967296"),
     (lambda scene: bdpt.render(scene, spp=1, size=(2, 2)).save("out.bmp"), 2, "out.bmp"),

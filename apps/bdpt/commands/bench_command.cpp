@@ -170,7 +170,8 @@ void report_scene(const eval::SceneResult& scene, const BenchArguments& argument
 {
     console.event(
         "scene", {{"name", scene.name}, {"runs", scene.runs.size()}, {"complete", scene.complete}});
-    if (arguments.format == Format::text && arguments.verbosity == Verbosity::normal) {
+    if (arguments.printed.format == Format::text &&
+        arguments.printed.verbosity == Verbosity::normal) {
         print_text(bench_text(scene, arguments.options.seconds));
     }
 }
@@ -187,7 +188,7 @@ int run_bench(const BenchArguments& arguments, const std::vector<std::string>& c
     for (const BenchSubject& subject : arguments.subjects) {
         check_not_read(files, input_files(subject.render));
     }
-    Console console(arguments.format, arguments.verbosity);
+    Console console(arguments.printed.format, arguments.printed.verbosity);
     Interrupt interrupt(temporary_paths(files), [&console] {
         console.note("stopping after the pass in flight; interrupt again to end at once");
     });

@@ -1,15 +1,24 @@
 #include "commands/command_line.h"
 
-#include <memory>
+#include <bdpt/error.h>
 
+#include <utility>
+
+#include "commands/bench_command.h"
+#include "commands/compare_command.h"
+#include "commands/inspect_command.h"
+#include "commands/merge_command.h"
+#include "commands/plan_command.h"
+#include "commands/render_command.h"
+#include "commands/verify_command.h"
 #include "commands/version_command.h"
-#include "options/command_options.h"
-#include "terminal/help_formatter.h"
+#include "options/values/value_types.h"
+#include "terminal/console.h"
 
 namespace bdpt::app {
 namespace {
 
-constexpr const char* first_examples = R"(Examples:
+constexpr const char* program_footer = R"(Examples:
   bdpt render scene.gltf -o out.exr
   bdpt render scene.glb -o out.exr -o preview.png --spp 256
   bdpt info scene.glb
@@ -22,39 +31,87 @@ constexpr const char* first_examples = R"(Examples:
 
 "bdpt help render", or "bdpt render --help", has all options and the exit codes.)";
 
+/// `bdpt help` and `bdpt help COMMAND`: as `--help`.
+int run_help(Program& program, const std::string& topic)
+{
+    if (!topic.empty() && program.find(topic) == nullptr) {
+        throw Error(ErrorCode::usage, unknown_command(program, topic, "bdpt --help"));
+    }
+    print_text(help_text(program, topic));
+    return 0;
+}
+
 }  // namespace
 
 CommandLine::CommandLine()
 {
-    app.set_version_flag("--version", version_text,
-                         "Print the version, that of libraries, and the instruction set");
-    app.require_subcommand(1);
-    app.footer(first_examples);
-    app.formatter(std::make_shared<HelpFormatter>());
-    render = app.add_subcommand("render", "Render a scene to .exr and .png files");
-    add_render_options(*render, render_words);
-    plan = app.add_subcommand("plan", "Share a render among many processes or machines");
-    add_plan_options(*plan, plan_words);
-    merge = app.add_subcommand("merge", "Add parts of a render that were rendered apart");
-    add_merge_options(*merge, merge_words);
-    info = app.add_subcommand("info", "Print what a scene contains");
-    add_info_options(*info, info_arguments);
-    compare = app.add_subcommand("compare", "Measure the error of images against a reference");
-    add_compare_options(*compare, compare_words);
-    bench = app.add_subcommand("bench", "Compare integrators at equal time and equal samples");
-    add_bench_options(*bench, bench_words);
-    verify =
-        app.add_subcommand("verify", "Test that all integrators and strategies agree on a scene");
-    add_verify_options(*verify, verify_words);
-    inspect = app.add_subcommand("inspect", "Tell what one sample of a pixel does");
-    add_inspect_options(*inspect, inspect_words);
-    help = app.add_subcommand("help", "Print the help of a command");
-    help->add_option("command", topic, "The command. Default: all")->type_name("COMMAND");
-    version = app.add_subcommand("version",
-                                 "Print the version, that of libraries, and the instruction set");
-    for (CLI::App* command : {render, plan, merge, info, compare, bench, verify, inspect}) {
-        let_the_last_count(*command);
+    program.name = "bdpt";
+    program.summary = "bdpt renders glTF 2.0 scenes by bidirectional path tracing.";
+    program.footer = program_footer;
+    program.version = version_text;  // which asks Embree, and so starts threads
+    const auto add = [this](const char* name, const char* summary, const char* footer,
+                            const auto& add_options, auto&... places) {
+        Command& command = program.commands.emplace_back();
+        command.name = name;
+        command.summary = summary;
+        command.footer = footer;
+        add_options(command.options, places...);
+    };
+    add("render", "Render a scene to .exr and .png files", render_footer, add_render_options,
+        render);
+    add("plan", "Share a render among many processes or machines", plan_footer, add_plan_options,
+        plan);
+    add("merge", "Add parts of a render that were rendered apart", merge_footer, add_merge_options,
+        merge);
+    add("info", "Print what a scene contains", info_footer, add_info_options, info);
+    add("compare", "Measure the error of images against a reference", compare_footer,
+        add_compare_options, compare);
+    add("bench", "Compare integrators at equal time and equal samples", bench_footer,
+        add_bench_options, bench);
+    add("verify", "Test that all integrators and strategies agree on a scene", verify_footer,
+        add_verify_options, verify);
+    add("inspect", "Tell what one sample of a pixel does", inspect_footer, add_inspect_options,
+        inspect);
+    add("help", "Print the help of a command", "", [this](OptionList& options) {
+        options.add("command", "COMMAND", "The command. Default: all", topic, any_text());
+    });
+    add("version", "Print the version, that of libraries, and the instruction set", "",
+        [](OptionList& /*options*/) {});
+}
+
+int CommandLine::run(const ParsedLine& line, const std::vector<std::string>& words)
+{
+    const std::string& name = line.command->name;
+    const OptionList& options = line.command->options;
+    if (name == "help") {
+        return run_help(program, topic);
     }
+    if (name == "version") {
+        print_text(version_text() + "\n");
+        return 0;
+    }
+    if (name == "plan") {
+        return run_plan(checked(plan, options));
+    }
+    if (name == "merge") {
+        return run_merge(checked(merge, options));
+    }
+    if (name == "info") {
+        return run_info(info, options);
+    }
+    if (name == "compare") {
+        return run_compare(checked(compare, options));
+    }
+    if (name == "bench") {
+        return run_bench(checked(bench, options), words);
+    }
+    if (name == "verify") {
+        return run_verify(checked(verify, options));
+    }
+    if (name == "inspect") {
+        return run_inspect(checked(inspect, options));
+    }
+    return run_render(checked(render, options), words);
 }
 
 }  // namespace bdpt::app

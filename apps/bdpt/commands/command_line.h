@@ -1,10 +1,10 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 
 #include "commands/info_command.h"
 #include "options/bench_arguments.h"
+#include "options/command_parser.h"
 #include "options/compare_arguments.h"
 #include "options/inspect_arguments.h"
 #include "options/part_arguments.h"
@@ -14,30 +14,25 @@
 
 namespace bdpt::app {
 
-/// The commands and their options, and what the words of a command line fill in.
+/// The commands and their options, and what a command line fills in.
 struct CommandLine {
     CommandLine();
+    CommandLine(const CommandLine&) = delete;
+    CommandLine& operator=(const CommandLine&) = delete;
 
-    CLI::App app{"bdpt renders glTF 2.0 scenes by bidirectional path tracing.", "bdpt"};
-    RenderWords render_words;
-    PlanWords plan_words;
-    MergeWords merge_words;
-    InfoArguments info_arguments;
-    CompareWords compare_words;
-    BenchWords bench_words;
-    VerifyWords verify_words;
-    InspectWords inspect_words;
+    /// Runs the command that `line` names; `words` are the whole command line. The exit code.
+    [[nodiscard]] int run(const ParsedLine& line, const std::vector<std::string>& words);
+
+    RenderRequest render;
+    PlanRequest plan;
+    MergeRequest merge;
+    InfoArguments info;
+    CompareRequest compare;
+    BenchRequest bench;
+    VerifyRequest verify;
+    InspectRequest inspect;
     std::string topic;  ///< what to help with
-    CLI::App* render = nullptr;
-    CLI::App* plan = nullptr;
-    CLI::App* merge = nullptr;
-    CLI::App* info = nullptr;
-    CLI::App* compare = nullptr;
-    CLI::App* bench = nullptr;
-    CLI::App* verify = nullptr;
-    CLI::App* inspect = nullptr;
-    CLI::App* help = nullptr;
-    CLI::App* version = nullptr;
+    Program program;    ///< whose options have the places above
 };
 
 }  // namespace bdpt::app

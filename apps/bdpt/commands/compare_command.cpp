@@ -75,7 +75,7 @@ int run_compare(const CompareArguments& arguments)
                                     [](const auto& result) { return result.passed; });
 
     // stdout has the report alone, so warnings go to stderr in both formats.
-    Console console(Format::text, arguments.verbosity);
+    Console console(Format::text, arguments.printed.verbosity);
     for (const std::string& warning : comparison.warnings) {
         console.warning(warning);
     }
@@ -87,10 +87,10 @@ int run_compare(const CompareArguments& arguments)
             failure = std::current_exception();
         }
     }
-    if (arguments.format == Format::json) {
+    if (arguments.printed.format == Format::json) {
         print_text(eval::comparison_json(report, results, arguments.image.string(),
                                          arguments.reference.string()));
-    } else if (arguments.verbosity == Verbosity::normal) {
+    } else if (arguments.printed.verbosity == Verbosity::normal) {
         print_text(compare_text(report, results));
     }
     if (failure) {

@@ -6,26 +6,19 @@
 #include <bdpt/io/gltf.h>
 #include <bdpt/scene.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "options/groups/scene_arguments.h"
+#include "options/values/value_types.h"
 #include "report/limits_text.h"
 #include "report/scene_report.h"
 #include "terminal/console.h"
+#include "terminal/memory_limit.h"
 
 namespace bdpt::app {
 namespace {
-
-constexpr const char* info_examples = R"(Examples:
-  bdpt info scene.gltf
-  bdpt info scene.glb --json
-  bdpt info --limits
-
-A file that can be read but not rendered is described too, with the reason.
-
-Exit codes: as those of bdpt render, but 0 for a file that can be read and not rendered.)";
 
 /// Adds what only a built scene knows, or why there is none.
 void complete(SceneReport& report, SceneDesc desc)
@@ -55,9 +48,9 @@ void complete(SceneReport& report, SceneDesc desc)
 }
 
 /// Is it the file that is at fault, not what the user wants of it?
-bool is_about_file(const Error& error, const SceneWords& words)
+bool is_about_file(const Error& error, const io::GltfOptions& scene)
 {
-    const bool chosen = words.scene || words.variant || words.animation;
+    const bool chosen = scene.scene || scene.variant || scene.animation;
     return error.code() == ErrorCode::invalid_input || error.code() == ErrorCode::unsupported ||
            (error.code() == ErrorCode::not_found && !chosen);
 }
@@ -94,29 +87,42 @@ SceneReport report_of(const InfoArguments& arguments, const io::GltfOptions& opt
 
 }  // namespace
 
-void add_info_options(CLI::App& command, InfoArguments& arguments)
+const char* const info_footer = R"(Examples:
+  bdpt info scene.gltf
+  bdpt info scene.glb --json
+  bdpt info --limits
+
+A file that can be read but not rendered is described too, with the reason.
+
+Exit codes: as those of bdpt render, but 0 for a file that can be read and not rendered.)";
+
+void add_info_options(OptionList& options, InfoArguments& arguments)
 {
-    command.add_option("file", arguments.file, "The scene: .gltf or .glb; - is the standard input")
-        ->type_name("FILE");
-    add_scene_options(command, arguments.scene, "Scene");
-    command.add_flag("--limits", arguments.limits, "Print the limits of what a file may contain");
-    command.add_flag("--json", arguments.json, "Print one JSON object instead of text");
-    command.footer(info_examples);
+    options.add("file", "FILE", "The scene: .gltf or .glb; - is the standard input", arguments.file,
+                any_text());
+    options.section("Scene");
+    add_scene_options(options, arguments.scene, arguments.max_memory);
+    options.section("");
+    options.add_flag("--limits", "Print the limits of what a file may contain", arguments.limits);
+    options.add_flag("--json", "Print one JSON object instead of text", arguments.json);
 }
 
-int run_info(const InfoArguments& arguments)
+int run_info(const InfoArguments& arguments, const OptionList& given)
 {
     using nlohmann::ordered_json;
-    io::GltfOptions options = to_gltf_options(arguments.scene);
-    options.memory = std::make_shared<io::MemoryBudget>(memory_limit(arguments.scene));
+    if (!given.given("file") && !arguments.limits) {
+        throw OptionError("file is required");
+    }
+    const io::MemoryLimit memory = memory_limit(arguments.max_memory);
+    io::GltfOptions options = arguments.scene;
+    options.limits.memory_bytes = memory.bytes;
+    options.memory = std::make_shared<io::MemoryBudget>(memory);
     std::string text;
     ordered_json json = ordered_json::object();
     if (!arguments.file.empty()) {
         const SceneReport report = report_of(arguments, options);
         text = to_text(report);
         json = to_json(report);
-    } else if (!arguments.limits) {
-        throw Error(ErrorCode::usage, "file is required; see \"bdpt info --help\"");
     }
     if (arguments.limits) {
         text += limits_text(options.limits);

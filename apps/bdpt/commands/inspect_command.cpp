@@ -55,7 +55,7 @@ int run_inspect(const InspectArguments& arguments)
     };
     check_directions(input_files(what));
     // stdout has the report alone.
-    Console console(Format::text, what.verbosity);
+    Console console(Format::text, what.printed.verbosity);
     const PreparedScene stage = prepare_scene(what);
     check_directions(input_files(what, stage));
     for (const std::string& warning : stage.warnings) {
@@ -71,7 +71,7 @@ int run_inspect(const InspectArguments& arguments)
     if (arguments.directions) {
         write_directions(arguments, stage, options);
     }
-    if (what.format == Format::json) {
+    if (what.printed.format == Format::json) {
         nlohmann::ordered_json json = inspect_json(sample, arguments.sample);
         json["settings"] = transport_json(options);
         print_text(json.dump(2) + "\n");

@@ -250,7 +250,7 @@ int conclude(const MergeArguments& asked, const std::optional<Plan>& plan,
         console.warning(message);
         return 0;
     }
-    report_error(asked.format, merge_incomplete, message);
+    report_error(asked.printed.format, merge_incomplete, message);
     return merge_incomplete;
 }
 
@@ -267,7 +267,7 @@ int run_merge(const MergeArguments& asked)
             check_planned_outputs(image, *plan);
         }
     }
-    Console console(asked.format, asked.verbosity);
+    Console console(asked.printed.format, asked.printed.verbosity);
     // Nothing is worth finishing; but nothing half-written is left, either.
     Interrupt interrupt({}, [] {});
     constexpr int all_processors = 0;

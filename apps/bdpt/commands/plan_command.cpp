@@ -1,16 +1,15 @@
 #include "commands/plan_command.h"
 
 #include <bdpt/error.h>
-#include <bdpt/eval/bench/option_names.h>
 #include <bdpt/integrators.h>
 #include <bdpt/io/rates_file.h>
 #include <bdpt/isa.h>
+#include <bdpt/option_fields.h>
 #include <bdpt/part/identity.h>
 #include <bdpt/part/sample_rates.h>
 #include <bdpt/render.h>
 #include <fmt/core.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -54,9 +53,8 @@ fs::path planned_path(const fs::path& path, const fs::path& folder)
 /// Words that choose by hand what was chosen for `options`.
 std::vector<std::string> chosen_words(const RenderOptions& options, Isa isa)
 {
-    std::vector<std::string> words{
-        fmt::format("--isa={}", isa_name(isa)),
-        fmt::format("--integrator={}", eval::to_string(options.integrator))};
+    std::vector<std::string> words{fmt::format("--isa={}", isa_name(isa)),
+                                   fmt::format("--integrator={}", name_of(options.integrator))};
     if (info(options.integrator).traces_light_paths) {
         words.push_back(fmt::format("--light-paths={}", options.bidirectional.light_paths));
         if (options.bidirectional.connections) {
@@ -86,15 +84,10 @@ FirstImage first_image(const RenderArguments& asked, const SequenceView& view,
 Identity identity_of_tasks(Plan plan, const fs::path& file, const PreparedScene& stage,
                            const RenderOptions& chosen, Console& console)
 {
-    CLI::App command;
-    RenderWords words;
-    add_render_options(command, words);
     plan.rates.reset();  // their file is not there yet
     std::vector<std::string> shared = shared_words(plan, file);
     shared.push_back("--part=" + plan.tasks.front().part.string());
-    std::reverse(shared.begin(), shared.end());  // the parser takes words from the end
-    command.parse(std::move(shared));
-    const RenderArguments asked = understand(words);
+    const RenderArguments asked = render_arguments(shared);
     const SequenceView view = views_of(asked, cameras_of(plan)).front();
     RenderArguments arguments = with_choice(arguments_of(asked, view), stage, console);
     arguments.options.sampling.rates = chosen.sampling.rates;
@@ -296,7 +289,7 @@ int run_plan(const PlanArguments& arguments)
     const RenderArguments& asked = arguments.render;
     check_patterns(asked);
     check_files(arguments, input_files(asked));
-    Console console(asked.format, asked.verbosity);
+    Console console(asked.printed.format, asked.printed.verbosity);
     const fs::path folder =
         fs::weakly_canonical(fs::absolute(arguments.folder / "plan.json")).parent_path();
     if (const std::optional<std::string> warning = warning_of_flicker(asked)) {

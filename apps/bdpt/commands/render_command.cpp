@@ -110,7 +110,7 @@ int run_render(const RenderArguments& typed, const std::vector<std::string>& wor
 {
     const RenderArguments asked = with_cache(typed);
     check_patterns(asked);
-    Console console(asked.format, asked.verbosity);
+    Console console(asked.printed.format, asked.printed.verbosity);
     Interrupt interrupt({}, [&console] {
         console.note("stopping after the pass in flight; interrupt again to end at once");
     });

@@ -1,7 +1,6 @@
 #include "commands/render_view.h"
 
 #include <bdpt/error.h>
-#include <bdpt/eval/bench/option_names.h>
 #include <bdpt/io/tone_map.h>
 #include <bdpt/noise.h>
 #include <bdpt/render.h>
@@ -182,9 +181,9 @@ ImageFileOptions image_file_options(const RenderArguments& arguments, const Prep
     if (result.profile) {
         layers.push_back(time_layer(*result.profile));
     }
-    return {.exr = {.type = arguments.channel_type,
+    return {.exr = {.type = arguments.exr.channel_type,
                     .metadata = std::move(metadata),
-                    .storage = arguments.storage,
+                    .storage = arguments.exr.storage,
                     .placement = placement,
                     .manifests = result.ids.manifests()},
             .layers = std::move(layers),

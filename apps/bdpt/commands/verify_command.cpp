@@ -57,7 +57,7 @@ int run_verify(const VerifyArguments& arguments)
 {
     const RenderArguments& what = arguments.stage;
     // stdout has the report alone, so all else goes to stderr in both formats.
-    Console console(Format::text, what.verbosity);
+    Console console(Format::text, what.printed.verbosity);
     Interrupt interrupt({}, [&console] {
         console.note("stopping after the batches in flight; interrupt again to end at once");
     });
@@ -82,9 +82,9 @@ int run_verify(const VerifyArguments& arguments)
     };
     const eval::VerifyReport report = eval::verify(stage.scene, stage.camera, options, control);
     console.end_progress();
-    if (what.format == Format::json) {
+    if (what.printed.format == Format::json) {
         print_text(eval::verify_json(report, file));
-    } else if (what.verbosity == Verbosity::normal) {
+    } else if (what.printed.verbosity == Verbosity::normal) {
         print_text(verify_text(report, options));
     }
     if (const std::optional<int> signal = interrupt.signal()) {

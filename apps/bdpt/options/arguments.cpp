@@ -1,14 +1,8 @@
 #include "options/arguments.h"
 
-#include <fmt/core.h>
-
-#include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
-#include <vector>
 
 namespace bdpt::app {
 namespace {
@@ -24,23 +18,6 @@ std::optional<Number> parse_number(std::string_view text)
         return std::nullopt;
     }
     return value;
-}
-
-/// Insertions, deletions and replacements that turn `a` into `b` [Levenshtein 1966].
-std::size_t edit_distance(std::string_view a, std::string_view b)
-{
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0u : 1u);
-            diagonal = row[j];
-            row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
-        }
-    }
-    return row.back();
 }
 
 }  // namespace
@@ -136,26 +113,6 @@ std::optional<float> parse_float(std::string_view text)
 std::optional<std::size_t> parse_index(std::string_view text)
 {
     return parse_number<std::size_t>(text);
-}
-
-void reject(const char* option, const std::string& value, const std::string& expected)
-{
-    throw OptionError(fmt::format("{} \"{}\": expected {}", option, value, expected));
-}
-
-std::optional<std::string> closest(std::string_view text, std::span<const std::string> words)
-{
-    // Half a word of typing errors is another word.
-    std::size_t best = text.size() / 2;
-    std::optional<std::string> result;
-    for (const std::string& word : words) {
-        const std::size_t distance = edit_distance(text, word);
-        if (distance < best) {
-            best = distance;
-            result = word;
-        }
-    }
-    return result;
 }
 
 }  // namespace bdpt::app

@@ -1,13 +1,10 @@
 #pragma once
 
-#include <bdpt/error.h>
 #include <bdpt/types.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
-#include <string>
 #include <string_view>
 
 namespace bdpt::app {
@@ -41,19 +38,5 @@ struct Size {
 
 /// Only digits: an index.
 [[nodiscard]] std::optional<std::size_t> parse_index(std::string_view text);
-
-/// An option whose value makes no sense. main() adds to the message where the help of the command
-/// is.
-class OptionError : public Error {
-public:
-    explicit OptionError(const std::string& message) : Error(ErrorCode::usage, message) {}
-};
-
-/// Throws the `OptionError` that names all three.
-[[noreturn]] void reject(const char* option, const std::string& value, const std::string& expected);
-
-/// The word that `text` was probably meant to be; none when all are far from it.
-[[nodiscard]] std::optional<std::string> closest(std::string_view text,
-                                                 std::span<const std::string> words);
 
 }  // namespace bdpt::app

@@ -2,7 +2,6 @@
 
 #include <bdpt/eval/bench/bench_options.h>
 
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -10,28 +9,7 @@
 
 #include "options/render_arguments.h"
 
-namespace CLI {
-class App;
-}
-
 namespace bdpt::app {
-
-/// The words of `bdpt bench` as they were given.
-struct BenchWords {
-    std::vector<std::string> files;
-    std::string output;
-    std::optional<std::string> integrators;
-    std::optional<std::string> time;
-    std::optional<std::int64_t> samples;
-    std::optional<int> seeds;
-    std::optional<std::string> reference;
-    std::optional<std::string> reference_time;
-    std::optional<int> strategy_depth;
-    RenderWords render;  ///< what scenes, views and renders have in common with `bdpt render`
-    bool quick = false;
-    bool json = false;
-    bool quiet = false;
-};
 
 /// A scene of a benchmark.
 struct BenchSubject {
@@ -41,20 +19,30 @@ struct BenchSubject {
 
 /// What `bdpt bench` is to do.
 struct BenchArguments {
-    std::vector<BenchSubject> subjects;
-    std::filesystem::path folder;
-    eval::BenchOptions options;
-    std::optional<Size> size;
+    std::vector<BenchSubject> subjects{};
+    std::filesystem::path folder{};
+    eval::BenchOptions options{};
+    std::optional<Size> size{};
     int pixels = 0;  ///< of each image without `size`, at about
-    Format format = Format::text;
-    Verbosity verbosity = Verbosity::normal;
+    Printed printed{};
 };
 
-/// Describes the options of `bdpt bench` to the parser, which will store into `words`.
-void add_bench_options(CLI::App& command, BenchWords& words);
+/// The options of `bdpt bench`, as they are given.
+struct BenchRequest {
+    std::vector<std::string> files{};
+    BenchArguments arguments{};
+    std::optional<double> reference_seconds{};
+    RenderRequest render{};  ///< what scenes, views and renders have in common with `bdpt render`
+    bool quick = false;
+};
 
-/// Throws `Error` (usage) for words that make no sense.
-[[nodiscard]] BenchArguments understand(const BenchWords& words);
+extern const char* const bench_footer;
+
+/// Adds the options of `bdpt bench`.
+void add_bench_options(OptionList& options, BenchRequest& request);
+
+/// Throws `OptionError` for options that do not go together.
+[[nodiscard]] BenchArguments checked(const BenchRequest& request, const OptionList& options);
 
 /// The image of about `pixels` pixels with the proportions of `whole`.
 [[nodiscard]] Size bench_size(const Size& whole, int pixels);

@@ -2,59 +2,42 @@
 
 #include <bdpt/eval/compare/comparison.h>
 #include <bdpt/eval/compare/threshold.h>
+#include <bdpt/eval/metrics/metric.h>
 
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "terminal/console.h"
-
-namespace CLI {
-class App;
-}
+#include "options/option_list.h"
+#include "options/part_arguments.h"
 
 namespace bdpt::app {
 
-/// The words of `bdpt compare` as they were given.
-struct CompareWords {
-    std::string image;
-    std::string reference;
-    std::optional<std::string> layer;
-    std::optional<std::string> metrics;
-    std::vector<std::string> thresholds;
-    double epsilon = 0.01;
-    bool relative = false;
-    std::optional<double> peak;
-    std::optional<double> pixels_per_degree;
-    std::optional<std::string> exposures;
-    std::optional<double> exposure;
-    int tile_size = 32;
-    int worst_tiles = 5;
-    std::optional<std::string> error_image;
-    std::string error_metric = "relmse";
-    double scale = 1.0;
-    bool json = false;
-    bool quiet = false;
-};
-
 /// What `bdpt compare` is to do.
 struct CompareArguments {
-    std::filesystem::path image;  ///< an image, or a folder of them
-    std::filesystem::path reference;
-    std::optional<std::string> layer;
-    eval::ComparisonOptions options;
-    std::vector<eval::Threshold> thresholds;
-    std::optional<std::filesystem::path> error_image;
+    std::filesystem::path image{};  ///< an image, or a folder of them
+    std::filesystem::path reference{};
+    std::optional<std::string> layer{};
+    eval::ComparisonOptions options{};
+    std::vector<eval::Threshold> thresholds{};
+    std::optional<std::filesystem::path> error_image{};
     double scale = 1.0;  ///< of the error image
-    Format format = Format::text;
-    Verbosity verbosity = Verbosity::normal;
+    Printed printed{};
 };
 
-/// Describes the options of `bdpt compare` to the parser, which will store into `words`.
-void add_compare_options(CLI::App& command, CompareWords& words);
+/// The options of `bdpt compare`, as they are given.
+struct CompareRequest {
+    CompareArguments arguments{};
+    std::optional<std::vector<eval::Metric>> metrics{};  ///< none: all
+};
 
-/// Throws `Error` (usage) for words that make no sense.
-[[nodiscard]] CompareArguments understand(const CompareWords& words);
+extern const char* const compare_footer;
+
+/// Adds the options of `bdpt compare`.
+void add_compare_options(OptionList& options, CompareRequest& request);
+
+/// With the metrics of thresholds among those that are measured.
+[[nodiscard]] CompareArguments checked(const CompareRequest& request, const OptionList& options);
 
 }  // namespace bdpt::app

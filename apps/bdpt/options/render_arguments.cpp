@@ -1,24 +1,196 @@
 #include "options/render_arguments.h"
 
+#include <bdpt/option_text.h>
 #include <bdpt/part/sample_rates.h>
-#include <fmt/core.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <limits>
 #include <numbers>
+#include <utility>
 
+#include "options/command_parser.h"
+#include "options/groups/render_fields.h"
+#include "options/groups/scene_arguments.h"
 #include "options/values/output_files.h"
 #include "options/values/pipes.h"
-#include "options/values/value_checks.h"
+#include "options/values/value_types.h"
+#include "terminal/memory_limit.h"
 
 namespace bdpt::app {
 namespace {
 
-constexpr const char* render_examples = R"(Examples:
+constexpr OptionUses of_render{.plan_render = true, .python_render = true};
+constexpr OptionUses of_load{.plan_render = true, .python_load = true};
+constexpr OptionUses of_save{.plan_merge = true, .python_save = true};
+
+/// Degrees as radians.
+ValueType<float> angle()
+{
+    const auto parse = [](const std::string& text) -> std::optional<float> {
+        const std::optional<double> degrees = decimal_number(text);
+        if (!degrees || !(*degrees > 0.0 && *degrees < 180.0)) {
+            return std::nullopt;
+        }
+        return static_cast<float>(*degrees * std::numbers::pi / 180.0);
+    };
+    return {.parse = parse, .expected = "degrees between 0 and 180"};
+}
+
+void add_how(OptionList& options, RenderRequest& request)
+{
+    RenderArguments& arguments = request.arguments;
+    RenderOptions& render = arguments.options;
+    options.section("How to render", of_render);
+    constexpr std::int64_t most_samples = std::int64_t{1} << 31;
+    options
+        .add("--spp", "N", "Samples per pixel. Default: 64", request.spp,
+             whole_number(1, most_samples))
+        .uses.plan_render = false;  // a plan says which samples tasks render
+    add_size_option(options, request,
+                    "Image size. Default: the largest with the camera's aspect ratio within "
+                    "1280x720");
+    options
+        .add_flag("--adaptive",
+                  "Adaptive sampling: more samples where the image is noisy, fewer where it is "
+                  "not, from a quarter of --spp to four times as many; --spp is their mean, a "
+                  "multiple of 8. A test render of 8 samples per pixel finds out where. "
+                  "Unbiased. Not for lt and vcm",
+                  request.adaptive)
+        .uses.plan_render = false;  // a plan has the rates in a file
+    options
+        .add("--rates", "FILE",
+             "The same by an .exr that --save-rates has written, without a test render",
+             request.rates.file, any_text())
+        .uses.plan_render = false;
+    add_fields(options, render.sampling);
+    options.section("How to render", {.python_render = true});
+    add_fields(options, render.system);
+    options.section("How to render", of_render);
+    const auto isas = choices_of(all_isas, isa_name);
+    options
+        .add("--isa", "sse2|sse4.2|avx|avx2|avx512|native",
+             "Instruction set of Embree. Images are equal to the bit only for equal sets: on a "
+             "render farm, choose one that all machines have. Default: the best of this CPU",
+             arguments.isa, isas.type())
+        .uses = of_load;
+    options
+        .add("--samples", "A:B",
+             "Render the samples A to B - 1 of each pixel, in place of --spp: a part of a "
+             "render that other machines share",
+             request.samples, sample_range())
+        .uses.plan_render = false;
+}
+
+void add_image_output(OptionList& options, RenderRequest& request)
+{
+    RenderArguments& arguments = request.arguments;
+    options.section("Output", of_save);
+    options
+        .add_repeated("-o,--output", "FILE",
+                      "An image, .exr (linear radiance) or .png (tone-mapped); exr:- and png:- are "
+                      "the standard output. May be repeated. Required without --part",
+                      arguments.outputs, any_text())
+        .uses = {};
+    add_display_options(options, arguments.display);
+    add_denoise_options(options, request.denoise);
+    add_half_option(options, arguments.exr);
+    const Choices<io::ExrChannelType> types{
+        {{"true", io::ExrChannelType::single_float}, {"false", io::ExrChannelType::half_float}}};
+    options
+        .add_flag("--float", "Store .exr as 32-bit floats (default)", arguments.exr.channel_type,
+                  types.type())
+        .uses = {};
+    add_tiled_option(options, arguments.exr);
+    add_quiet_option(options, arguments.printed);
+    add_json_option(options, arguments.printed,
+                    "Print one JSON object per line on stdout: start, progress, warning, done, "
+                    "error. With --quiet only done and error");
+}
+
+/// What concerns one process that renders, and not the render as such.
+void add_process_options(OptionList& options, RenderRequest& request)
+{
+    RenderArguments& arguments = request.arguments;
+    options.section("How to render", {.python_render = true});
+    add_time_option(options, request,
+                    "Time to render for, like 90s, 2m or 1.5h; without --spp no other limit");
+    options.add("--noise", "N%",
+                "Stop when the noise is that low, like 2%: the relative standard error that 95 % "
+                "of all tiles of 16 x 16 pixels are not above. Looked at after 16, 24, 32, 48, 64, "
+                "... samples per pixel. Of --spp (with this: 65536, if not given), --time and this "
+                "what comes first counts",
+                arguments.goal.noise, noise_level());
+    options.section("Output");
+    options.add("--stats", "FILE", "Write counts of rays and paths, and times, to this .json file",
+                arguments.stats, any_text());
+    const Choices<Profiling> profiling{{{"true", Profiling::on}, {"false", Profiling::off}}};
+    options.add_flag("--profile",
+                     "Profile the render by phase and pixel: printed, in --stats, and as .exr "
+                     "layer time.Y (microseconds per sample). Does not change the image",
+                     arguments.profiling, profiling.type());
+    options.add("--save-rates", "FILE",
+                "Write how many samples pixels take, in units of --spp: .exr for --rates, or .png "
+                "in false colours",
+                request.rates.saved,
+                file_named({".exr", ".png"}, "a file that is named .exr or .png"));
+    add_strategy_options(options, request.strategies);
+    add_part_options(options, request.part);
+    options.add("--display", "HOST[:PORT]",
+                "Show the render while it runs in the image viewer tev, which listens there. "
+                "Default port: 14158",
+                arguments.viewer,
+                parsed_by(parse_address,
+                          "HOST or HOST:PORT, like "
+                          "localhost:14158"));
+}
+
+/// How long it renders.
+Goal goal_of(const RenderRequest& request)
+{
+    Goal goal = request.arguments.goal;
+    goal.seconds = request.seconds.value_or(goal.seconds);
+    if (request.samples) {
+        goal.samples = request.samples->end - request.samples->begin;
+    } else if (request.spp || !request.seconds) {
+        constexpr std::int64_t enough = 65536;  // where noise never gets low
+        goal.samples = request.spp.value_or(goal.noise ? enough : SampleRange{}.end);
+    }
+    return goal;
+}
+
+SampleRange samples_of(const RenderRequest& request, const Goal& goal)
+{
+    // With --time alone, more samples than anyone has time for.
+    constexpr std::int64_t no_limit = std::int64_t{1} << 30;
+    const SampleRange samples =
+        request.samples.value_or(SampleRange{.begin = 0, .end = goal.samples.value_or(no_limit)});
+    const bool adaptive = request.adaptive || request.rates.file;
+    if (adaptive &&
+        (samples.begin % SampleRates::group != 0 || samples.end % SampleRates::group != 0)) {
+        reject(request.samples ? "--samples" : "--spp",
+               request.samples ? option_text(samples) : option_text(samples.end),
+               "multiples of 8 with --adaptive and --rates");
+    }
+    return samples;
+}
+
+void check_combinations(const OptionList& options)
+{
+    static constexpr std::array conflicts{
+        Conflict{"--samples", "--spp"},
+        Conflict{"--noise", "--samples", "a part does not decide when there is little noise"},
+        Conflict{"--adaptive", "--rates"}, Conflict{"--half", "--float"}};
+    static constexpr std::array needs{Need{"--save-rates", "--adaptive|--rates"}};
+    check(conflicts, options);
+    check(needs, options);
+    check_lens_options(options);
+    check_medium_options(options);
+}
+
+}  // namespace
+
+const char* const render_footer = R"(Examples:
   bdpt render scene.gltf -o out.exr
   bdpt render scene.glb -o out.exr -o out.png --spp 256 --size 1920x1080
   bdpt render room.glb -o out.exr --time 90s --camera "Camera 2"
@@ -39,362 +211,125 @@ Exit codes: 0 done, 1 internal error, 2 wrong usage, 3 input not found, 4 invali
 5 unsupported feature, 6 output cannot be written, 7 out of memory or threads, 129 stopped by
 SIGHUP, 130 by SIGINT, 143 by SIGTERM.)";
 
-std::uint64_t to_seed(const std::string& word)
+void add_scene_file(OptionList& options, RenderRequest& request)
 {
-    std::uint64_t seed = 0;
-    const char* end = word.data() + word.size();
-    const auto [stop, error] = std::from_chars(word.data(), end, seed);
-    if (error != std::errc{} || stop != end) {
-        reject("--seed", word, "a whole number from 0 to 2^64 - 1");
+    options.section("");
+    options
+        .add("file", "FILE", "The scene: .gltf or .glb; - is the standard input",
+             request.arguments.file, any_text())
+        .required = true;
+}
+
+void add_size_option(OptionList& options, RenderRequest& request, std::string help)
+{
+    options.add("--size", "WxH", std::move(help), request.arguments.size, image_size())
+        .uses.python_load = true;
+}
+
+void add_time_option(OptionList& options, RenderRequest& request, std::string help)
+{
+    options.add("--time", "TIME", std::move(help), request.seconds, duration());
+}
+
+void add_view_options(OptionList& options, RenderRequest& request)
+{
+    RenderArguments& arguments = request.arguments;
+    options.section("What to render", of_load);
+    add_scene_options(options, arguments.scene, request.max_memory);
+    options.add("--camera", "NAME|INDEX|auto",
+                "Camera of the scene, or auto to frame all of it. Default: the first",
+                arguments.camera, any_text());
+    options.add("--from", "X,Y,Z", "Move the camera here [m]", arguments.view.from, point());
+    options.add("--look-at", "X,Y,Z", "Turn the camera to this point [m]", arguments.view.look_at,
+                point());
+    options.add("--fov", "DEG", "Vertical field of view [degrees]", arguments.view.vertical_fov,
+                angle());
+    options
+        .add("--env", "FILE|none|default",
+             "Environment map: an equirectangular .exr, .hdr or .tif, none, or default (the sky "
+             "that scenes without light get). Replaces that of the file",
+             arguments.environment, any_text())
+        .uses.plan_render = false;  // a plan has a place of its own for files
+    add_environment_options(options, arguments.environment_change);
+    add_fog_options(options, request.fog);
+    add_volume_options(options, request.volume);
+    const Choices<TextureFilter> filters{
+        {{"bilinear", TextureFilter::bilinear}, {"mip", TextureFilter::mip_mapped}}};
+    options.add("--texture-filter", choice_text(filters.words()),
+                "Texture filter: bilinear (default) or mip (mip maps: faster for large textures, "
+                "but blurs what mirrors and lenses magnify)",
+                arguments.texture_filter, filters.type());
+    add_lens_options(options, arguments.lens);
+}
+
+void add_plannable_options(OptionList& options, RenderRequest& request)
+{
+    RenderOptions& render = request.arguments.options;
+    add_scene_file(options, request);
+    add_image_output(options, request);
+    add_how(options, request);
+    add_transport_options(options, render, request.only);
+    options.section("Film", of_render);
+    add_ground_option(options, request.ground);
+    add_fields(options, render.film);
+    add_view_options(options, request);
+}
+
+void add_render_options(OptionList& options, RenderRequest& request)
+{
+    add_plannable_options(options, request);
+    add_process_options(options, request);
+    add_sequence_options(options, request.sequence);
+}
+
+RenderArguments checked(const RenderRequest& request, const OptionList& options)
+{
+    RenderArguments result = request.arguments;
+    result.part = checked(request.part, options);
+    result.sequence = checked(request.sequence, options);
+    check_combinations(options);
+    result.goal = goal_of(request);
+    result.samples = samples_of(request, result.goal);
+    if (request.adaptive || request.rates.file) {
+        result.rates = request.rates;
     }
-    return seed;
-}
-
-Goal to_goal(const RenderWords& words)
-{
-    Goal goal;
-    if (words.time) {
-        const std::optional<double> seconds = parse_duration(*words.time);
-        if (!seconds) {
-            reject("--time", *words.time, "a time like 60s, 2m or 1.5h");
-        }
-        goal.seconds = *seconds;
-    }
-    goal.noise = to_noise(words.noise);
-    if (const std::optional<SampleRange> range = sample_range(words.part)) {
-        if (words.samples) {
-            reject("--samples", *words.part.samples, "no --spp beside it");
-        }
-        if (words.noise) {
-            reject("--noise", *words.noise, "no --samples beside it: a part does not decide");
-        }
-        goal.samples = range->end - range->begin;
-    } else if (words.samples || !words.time) {
-        constexpr std::int64_t enough = 65536;  // where noise never gets low
-        goal.samples = words.samples.value_or(words.noise ? enough : SampleRange{}.end);
-    }
-    return goal;
-}
-
-SampleRange to_samples(const RenderWords& words, const Goal& goal)
-{
-    // With --time alone, more samples than anyone has time for.
-    constexpr std::int64_t no_limit = std::int64_t{1} << 30;
-    const SampleRange samples =
-        sample_range(words.part)
-            .value_or(SampleRange{.begin = 0, .end = goal.samples.value_or(no_limit)});
-    const bool adaptive = words.rates.adaptive || words.rates.file;
-    if (adaptive &&
-        (samples.begin % SampleRates::group != 0 || samples.end % SampleRates::group != 0)) {
-        const char* expected = "multiples of 8 with --adaptive and --rates";
-        if (words.part.samples) {
-            reject("--samples", *words.part.samples, expected);
-        }
-        reject("--spp", fmt::format("{}", samples.end), expected);
-    }
-    return samples;
-}
-
-std::optional<Vec3> to_point(const char* option, const std::optional<std::string>& word)
-{
-    if (!word) {
-        return std::nullopt;
-    }
-    const std::optional<Vec3> point = parse_vec3(*word);
-    if (!point) {
-        reject(option, *word, "three numbers x,y,z");
-    }
-    return point;
-}
-
-ViewOverrides to_view(const RenderWords& words)
-{
-    ViewOverrides view;
-    view.from = to_point("--from", words.from);
-    view.look_at = to_point("--look-at", words.look_at);
-    if (words.fov) {
-        if (!(*words.fov > 0.0 && *words.fov < 180.0)) {
-            reject("--fov", fmt::format("{}", *words.fov), "degrees between 0 and 180");
-        }
-        view.vertical_fov = static_cast<float>(*words.fov * std::numbers::pi / 180.0);
-    }
-    return view;
-}
-
-std::vector<std::string> isa_names()
-{
-    std::vector<std::string> names;
-    for (const Isa isa : all_isas) {
-        names.emplace_back(isa_name(isa));
-    }
-    return names;
-}
-
-/// The one of that name, which the parser has found.
-Isa to_isa(const std::string& name)
-{
-    return *std::find_if(all_isas.begin(), all_isas.end(),
-                         [&](Isa isa) { return isa_name(isa) == name; });
-}
-
-void add_how(CLI::App& command, RenderWords& words)
-{
-    const auto group = "How to render";
-    constexpr std::int64_t most_samples = std::int64_t{1} << 31;
-    command.add_option("--spp", words.samples, "Samples per pixel. Default: 64")
-        ->check(whole_number(1, most_samples))
-        ->type_name("N")
-        ->group(group);
-    command
-        .add_option(
-            "--size", words.size,
-            "Image size. Default: the largest with the camera's aspect ratio within 1280x720")
-        ->type_name("WxH")
-        ->group(group);
-    command
-        .add_option("--sampler", words.sampler,
-                    "Random numbers: sobol (default; Owen-scrambled, less noise, best with a power "
-                    "of two as --spp) or independent")
-        ->check(one_of({"sobol", "independent"}))
-        ->type_name("sobol|independent")
-        ->group(group);
-    add_rates_options(command, words.rates, group);
-    add_seed_and_threads(command, words, group);
-    command
-        .add_option(
-            "--isa", words.isa,
-            "Instruction set of Embree. Images are equal to the bit only for equal sets: on a "
-            "render farm, choose one that all machines have. Default: the best of this CPU")
-        ->check(one_of(isa_names()))
-        ->type_name("sse2|sse4.2|avx|avx2|avx512|native")
-        ->group(group);
-}
-
-void add_image_output(CLI::App& command, RenderWords& words)
-{
-    const auto group = "Output";
-    command
-        .add_option("-o,--output", words.outputs,
-                    "An image, .exr (linear radiance) or .png (tone-mapped); exr:- and png:- are "
-                    "the standard output. May be repeated. Required without --part")
-        ->allow_extra_args(false)
-        ->type_name("FILE")
-        ->group(group);
-    add_display_options(command, words.display, group);
-    add_denoise_options(command, words.denoise, group);
-    CLI::Option* half =
-        command.add_flag("--half", words.half, "Store .exr as 16-bit floats")->group(group);
-    command.add_flag("--float", words.single, "Store .exr as 32-bit floats (default)")
-        ->excludes(half)
-        ->group(group);
-    command
-        .add_flag("--tiled", words.tiled, "Store .exr in tiles, for programs that read parts of it")
-        ->group(group);
-    command.add_flag("-q,--quiet", words.quiet, "Print errors only")->group(group);
-    command
-        .add_flag("--json", words.json,
-                  "Print one JSON object per line on stdout: start, progress, warning, done, "
-                  "error. With --quiet only done and error")
-        ->group(group);
-}
-
-/// What concerns one process that renders, and not the render as such.
-void add_process_options(CLI::App& command, RenderWords& words)
-{
-    const auto group = "Output";
-    command
-        .add_option("--time", words.time,
-                    "Time to render for, like 90s, 2m or 1.5h; without --spp no other limit")
-        ->type_name("TIME")
-        ->group("How to render");
-    command
-        .add_option(
-            "--noise", words.noise,
-            "Stop when the noise is that low, like 2%: the relative standard error that 95 "
-            "% of all tiles of 16 x 16 pixels are not above. Looked at after 16, 24, 32, "
-            "48, 64, ... samples per pixel. Of --spp (with this: 65536, if not given), --time "
-            "and this what comes first counts")
-        ->type_name("N%")
-        ->group("How to render");
-    command
-        .add_option("--stats", words.stats,
-                    "Write counts of rays and paths, and times, to this .json file")
-        ->type_name("FILE")
-        ->group(group);
-    command
-        .add_flag("--profile", words.profile,
-                  "Profile the render by phase and pixel: printed, in --stats, and as .exr layer "
-                  "time.Y (microseconds per sample). Does not change the image")
-        ->group(group);
-    add_save_rates_option(command, words.rates, group);
-    add_strategy_options(command, words.strategies);
-    add_part_options(command, words.part, group);
-    command
-        .add_option("--display", words.viewer,
-                    "Show the render while it runs in the image viewer tev, which listens there. "
-                    "Default port: 14158")
-        ->type_name("HOST[:PORT]")
-        ->group(group);
-}
-
-}  // namespace
-
-std::optional<double> to_noise(const std::optional<std::string>& word)
-{
-    if (!word) {
-        return std::nullopt;
-    }
-    const std::optional<double> noise = parse_share(*word);
-    if (!noise) {
-        reject("--noise", *word, "a relative error above 0% and up to 100%, like 2% or 0.02");
-    }
-    return noise;
-}
-
-void add_view_options(CLI::App& command, RenderWords& words)
-{
-    const auto group = "What to render";
-    add_scene_options(command, words.scene, group);
-    command
-        .add_option("--camera", words.camera,
-                    "Camera of the scene, or auto to frame all of it. Default: the first")
-        ->type_name("NAME|INDEX|auto")
-        ->group(group);
-    command.add_option("--from", words.from, "Move the camera here [m]")
-        ->type_name("X,Y,Z")
-        ->group(group);
-    command.add_option("--look-at", words.look_at, "Turn the camera to this point [m]")
-        ->type_name("X,Y,Z")
-        ->group(group);
-    command.add_option("--fov", words.fov, "Vertical field of view [degrees]")
-        ->type_name("DEG")
-        ->group(group);
-    command
-        .add_option("--env", words.environment,
-                    "Environment map: an equirectangular .exr, .hdr or .tif, none, or default (the "
-                    "sky that scenes without light get). Replaces that of the file")
-        ->type_name("FILE|none|default")
-        ->group(group);
-    add_environment_options(command, words.environment_change, group);
-    add_fog_options(command, words.fog, group);
-    add_volume_options(command, words.volume, group);
-    command
-        .add_option("--texture-filter", words.texture_filter,
-                    "Texture filter: bilinear (default) or mip (mip maps: faster for large "
-                    "textures, but blurs what mirrors and lenses magnify)")
-        ->check(one_of({"bilinear", "mip"}))
-        ->type_name("bilinear|mip")
-        ->group(group);
-    add_lens_options(command, words.lens);
-}
-
-void add_seed_and_threads(CLI::App& command, RenderWords& words, const char* group)
-{
-    command.add_option("--seed", words.seed, "Seed of the random numbers. Default: 0")
-        ->type_name("N")
-        ->group(group);
-    command
-        .add_option("--threads", words.threads,
-                    "Number of threads. Does not change the image. Default: one for each processor "
-                    "that the process may use; quotas of containers count")
-        ->check(whole_number(0, 4096))
-        ->type_name("N")
-        ->group(group);
-}
-
-void add_plannable_options(CLI::App& command, RenderWords& words)
-{
-    command.add_option("file", words.file, "The scene: .gltf or .glb; - is the standard input")
-        ->required()
-        ->type_name("FILE");
-    add_image_output(command, words);
-    add_how(command, words);
-    add_samples_option(command, words.part, "How to render");
-    add_transport_options(command, words.transport);
-    add_film_options(command, words.film);
-    add_ground_options(command, words.ground, "Film");
-    add_view_options(command, words);
-}
-
-void add_render_options(CLI::App& command, RenderWords& words)
-{
-    add_plannable_options(command, words);
-    add_process_options(command, words);
-    add_sequence_options(command, words.sequence);
-    command.footer(render_examples);
-}
-
-RenderArguments understand(const RenderWords& words)
-{
-    RenderArguments result;
-    result.file = words.file;
-    result.outputs.assign(words.outputs.begin(), words.outputs.end());
-    result.part = part_choice(words.part);
-    result.sequence = sequence(words);
-    result.goal = to_goal(words);
-    result.samples = to_samples(words, result.goal);
-    if (words.size) {
-        result.size = parse_size(*words.size);
-        if (!result.size) {
-            reject("--size", *words.size, "WIDTHxHEIGHT from 1x1 to 65535x65535");
-        }
-    }
-    result.options.sampling.sampler =
-        words.sampler == "independent" ? SamplerKind::independent : SamplerKind::sobol;
-    result.options.system.threads = words.threads;
-    result.isa = to_isa(words.isa);
-    result.options.sampling.seed = to_seed(words.seed);
-    result.rates = rates_choice(words.rates);
-    result.options = with_transport(words.transport, result.options);
-    result.options = with_film(words.film, result.options);
+    result.options = with_transport(result.options, request.only, options);
     if (!result.options.film.aovs.empty() && !writes_exr(result.outputs) && !result.part) {
-        reject("--aov", *words.film.aovs,
-               "an .exr file among the outputs, or --part, to hold the layers");
+        throw OptionError("--aov needs an .exr file among the outputs, or --part");
     }
-    result.camera = words.camera;
-    result.view = to_view(words);
-    check_lens(words.lens);
-    result.lens = words.lens;
-    result.scene = to_gltf_options(words.scene);
-    result.memory = memory_limit(words.scene);
-    result.environment = words.environment;
-    result.texture_filter =
-        words.texture_filter == "mip" ? TextureFilter::mip_mapped : TextureFilter::bilinear;
-    result.environment_change = understand(words.environment_change);
-    result.fog = understand(words.fog);
-    result.volume = understand(words.volume);
-    result.display = understand(words.display);
+    result.memory = memory_limit(request.max_memory);
+    result.scene.limits.memory_bytes = result.memory.bytes;
+    if (options.given("--fog")) {
+        result.fog = request.fog;
+    }
+    if (options.given("--volume")) {
+        result.volume = request.volume;
+    }
     if (result.display.backdrop) {
         result.options.transport.background = Background::none;
         result.options.film.aovs.insert(Aov::alpha);
     }
-    result.options = with_ground(words.ground, result.options);
-    check_beside_ground("--fog", words.fog.extinction, result.options);
-    check_beside_ground("--volume", words.volume.file, result.options);
-    result.denoise = understand(words.denoise);
+    result.options.film = with_ground(request.ground, result.options.film, options);
+    result.denoise = checked(request.denoise, options);
     if (result.denoise) {
         result.options.film.aovs.insert(Aov::albedo);
         result.options.film.aovs.insert(Aov::normal);
     }
-    result.channel_type =
-        words.half ? io::ExrChannelType::half_float : io::ExrChannelType::single_float;
-    result.storage = words.tiled ? io::ExrStorage::tiles : io::ExrStorage::scanlines;
-    result.stats = words.stats;
-    result.profiling = words.profile ? Profiling::on : Profiling::off;
-    result.strategies = strategy_files(words.strategies, result.options, words.part);
-    if (words.viewer) {
-        result.viewer = parse_address(*words.viewer);
-        if (!result.viewer) {
-            reject("--display", *words.viewer, "HOST or HOST:PORT, like localhost:14158");
-        }
-    }
-    result.format = words.json ? Format::json : Format::text;
-    result.verbosity = words.quiet ? Verbosity::quiet : Verbosity::normal;
+    result.strategies = checked(request.strategies, result.options, options);
     std::vector<std::filesystem::path> written = result.outputs;
     written.push_back(result.stats.value_or(""));
     check_pipes(std::array{result.file, std::filesystem::path(result.environment.value_or(""))},
-                written, result.format);
+                written, result.printed.format);
     return result;
+}
+
+RenderArguments render_arguments(const std::vector<std::string>& words)
+{
+    RenderRequest request;
+    OptionList options;
+    add_render_options(options, request);
+    parse(options, words);
+    return checked(request, options);
 }
 
 }  // namespace bdpt::app

@@ -1,8 +1,9 @@
 #pragma once
 
-#include <bdpt/io/exr.h>
 #include <bdpt/io/gltf.h>
+#include <bdpt/io/memory_budget.h>
 #include <bdpt/isa.h>
+#include <bdpt/medium_desc.h>
 #include <bdpt/render.h>
 #include <bdpt/render_options.h>
 
@@ -17,120 +18,103 @@
 #include "options/groups/display_arguments.h"
 #include "options/groups/environment_arguments.h"
 #include "options/groups/film_arguments.h"
-#include "options/groups/fog_arguments.h"
-#include "options/groups/ground_arguments.h"
 #include "options/groups/lens_arguments.h"
-#include "options/groups/rates_arguments.h"
-#include "options/groups/scene_arguments.h"
+#include "options/groups/medium_arguments.h"
 #include "options/groups/sequence_arguments.h"
 #include "options/groups/strategy_arguments.h"
 #include "options/groups/transport_arguments.h"
-#include "options/groups/volume_arguments.h"
+#include "options/option_list.h"
 #include "options/part_arguments.h"
 #include "options/values/view.h"
 #include "options/values/viewer_address.h"
 #include "terminal/console.h"
 
-namespace CLI {
-class App;
-}
-
 namespace bdpt::app {
 
-/// What the words after `bdpt render` say, as they were given.
-struct RenderWords {
-    std::string file;
-    std::vector<std::string> outputs;
-    std::optional<std::int64_t> samples;
-    std::optional<std::string> time;
-    std::optional<std::string> noise;
-    std::optional<std::string> size;
-    TransportWords transport;
-    RatesWords rates;
-    std::string sampler = "sobol";
-    std::optional<std::string> camera;
-    std::optional<std::string> look_at;
-    std::optional<std::string> from;
-    std::optional<double> fov;  // [deg]
-    LensWords lens;
-    SceneWords scene;
-    std::optional<std::string> environment;
-    std::string texture_filter = "bilinear";
-    EnvironmentWords environment_change;
-    FogWords fog;
-    VolumeWords volume;
-    DisplayWords display;
-    DenoiseWords denoise;
-    int threads = 0;
-    std::string isa = "native";
-    FilmWords film;
-    GroundWords ground;
-    std::optional<std::string> stats;
-    bool profile = false;
-    StrategyWords strategies;
-    PartWords part;
-    SequenceWords sequence;
-    bool tiled = false;
-    std::string seed = "0";
-    bool half = false;
-    bool single = false;
-    std::optional<std::string> viewer;
-    bool quiet = false;
-    bool json = false;
+/// Where rates of samples come from, and where they go.
+struct RatesChoice {
+    std::optional<std::filesystem::path> file{};   ///< none: a pilot finds them
+    std::optional<std::filesystem::path> saved{};  ///< .exr or .png
 };
 
-/// The same, understood and checked.
+/// What `bdpt render` is to do.
 struct RenderArguments {
-    std::filesystem::path file;
-    std::vector<std::filesystem::path> outputs;
-    Goal goal;
-    std::optional<Size> size;
-    RenderOptions options;              ///< without size and sample range
-    std::optional<std::string> camera;  ///< name, index or "auto"
-    ViewOverrides view;
-    LensWords lens;  ///< checked
+    std::filesystem::path file{};
+    std::vector<std::filesystem::path> outputs{};
+    Goal goal{};
+    std::optional<Size> size{};
+    RenderOptions options{};              ///< without size and sample range
+    std::optional<std::string> camera{};  ///< name, index or "auto"
+    ViewOverrides view{};
+    LensChoice lens{};
     Isa isa = Isa::native;
-    io::GltfOptions scene;                   ///< what of the file is rendered
-    io::MemoryLimit memory;                  ///< for scene and film
-    std::optional<std::string> environment;  ///< file, "none" or "default"
+    io::GltfOptions scene{};                   ///< what of the file is rendered
+    io::MemoryLimit memory{};                  ///< for scene and film
+    std::optional<std::string> environment{};  ///< file, "none" or "default"
     TextureFilter texture_filter = TextureFilter::bilinear;
-    EnvironmentChange environment_change;  ///< of whichever environment it is
-    std::optional<MediumDesc> fog;         ///< around all bodies, if any
-    std::optional<VolumeChoice> volume;    ///< in the scene, if any
-    DisplayArguments display;
-    std::optional<DenoiseArguments> denoise;  ///< if images are to be denoised
-    io::ExrChannelType channel_type = io::ExrChannelType::single_float;
-    io::ExrStorage storage = io::ExrStorage::scanlines;
-    std::optional<std::filesystem::path> stats;  ///< where numbers about the render go
+    EnvironmentChange environment_change{};  ///< of whichever environment it is
+    std::optional<MediumDesc> fog{};         ///< around all bodies, if any
+    std::optional<VolumeChoice> volume{};    ///< in the scene, if any
+    DisplayArguments display{};
+    std::optional<DenoiseArguments> denoise{};  ///< if images are to be denoised
+    ExrFormat exr{};
+    std::optional<std::filesystem::path> stats{};  ///< where numbers about the render go
     Profiling profiling = Profiling::off;
-    std::optional<StrategyFiles> strategies;      ///< where images of strategies go
-    std::optional<PartChoice> part;               ///< what the render goes on with
-    SampleRange samples;                          ///< of each pixel
-    std::optional<RatesChoice> rates;             ///< if pixels take different numbers of them
-    std::optional<Sequence> sequence;             ///< if there are several images
+    std::optional<StrategyFiles> strategies{};    ///< where images of strategies go
+    std::optional<PartChoice> part{};             ///< what the render goes on with
+    SampleRange samples{};                        ///< of each pixel
+    std::optional<RatesChoice> rates{};           ///< if pixels take different numbers of them
+    std::optional<Sequence> sequence{};           ///< if there are several images
     std::optional<SequenceView> sequence_view{};  ///< which of them this is
-    std::optional<DisplayAddress> viewer;         ///< of the viewer that shows the render
-    Format format = Format::text;
-    Verbosity verbosity = Verbosity::normal;
+    std::optional<DisplayAddress> viewer{};       ///< of the viewer that shows the render
+    Printed printed{};
 };
 
-/// Describes the options of `bdpt render` to the parser, which will store into `words`.
-void add_render_options(CLI::App& command, RenderWords& words);
+/// The options of `bdpt render`, as they are given: `arguments`, and what is understood only when
+/// all of them are known (`checked`).
+struct RenderRequest {
+    RenderArguments arguments{};
+    std::optional<std::int64_t> spp{};
+    std::optional<double> seconds{};
+    std::optional<SampleRange> samples{};
+    std::optional<std::uint64_t> max_memory{};  ///< [bytes]
+    PathsOnly only = PathsOnly::all;
+    Ground ground = Ground::none;
+    bool adaptive = false;
+    MediumDesc fog{};
+    VolumeChoice volume{};
+    DenoiseArguments denoise{};
+    RatesChoice rates{};
+    StrategyFiles strategies{};
+    PartChoice part{};
+    Sequence sequence{};
+};
+
+extern const char* const render_footer;
+
+/// Adds the options of `bdpt render`.
+void add_render_options(OptionList& options, RenderRequest& request);
 
 /// Of these, those that say which image is made and where it goes, however many processes render
 /// it.
-void add_plannable_options(CLI::App& command, RenderWords& words);
+void add_plannable_options(OptionList& options, RenderRequest& request);
 
 /// Of those, what is rendered and through which lens: for other commands, too.
-void add_view_options(CLI::App& command, RenderWords& words);
+void add_view_options(OptionList& options, RenderRequest& request);
 
-/// The noise of --noise. Throws `OptionError`.
-[[nodiscard]] std::optional<double> to_noise(const std::optional<std::string>& word);
+/// Adds --size.
+void add_size_option(OptionList& options, RenderRequest& request, std::string help);
 
-/// --seed and --threads.
-void add_seed_and_threads(CLI::App& command, RenderWords& words, const char* group);
+/// Adds --time.
+void add_time_option(OptionList& options, RenderRequest& request, std::string help);
 
-/// Throws `Error` (usage) that names the option and the value.
-[[nodiscard]] RenderArguments understand(const RenderWords& words);
+/// The file of the scene, an argument without a name.
+void add_scene_file(OptionList& options, RenderRequest& request);
+
+/// Throws `OptionError` for options that do not go together.
+[[nodiscard]] RenderArguments checked(const RenderRequest& request, const OptionList& options);
+
+/// What `words` say behind `bdpt render`. Throws `OptionError`.
+[[nodiscard]] RenderArguments render_arguments(const std::vector<std::string>& words);
 
 }  // namespace bdpt::app

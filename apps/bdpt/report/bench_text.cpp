@@ -1,6 +1,7 @@
 #include "report/bench_text.h"
 
 #include <bdpt/eval/bench/summary.h>
+#include <bdpt/option_fields.h>
 #include <fmt/core.h>
 
 #include <string_view>
@@ -20,12 +21,12 @@ std::string bench_text(const eval::SceneResult& scene, double seconds)
             one.speed_up ? fmt::format("{}{:.3g}x", one.speed_up->extrapolated ? "~" : "",
                                        one.speed_up->factor)
                          : "-";
-        result += fmt::format("  {:<6}{:>8}{:>11.2e}{:>24}{:>12.3g}{:>12}{}\n",
-                              eval::to_string(one.integrator), one.equal_time.samples, error.median,
-                              range, one.efficiency, factor,
-                              one.equal_time.near_noise ? "  reference too noisy"
-                              : one.floor               ? "  cannot find all light"
-                                                        : "");
+        result +=
+            fmt::format("  {:<6}{:>8}{:>11.2e}{:>24}{:>12.3g}{:>12}{}\n", name_of(one.integrator),
+                        one.equal_time.samples, error.median, range, one.efficiency, factor,
+                        one.equal_time.near_noise ? "  reference too noisy"
+                        : one.floor               ? "  cannot find all light"
+                                                  : "");
     }
     return result;
 }

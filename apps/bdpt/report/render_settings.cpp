@@ -1,6 +1,6 @@
 #include "report/render_settings.h"
 
-#include <bdpt/eval/bench/option_names.h>
+#include <bdpt/option_fields.h>
 #include <bdpt/part/sample_rates.h>
 #include <bdpt/version.h>
 
@@ -19,11 +19,6 @@ namespace bdpt::app {
 namespace {
 
 using nlohmann::ordered_json;
-
-const char* name_of(SamplerKind sampler)
-{
-    return sampler == SamplerKind::independent ? "independent" : "sobol";
-}
 
 ordered_json view_json(const CameraDesc& camera)
 {
@@ -106,7 +101,7 @@ ordered_json settings_of(const RenderArguments& arguments, const PreparedScene& 
         settings["texture_filter"] = "mip";
     }
     const FilterOptions& filter = options.film.filter;
-    settings["filter"] = filter_name(filter.kind);
+    settings["filter"] = name_of(filter.kind);
     settings["filter_radius"] = filter.radius.value_or(default_radius(filter.kind));
     if (options.film.crop) {
         const PixelRect& crop = *options.film.crop;
@@ -157,7 +152,7 @@ io::ImageMetadata metadata_of(const RenderArguments& arguments, const PreparedSc
     metadata.version = BDPT_VERSION;
     metadata.scene = one_line(arguments.file.string());
     metadata.settings = settings.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
-    metadata.integrator = eval::to_string(arguments.options.integrator);
+    metadata.integrator = name_of(arguments.options.integrator);
     metadata.seed = arguments.options.sampling.seed;
     metadata.camera = stage.camera;
     metadata.created = std::chrono::system_clock::now();

@@ -13,28 +13,33 @@ namespace bdpt::app {
 namespace {
 
 /// errno of the first failure on a stream; 0: there was none.
-std::atomic<int>& first_failure(std::FILE* stream)
-{
-    static std::atomic<int> of_output{0};
-    static std::atomic<int> of_errors{0};
-    return stream == stdout ? of_output : of_errors;
-}
+struct StreamFailure {
+    std::atomic<int> error_number{0};
 
-void note_failure(std::FILE* stream, int error_number)
+    void note(int number)
+    {
+        int none = 0;
+        error_number.compare_exchange_strong(none, number != 0 ? number : EIO);
+    }
+};
+
+StreamFailure& failure_of(std::FILE* stream)
 {
-    int none = 0;
-    first_failure(stream).compare_exchange_strong(none, error_number != 0 ? error_number : EIO);
+    static StreamFailure of_output;
+    static StreamFailure of_errors;
+    return stream == stdout ? of_output : of_errors;
 }
 
 /// Whether all that was printed has arrived.
 bool close(std::FILE* stream)
 {
+    StreamFailure& failure = failure_of(stream);  // `stream` is gone after fclose()
     errno = 0;
     const bool had_failed = std::ferror(stream) != 0;
     if (std::fclose(stream) != 0 || had_failed) {
-        note_failure(stream, errno);
+        failure.note(errno);
     }
-    return first_failure(stream) == 0;
+    return failure.error_number == 0;
 }
 
 }  // namespace
@@ -55,17 +60,18 @@ void put(std::FILE* stream, std::string_view text)
     errno = 0;
     if (std::fwrite(text.data(), 1, text.size(), stream) != text.size() ||
         std::fflush(stream) != 0) {
-        note_failure(stream, errno);
+        failure_of(stream).note(errno);
     }
 }
 
 int finish_standard_streams(int exit_code)
 {
     constexpr int lost = static_cast<int>(ErrorCode::output);
+    const StreamFailure& output_failure = failure_of(stdout);
     if (!close(stdout) && exit_code == 0) {
         exit_code = lost;
         put(stderr, fmt::format("bdpt: error: standard output: cannot write: {}\n",
-                                std::generic_category().message(first_failure(stdout))));
+                                std::generic_category().message(output_failure.error_number)));
     }
     return !close(stderr) && exit_code == 0 ? lost : exit_code;
 }

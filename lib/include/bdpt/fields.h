@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <string_view>
 #include <tuple>
@@ -58,6 +59,46 @@ struct Number {
 template <typename Desc, typename T>
 Number(const char*, T Desc::*, Limits) -> Number<Desc, T>;
 
+/// What the value of an option changes.
+enum class OptionRole : std::uint8_t {
+    image,    ///< bits of the image: part of the identity of a render
+    samples,  ///< which samples are rendered, each of which is what it is without the others
+    limit,    ///< what is refused
+    machine,  ///< how the machine does the work
+};
+
+/// The values that a number may have: [low, high], or (low, high].
+struct Range {
+    double low = -std::numeric_limits<double>::infinity();
+    double high = std::numeric_limits<double>::infinity();
+    bool low_is_excluded = false;
+
+    [[nodiscard]] constexpr bool contains(double value) const
+    {
+        return (low_is_excluded ? value > low : value >= low) && value <= high;
+    }
+};
+
+/// What is told of an option. Its command-line flag is "--" and its name, with '-' for '_'.
+struct OptionInfo {
+    Range range{};             ///< of numbers
+    std::string_view value{};  ///< what stands for the value in help texts, such as "N"; for words
+                               ///< with names (`enumerators`): empty
+    std::string_view help{};   ///< what it does; empty: no option of commands
+    std::string_view otherwise{};  ///< the default in words; empty: the default's own text
+    OptionRole role = OptionRole::image;
+};
+
+/// A field that users choose.
+template <typename Desc, typename T>
+struct OptionField {
+    std::string_view name;
+    T Desc::*member;
+    OptionInfo info;
+};  /// Deduces both types.
+template <typename Desc, typename T>
+OptionField(const char*, T Desc::*, OptionInfo) -> OptionField<Desc, T>;
+
 /// The list of the fields of `Desc`, in their order; specialised beside each description.
 template <typename Desc>
 inline constexpr std::nullptr_t fields = nullptr;
@@ -104,7 +145,7 @@ constexpr std::size_t count_pairs(Members... members)
 
 }  // namespace detail
 
-/// A list of fields (`Field`, `Number`) that has all of those of `Desc`, each once.
+/// A list of fields (`Field`, `Number`, `OptionField`) that has all of those of `Desc`, each once.
 template <template <typename, typename> typename... Kinds, typename Desc, typename... T>
 [[nodiscard]] consteval std::tuple<Kinds<Desc, T>...> all_fields(Kinds<Desc, T>... list)
 {

@@ -7,6 +7,8 @@
 #include <bdpt/error.h>
 #include <bdpt/integrators.h>
 #include <bdpt/motion.h>
+#include <bdpt/option_fields.h>
+#include <bdpt/option_text.h>
 #include <bdpt/part/sample_rates.h>
 
 #include <glm/common.hpp>
@@ -18,13 +20,12 @@
 #include <limits>
 #include <sstream>
 #include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
 
 namespace bdpt {
 namespace {
-
-constexpr int max_film_side = 1 << 16;
-constexpr int max_threads = 4096;
-constexpr int max_path_edges = 4096;
 
 void check_range(const char* what, std::int64_t value, std::int64_t low, std::int64_t high)
 {
@@ -75,14 +76,46 @@ void check_rates(const RenderOptions& options)
     }
 }
 
-void check_filter(const FilterOptions& filter)
+[[noreturn]] void fail_range(std::string_view name, const Range& range, const std::string& value)
 {
-    constexpr float least = 0.01f;
-    constexpr float most = 16.0f;
-    const float radius = filter.radius.value_or(default_radius(filter.kind));
-    if (!(radius >= least && radius <= most)) {
-        throw Error(ErrorCode::usage,
-                    "filter radius is " + std::to_string(radius) + " pixels, not in [0.01, 16]");
+    throw Error(ErrorCode::usage, std::string(name) + " is " + value + ", not in " +
+                                      (range.low_is_excluded ? "(" : "[") + option_text(range.low) +
+                                      ", " + option_text(range.high) + "]");
+}
+
+/// The ends of ranges of floats are floats: 0.01 as a float is less than 0.01.
+bool is_in(const Range& range, float value)
+{
+    const auto low = static_cast<float>(range.low);
+    const auto high = static_cast<float>(range.high);
+    return (range.low_is_excluded ? value > low : value >= low) && value <= high;
+}
+
+template <typename T>
+bool is_in(const Range& range, T value)
+{
+    return range.contains(static_cast<double>(value));
+}
+
+/// The values of an option whose numbers have its range.
+template <typename T>
+void check_value(std::string_view name, const Range& range, const T& value)
+{
+    if constexpr (std::is_arithmetic_v<T>) {
+        if (!is_in(range, value)) {
+            fail_range(name, range, option_text(value));
+        }
+    } else if constexpr (std::is_same_v<T, FilterOptions>) {
+        check_value("filter radius", range, value.radius.value_or(default_radius(value.kind)));
+    } else if constexpr (std::is_same_v<T, std::vector<Strategy>>) {
+        for (const Strategy& strategy : value) {
+            check_value(std::string(name) + ": s", range, strategy.s);
+            check_value(std::string(name) + ": t", range, strategy.t);
+        }
+    } else if constexpr (requires { value.has_value(); }) {
+        if (value) {
+            check_value(name, range, *value);
+        }
     }
 }
 
@@ -139,53 +172,22 @@ std::string label(const CameraDesc& camera)
 
 void check_options(const RenderOptions& options)
 {
-    check_range("image width", options.film.width, 1, max_film_side);
-    check_range("image height", options.film.height, 1, max_film_side);
+    for_each_option(options, [](const auto& option, const auto& value) {
+        check_value(option.name, option.info.range, value);
+    });
     if (options.film.crop) {
         check_crop(*options.film.crop, options.film.width, options.film.height);
-    }
-    check_filter(options.film.filter);
-    if (const auto height = options.film.ground_height;
-        height && !(std::abs(*height) <= greatest_coordinate)) {
-        throw Error(ErrorCode::usage, "height of the ground is " + std::to_string(*height) +
-                                          " m, beyond what rays reach");
-    }
-    if (!(options.film.clamp > 0.0f)) {
-        throw Error(ErrorCode::usage,
-                    "clamp is " + std::to_string(options.film.clamp) + " nit, not above 0");
     }
     // Sample indices have 32 bits in the film's record of defects.
     check_range("first sample", options.sampling.samples.begin, 0,
                 std::numeric_limits<std::uint32_t>::max());
     check_range("number of samples", options.sampling.samples.end - options.sampling.samples.begin,
                 1, std::numeric_limits<std::uint32_t>::max() - options.sampling.samples.begin);
-    check_range("longest path (max_depth)", options.transport.max_depth, 1, max_path_edges);
-    check_range("shortest path (min_depth)", options.transport.min_depth, 1,
-                options.transport.max_depth);
-    check_range("longest camera subpath", options.bidirectional.max_camera_depth, 0,
-                std::numeric_limits<int>::max());
-    check_range("longest light subpath", options.bidirectional.max_light_depth, 0,
-                std::numeric_limits<int>::max());
-    check_range("start of Russian roulette", options.transport.rr_start, 1,
-                std::numeric_limits<int>::max());
-    if (!(options.transport.rr_survival >= 0.0f && options.transport.rr_survival <= 1.0f)) {
-        throw Error(ErrorCode::usage, "least survival of Russian roulette is " +
-                                          std::to_string(options.transport.rr_survival) +
-                                          ", not in [0, 1]");
-    }
-    for (const Strategy& strategy : options.bidirectional.disabled) {
-        check_range("disabled strategy's s", strategy.s, 0, max_path_edges + 1);
-        check_range("disabled strategy's t", strategy.t, 0, max_path_edges + 1);
-    }
-    check_range("longest path with images of strategies", options.bidirectional.strategy_depth, 0,
-                max_path_edges);
+    check_range("min_depth", options.transport.min_depth, 1, options.transport.max_depth);
     if (options.bidirectional.strategy_depth > 0 && !info(options.integrator).has_strategies) {
         throw Error(ErrorCode::usage,
                     "images of strategies (strategy_depth) need the integrator bdpt or lt");
     }
-    check_range("number of light samples", options.sampling.light_samples, 1, 1024);
-    check_range("tile size", options.system.tile_size, 1, max_film_side);
-    check_range("number of threads", options.system.threads, 0, max_threads);
     check_light_paths(options);
     check_rates(options);
 }

@@ -4,11 +4,11 @@
 #include "scene/scene_names.h"
 #include "scene/world.h"
 
-#include <bdpt/integrators.h>
+#include <bdpt/option_fields.h>
+#include <bdpt/option_text.h>
 #include <bdpt/render.h>
 #include <bdpt/scene.h>
 #include <bdpt/version.h>
-#include "identity/option_fields.h"
 
 #include <algorithm>
 #include <array>
@@ -24,80 +24,21 @@
 namespace bdpt {
 namespace {
 
-/// As many digits as tell the number from all others.
-template <typename T>
-requires std::is_arithmetic_v<T> std::string text(T value)
+/// Adds all options that change bits of samples.
+void add_options(std::vector<IdentityComponent>& result, const RenderOptions& options)
 {
-    if constexpr (std::is_floating_point_v<T>) {
-        std::array<char, 64> digits{};
-        const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-        return {digits.data(), end};
-    } else {
-        return std::to_string(value);
-    }
-}
-
-std::string text(IntegratorKind kind)
-{
-    return std::string(info(kind).name);
-}
-
-/// Numbers of enumerators tell people nothing.
-template <typename T>
-requires std::is_enum_v<T> std::string text(T value)
-{
-    return "#" + std::to_string(static_cast<std::uint64_t>(value));
-}
-
-std::string text(const AovSet& aovs)
-{
-    return "#" + std::to_string(std::bit_cast<std::uint32_t>(aovs));
-}
-
-template <HasFields T>
-std::string text(const T& value)
-{
-    std::string result;
-    for_each_field(value, [&result](const auto& /*field*/, const auto& number) {
-        result += (result.empty() ? "" : ",") + text(number);
-    });
-    return result;
-}
-
-template <typename T>
-std::string text(const std::optional<T>& value)
-{
-    return value ? text(*value) : "none";
-}
-
-template <typename T>
-std::string text(const std::vector<T>& values)
-{
-    std::string result;
-    for (const T& value : values) {
-        result += (result.empty() ? "" : " ") + text(value);
-    }
-    return result.empty() ? "none" : result;
-}
-
-/// Adds the fields of options and of the groups in them.
-template <typename Options>
-void add_options(std::vector<IdentityComponent>& result, const Options& options)
-{
-    for_each_field(options, [&result](const auto& field, const auto& value) {
+    for_each_option(options, [&result](const auto& option, const auto& value) {
         using T = std::remove_cvref_t<decltype(value)>;
-        const bool is_limit = field.name.ends_with(" memory");
-        if constexpr (std::is_same_v<T, SystemOptions> || std::is_same_v<T, SampleRange>) {
-            return;  // changes no bit of a sample
-        } else if constexpr (std::is_same_v<T, std::shared_ptr<const SampleRates>>) {
+        if (option.info.role != OptionRole::image) {
+            return;
+        }
+        const std::string name = "option: " + std::string(option.name);
+        if constexpr (std::is_same_v<T, std::shared_ptr<const SampleRates>>) {
             if (value) {
-                result.push_back({.name = "option: " + std::string(field.name),
-                                  .value = hash_text(value->exponents())});
+                result.push_back({.name = name, .value = hash_text(value->exponents())});
             }
-        } else if constexpr (HasFields<T> && !std::is_same_v<T, PixelRect>) {
-            add_options(result, value);
-        } else if (!is_limit) {
-            result.push_back({.name = "option: " + std::string(field.name), .value = text(value)});
+        } else {
+            result.push_back({.name = name, .value = option_text(value)});
         }
     });
 }
@@ -110,7 +51,7 @@ void add_camera(std::vector<IdentityComponent>& result, const CameraDesc& camera
         if constexpr (std::is_same_v<T, std::string> || std::is_same_v<T, std::optional<float>>) {
             return;  // its name, and the shape of image that its author had in mind
         } else if constexpr (std::is_arithmetic_v<T>) {
-            result.push_back({.name = name, .value = text(value)});
+            result.push_back({.name = name, .value = option_text(value)});
         } else {
             result.push_back({.name = name, .value = hash_text(value)});
         }

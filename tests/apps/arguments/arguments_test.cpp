@@ -1,4 +1,5 @@
 #include "options/arguments.h"
+#include "options/option_list.h"
 
 #include <nlohmann/json.hpp>
 #include <string>

@@ -1,5 +1,7 @@
 #include "options/groups/film_arguments.h"
 
+#include <bdpt/option_fields.h>
+
 #include "catch.hpp"
 
 namespace bdpt::app::film_arguments_test {
@@ -18,7 +20,7 @@ TEST_CASE("filters have a name and perhaps a radius")
         CAPTURE(wrong);
         CHECK_FALSE(parse_filter(wrong));
     }
-    CHECK(std::string_view(filter_name(FilterKind::blackman_harris)) == "blackman-harris");
+    CHECK(std::string_view(name_of(FilterKind::blackman_harris)) == "blackman-harris");
 }
 
 TEST_CASE("AOVs are names with commas between")

@@ -5,6 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "catch.hpp"
+#include "options/render_arguments.h"
+
+#include <string>
+#include <vector>
 
 namespace bdpt::app::transport_arguments_test {
 namespace {
@@ -16,27 +20,26 @@ TEST_CASE("strategies are two numbers of vertices")
           std::vector{Strategy{2, 1}, Strategy{0, 3}, Strategy{12, 345}});
     for (const char* wrong :
          {"", ",", "s2t1,", "s2t1,,s1t1", "s2", "t1", "2t1", "s2t", "st1", "s2t1 ", "s-1t3", "t1s2",
-          "S2T1", "s0t0", "s1t0", "s0t1", "s2t1t1", "s2t1002", "s99999999999999999999t1"}) {
+          "S2T1", "s0t0", "s1t0", "s0t1", "s2t1t1", "s2t4098", "s99999999999999999999t1"}) {
         CAPTURE(wrong);
         CHECK_FALSE(parse_strategies(wrong));
     }
 }
 
+/// What a command line with `words` renders by.
+RenderOptions options_of(std::vector<std::string> words)
+{
+    words.insert(words.end(), {"--output=out.exr", "scene.gltf"});
+    return render_arguments(words).options;
+}
+
 TEST_CASE("words about transport become options")
 {
-    TransportWords words;
-    CHECK(with_transport(words, {}).integrator == IntegratorKind::automatic);
-    words.integrator = "lt";
-    words.heuristic = "cutoff";
-    words.max_depth = 5;
-    words.max_camera_depth = 3;
-    words.max_light_depth = 0;
-    words.light_paths = 2;
-    words.rr_start = 4;
-    words.light_sampling.environments = "plain";
-    words.light_sampling.lights = "tree";
-    words.disabled = "s3t0";
-    const RenderOptions options = with_transport(words, {});
+    CHECK(options_of({}).integrator == IntegratorKind::automatic);
+    const RenderOptions options = options_of(
+        {"--integrator=lt", "--heuristic=cutoff", "--max-depth=5", "--max-camera-depth=3",
+         "--max-light-depth=0", "--light-paths=2", "--rr-start=4", "--env-sampling=plain",
+         "--light-sampling=tree", "--disable=s3t0"});
     CHECK(options.integrator == IntegratorKind::lt);
     CHECK(options.transport.heuristic == Heuristic::cutoff);
     CHECK(options.transport.max_depth == 5);
@@ -57,45 +60,26 @@ TEST_CASE("words about transport become options")
 
 TEST_CASE("numbers of light paths and connections need not be whole")
 {
-    TransportWords words;
-    words.light_paths = 0.0625;
-    words.connections = 2.0;
-    const RenderOptions options = with_transport(words, {});
+    const RenderOptions options = options_of({"--light-paths=0.0625", "--connections=2"});
     CHECK(options.bidirectional.light_paths == 0.0625);
     CHECK(options.bidirectional.connections == 2.0);
     const auto json = transport_json(options);
     CHECK(json["light_paths"] == 0.0625);
     CHECK(json["light_paths"].dump() == "0.0625");
     CHECK(json["connections"].dump() == "2");
-    CHECK_FALSE(transport_json(with_transport({}, {})).contains("connections"));
-    TransportWords path_tracing;
-    path_tracing.integrator = "mis";
-    path_tracing.connections = 2.0;
-    CHECK_THROWS_AS(with_transport(path_tracing, {}), Error);
+    CHECK_FALSE(transport_json(options_of({})).contains("connections"));
+    CHECK_THROWS_AS(options_of({"--integrator=mis", "--connections=2"}), Error);
 }
 
 TEST_CASE("what is said of subpaths is said to bdpt unless another integrator is named")
 {
-    const auto chosen = [](auto say) {
-        TransportWords words;
-        say(words);
-        return with_transport(words, {}).integrator;
-    };
-    CHECK(chosen([](TransportWords&) {}) == IntegratorKind::automatic);
-    CHECK(chosen([](TransportWords& w) { w.light_paths = 2.0; }) == IntegratorKind::bdpt);
-    CHECK(chosen([](TransportWords& w) { w.connections = 1.0; }) == IntegratorKind::bdpt);
-    CHECK(chosen([](TransportWords& w) { w.disabled = "s0t2"; }) == IntegratorKind::bdpt);
-    CHECK(chosen([](TransportWords& w) { w.max_camera_depth = 2; }) == IntegratorKind::bdpt);
-    CHECK(chosen([](TransportWords& w) { w.max_light_depth = 2; }) == IntegratorKind::bdpt);
-    CHECK(chosen([](TransportWords& w) {
-              w.integrator = "lt";
-              w.light_paths = 2.0;
-          }) == IntegratorKind::lt);
-    CHECK_THROWS_AS(chosen([](TransportWords& w) {
-                        w.integrator = "auto";
-                        w.light_paths = 2.0;
-                    }),
-                    Error);
+    CHECK(options_of({"--light-paths=2"}).integrator == IntegratorKind::bdpt);
+    CHECK(options_of({"--connections=1"}).integrator == IntegratorKind::bdpt);
+    CHECK(options_of({"--disable=s0t2"}).integrator == IntegratorKind::bdpt);
+    CHECK(options_of({"--max-camera-depth=2"}).integrator == IntegratorKind::bdpt);
+    CHECK(options_of({"--max-light-depth=2"}).integrator == IntegratorKind::bdpt);
+    CHECK(options_of({"--integrator=lt", "--light-paths=2"}).integrator == IntegratorKind::lt);
+    CHECK_THROWS_AS(options_of({"--integrator=auto", "--light-paths=2"}), Error);
 }
 
 TEST_CASE("what was chosen is told in the words that choose it by hand")
@@ -116,14 +100,10 @@ TEST_CASE("what was chosen is told in the words that choose it by hand")
 
 TEST_CASE("how vcm merges is kept with the image")
 {
-    TransportWords words;
-    CHECK_FALSE(transport_json(with_transport(words, {})).contains("merge_radius"));
-    words.integrator = "vcm";
-    CHECK(transport_json(with_transport(words, {}))["merge_radius"] == 0.003);
-    words.merge_radius = 0.01;
-    words.merge_alpha = 0.5;
-    words.connections = 2.0;
-    const RenderOptions options = with_transport(words, {});
+    CHECK_FALSE(transport_json(options_of({})).contains("merge_radius"));
+    CHECK(transport_json(options_of({"--integrator=vcm"}))["merge_radius"] == 0.003);
+    const RenderOptions options = options_of(
+        {"--integrator=vcm", "--merge-radius=0.01", "--merge-alpha=0.5", "--connections=2"});
     CHECK(options.bidirectional.merge_radius == 0.01);
     CHECK(options.bidirectional.merge_alpha == 0.5);
     CHECK(options.bidirectional.connections == 2.0);
@@ -131,20 +111,18 @@ TEST_CASE("how vcm merges is kept with the image")
     CHECK(json["integrator"] == "vcm");
     CHECK(json["merge_radius"] == 0.01);
     CHECK(json["merge_alpha"] == 0.5);
-    words.integrator = "bdpt";
-    CHECK_THROWS_AS(with_transport(words, {}), Error);
+    CHECK_THROWS_AS(options_of({"--integrator=bdpt", "--merge-radius=0.01"}), Error);
 }
 
 TEST_CASE("direct and indirect light share the lengths of paths")
 {
-    const TransportWords direct{.only = "direct"};
-    CHECK(with_transport(direct, {}).transport.max_depth == 2);
-    CHECK(with_transport(direct, {}).transport.min_depth == 1);
-    CHECK(with_transport({.max_depth = 1, .only = "direct"}, {}).transport.max_depth == 1);
-    CHECK_THROWS_AS(with_transport({.max_depth = 1, .only = "indirect"}, {}), Error);
-    const TransportWords indirect{.max_depth = 3, .only = "indirect"};
-    CHECK(with_transport(indirect, {}).transport.max_depth == 3);
-    CHECK(with_transport(indirect, {}).transport.min_depth == 3);
+    CHECK(options_of({"--only=direct"}).transport.max_depth == 2);
+    CHECK(options_of({"--only=direct"}).transport.min_depth == 1);
+    CHECK(options_of({"--max-depth=1", "--only=direct"}).transport.max_depth == 1);
+    CHECK_THROWS_AS(options_of({"--max-depth=1", "--only=indirect"}), Error);
+    const RenderOptions indirect = options_of({"--max-depth=3", "--only=indirect"});
+    CHECK(indirect.transport.max_depth == 3);
+    CHECK(indirect.transport.min_depth == 3);
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ TEST_CASE("each command points to its own help")
         const std::string message = usage_error(all);
         CAPTURE(message);
         CHECK(message.ends_with("; see \"bdpt " + command + " --help\"\n"));
-        CHECK(contains(message, ": expected "));
+        CHECK((contains(message, ": expected ") || contains(message, " needs ")));
     };
     check("render", {scene, "-o", out + ".exr", "--size", "0x0"});
     check("verify", {scene, "--size", "0x0"});
@@ -66,7 +66,7 @@ TEST_CASE("a number that must be whole is said to be")
         return usage_error({"render", scene, "-o", "out.exr", option, value});
     };
     CHECK(contains(message("--spp", "1.5"),
-                   "--spp: expected a whole number from 1 to 2147483648, but got \"1.5\""));
+                   "--spp \"1.5\": expected a whole number from 1 to 2147483648"));
     CHECK(contains(message("--spp", "1e3"), "whole number"));
     CHECK(contains(message("--threads", "5000"), "whole number from 0 to 4096"));
     CHECK(contains(message("--max-depth", ""), "--max-depth"));

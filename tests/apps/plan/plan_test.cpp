@@ -365,7 +365,8 @@ TEST_CASE("words about plans that make no sense are refused, and nothing is writ
     check_refused(render_task(folder, "3"), 2, {"--task \"3\"", "0 to 2", "bdpt render --help"});
     check_refused(run({"render", "--plan", file}), 2, {"--task N"});
     check_refused(render_task(folder, "0", {"--seed", "5"}), 2, {"--plan", "\"--seed\""});
-    check_refused(run({"merge", "--plan", file, "--spp", "5"}), 2, {"--spp \"5\""});
+    check_refused(run({"merge", "--plan", file, "--spp", "5"}), 2,
+                  {"--spp cannot be combined with --plan"});
     check_refused(run({"merge", "--plan", file, "--wait=soon"}), 2, {"--wait \"soon\""});
     check_refused(run({"render", "--plan", path(folder, "x.json"), "--task", "0"}), 3,
                   {"x.json: no such file"});

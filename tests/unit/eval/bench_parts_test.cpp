@@ -1,11 +1,12 @@
 #include <bdpt/eval/bench/bench_options.h>
 #include <bdpt/eval/bench/bench_scene.h>
 #include <bdpt/eval/bench/error_floor.h>
-#include <bdpt/eval/bench/option_names.h>
+#include <bdpt/eval/bench/integrator_kinds.h>
 #include <bdpt/eval/bench/reference.h>
 #include <bdpt/eval/image/shrunk.h>
 #include <bdpt/eval/report/packed_image.h>
 #include <bdpt/integrators.h>
+#include <bdpt/option_fields.h>
 
 #include "bench/trial.h"
 
@@ -27,14 +28,14 @@ using test::random_image;
 TEST_CASE("integrators have names, and names integrators")
 {
     for (const IntegratorKind kind : all_integrators()) {
-        CHECK(parse_integrator(to_string(kind)) == kind);
+        CHECK(enumerator_of<IntegratorKind>(name_of(kind)) == kind);
     }
     // Benchmarks leave biased ones out unless they are asked for.
     CHECK(unbiased_integrators().size() == all_integrators().size() - 1);
     CHECK(BenchOptions{}.integrators == unbiased_integrators());
-    CHECK(info(*parse_integrator("vcm")).biased);
-    CHECK_FALSE(parse_integrator("BDPT"));
-    CHECK_FALSE(parse_integrator(""));
+    CHECK(info(*enumerator_of<IntegratorKind>("vcm")).biased);
+    CHECK_FALSE(enumerator_of<IntegratorKind>("BDPT"));
+    CHECK_FALSE(enumerator_of<IntegratorKind>(""));
 }
 
 TEST_CASE("all that an image depends on is in the hash of a scene, names are not")

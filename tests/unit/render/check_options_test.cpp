@@ -1,6 +1,7 @@
 #include "render/check_options.h"
 
 #include <bdpt/error.h>
+#include <bdpt/option_fields.h>
 
 #include "catch.hpp"
 #include "scene_builder.h"
@@ -8,6 +9,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <type_traits>
 
 namespace bdpt::check_options_test {
 namespace {
@@ -31,13 +33,21 @@ std::string refusal(const std::function<void(RenderOptions&)>& change)
     return message_of([&] { check_options(options); }, ErrorCode::usage);
 }
 
+/// In which 0 light paths and no tiles are the only numbers that others forbid.
+RenderOptions fresh_options()
+{
+    RenderOptions options;
+    options.integrator = IntegratorKind::bdpt;
+    return options;
+}
+
 }  // namespace
 
 TEST_CASE("options out of range are refused by name and value", "[render]")
 {
     check_options(RenderOptions{});
-    CHECK(refusal([](auto& o) { o.film.width = 0; }) == "image width is 0, not in [1, 65536]");
-    CHECK(refusal([](auto& o) { o.film.height = -3; }) == "image height is -3, not in [1, 65536]");
+    CHECK(refusal([](auto& o) { o.film.width = 0; }) == "width is 0, not in [1, 65536]");
+    CHECK(refusal([](auto& o) { o.film.height = -3; }) == "height is -3, not in [1, 65536]");
     CHECK(refusal([](auto& o) { o.transport.max_depth = 0; }).find("max_depth") !=
           std::string::npos);
     CHECK(refusal([](auto& o) {
@@ -63,20 +73,20 @@ TEST_CASE("options out of range are refused by name and value", "[render]")
     }
     CHECK(refusal([](auto& o) { o.film.clamp = 1e-9f; }).empty());
     CHECK(refusal([](auto& o) { o.bidirectional.light_paths = -0.5; }) ==
-          "number of light paths (light_paths) is -0.5, not in [0, 4096]");
+          "light_paths is -0.5, not in [0, 4096]");
     CHECK(refusal([](auto& o) {
               o.bidirectional.light_paths = std::numeric_limits<double>::quiet_NaN();
-          }).find("light paths") != std::string::npos);
+          }).find("light_paths is ") == 0);
     CHECK(refusal([](auto& o) { o.bidirectional.connections = 4097.0; }) ==
-          "number of connections is 4097, not in [0, 4096]");
+          "connections is 4097, not in [0, 4096]");
     CHECK(refusal([](auto& o) {
               o.bidirectional.light_paths = 0.0;
               o.bidirectional.connections = 1.0;
-          }).find("no light paths (light_paths is 0) to connect to") != std::string::npos);
+          }).find("connections is 1, but light_paths is 0") == 0);
     CHECK(refusal([](auto& o) {
               o.bidirectional.light_paths = 0.0;
               o.integrator = IntegratorKind::lt;
-          }).find("light_paths) is 0, but lt") != std::string::npos);
+          }).find("light_paths is 0, but lt") == 0);
     CHECK(refusal([](auto& o) { o.bidirectional.light_paths = 0.0; }).empty());
     const std::string too_many = refusal([](auto& o) {
         o.bidirectional.light_paths = 2.5;
@@ -105,17 +115,17 @@ TEST_CASE("options out of range are refused by name and value", "[render]")
     };
     CHECK(vcm_refusal([](auto&) {}).empty());
     CHECK(vcm_refusal([](auto& o) { o.bidirectional.merge_radius = -0.5; }) ==
-          "merge radius (merge_radius) is -0.5, not in [0, 1]");
+          "merge_radius is -0.5, not in [0, 1]");
     CHECK(vcm_refusal([](auto& o) {
               o.bidirectional.merge_radius = std::numeric_limits<double>::quiet_NaN();
-          }).find("merge radius (merge_radius) is ") == 0);
+          }).find("merge_radius is ") == 0);
     for (const double alpha : {0.0, 1.1, std::numeric_limits<double>::quiet_NaN()}) {
         CHECK(vcm_refusal([&](auto& o) {
                   o.bidirectional.merge_alpha = alpha;
-              }).find("rate at which the merge radius shrinks (merge_alpha) is ") == 0);
+              }).find("merge_alpha is ") == 0);
     }
     CHECK(vcm_refusal([](auto& o) { o.bidirectional.light_paths = 0.0; }) ==
-          "number of light paths (light_paths) is 0, but vcm merges with them");
+          "light_paths is 0, but vcm merges with them");
     for (const Heuristic heuristic : {Heuristic::cutoff, Heuristic::maximum, Heuristic::uniform}) {
         CHECK(vcm_refusal([&](auto& o) { o.transport.heuristic = heuristic; }) ==
               "vcm weighs by the heuristic power or balance, not others");
@@ -123,17 +133,61 @@ TEST_CASE("options out of range are refused by name and value", "[render]")
     CHECK(vcm_refusal([](auto& o) {
               o.bidirectional.light_path_memory = 1'000'000;
           }).find("1 shared light paths for each camera path") == 0);
-    CHECK(refusal([](auto& o) { o.bidirectional.merge_radius = 7.0; }).empty());  // bdpt
+    CHECK(refusal([](auto& o) { o.bidirectional.merge_radius = 7.0; }) ==  // also of bdpt
+          "merge_radius is 7, not in [0, 1]");
     for (const float survival : {-0.1f, 1.1f, std::numeric_limits<float>::quiet_NaN()}) {
         CHECK(refusal([&](auto& o) {
                   o.transport.rr_survival = survival;
-              }).find("least survival of Russian roulette is ") == 0);
+              }).find("rr_survival is ") == 0);
     }
     CHECK(refusal([](auto& o) { o.transport.rr_survival = 1.0f; }).empty());
-    CHECK(refusal([](auto& o) { o.system.tile_size = 0; }).find("tile size is 0") !=
-          std::string::npos);
+    CHECK(refusal([](auto& o) { o.system.tile_size = 0; }).find("tile_size is 0") == 0);
     CHECK(refusal([](auto& o) { o.system.threads = -1; }).find("threads is -1") !=
           std::string::npos);
+}
+
+TEST_CASE("each number of the list of options is refused beyond its range, and taken at its ends",
+          "[render]")
+{
+    int numbers = 0;
+    const RenderOptions fresh = fresh_options();
+    for_each_option(fresh, [&](const auto& option, const auto& value) {
+        using T = std::remove_cvref_t<decltype(value)>;
+        if constexpr (std::is_arithmetic_v<T>) {
+            const Range& range = option.info.range;
+            const std::string name(option.name);
+            const auto refused = [&](double number) {
+                RenderOptions options = fresh_options();
+                for_each_option(options, [&](const auto& other, auto& its) {
+                    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(its)>, T>) {
+                        its = other.name == name ? static_cast<T>(number) : its;
+                    }
+                });
+                return message_of([&] { check_options(options); }, ErrorCode::usage);
+            };
+            CAPTURE(name);
+            if (range.low > std::numeric_limits<int>::min()) {
+                ++numbers;
+                CHECK(refused(range.low - 1.0).starts_with(name + " is "));
+                CHECK(refused(range.low).empty() == !range.low_is_excluded);
+            }
+            if (range.high < std::numeric_limits<int>::max()) {
+                CHECK(refused(range.high + 1.0).starts_with(name + " is "));
+            }
+        }
+    });
+    CHECK(numbers >= 15);
+}
+
+TEST_CASE("the ends of ranges of floats are taken", "[render]")
+{
+    for (const float radius : {0.01f, 16.0f}) {
+        CAPTURE(radius);
+        CHECK(refusal([&](auto& o) { o.film.filter.radius = radius; }).empty());
+    }
+    for (const float height : {-1e15f, 1e15f}) {
+        CHECK(refusal([&](auto& o) { o.film.ground_height = height; }).empty());
+    }
 }
 
 TEST_CASE("cameras without a view are refused by name", "[render]")

@@ -364,7 +364,7 @@ TEST_CASE("heights of the ground that are none are refused", "[ground]")
             FAIL("no error for " << height);
         } catch (const Error& error) {
             CHECK(error.code() == ErrorCode::usage);
-            CHECK(std::string(error.what()).starts_with("height of the ground is "));
+            CHECK(std::string(error.what()).starts_with("ground_height is "));
         }
     }
 }

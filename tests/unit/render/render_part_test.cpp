@@ -219,22 +219,23 @@ TEST_CASE("another scene, camera or option is refused by name", "[part]")
     const auto option = [&](const char* name, const std::function<void(RenderOptions&)>& change) {
         check(message_of([&] { go_on(no_scene, no_camera, change); }), name);
     };
-    option("option: longest path (5, not 6)", [](RenderOptions& o) { o.transport.max_depth = 6; });
+    option("option: max_depth (5, not 6)", [](RenderOptions& o) { o.transport.max_depth = 6; });
     option("option: integrator (bdpt, not mis)",
            [](RenderOptions& o) { o.integrator = IntegratorKind::mis; });
     option("option: seed (0, not 1)", [](RenderOptions& o) { o.sampling.seed = 1; });
     option("option: width (19, not 20)", [](RenderOptions& o) { o.film.width = 20; });
     option("option: crop (none, not 0,0,19,13)",
            [](RenderOptions& o) { o.film.crop = PixelRect{.x0 = 0, .y0 = 0, .x1 = 19, .y1 = 13}; });
-    option("option: filter", [](RenderOptions& o) { o.film.filter.kind = FilterKind::tent; });
-    option("option: background",
+    option("option: filter (box, not tent)",
+           [](RenderOptions& o) { o.film.filter.kind = FilterKind::tent; });
+    option("option: background (environment, not none)",
            [](RenderOptions& o) { o.transport.background = Background::none; });
-    option("option: ground height (none, not 0.5)",
+    option("option: ground_height (none, not 0.5)",
            [](RenderOptions& o) { o.film.ground_height = 0.5f; });
-    option("option: layers", [](RenderOptions& o) { o.film.aovs = {Aov::albedo}; });
+    option("option: aov (none, not albedo)", [](RenderOptions& o) { o.film.aovs = {Aov::albedo}; });
     option("option: connections (none, not 3)",
            [](RenderOptions& o) { o.bidirectional.connections = 3.0; });
-    option("option: disabled strategies (none, not 1,2)",
+    option("option: disable (none, not s1t2)",
            [](RenderOptions& o) { o.bidirectional.disabled = {{.s = 1, .t = 2}}; });
 
     // What changes no bit is no difference.

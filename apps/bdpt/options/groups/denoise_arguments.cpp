@@ -1,47 +1,37 @@
 #include "options/groups/denoise_arguments.h"
 
-#include <CLI/CLI.hpp>
+#include <array>
 
-#include "options/arguments.h"
+#include "options/values/value_types.h"
 
 namespace bdpt::app {
 
-void add_denoise_options(CLI::App& command, DenoiseWords& words, const char* group)
+void add_denoise_options(OptionList& options, DenoiseArguments& denoise)
 {
-    command
-        .add_flag("--denoise", words.denoise,
-                  "Denoise the image by Open Image Denoise 2, with the layers albedo and normal; "
-                  ".exr keeps the noisy one as layer \"noisy\". As --denoise=layer the other way "
-                  "round: .exr gets the layer \"denoised\"")
-        ->group(group);
-    command
-        .add_option("--denoiser-library", words.library,
+    const Choices<DenoisedAs> kinds{{{"image", DenoisedAs::image},
+                                     {"layer", DenoisedAs::layer},
+                                     {"true", DenoisedAs::image}}};  // without a value
+    Option& flag = options.add_flag(
+        "--denoise",
+        "Denoise the image by Open Image Denoise 2, with the layers albedo and "
+        "normal; .exr keeps the noisy one as layer \"noisy\". As --denoise=layer the "
+        "other way round: .exr gets the layer \"denoised\"",
+        denoise.as,
+        ValueType<DenoisedAs>{.parse = kinds.type().parse, .expected = "image or layer"});
+    flag.uses.plan_render = true;  // merging needs its layers
+    Option& library =
+        options.add("--denoiser-library", "FILE|DIR",
                     "Open Image Denoise 2, a file or its folder. Default: libOpenImageDenoise.so.2 "
-                    "where the system finds it")
-        ->type_name("FILE|DIR")
-        ->group(group);
+                    "where the system finds it",
+                    denoise.library, some_text("a file or a folder"));
+    library.uses.plan_merge = false;  // a plan does not say what code is loaded
 }
 
-std::optional<DenoiseArguments> understand(const DenoiseWords& words)
+std::optional<DenoiseArguments> checked(const DenoiseArguments& denoise, const OptionList& options)
 {
-    if (words.denoise.empty()) {
-        if (words.library) {
-            reject("--denoiser-library", *words.library, "--denoise with it");
-        }
-        return std::nullopt;
-    }
-    if (words.library && words.library->empty()) {
-        reject("--denoiser-library", "", "a file or a folder");
-    }
-    const bool layer = words.denoise == "layer";
-    if (!layer && words.denoise != "true" && words.denoise != "image") {
-        reject("--denoise", words.denoise, "image or layer");
-    }
-    DenoiseArguments result{.as = layer ? DenoisedAs::layer : DenoisedAs::image};
-    if (words.library) {
-        result.library = *words.library;
-    }
-    return result;
+    static constexpr std::array needs{Need{"--denoiser-library", "--denoise"}};
+    check(needs, options);
+    return options.given("--denoise") ? std::optional(denoise) : std::nullopt;
 }
 
 }  // namespace bdpt::app

@@ -2,47 +2,12 @@
 
 #include <fmt/core.h>
 
-#include <CLI/CLI.hpp>
-#include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <vector>
 
-#include "options/arguments.h"
-#include "options/values/value_checks.h"
+#include "options/values/value_types.h"
 
 namespace bdpt::app {
-namespace {
-
-std::vector<std::string> curve_names()
-{
-    std::vector<std::string> names;
-    for (const io::ToneCurve curve : io::all_tone_curves) {
-        names.emplace_back(io::tone_curve_name(curve));
-    }
-    return names;
-}
-
-/// The one of that name, which the parser has found.
-io::ToneCurve to_curve(const std::string& name)
-{
-    return *std::find_if(io::all_tone_curves.begin(), io::all_tone_curves.end(),
-                         [&](io::ToneCurve curve) { return io::tone_curve_name(curve) == name; });
-}
-
-std::optional<float> to_exposure(const std::optional<double>& word)
-{
-    // 2^100 is far beyond any ratio of a scene to a screen.
-    constexpr double most = 100.0;
-    if (word && !(std::abs(*word) <= most)) {
-        reject("--exposure", fmt::format("{}", *word), "EV from -100 to 100");
-    }
-    return word ? std::optional(static_cast<float>(*word)) : std::nullopt;
-}
-
-}  // namespace
 
 std::optional<Backdrop> parse_backdrop(std::string_view text)
 {
@@ -76,47 +41,29 @@ std::string backdrop_text(const Backdrop& backdrop)
                           : "transparent";
 }
 
-void add_display_options(CLI::App& command, DisplayWords& words, const char* group)
+void add_display_options(OptionList& options, DisplayArguments& display)
 {
-    command
-        .add_option("--exposure", words.exposure,
-                    "Exposure of .png: pixels times 2^EV. Default: automatic")
-        ->type_name("EV")
-        ->group(group);
-    command
-        .add_option("--tone-map", words.tone_map,
-                    "Tone mapping of .png: filmic (default), pbr-neutral (keeps base colours under "
-                    "grey light, best with --exposure), agx, or none (clamps)")
-        ->check(one_of(curve_names()))
-        ->type_name("filmic|pbr-neutral|agx|none")
-        ->group(group);
-    command
-        .add_option("--background", words.background,
-                    "Leave out the environment where the camera sees it directly; it lights all "
-                    "the same. .exr gets alpha (colours are premultiplied), .png gets alpha "
-                    "(transparent) or that sRGB colour there")
-        ->type_name("transparent|black|#RRGGBB")
-        ->group(group);
-    command
-        .add_option("--png-bits", words.png_bits, "Bits of each channel of .png: 8 (default) or 16")
-        ->check(one_of({"8", "16"}))
-        ->type_name("8|16")
-        ->group(group);
-}
-
-DisplayArguments understand(const DisplayWords& words)
-{
-    DisplayArguments result{.exposure = to_exposure(words.exposure),
-                            .curve = to_curve(words.tone_map),
-                            .type = words.png_bits == 16 ? TexelType::unorm16 : TexelType::unorm8};
-    if (words.background) {
-        result.backdrop = parse_backdrop(*words.background);
-        if (!result.backdrop) {
-            reject("--background", *words.background,
-                   "transparent, black, or a colour of six hexadecimal digits like #f0f0f0");
-        }
-    }
-    return result;
+    // 2^100 is far beyond any ratio of a scene to a screen.
+    options.add("--exposure", "EV", "Exposure of .png: pixels times 2^EV. Default: automatic",
+                display.exposure, number(-100.0, 100.0, "EV from -100 to 100"));
+    const auto curves = choices_of(io::all_tone_curves, io::tone_curve_name);
+    options.add("--tone-map", choice_text(curves.words()),
+                "Tone mapping of .png: filmic (default), pbr-neutral (keeps base colours under "
+                "grey light, best with --exposure), agx, or none (clamps)",
+                display.curve, curves.type());
+    Option& background = options.add(
+        "--background", "transparent|black|#RRGGBB",
+        "Leave out the environment where the camera sees it directly; it still lights the scene. "
+        ".exr gets alpha (colours are premultiplied), .png gets alpha (transparent) or that sRGB "
+        "colour there",
+        display.backdrop,
+        parsed_by([](const std::string& text) { return parse_backdrop(text); },
+                  "transparent, black, or a colour of six hexadecimal digits like #f0f0f0"));
+    background.uses.plan_render = true;    // merging needs its alpha
+    background.uses.python_render = true;  // as does save()
+    const Choices<TexelType> depths{{{"8", TexelType::unorm8}, {"16", TexelType::unorm16}}};
+    options.add("--png-bits", "8|16", "Bits of each channel of .png: 8 (default) or 16",
+                display.type, depths.type());
 }
 
 }  // namespace bdpt::app

@@ -7,26 +7,16 @@
 #include <string>
 #include <string_view>
 
-namespace CLI {
-class App;
-}
+#include "options/option_list.h"
 
 namespace bdpt::app {
-
-/// What words say about how images look on a screen, as they were given.
-struct DisplayWords {
-    std::optional<double> exposure;  // [EV]
-    std::string tone_map = "filmic";
-    std::optional<std::string> background;
-    int png_bits = 8;
-};
 
 /// What is seen in place of the environment.
 struct Backdrop {
     std::optional<io::SrgbColor> color{};  ///< none: images are transparent there
 };
 
-/// The same, understood and checked.
+/// How images look on a screen.
 struct DisplayArguments {
     std::optional<float> exposure{};  ///< [EV] none: automatic
     io::ToneCurve curve = io::ToneCurve::filmic;
@@ -40,10 +30,7 @@ struct DisplayArguments {
 /// Its inverse; black is "#000000".
 [[nodiscard]] std::string backdrop_text(const Backdrop& backdrop);
 
-/// Describes --exposure, --tone-map, --background and --png-bits to the parser.
-void add_display_options(CLI::App& command, DisplayWords& words, const char* group);
-
-/// Throws `OptionError`.
-[[nodiscard]] DisplayArguments understand(const DisplayWords& words);
+/// Adds --exposure, --tone-map, --background and --png-bits.
+void add_display_options(OptionList& options, DisplayArguments& display);
 
 }  // namespace bdpt::app

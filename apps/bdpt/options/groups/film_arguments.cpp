@@ -1,33 +1,15 @@
 #include "options/groups/film_arguments.h"
 
-#include <fmt/core.h>
+#include <bdpt/option_fields.h>
 
-#include <CLI/CLI.hpp>
-#include <algorithm>
 #include <array>
-#include <utility>
+#include <string>
 #include <vector>
 
-#include "options/arguments.h"
+#include "options/values/value_types.h"
 
 namespace bdpt::app {
 namespace {
-
-constexpr std::array<std::pair<std::string_view, FilterKind>, 4> filters{
-    {{"box", FilterKind::box},
-     {"tent", FilterKind::tent},
-     {"gaussian", FilterKind::gaussian},
-     {"blackman-harris", FilterKind::blackman_harris}}};
-
-constexpr std::array<std::pair<std::string_view, Aov>, 9> aovs{{{"albedo", Aov::albedo},
-                                                                {"normal", Aov::normal},
-                                                                {"depth", Aov::depth},
-                                                                {"position", Aov::position},
-                                                                {"samples", Aov::sample_count},
-                                                                {"variance", Aov::variance},
-                                                                {"alpha", Aov::alpha},
-                                                                {"object", Aov::object},
-                                                                {"material", Aov::material}}};
 
 /// The parts of `text` between commas; empty ones too.
 std::vector<std::string_view> split_at_commas(std::string_view text)
@@ -43,22 +25,12 @@ std::vector<std::string_view> split_at_commas(std::string_view text)
     }
 }
 
-/// The value beside `name` in a table.
-template <typename Table>
-auto look_up(const Table& table, std::string_view name)
-    -> std::optional<typename Table::value_type::second_type>
-{
-    const auto found = std::find_if(table.begin(), table.end(),
-                                    [&](const auto& entry) { return entry.first == name; });
-    return found != table.end() ? std::optional(found->second) : std::nullopt;
-}
-
 }  // namespace
 
 std::optional<FilterOptions> parse_filter(std::string_view text)
 {
     const std::size_t colon = text.find(':');
-    const std::optional<FilterKind> kind = look_up(filters, text.substr(0, colon));
+    const std::optional<FilterKind> kind = enumerator_of<FilterKind>(text.substr(0, colon));
     if (!kind) {
         return std::nullopt;
     }
@@ -76,8 +48,8 @@ std::optional<AovSet> parse_aovs(std::string_view text)
 {
     AovSet result;
     for (const std::string_view part : split_at_commas(text)) {
-        const std::optional<Aov> aov = look_up(aovs, part);
-        if (!aov) {
+        const std::optional<Aov> aov = enumerator_of<Aov>(part);
+        if (!aov || *aov == Aov::shadow) {  // that is --ground
             return std::nullopt;
         }
         result.insert(*aov);
@@ -107,76 +79,53 @@ std::optional<PixelRect> parse_crop(std::string_view text)
     return PixelRect{.x0 = x0, .y0 = y0, .x1 = x1, .y1 = y1};
 }
 
-const char* filter_name(FilterKind kind)
+ValueType<FilterOptions> filter_type()
 {
-    const auto found = std::find_if(filters.begin(), filters.end(),
-                                    [&](const auto& entry) { return entry.second == kind; });
-    return found->first.data();  // of a literal, so it ends with a zero
+    return parsed_by([](const std::string& text) { return parse_filter(text); },
+                     "box, tent, gaussian or blackman-harris, and perhaps a radius from 0.01 to "
+                     "16, like gaussian:2");
 }
 
-void add_film_options(CLI::App& command, FilmWords& words)
+ValueType<AovSet> aov_type()
 {
-    const auto group = "Film";
-    command
-        .add_option("--filter", words.filter,
-                    "Pixel filter: box (default, radius 0.5), tent (1), gaussian (1.5, sigma is a "
-                    "third of it) or blackman-harris (1.5)")
-        ->type_name("NAME[:RADIUS]")
-        ->group(group);
-    command
-        .add_option("--aov", words.aovs,
-                    "Extra .exr layers (AOVs), comma-separated: albedo, normal, depth, position, "
-                    "samples, variance, alpha; object, material: Cryptomatte")
-        ->type_name("LIST")
-        ->group(group);
-    command
-        .add_option(
-            "--crop", words.crop,
-            "Render only columns x0..x1-1 and rows y0..y1-1; pixels equal those of the whole image")
-        ->type_name("X0,Y0,X1,Y1")
-        ->group(group);
-    command
-        .add_option("--clamp", words.clamp,
-                    "Clamp each contribution to a pixel to this radiance [nit]: fewer fireflies, "
-                    "but biased; the light lost is reported")
-        ->type_name("NIT")
-        ->group(group);
+    return parsed_by([](const std::string& text) { return parse_aovs(text); },
+                     "albedo, normal, depth, position, samples, variance, alpha, object, material "
+                     "or some of them, with commas between");
 }
 
-RenderOptions with_film(const FilmWords& words, RenderOptions options)
+ValueType<PixelRect> crop_type()
 {
-    if (words.filter) {
-        const std::optional<FilterOptions> filter = parse_filter(*words.filter);
-        if (!filter) {
-            reject("--filter", *words.filter,
-                   "box, tent, gaussian or blackman-harris, and perhaps a radius from 0.01 to 16, "
-                   "like gaussian:2");
+    return parsed_by([](const std::string& text) { return parse_crop(text); },
+                     "four whole numbers x0,y0,x1,y1 with x0 < x1 and y0 < y1");
+}
+
+void add_ground_option(OptionList& options, Ground& ground)
+{
+    const Choices<Ground> grounds{{{"shadow", Ground::shadow}, {"none", Ground::none}}};
+    options.add("--ground", "shadow|none",
+                "shadow: catch the shadow of the scene on a level ground that is not seen itself, "
+                "and is in no reflection. The shadow is black, and adds to the alpha of "
+                "--background, which has to be given; .exr also gets it as layer shadow.A. none "
+                "(default)",
+                ground, grounds.type());
+}
+
+FilmOptions with_ground(Ground ground, FilmOptions film, const OptionList& options)
+{
+    if (ground == Ground::none) {
+        if (options.given("--ground-height")) {
+            throw OptionError("--ground-height needs --ground shadow");
         }
-        options.film.filter = *filter;
+        return film;
     }
-    if (words.aovs) {
-        const std::optional<AovSet> set = parse_aovs(*words.aovs);
-        if (!set) {
-            reject("--aov", *words.aovs,
-                   "albedo, normal, depth, position, samples, variance, alpha, object, material "
-                   "or some of them, with commas between");
-        }
-        options.film.aovs = *set;
-    }
-    if (words.crop) {
-        options.film.crop = parse_crop(*words.crop);
-        if (!options.film.crop) {
-            reject("--crop", *words.crop,
-                   "four whole numbers x0,y0,x1,y1 with x0 < x1 and y0 < y1");
-        }
-    }
-    if (words.clamp) {
-        options.film.clamp = static_cast<float>(*words.clamp);
-        if (!(options.film.clamp > 0.0f)) {
-            reject("--clamp", fmt::format("{}", *words.clamp), "a number above 0");
-        }
-    }
-    return options;
+    static constexpr std::array needs{
+        Need{"--ground", "--background", "a shadow is on nothing else"}};
+    static constexpr std::array conflicts{Conflict{"--ground", "--fog"},
+                                          Conflict{"--ground", "--volume"}};
+    check(needs, options);
+    check(conflicts, options);
+    film.aovs.insert(Aov::shadow);
+    return film;
 }
 
 }  // namespace bdpt::app

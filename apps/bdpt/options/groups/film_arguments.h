@@ -5,23 +5,13 @@
 #include <bdpt/pixel_rect.h>
 #include <bdpt/render_options.h>
 
+#include <cstdint>
 #include <optional>
-#include <string>
 #include <string_view>
 
-namespace CLI {
-class App;
-}
+#include "options/option_list.h"
 
 namespace bdpt::app {
-
-/// What the words after `bdpt render` say about the film, as they were given.
-struct FilmWords {
-    std::optional<std::string> filter;
-    std::optional<std::string> aovs;
-    std::optional<std::string> crop;
-    std::optional<double> clamp;  // [nit]
-};
 
 /// "gaussian" or "gaussian:2"; the radius [pixels] is in the range of `FilterOptions`.
 [[nodiscard]] std::optional<FilterOptions> parse_filter(std::string_view text);
@@ -32,11 +22,19 @@ struct FilmWords {
 /// "x0,y0,x1,y1", whole numbers; x0 < x1 and y0 < y1.
 [[nodiscard]] std::optional<PixelRect> parse_crop(std::string_view text);
 
-[[nodiscard]] const char* filter_name(FilterKind kind);
+// These as values of options.
+[[nodiscard]] ValueType<FilterOptions> filter_type();
+[[nodiscard]] ValueType<AovSet> aov_type();
+[[nodiscard]] ValueType<PixelRect> crop_type();
 
-void add_film_options(CLI::App& command, FilmWords& words);
+/// What the ground below the scene does.
+enum class Ground : std::uint8_t { none, shadow };
 
-/// `options` with what `words` say. Throws `Error` (usage) that names the option and the value.
-[[nodiscard]] RenderOptions with_film(const FilmWords& words, RenderOptions options);
+/// Adds --ground.
+void add_ground_option(OptionList& options, Ground& ground);
+
+/// `film` with the layer of the shadow on the ground, if that is wanted. Throws `OptionError` for
+/// options that do not go with it.
+[[nodiscard]] FilmOptions with_ground(Ground ground, FilmOptions film, const OptionList& options);
 
 }  // namespace bdpt::app

@@ -5,12 +5,11 @@
 #include <bdpt/thin_lens.h>
 #include <fmt/core.h>
 
-#include <CLI/CLI.hpp>
+#include <array>
 #include <cmath>
-#include <string>
-#include <vector>
+#include <limits>
 
-#include "options/arguments.h"
+#include "options/values/value_types.h"
 
 namespace bdpt::app {
 namespace {
@@ -18,13 +17,6 @@ namespace {
 bool is_finite(double value)
 {
     return std::isfinite(static_cast<float>(value));
-}
-
-void check_positive(const char* option, const std::optional<double>& value, const char* expected)
-{
-    if (value && !(static_cast<float>(*value) > 0.0f && is_finite(*value))) {
-        reject(option, fmt::format("{}", *value), expected);
-    }
 }
 
 /// Depth [m] of what `camera` sees in the middle of its view, if there is anything.
@@ -47,58 +39,47 @@ std::optional<float> depth_in_the_middle(const Scene& scene, CameraDesc camera)
 }
 
 /// [m]
-float radius_of(const LensWords& words, const CameraDesc& camera)
+float radius_of(const LensChoice& lens, const CameraDesc& camera)
 {
-    if (words.radius) {
-        return static_cast<float>(*words.radius);
+    if (lens.radius) {
+        return static_cast<float>(*lens.radius);
     }
-    if (!words.f_stop) {
+    if (!lens.f_stop) {
         return camera.lens_radius;
     }
-    const double radius = lens_radius_of(*words.f_stop, static_cast<double>(camera.vertical_fov));
+    const double radius = lens_radius_of(*lens.f_stop, static_cast<double>(camera.vertical_fov));
     if (!is_finite(radius)) {
-        reject("--f-stop", fmt::format("{}", *words.f_stop), "a greater number for this view");
+        reject("--f-stop", fmt::format("{}", *lens.f_stop), "a greater number for this view");
     }
     return static_cast<float>(radius);
 }
 
 }  // namespace
 
-void add_lens_options(CLI::App& command, LensWords& words)
+void add_lens_options(OptionList& options, LensChoice& lens)
 {
-    const auto group = "What to render";
-    CLI::Option* radius = command
-                              .add_option("--lens-radius", words.radius,
-                                          "Lens radius [m] for depth of field; 0 is a pinhole")
-                              ->type_name("M")
-                              ->group(group);
-    command
-        .add_option("--f-stop", words.f_stop,
-                    "Lens radius by f-number N: f / (2 N), with the focal length f = 12 mm / "
-                    "tan(fov / 2) of a sensor 24 mm high")
-        ->excludes(radius)
-        ->type_name("N")
-        ->group(group);
-    command
-        .add_option("--focus-distance", words.focus_distance,
-                    "Focus distance [m]. Default: that of the file's lens, else the depth at the "
-                    "image centre")
-        ->type_name("M")
-        ->group(group);
+    constexpr double most = std::numeric_limits<float>::max();
+    options.add("--lens-radius", "M", "Lens radius [m] for depth of field; 0 is a pinhole",
+                lens.radius, number(0.0, most, "metres, 0 or more"));
+    options.add("--f-stop", "N",
+                "Lens radius by f-number N: f / (2 N), with the focal length f = 12 mm / tan(fov / "
+                "2) of a sensor 24 mm high",
+                lens.f_stop, positive_number("a number above 0"));
+    options.add("--focus-distance", "M",
+                "Focus distance [m]. Default: that of the file's lens, else the depth at the image "
+                "centre",
+                lens.focus_distance, positive_number("metres, above 0"));
 }
 
-void check_lens(const LensWords& words)
+void check_lens_options(const OptionList& options)
 {
-    if (words.radius && !(*words.radius >= 0.0 && is_finite(*words.radius))) {
-        reject("--lens-radius", fmt::format("{}", *words.radius), "metres, 0 or more");
-    }
-    check_positive("--f-stop", words.f_stop, "a number above 0");
-    check_positive("--focus-distance", words.focus_distance, "metres, above 0");
+    static constexpr std::array conflicts{Conflict{"--lens-radius", "--f-stop"}};
+    check(conflicts, options);
 }
 
-CameraDesc with_lens(const LensWords& words, CameraDesc camera, const Scene& scene)
+CameraDesc with_lens(const LensChoice& lens, CameraDesc camera, const Scene& scene)
 {
-    if (!words.radius && !words.f_stop && !words.focus_distance) {
+    if (!lens.radius && !lens.f_stop && !lens.focus_distance) {
         return camera;
     }
     if (camera.projection == Projection::orthographic) {
@@ -108,13 +89,13 @@ CameraDesc with_lens(const LensWords& words, CameraDesc camera, const Scene& sce
                                 camera.name));
     }
     const bool had_lens = camera.lens_radius > 0.0f;
-    camera.lens_radius = radius_of(words, camera);
-    if (words.focus_distance) {
-        if (!words.radius && camera.lens_radius == 0.0f) {
-            reject("--focus-distance", fmt::format("{}", *words.focus_distance),
-                   "--lens-radius or --f-stop with it, as the camera has no lens");
+    camera.lens_radius = radius_of(lens, camera);
+    if (lens.focus_distance) {
+        if (!lens.radius && camera.lens_radius == 0.0f) {
+            throw OptionError(
+                "--focus-distance needs --lens-radius or --f-stop: the camera has no lens");
         }
-        camera.focus_distance = static_cast<float>(*words.focus_distance);
+        camera.focus_distance = static_cast<float>(*lens.focus_distance);
     } else if (!had_lens && camera.lens_radius > 0.0f) {
         const std::optional<float> depth = depth_in_the_middle(scene, camera);
         if (!depth) {

@@ -5,27 +5,26 @@
 
 #include <optional>
 
-namespace CLI {
-class App;
-}
+#include "options/option_list.h"
 
 namespace bdpt::app {
 
-/// What the words after `bdpt render` say about the lens, as they were given.
-struct LensWords {
-    std::optional<double> radius;          // [m]
-    std::optional<double> f_stop;          // focal length over diameter
-    std::optional<double> focus_distance;  // [m]
+/// The lens that a view gets.
+struct LensChoice {
+    std::optional<double> radius{};          ///< [m]
+    std::optional<double> f_stop{};          ///< focal length over diameter
+    std::optional<double> focus_distance{};  ///< [m]
 };
 
-void add_lens_options(CLI::App& command, LensWords& words);
+/// Adds --lens-radius, --f-stop and --focus-distance.
+void add_lens_options(OptionList& options, LensChoice& lens);
 
-/// Throws `Error` (usage) that names the option and the value.
-void check_lens(const LensWords& words);
+/// Throws `OptionError` for a lens that is given in two ways.
+void check_lens_options(const OptionList& options);
 
-/// `camera` with the lens of `words`, which have been checked. Focused on what `scene` shows in the
-/// middle of the view, if neither `words` nor the camera's own lens say where. Throws `Error`
-/// (usage) when that is nothing, or the camera can have no lens.
-[[nodiscard]] CameraDesc with_lens(const LensWords& words, CameraDesc camera, const Scene& scene);
+/// `camera` with `lens`. Focused on what `scene` shows in the middle of the view, if neither `lens`
+/// nor the camera's own lens say where. Throws `Error` (usage) when that is nothing, or the camera
+/// can have no lens.
+[[nodiscard]] CameraDesc with_lens(const LensChoice& lens, CameraDesc camera, const Scene& scene);
 
 }  // namespace bdpt::app

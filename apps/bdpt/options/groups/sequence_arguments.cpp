@@ -2,15 +2,13 @@
 
 #include <fmt/core.h>
 
-#include <CLI/CLI.hpp>
-#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <string_view>
 
 #include "options/arguments.h"
-#include "options/render_arguments.h"
-#include "options/values/value_checks.h"
+#include "options/values/value_types.h"
 
 namespace bdpt::app {
 namespace {
@@ -37,19 +35,6 @@ std::vector<std::string_view> split_at_colons(std::string_view text)
     }
     parts.push_back(text);
     return parts;
-}
-
-FrameRange to_frames(const std::string& word, int orbit)
-{
-    const std::optional<FrameRange> frames = parse_frames(word);
-    if (!frames) {
-        reject("--frames", word,
-               "whole numbers FIRST:LAST or FIRST:LAST:STEP, like 1:24, with FIRST not above LAST");
-    }
-    if (orbit > 0 && (frames->first < 1 || frames->last > orbit)) {
-        reject("--frames", word, fmt::format("views from 1 to {}, as --orbit has them", orbit));
-    }
-    return *frames;
 }
 
 }  // namespace
@@ -84,77 +69,60 @@ std::optional<double> parse_rate(const std::string& text)
     return rate > 0.0 && rate <= most ? std::optional(rate) : std::nullopt;
 }
 
-void add_sequence_options(CLI::App& command, SequenceWords& words)
+void add_sequence_options(OptionList& options, Sequence& sequence)
 {
-    const auto group = sequence_group;
-    command
-        .add_option("--frames", words.frames,
-                    "Render the frames A to B, B included, or every S-th of them: frame 12 with 24 "
-                    "frames a second is at 0.5 s of the animation, or --frame-time after that; its "
-                    "file is out.0012.exr for -o out.####.exr. With --orbit: these of its views")
-        ->type_name("A:B[:S]")
-        ->group(group);
-    command.add_option("--fps", words.fps, "Frames a second for --frames, like 24 or 24000/1001")
-        ->type_name("F")
-        ->group(group);
-    command
-        .add_option("--orbit", words.orbit,
-                    "Turntable: N views, numbered from 1, by a camera that goes once around the "
-                    "vertical axis through --look-at or, without it, what it looks at")
-        ->check(whole_number(1, most_frames))
-        ->type_name("N")
-        ->group(group);
-    command
-        .add_option("--cameras", words.cameras,
-                    "Render what each camera of the scene sees; {camera} in names of files becomes "
-                    "its name, or its index if it has none")
-        ->check(one_of({"all"}))
-        ->type_name("all")
-        ->group(group);
-    command
-        .add_flag("--same-noise", words.same_noise,
-                  "Give all frames the same random numbers: noise stands still, like dirt on a "
-                  "window, and does not average out")
-        ->group(group);
+    options.section("Several images (their files have #### or {camera} in their names)",
+                    {.plan_render = true});
+    options.add("--frames", "A:B[:S]",
+                "Render the frames A to B, B included, or every S-th of them: frame 12 with 24 "
+                "frames a second is at 0.5 s of the animation, or --frame-time after that; its "
+                "file is out.0012.exr for -o out.####.exr. With --orbit: these of its views",
+                sequence.frames,
+                parsed_by([](const std::string& text) { return parse_frames(text); },
+                          "whole numbers FIRST:LAST or FIRST:LAST:STEP, like 1:24, with FIRST not "
+                          "above LAST"));
+    options.add("--fps", "F", "Frames a second for --frames, like 24 or 24000/1001", sequence.fps,
+                parsed_by([](const std::string& text) { return parse_rate(text); },
+                          "frames a second, like 24 or 24000/1001"));
+    options.add("--orbit", "N",
+                "Turntable: N views, numbered from 1, by a camera that goes once around the "
+                "vertical axis through --look-at or, without it, what it looks at",
+                sequence.orbit, whole_number(1, most_frames));
+    const Choices<SequenceCameras> cameras{{{"all", SequenceCameras::all}}};
+    options.add("--cameras", "all",
+                "Render what each camera of the scene sees; {camera} in names of files becomes its "
+                "name, or its index if it has none",
+                sequence.cameras, cameras.type());
+    const Choices<SequenceNoise> noises{
+        {{"true", SequenceNoise::same}, {"false", SequenceNoise::fresh}}};
+    options.add_flag("--same-noise",
+                     "Give all frames the same random numbers: noise stands still, like dirt on a "
+                     "window, and does not average out",
+                     sequence.noise, noises.type());
 }
 
-std::optional<Sequence> sequence(const RenderWords& render_words)
+std::optional<Sequence> checked(Sequence sequence, const OptionList& options)
 {
-    const SequenceWords& words = render_words.sequence;
-    if (words.same_noise && !words.frames && !words.orbit) {
-        throw OptionError("--same-noise: expected --frames or --orbit with it");
-    }
-    if (words.fps && !words.frames && !words.orbit) {
-        reject("--fps", *words.fps, "--frames or --orbit with it");
-    }
-    if (!words.frames && !words.orbit && !words.cameras) {
+    static constexpr std::array needs{
+        Need{"--same-noise", "--frames|--orbit"}, Need{"--fps", "--frames|--orbit"},
+        Need{"--frames", "--fps|--orbit", "a glTF file has no frame rate"}};
+    static constexpr std::array conflicts{Conflict{"--cameras", "--camera"},
+                                          Conflict{"--cameras", "--from"},
+                                          Conflict{"--cameras", "--look-at"}};
+    check(needs, options);
+    check(conflicts, options);
+    if (!options.given("--frames") && !options.given("--orbit") && !options.given("--cameras")) {
         return std::nullopt;
     }
-    Sequence result;
-    result.orbit = words.orbit.value_or(0);
-    if (words.frames) {
-        result.frames = to_frames(*words.frames, result.orbit);
-        if (!words.fps && !words.orbit) {
-            reject("--frames", *words.frames, "--fps with it: a glTF file has no frame rate");
-        }
-    } else if (words.orbit) {
-        result.frames = FrameRange{.first = 1, .last = result.orbit};
+    if (sequence.frames && sequence.orbit > 0 &&
+        (sequence.frames->first < 1 || sequence.frames->last > sequence.orbit)) {
+        options.reject_value(
+            "--frames", fmt::format("views from 1 to {}, as --orbit has them", sequence.orbit));
     }
-    if (words.fps) {
-        const std::optional<double> fps = parse_rate(*words.fps);
-        if (!fps) {
-            reject("--fps", *words.fps, "frames a second, like 24 or 24000/1001");
-        }
-        result.fps = *fps;
+    if (!sequence.frames && sequence.orbit > 0) {
+        sequence.frames = FrameRange{.first = 1, .last = sequence.orbit};
     }
-    if (words.cameras) {
-        if (render_words.camera || render_words.from || render_words.look_at) {
-            reject("--cameras", *words.cameras, "no --camera, --from or --look-at with it");
-        }
-        result.cameras = SequenceCameras::all;
-    }
-    result.noise = words.same_noise ? SequenceNoise::same : SequenceNoise::fresh;
-    return result;
+    return sequence;
 }
 
 }  // namespace bdpt::app

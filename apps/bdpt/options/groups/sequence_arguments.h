@@ -6,27 +6,11 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
+#include "options/option_list.h"
 
 namespace bdpt::app {
 
 struct RenderArguments;
-struct RenderWords;
-
-/// How the help calls the options of several images.
-inline constexpr const char* sequence_group =
-    "Several images (their files have #### or {camera} in their names)";
-
-/// What the words after `bdpt render` say about several images, as they were given.
-struct SequenceWords {
-    std::optional<std::string> frames;
-    std::optional<std::string> fps;
-    std::optional<int> orbit;
-    std::optional<std::string> cameras;
-    bool same_noise = false;
-};
 
 /// Frames from `first` to `last`, both of them included.
 struct FrameRange {
@@ -53,9 +37,9 @@ enum class SequenceCameras : std::uint8_t { one, all };
 
 /// Several images that one command makes.
 struct Sequence {
-    std::optional<FrameRange> frames;  ///< of the animation, or of the turn
-    double fps = 0.0;                  ///< frames a second; 0: there is none
-    int orbit = 0;                     ///< views of a whole turn; 0: the camera stays
+    std::optional<FrameRange> frames{};  ///< of the animation, or of the turn
+    double fps = 0.0;                    ///< frames a second; 0: there is none
+    int orbit = 0;                       ///< views of a whole turn; 0: the camera stays
     SequenceCameras cameras = SequenceCameras::one;
     SequenceNoise noise = SequenceNoise::fresh;
 };
@@ -72,11 +56,11 @@ struct SequenceView {
     double fps = 0.0;                   ///< frames a second; 0: there is none
 };
 
-/// Describes --frames, --fps, --orbit, --cameras and --same-noise to the parser.
-void add_sequence_options(CLI::App& command, SequenceWords& words);
+/// Adds --frames, --fps, --orbit, --cameras and --same-noise, in a section of their own.
+void add_sequence_options(OptionList& options, Sequence& sequence);
 
-/// None for a single image. Throws `OptionError`.
-[[nodiscard]] std::optional<Sequence> sequence(const RenderWords& words);
+/// `sequence` where several images are asked for; none for a single one. Throws `OptionError`.
+[[nodiscard]] std::optional<Sequence> checked(Sequence sequence, const OptionList& options);
 
 /// Throws `OptionError` when the names of files have no place for what tells the images apart.
 void check_patterns(const RenderArguments& arguments);

@@ -4,49 +4,37 @@
 
 #include <filesystem>
 #include <optional>
-#include <string>
 #include <vector>
 
-#include "options/part_arguments.h"
-
-namespace CLI {
-class App;
-}
+#include "options/option_list.h"
 
 namespace bdpt::app {
 
 /// Longest paths [edges] whose strategies get images, if the user does not choose.
 constexpr int default_strategy_depth = 5;
 
-/// What the words after `bdpt render` say about images of strategies, as they were given.
-struct StrategyWords {
-    std::optional<std::string> file;
-    std::optional<int> depth;  // [edges]
-};
-
 /// Where images of strategies go: into files, or only into the part that is rendered.
 struct StrategyFiles {
-    std::filesystem::path layers;  ///< .exr; empty: no files
-    std::filesystem::path sheet;   ///< .png of the same stem
-    std::optional<int> depth{};    ///< longest paths [edges], if the user chose
+    std::filesystem::path layers{};  ///< .exr; empty: no files
+    std::filesystem::path sheet{};   ///< .png of the same stem
+    std::optional<int> depth{};      ///< longest paths [edges], if the user chose
 
+    /// Those beside the file `layers`.
+    [[nodiscard]] static StrategyFiles named(const std::filesystem::path& layers);
     /// None, if there are no files.
     [[nodiscard]] std::vector<std::filesystem::path> both() const;
 };
 
-void add_strategy_options(CLI::App& command, StrategyWords& words);
+/// Adds --strategies and --strategy-depth.
+void add_strategy_options(OptionList& options, StrategyFiles& strategies);
 
-/// Describes --strategies alone.
-void add_strategy_file_option(CLI::App& command, std::optional<std::string>& file,
-                              const char* description);
+/// Adds --strategies alone.
+void add_strategy_file_option(OptionList& options, StrategyFiles& strategies, std::string help);
 
-/// The files that `file`, the value of --strategies, names. Throws `OptionError`.
-[[nodiscard]] StrategyFiles strategy_files(const std::string& file);
-
-/// None when no images are asked for: by a file, or a depth for those in a part. `part` says
-/// whether there is one. Throws `Error` (usage) that names the option and the value.
-[[nodiscard]] std::optional<StrategyFiles> strategy_files(const StrategyWords& words,
-                                                          const RenderOptions& options,
-                                                          const PartWords& part);
+/// `strategies` where they are asked for: by a file, or a depth for those in a part. Throws
+/// `OptionError` where they have no place, or the integrator of `render` has none.
+[[nodiscard]] std::optional<StrategyFiles> checked(const StrategyFiles& strategies,
+                                                   const RenderOptions& render,
+                                                   const OptionList& options);
 
 }  // namespace bdpt::app

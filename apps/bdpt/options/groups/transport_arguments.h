@@ -2,50 +2,33 @@
 
 #include <bdpt/render_options.h>
 
+#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "options/groups/light_sampling_arguments.h"
-
-namespace CLI {
-class App;
-}
+#include "options/option_list.h"
 
 namespace bdpt::app {
 
-/// What the words after `bdpt render` say about the transport of light, as they were given.
-struct TransportWords {
-    std::string integrator{};  ///< empty: not named
-    std::string heuristic = "power";
-    LightSamplingWords light_sampling{};
-    int max_depth = RenderOptions{}.transport.max_depth;
-    std::optional<std::string> only{};
-    std::optional<int> max_camera_depth{};
-    std::optional<int> max_light_depth{};
-    std::optional<double> light_paths{};
-    std::optional<double> connections{};
-    std::optional<double> merge_radius{};
-    std::optional<double> merge_alpha{};
-    std::optional<int> rr_start{};
-    std::optional<std::string> disabled{};
-};
+/// Which paths are wanted: all, those with one bounce or less, or all others.
+enum class PathsOnly : std::uint8_t { all, direct, indirect };
 
-/// "s2t1,s0t3": strategies that make a path, with at most 1001 vertices on either side.
+/// "s2t1,s0t3": strategies that make a path, with at most 4097 vertices on either side.
 [[nodiscard]] std::optional<std::vector<Strategy>> parse_strategies(std::string_view text);
 
-/// --light-paths and --connections.
-void add_light_path_options(CLI::App& command, TransportWords& words, const char* group);
-/// --merge-radius, whose default is `standard`.
-void add_merge_radius_option(CLI::App& command, TransportWords& words, const char* group,
-                             double standard);
-/// These and all others.
-void add_transport_options(CLI::App& command, TransportWords& words);
+/// These as the value of an option.
+[[nodiscard]] ValueType<std::vector<Strategy>> strategies_type();
 
-/// `options` with what `words` say. Throws `Error` (usage) that names the option and the value.
-[[nodiscard]] RenderOptions with_transport(const TransportWords& words, RenderOptions options);
+/// Adds the integrator and all that says how it transports light.
+void add_transport_options(OptionList& options, RenderOptions& render, PathsOnly& only);
+
+/// `render` with the integrator that was meant if none was named, and with the depths of `only`.
+/// Throws `OptionError` for options that the integrator does not take.
+[[nodiscard]] RenderOptions with_transport(RenderOptions render, PathsOnly only,
+                                           const OptionList& options);
 
 /// The strategies that are left out, as --disable takes them: "s1t1,s0t4".
 [[nodiscard]] std::string disabled_text(const RenderOptions& options);

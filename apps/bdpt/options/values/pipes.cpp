@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "options/arguments.h"
+#include "options/option_list.h"
 
 namespace bdpt::app {
 

@@ -96,7 +96,7 @@ void check_merged_files(std::span<const MergeArguments> images)
     for (const MergeArguments& image : images) {
         check_outputs(image.outputs, inputs);
         if (image.strategies) {
-            check_strategy_files(strategy_files(image.strategies->string()), inputs, image.outputs);
+            check_strategy_files(StrategyFiles::named(*image.strategies), inputs, image.outputs);
         }
     }
 }
@@ -106,8 +106,7 @@ void check_strategies(const MergeArguments& arguments, const io::PartInfo& part)
     const auto& components = part.identity.components;
     const bool has_images =
         std::any_of(components.begin(), components.end(), [](const IdentityComponent& component) {
-            return component.name == "option: longest path with images of strategies" &&
-                   component.value != "0";
+            return component.name == "option: strategy_depth" && component.value != "0";
         });
     if (arguments.strategies && !has_images) {
         throw Error(ErrorCode::invalid_input,
@@ -121,7 +120,7 @@ std::vector<fs::path> merged_files(const MergeArguments& arguments)
 {
     std::vector<fs::path> files = arguments.outputs;
     if (arguments.strategies) {
-        const std::vector<fs::path> more = strategy_files(arguments.strategies->string()).both();
+        const std::vector<fs::path> more = StrategyFiles::named(*arguments.strategies).both();
         files.insert(files.end(), more.begin(), more.end());
     }
     return files;
@@ -153,9 +152,9 @@ void write_merged_files(const MergeArguments& arguments, const DisplayArguments&
                                      .full_height = layout.height};
     const Image image = part.film.develop();
     const ImageFileOptions options{
-        .exr = {.type = arguments.channel_type,
+        .exr = {.type = arguments.exr.channel_type,
                 .metadata = std::move(notes.metadata),
-                .storage = arguments.storage,
+                .storage = arguments.exr.storage,
                 .placement = placement,
                 .manifests = part.ids.manifests()},
         .layers = layers_of(part.film, part.aovs, part.ids),
@@ -164,7 +163,7 @@ void write_merged_files(const MergeArguments& arguments, const DisplayArguments&
         .denoised_as = arguments.denoise ? arguments.denoise->as : DenoisedAs::image};
     write_image_files(images, image, options);
     if (arguments.strategies) {
-        write_strategy_files(strategy_files(arguments.strategies->string()), image, part.strategies,
+        write_strategy_files(StrategyFiles::named(*arguments.strategies), image, part.strategies,
                              options.exr, display.exposure.value_or(io::automatic_exposure(image)));
     }
 }

@@ -50,7 +50,7 @@ std::set<fs::path> planned_files(const Plan& plan, const fs::path& file, std::si
         result.insert(name(output));
     }
     if (plan.strategies) {
-        const std::vector<fs::path> both = strategy_files(name(*plan.strategies).string()).both();
+        const std::vector<fs::path> both = StrategyFiles::named(name(*plan.strategies)).both();
         result.insert(both.begin(), both.end());
     }
     return result;

@@ -1,4 +1,5 @@
 #include <bdpt/eval/bench/bench.h>
+#include <bdpt/option_fields.h>
 
 #include <bdpt/error.h>
 #include <bdpt/eval/bench/error_floor.h>
@@ -60,7 +61,7 @@ void keep(const Trial& trial, const BenchFiles& files, const BenchScene& scene,
     io::ExrOptions exr;
     exr.metadata.version = BDPT_VERSION;
     exr.metadata.scene = scene.file;
-    exr.metadata.integrator = to_string(goals.integrator);
+    exr.metadata.integrator = name_of(goals.integrator);
     exr.metadata.seed = trial.run.seed;
     exr.metadata.samples_per_pixel = goals.equal_time;
     exr.metadata.camera = scene.camera;
@@ -83,7 +84,7 @@ bool run_all(const BenchScene& scene, const BenchOptions& options, const BenchFi
                 result.runs.push_back(std::move(*run));
                 continue;
             }
-            meter.begin(std::string(to_string(goals.integrator)) + ", seed " + std::to_string(seed),
+            meter.begin(std::string(name_of(goals.integrator)) + ", seed " + std::to_string(seed),
                         options.seconds);
             auto trial =
                 make_trial(make_setup(scene, options.render, goals.integrator, number, control),

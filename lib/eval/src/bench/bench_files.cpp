@@ -2,6 +2,7 @@
 
 #include <bdpt/error.h>
 #include <bdpt/io/output_file.h>
+#include <bdpt/option_fields.h>
 #include <bdpt/version.h>
 
 #include <cmath>
@@ -21,7 +22,7 @@ using nlohmann::ordered_json;
 
 std::string run_name(IntegratorKind integrator, std::uint64_t seed)
 {
-    return std::string(to_string(integrator)) + "-" + std::to_string(seed);
+    return std::string(name_of(integrator)) + "-" + std::to_string(seed);
 }
 
 ordered_json strategies_json(const std::vector<Strategy>& strategies)
@@ -67,7 +68,7 @@ fs::path BenchFiles::strategies() const
 
 fs::path BenchFiles::time_split(IntegratorKind integrator) const
 {
-    return folder_ / "scenes" / scene_ / (std::string(to_string(integrator)) + "-time.json");
+    return folder_ / "scenes" / scene_ / (std::string(name_of(integrator)) + "-time.json");
 }
 
 fs::path BenchFiles::reference_image(const std::string& key) const
@@ -183,7 +184,7 @@ ordered_json run_json(const BenchRun& run)
                                {"mape", point.mape}});
     }
     const RenderStats& stats = run.stats;
-    ordered_json result{{"integrator", to_string(run.integrator)},
+    ordered_json result{{"integrator", name_of(run.integrator)},
                         {"seed", run.seed},
                         {"checkpoints", checkpoints},
                         {"rays",
@@ -200,7 +201,8 @@ BenchRun parse_run(const ordered_json& json, const fs::path& file)
 {
     BenchRun run;
     try {
-        const auto integrator = parse_integrator(json.at("integrator").get<std::string>());
+        const auto integrator =
+            enumerator_of<IntegratorKind>(json.at("integrator").get<std::string>());
         if (!integrator) {
             refuse(file, "names an unknown integrator");
         }

@@ -3,6 +3,7 @@
 #include <bdpt/error.h>
 #include <bdpt/io/exr.h>
 #include <bdpt/io/read_image.h>
+#include <bdpt/option_fields.h>
 #include <bdpt/version.h>
 
 #include <chrono>
@@ -68,7 +69,7 @@ std::optional<HalvedRender> render_halves(const BenchScene& scene, const BenchOp
                                           const BenchControl& control)
 {
     const TrialSetup setup = make_setup(scene, options.render, integrator, reference_seed, control);
-    meter.begin("reference by " + std::string(to_string(integrator)), options.reference_seconds);
+    meter.begin("reference by " + std::string(name_of(integrator)), options.reference_seconds);
     const auto samples = samples_in(setup, options.reference_seconds);
     const auto film = samples ? render_all(setup, *samples, meter) : std::nullopt;
     if (!film) {

@@ -1,4 +1,5 @@
 #include <bdpt/eval/report/bench_output.h>
+#include <bdpt/option_fields.h>
 #include <bdpt/version.h>
 
 #include <algorithm>
@@ -66,7 +67,7 @@ std::string bench_csv(const BenchRecord& record)
                 [&](const BenchGoals& one) { return one.integrator == run.integrator; });
             const std::string shares = share_fields(scene, run.integrator);
             for (const Checkpoint& point : run.checkpoints) {
-                result += head + std::string(to_string(run.integrator)) + "," +
+                result += head + std::string(name_of(run.integrator)) + "," +
                           std::to_string(run.seed) + "," + std::to_string(point.samples) + "," +
                           (point.samples == goals->equal_time ? "1," : "0,") +
                           (point.samples == goals->equal_samples ? "1," : "0,") +

@@ -3,6 +3,7 @@
 #include <bdpt/eval/report/packed_image.h>
 #include <bdpt/io/read_image.h>
 #include <bdpt/io/tone_map.h>
+#include <bdpt/option_fields.h>
 
 #include <algorithm>
 #include <cmath>
@@ -94,7 +95,7 @@ ordered_json image_list_json(const SceneResult& scene, const fs::path& folder,
         if (all.empty()) {
             continue;
         }
-        const std::string name(to_string(goals.integrator));
+        const std::string name(name_of(goals.integrator));
         images[name] = packed_image(all.front(), scale);
         if (all.size() > 1) {
             variances[name] = packed_bytes(variance_map(all, reference, epsilon));
@@ -114,7 +115,7 @@ ordered_json times_json(const SceneResult& scene, const BenchFiles& files)
     ordered_json maps = ordered_json::object();
     for (const TimeSplit& split : scene.splits) {
         if (std::optional<std::string> map = packed_time_map(files, split.integrator)) {
-            maps[std::string(to_string(split.integrator))] = std::move(*map);
+            maps[std::string(name_of(split.integrator))] = std::move(*map);
         }
     }
     return maps;

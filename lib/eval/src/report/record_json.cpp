@@ -1,6 +1,6 @@
 #include "report/record_json.h"
 
-#include <bdpt/eval/bench/option_names.h>
+#include <bdpt/option_fields.h>
 #include <bdpt/version.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ ordered_json options_json(const BenchOptions& options)
 {
     ordered_json integrators = ordered_json::array();
     for (const IntegratorKind kind : options.integrators) {
-        integrators.push_back(to_string(kind));
+        integrators.push_back(name_of(kind));
     }
     const RenderOptions& render = options.render;
     ordered_json result{{"integrators", integrators}, {"cpu_seconds", options.seconds}};
@@ -28,7 +28,7 @@ ordered_json options_json(const BenchOptions& options)
     result["reference_cpu_seconds"] = 2.0 * options.reference_seconds;
     result["strategy_depth"] = options.strategy_depth;
     result["max_depth"] = render.transport.max_depth;
-    result["heuristic"] = to_string(render.transport.heuristic);
+    result["heuristic"] = name_of(render.transport.heuristic);
     result["sampler"] = render.sampling.sampler == SamplerKind::sobol ? "sobol" : "independent";
     result["threads"] = render.system.threads;
     return result;
@@ -69,7 +69,7 @@ ordered_json summary_json(const IntegratorSummary& summary)
                          {"cpu_seconds", point.cpu_seconds},
                          {"relmse", spread_json(point.error)}});
     }
-    ordered_json result{{"integrator", to_string(summary.integrator)},
+    ordered_json result{{"integrator", name_of(summary.integrator)},
                         {"seeds", summary.seeds},
                         {"equal_time", goal_json(summary.equal_time)},
                         {"equal_samples", goal_json(summary.equal_samples)},

@@ -1,5 +1,5 @@
-#include <bdpt/eval/bench/option_names.h>
 #include <bdpt/eval/verify/verify_json.h>
+#include <bdpt/option_fields.h>
 
 #include <nlohmann/json.hpp>
 
@@ -58,9 +58,9 @@ void add_tests(ordered_json& object, const Finding& finding, const VerifyReport&
 ordered_json to_json(const ImageFinding& image)
 {
     ordered_json object{
-        {"integrator", to_string(image.integrator)}, {"radiance", number_or_null(image.radiance)},
-        {"error", number_or_null(image.error)},      {"invalid", image.defects.invalid},
-        {"saturated", image.defects.saturated},      {"lost", number_or_null(image.lost)}};
+        {"integrator", name_of(image.integrator)}, {"radiance", number_or_null(image.radiance)},
+        {"error", number_or_null(image.error)},    {"invalid", image.defects.invalid},
+        {"saturated", image.defects.saturated},    {"lost", number_or_null(image.lost)}};
     if (const auto& place = image.defects.first_invalid) {
         object["first_invalid"] = {
             {"x", place->x}, {"y", place->y}, {"sample", place->sample_index}};
@@ -118,7 +118,7 @@ std::string verify_json(const VerifyReport& report, std::string_view scene)
         object["strategies"].push_back(std::move(entry));
     }
     for (const IntegratorFinding& integrator : report.integrators) {
-        ordered_json entry{{"integrator", to_string(integrator.integrator)},
+        ordered_json entry{{"integrator", name_of(integrator.integrator)},
                            {"edges", integrator.edges}};
         add_tests(entry, integrator, report);
         object["comparisons"].push_back(std::move(entry));

@@ -14,7 +14,7 @@ struct CameraDesc;
 
 /// One thing that the bits of a render depend on.
 struct IdentityComponent {
-    std::string name;   ///< "scene: images[3]", "camera: lens radius", "option: longest path"
+    std::string name;   ///< "scene: images[3]", "camera: lens radius", "option: max_depth"
     std::string value;  ///< the value itself, or '#' and a hash of it
     [[nodiscard]] bool operator==(const IdentityComponent&) const = default;
 };
@@ -31,7 +31,7 @@ struct Identity {
 [[nodiscard]] BDPT_EXPORT Identity identity(const Scene& scene, const CameraDesc& camera,
                                             const RenderOptions& options);
 
-/// In what `there` differs, such as "option: longest path (8, not 4)" where it has 8 and `here` has
+/// In what `there` differs, such as "option: max_depth (8, not 4)" where it has 8 and `here` has
 /// 4; at most three of these. None if the identities are equal.
 [[nodiscard]] BDPT_EXPORT std::optional<std::string> difference(const Identity& here,
                                                                 const Identity& there);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <bdpt/eval/bench/option_names.h>
+#include <bdpt/eval/bench/integrator_kinds.h>
 #include <bdpt/render_options.h>
 
 #include <cstdint>

@@ -1,0 +1,244 @@
+#include "options/command_parser.h"
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <sstream>
+#include <utility>
+
+namespace bdpt::app {
+namespace {
+
+constexpr std::size_t name_columns = 32;
+constexpr std::size_t text_columns = 100 - name_columns;
+
+/// Prints options as "--name VALUE   what it does" in at most 100 columns.
+class HelpFormatter : public CLI::Formatter {
+public:
+    HelpFormatter() { column_width(name_columns); }
+    std::string make_option_opts(const CLI::Option* option) const override
+    {
+        const std::string value = option->get_type_name();
+        return value.empty() ? "" : " " + value;
+    }
+    std::string make_option_desc(const CLI::Option* option) const override
+    {
+        std::istringstream words(option->get_description());
+        std::string result;
+        std::size_t column = 0;
+        for (std::string word; words >> word;) {
+            const bool wraps = column > 0 && column + 1 + word.size() > text_columns;
+            column = wraps ? word.size() : column + word.size() + (column > 0 ? 1 : 0);
+            result += result.empty() ? "" : wraps ? "\n" : " ";
+            result += word;
+        }
+        return result;
+    }
+};
+
+/// `words` as CLI11 takes them, from the end. "--name=" becomes "--name" and an empty word: CLI11
+/// would take the next word for its value.
+std::vector<std::string> words_for_cli(const std::vector<std::string>& words)
+{
+    std::vector<std::string> result;
+    bool takes_options = true;
+    for (const std::string& word : words) {
+        takes_options = takes_options && word != "--";
+        const bool is_empty =
+            takes_options && word.starts_with("--") && word.find('=') == word.size() - 1;
+        result.push_back(is_empty ? word.substr(0, word.size() - 1) : word);
+        if (is_empty) {
+            result.emplace_back();
+        }
+    }
+    std::reverse(result.begin(), result.end());
+    return result;
+}
+
+/// Options as CLI11 knows them. It tells words apart; values are understood by `Option::store`.
+class CliOptions {
+public:
+    void add(CLI::App& app, OptionList& list)
+    {
+        for (Option& option : list.all()) {
+            CLI::Option* added = add(app, option);
+            if (!option.section.empty()) {
+                added->group(option.section);
+            }
+            added->required(option.required);
+            added_.emplace_back(&option, added);
+        }
+    }
+
+    /// Takes what was given over into the options of `list`, and its values.
+    void store(OptionList& list) const
+    {
+        for (const auto& [option, added] : added_) {
+            option->texts = added->count() > 0 ? added->results() : std::vector<std::string>();
+        }
+        list.store_given();
+    }
+
+private:
+    CLI::Option* add(CLI::App& app, Option& option)
+    {
+        if (option.is_flag()) {
+            CLI::Option* flag = app.add_flag(option.names, flags_.emplace_back(), option.help);
+            return flag->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+        }
+        const CLI::callback_t accept = [](const CLI::results_t&) { return true; };
+        CLI::Option* added = app.add_option(option.names, accept, option.help);
+        added->type_name(option.value);
+        if (!option.repeats) {
+            return added->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+        }
+        added->expected(1, CLI::detail::expected_max_vector_size);
+        return added->allow_extra_args(option.is_argument());
+    }
+
+    std::deque<std::string> flags_;
+    std::vector<std::pair<Option*, CLI::Option*>> added_;
+};
+
+/// "render, plan and merge".
+std::string command_names(const Program& program)
+{
+    std::vector<std::string> names;
+    for (const Command& command : program.commands) {
+        if (!command.options.all().empty() && command.name != "help") {
+            names.push_back(command.name);
+        }
+    }
+    std::string text = names.front();
+    for (std::size_t i = 1; i < names.size(); ++i) {
+        text += (i + 1 < names.size() ? ", " : " and ") + names[i];
+    }
+    return text;
+}
+
+/// A command line in CLI11's terms.
+struct CommandLineParser {
+    explicit CommandLineParser(Program& program) : app(program.summary, program.name)
+    {
+        app.set_version_flag("--version", program.version,
+                             "Print the version, that of libraries, and the instruction set");
+        app.require_subcommand(1);
+        app.footer(program.footer);
+        app.formatter(std::make_shared<HelpFormatter>());
+        for (Command& command : program.commands) {
+            CLI::App* added = app.add_subcommand(command.name, command.summary);
+            added->footer(command.footer);
+            options.emplace_back().add(*added, command.options);
+        }
+    }
+
+    CLI::App app;
+    std::deque<CliOptions> options;  ///< of the commands
+};
+
+/// Where all about `command` is told; null: about the program.
+std::string help_of(const CLI::App* command)
+{
+    return command != nullptr ? fmt::format("bdpt {} --help", command->get_name()) : "bdpt --help";
+}
+
+/// One line for what the parser did not like, with a hint. `command`: that was given, or null.
+std::string explain(const Program& program, const CLI::App& app, const CLI::App* command,
+                    const CLI::ParseError& error)
+{
+    const std::string help = help_of(command);
+    const std::vector<std::string> extras = app.remaining(true);
+    if (extras.empty()) {
+        const bool no_command =
+            command == nullptr && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
+        return no_command ? fmt::format("no command: there are {}; see \"{}\"",
+                                        command_names(program), help)
+                          : fmt::format("{}; see \"{}\"", error.what(), help);
+    }
+    const std::string& word = extras.front();
+    if (!word.starts_with("-")) {
+        return command == nullptr
+                   ? unknown_command(program, word, help)
+                   : fmt::format("unexpected argument \"{}\"; see \"{}\"", word, help);
+    }
+    std::vector<std::string> names;
+    for (const CLI::Option* option : (command != nullptr ? *command : app).get_options()) {
+        for (const std::string& name : option->get_lnames()) {
+            names.push_back("--" + name);
+        }
+    }
+    const std::string name = word.substr(0, word.find('='));
+    const std::optional<std::string> meant = closest(name, names);
+    return fmt::format("unknown option {}{}; see \"{}\"", name,
+                       meant ? fmt::format(" (did you mean {}?)", *meant) : "", help);
+}
+
+}  // namespace
+
+const Command* Program::find(std::string_view wanted) const
+{
+    const auto found =
+        std::find_if(commands.begin(), commands.end(),
+                     [wanted](const Command& command) { return command.name == wanted; });
+    return found != commands.end() ? &*found : nullptr;
+}
+
+std::string unknown_command(const Program& program, const std::string& word,
+                            const std::string& help)
+{
+    return fmt::format("unknown command \"{}\": there are {}; see \"{}\"", word,
+                       command_names(program), help);
+}
+
+ParsedLine parse(Program& program, const std::vector<std::string>& words)
+{
+    CommandLineParser parser(program);
+    const auto given = [&parser]() -> const CLI::App* {
+        const std::vector<CLI::App*> commands = parser.app.get_subcommands();
+        return commands.empty() ? nullptr : commands.front();
+    };
+    try {
+        parser.app.parse(words_for_cli(words));
+    } catch (const CLI::Success& success) {
+        std::ostringstream text;
+        parser.app.exit(success, text, text);
+        return {.text = text.str()};
+    } catch (const CLI::ParseError& error) {
+        throw Error(ErrorCode::usage, explain(program, parser.app, given(), error));
+    }
+    for (std::size_t i = 0; i < program.commands.size(); ++i) {
+        Command& command = program.commands[i];
+        if (command.name == given()->get_name()) {
+            parser.options[i].store(command.options);
+            return {.command = &command};
+        }
+    }
+    throw Error(ErrorCode::internal, "the parser found a command that there is not");
+}
+
+void parse(OptionList& options, const std::vector<std::string>& words)
+{
+    CLI::App app;
+    CliOptions added;
+    added.add(app, options);
+    try {
+        app.parse(words_for_cli(words));
+    } catch (const CLI::ParseError& error) {
+        throw OptionError(error.what());
+    }
+    added.store(options);
+}
+
+std::string help_text(Program& program, std::string_view command)
+{
+    const CommandLineParser parser(program);
+    if (command.empty()) {
+        return parser.app.help();
+    }
+    return parser.app.get_subcommand(std::string(command))->help("bdpt");
+}
+
+}  // namespace bdpt::app

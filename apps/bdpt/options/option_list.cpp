@@ -1,0 +1,186 @@
+#include "options/option_list.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <stdexcept>
+
+namespace bdpt::app {
+namespace {
+
+/// Insertions, deletions and replacements that turn `a` into `b` [Levenshtein 1966].
+std::size_t edit_distance(std::string_view a, std::string_view b)
+{
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0u : 1u);
+            diagonal = row[j];
+            row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
+        }
+    }
+    return row.back();
+}
+
+/// What shells and configuration files take for yes and no.
+ValueType<bool> yes_or_no()
+{
+    const auto parse = [](const std::string& text) -> std::optional<bool> {
+        if (text == "true" || text == "1" || text == "yes" || text == "on") {
+            return true;
+        }
+        if (text == "false" || text == "0" || text == "no" || text == "off") {
+            return false;
+        }
+        return std::nullopt;
+    };
+    return {.parse = parse, .expected = "no value, or true or false"};
+}
+
+std::vector<std::string> split_at_bars(std::string_view names)
+{
+    std::vector<std::string> result;
+    for (std::size_t bar = names.find('|'); bar != std::string_view::npos; bar = names.find('|')) {
+        result.emplace_back(names.substr(0, bar));
+        names.remove_prefix(bar + 1);
+    }
+    result.emplace_back(names);
+    return result;
+}
+
+/// ": WHY", or nothing.
+std::string reason(std::string_view why)
+{
+    return why.empty() ? "" : fmt::format(": {}", why);
+}
+
+}  // namespace
+
+void reject(std::string_view option, std::string_view value, std::string_view expected)
+{
+    throw OptionError(fmt::format("{} \"{}\": expected {}", option, value, expected));
+}
+
+std::string Option::name() const
+{
+    const std::size_t comma = names.find(',');
+    return comma == std::string::npos ? names : names.substr(comma + 1);
+}
+
+std::string Option::word() const
+{
+    const std::string& text = texts.back();
+    return is_flag() && text == "true" ? name() : name() + "=" + text;
+}
+
+void OptionList::section(std::string title, OptionUses uses)
+{
+    section_ = std::move(title);
+    uses_ = uses;
+}
+
+Option& OptionList::append(std::string names, std::string value, std::string help)
+{
+    Option& option = options_.emplace_back();
+    option.names = std::move(names);
+    option.value = std::move(value);
+    option.help = std::move(help);
+    option.section = section_;
+    option.uses = uses_;
+    return option;
+}
+
+Option& OptionList::add_flag(std::string names, std::string help, bool& target)
+{
+    return add_flag(std::move(names), std::move(help), target, yes_or_no());
+}
+
+const Option* OptionList::find(std::string_view name) const
+{
+    const auto found = std::find_if(options_.begin(), options_.end(),
+                                    [name](const Option& option) { return option.name() == name; });
+    return found != options_.end() ? &*found : nullptr;
+}
+
+const Option& OptionList::at(std::string_view name) const
+{
+    const Option* option = find(name);
+    if (option == nullptr) {
+        throw std::logic_error(fmt::format("there is no option {}", name));
+    }
+    return *option;
+}
+
+bool OptionList::given(std::string_view name) const
+{
+    const Option* option = find(name);
+    return option != nullptr && option->given();
+}
+
+void OptionList::reject_value(std::string_view name, std::string_view expected) const
+{
+    reject(name, at(name).texts.back(), expected);
+}
+
+void OptionList::store_given()
+{
+    for (Option& option : options_) {
+        if (!option.repeats && option.given()) {
+            option.store(option.texts.back());
+        } else {
+            std::for_each(option.texts.begin(), option.texts.end(), option.store);
+        }
+    }
+}
+
+void check(std::span<const Need> needs, const OptionList& options)
+{
+    for (const Need& need : needs) {
+        if (!options.given(need.option)) {
+            continue;
+        }
+        const std::vector<std::string> others = split_at_bars(need.other);
+        const bool met = std::any_of(others.begin(), others.end(), [&](const std::string& other) {
+            return options.given(other);
+        });
+        if (!met) {
+            std::string list = others.front();
+            for (std::size_t i = 1; i < others.size(); ++i) {
+                list += (i + 1 < others.size() ? ", " : " or ") + others[i];
+            }
+            throw OptionError(fmt::format("{} needs {}{}", need.option, list, reason(need.why)));
+        }
+    }
+}
+
+void check(std::span<const Conflict> conflicts, const OptionList& options)
+{
+    for (const Conflict& conflict : conflicts) {
+        if (options.given(conflict.option) && options.given(conflict.other)) {
+            throw OptionError(fmt::format("{} cannot be combined with {}{}", conflict.option,
+                                          conflict.other, reason(conflict.why)));
+        }
+    }
+}
+
+std::optional<std::string> closest(std::string_view text, std::span<const std::string> words)
+{
+    // Half a word of typing errors is another word.
+    std::size_t best = text.size() / 2;
+    std::optional<std::string> result;
+    for (const std::string& word : words) {
+        const std::size_t distance = edit_distance(text, word);
+        if (distance < best) {
+            best = distance;
+            result = word;
+        }
+    }
+    return result;
+}
+
+}  // namespace bdpt::app

@@ -1,0 +1,209 @@
+#include "options/values/value_types.h"
+
+#include <bdpt/medium_desc.h>
+#include <bdpt/part/sample_set.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <span>
+
+#include "options/values/output_files.h"
+
+namespace bdpt::app {
+namespace {
+
+template <typename Number>
+std::optional<Number> number_of(const std::string& text)
+{
+    Number value{};
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    return error == std::errc{} && stop == end ? std::optional(value) : std::nullopt;
+}
+
+template <typename Accept>
+ValueType<double> number_that(const Accept& accept, std::string expected)
+{
+    const auto parse = [accept](const std::string& text) {
+        const std::optional<double> value = number_of<double>(text);
+        return value && accept(*value) ? value : std::nullopt;
+    };
+    return {.parse = parse, .expected = std::move(expected)};
+}
+
+/// Three numbers in [0, most], or one for all channels.
+ValueType<Rgb> color_up_to(float most, std::string expected)
+{
+    const auto parse = [most](const std::string& text) -> std::optional<Rgb> {
+        const std::optional<float> grey = parse_float(text);
+        const std::optional<Vec3> color = grey ? Vec3(*grey) : parse_vec3(text);
+        for (int channel = 0; channel < 3; ++channel) {
+            if (!color || !((*color)[channel] >= 0.0f && (*color)[channel] <= most)) {
+                return std::nullopt;
+            }
+        }
+        return *color;
+    };
+    return {.parse = parse, .expected = std::move(expected)};
+}
+
+}  // namespace
+
+ValueType<std::string> any_text()
+{
+    return {.parse = [](const std::string& text) { return std::optional(text); }, .expected = ""};
+}
+
+ValueType<std::string> some_text(std::string expected)
+{
+    const auto parse = [](const std::string& text) {
+        return text.empty() ? std::nullopt : std::optional(text);
+    };
+    return {.parse = parse, .expected = std::move(expected)};
+}
+
+ValueType<std::string> file_named(std::vector<std::string> extensions, std::string expected)
+{
+    const auto parse = [extensions = std::move(extensions)](const std::string& text) {
+        const bool good = std::any_of(extensions.begin(), extensions.end(),
+                                      [&](const std::string& e) { return has_extension(text, e); });
+        return good ? std::optional(text) : std::nullopt;
+    };
+    return {.parse = parse, .expected = std::move(expected)};
+}
+
+std::optional<double> decimal_number(const std::string& text)
+{
+    return number_of<double>(text);
+}
+
+ValueType<std::int64_t> whole_number(std::int64_t least, std::int64_t most)
+{
+    const auto parse = [least, most](const std::string& text) {
+        const auto value = number_of<std::int64_t>(text);
+        return value && *value >= least && *value <= most ? value : std::nullopt;
+    };
+    return {.parse = parse, .expected = fmt::format("a whole number from {} to {}", least, most)};
+}
+
+ValueType<std::uint64_t> any_seed()
+{
+    return {.parse = number_of<std::uint64_t>, .expected = "a whole number from 0 to 2^64 - 1"};
+}
+
+ValueType<double> number(double least, double most)
+{
+    return number(least, most, fmt::format("a number from {} to {}", least, most));
+}
+
+ValueType<double> number(double least, double most, std::string expected)
+{
+    return number_that([=](double value) { return value >= least && value <= most; },
+                       std::move(expected));
+}
+
+ValueType<double> number_above(double low, double most, std::string expected)
+{
+    return number_that([=](double value) { return value > low && value <= most; },
+                       std::move(expected));
+}
+
+ValueType<double> finite_number(std::string expected)
+{
+    return number_that([](double value) { return std::isfinite(value); }, std::move(expected));
+}
+
+ValueType<double> positive_number(std::string expected)
+{
+    return number_that(
+        [](double value) {
+            return static_cast<float>(value) > 0.0f && std::isfinite(static_cast<float>(value));
+        },
+        std::move(expected));
+}
+
+ValueType<Vec3> point()
+{
+    return parsed_by([](const std::string& text) { return parse_vec3(text); },
+                     "three numbers x,y,z");
+}
+
+ValueType<double> duration(std::string expected)
+{
+    return parsed_by([](const std::string& text) { return parse_duration(text); },
+                     std::move(expected));
+}
+
+ValueType<Size> image_size()
+{
+    return parsed_by([](const std::string& text) { return parse_size(text); },
+                     "WIDTHxHEIGHT from 1x1 to 65535x65535");
+}
+
+ValueType<double> noise_level()
+{
+    return parsed_by([](const std::string& text) { return parse_share(text); },
+                     "a relative error above 0% and up to 100%, like 2% or 0.02");
+}
+
+ValueType<SampleRange> sample_range()
+{
+    const auto parse = [](const std::string& text) {
+        const std::optional<SampleSet> set = SampleSet::parse(text);
+        return set && set->ranges().size() == 1 ? std::optional(set->ranges().front())
+                                                : std::nullopt;
+    };
+    return {.parse = parse,
+            .expected = "two whole numbers A:B with A below B, and below 2^32, like 64:128"};
+}
+
+ValueType<double> percent(double most)
+{
+    ValueType<double> type =
+        number_above(0.0, most, fmt::format("more than 0 and at most {:g} percent", most));
+    type.parse = [parse = std::move(type.parse)](const std::string& text) {
+        const std::optional<double> value = parse(text);
+        return value ? std::optional(*value / 100.0) : std::nullopt;
+    };
+    return type;
+}
+
+ValueType<Rgb> extinction()
+{
+    constexpr float most = 1e6f;  // [1/m]
+    return color_up_to(most, "a number per metre from 0 to 1000000, or three");
+}
+
+ValueType<Rgb> albedo()
+{
+    return color_up_to(1.0f, "a number from 0 to 1, or three");
+}
+
+ValueType<float> anisotropy()
+{
+    constexpr auto most = static_cast<double>(most_anisotropy);
+    const ValueType<double> wide =
+        number(-most, most, fmt::format("a number from {:.4f} to {:.4f}", -most, most));
+    const auto parse = [parse = wide.parse](const std::string& text) {
+        const std::optional<double> value = parse(text);
+        return value ? std::optional(static_cast<float>(*value)) : std::nullopt;
+    };
+    return {.parse = parse, .expected = wide.expected};
+}
+
+std::string words_text(const std::vector<std::string>& words)
+{
+    const std::span<const std::string> all(words);
+    const std::size_t others = all.size() > 1 ? all.size() - 1 : 0;
+    return fmt::format("{}{}{}", fmt::join(all.first(others), ", "), others > 0 ? " or " : "",
+                       all.back());
+}
+
+std::string choice_text(const std::vector<std::string>& words)
+{
+    return fmt::format("{}", fmt::join(words, "|"));
+}
+
+}  // namespace bdpt::app

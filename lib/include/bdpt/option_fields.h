@@ -1,0 +1,291 @@
+#pragma once
+
+#include <bdpt/aov.h>
+#include <bdpt/enumerators.h>
+#include <bdpt/fields.h>
+#include <bdpt/filter_options.h>
+#include <bdpt/part/sample_rates.h>
+#include <bdpt/pixel_rect.h>
+#include <bdpt/render_options.h>
+
+#include <array>
+#include <limits>
+
+namespace bdpt {
+
+// The one list of render options: names, ranges, help texts, and what they change. Checks of
+// ranges, the identity of renders, the command line, Python keywords and jobs are loops over it.
+
+/// The longest paths that can be asked for [edges].
+inline constexpr int max_path_edges = 4096;
+/// The widest and highest images [pixels].
+inline constexpr int max_image_side = 1 << 16;
+
+/// Names of integrators, from the simplest to the one that has all strategies, and the one that
+/// chooses.
+template <>
+inline constexpr std::array enumerators<IntegratorKind>{
+    Enumerator{IntegratorKind::pt, "pt"},          Enumerator{IntegratorKind::nee, "nee"},
+    Enumerator{IntegratorKind::mis, "mis"},        Enumerator{IntegratorKind::lt, "lt"},
+    Enumerator{IntegratorKind::bdpt, "bdpt"},      Enumerator{IntegratorKind::vcm, "vcm"},
+    Enumerator{IntegratorKind::automatic, "auto"},
+};
+/// Names of MIS heuristics.
+template <>
+inline constexpr std::array enumerators<Heuristic>{
+    Enumerator{Heuristic::balance, "balance"}, Enumerator{Heuristic::power, "power"},
+    Enumerator{Heuristic::cutoff, "cutoff"},   Enumerator{Heuristic::maximum, "maximum"},
+    Enumerator{Heuristic::uniform, "uniform"},
+};
+/// Names of samplers.
+template <>
+inline constexpr std::array enumerators<SamplerKind>{
+    Enumerator{SamplerKind::sobol, "sobol"},
+    Enumerator{SamplerKind::independent, "independent"},
+};
+/// Names of backgrounds.
+template <>
+inline constexpr std::array enumerators<Background>{
+    Enumerator{Background::environment, "environment"},
+    Enumerator{Background::none, "none"},
+};
+/// Names of the ways to sample an environment.
+template <>
+inline constexpr std::array enumerators<EnvironmentSampling>{
+    Enumerator{EnvironmentSampling::plain, "plain"},
+    Enumerator{EnvironmentSampling::compensated, "compensated"},
+};
+/// Names of the ways to choose a light.
+template <>
+inline constexpr std::array enumerators<LightSampling>{
+    Enumerator{LightSampling::automatic, "auto"},
+    Enumerator{LightSampling::power, "power"},
+    Enumerator{LightSampling::tree, "tree"},
+};
+/// Names of pixel filters.
+template <>
+inline constexpr std::array enumerators<FilterKind>{
+    Enumerator{FilterKind::box, "box"},
+    Enumerator{FilterKind::tent, "tent"},
+    Enumerator{FilterKind::gaussian, "gaussian"},
+    Enumerator{FilterKind::blackman_harris, "blackman-harris"},
+};
+/// Names of AOVs in options; that of a shadow on the ground is asked for as --ground.
+template <>
+inline constexpr std::array enumerators<Aov>{
+    Enumerator{Aov::albedo, "albedo"},        Enumerator{Aov::normal, "normal"},
+    Enumerator{Aov::depth, "depth"},          Enumerator{Aov::position, "position"},
+    Enumerator{Aov::sample_count, "samples"}, Enumerator{Aov::variance, "variance"},
+    Enumerator{Aov::alpha, "alpha"},          Enumerator{Aov::object, "object"},
+    Enumerator{Aov::material, "material"},    Enumerator{Aov::shadow, "shadow"},
+};
+
+/// Fields of `Strategy`, with names.
+template <>
+inline constexpr auto fields<Strategy> = all_fields(Field{"s", &Strategy::s},
+                                                    Field{"t", &Strategy::t});
+/// Fields of `PixelRect`, with names.
+template <>
+inline constexpr auto fields<PixelRect> = all_fields(Field{"x0", &PixelRect::x0},
+                                                     Field{"y0", &PixelRect::y0},
+                                                     Field{"x1", &PixelRect::x1},
+                                                     Field{"y1", &PixelRect::y1});
+/// Fields of `FilterOptions`, with names.
+template <>
+inline constexpr auto fields<FilterOptions> = all_fields(Field{"kind", &FilterOptions::kind},
+                                                         Field{"radius", &FilterOptions::radius});
+
+/// Fields of `FilmOptions`, with all that is known of them.
+template <>
+inline constexpr auto fields<FilmOptions> = all_fields(
+    OptionField{"width", &FilmOptions::width, {.range = {1, max_image_side}}},
+    OptionField{"height", &FilmOptions::height, {.range = {1, max_image_side}}},
+    OptionField{"crop",
+                &FilmOptions::crop,
+                {.value = "X0,Y0,X1,Y1",
+                 .help = "Render only columns x0..x1-1 and rows y0..y1-1; pixels equal those of "
+                         "the whole image",
+                 .otherwise = "the whole image"}},
+    OptionField{"filter",
+                &FilmOptions::filter,
+                {.range = {0.01, 16},  // its radius
+                 .value = "NAME[:RADIUS]",
+                 .help = "Pixel filter: box (radius 0.5), tent (1), gaussian (1.5, sigma is a "
+                         "third of it) or blackman-harris (1.5)",
+                 .otherwise = "box"}},
+    OptionField{"aov",
+                &FilmOptions::aovs,
+                {.value = "LIST",
+                 .help = "Extra .exr layers (AOVs), comma-separated: albedo, normal, depth, "
+                         "position, samples, variance, alpha; object, material: Cryptomatte",
+                 .otherwise = "none"}},
+    OptionField{"ground_height",
+                &FilmOptions::ground_height,
+                {.range = {-1e15, 1e15},  // as far as rays reach
+                 .value = "Y",
+                 .help = "Height of the ground of --ground, along y [m]",
+                 .otherwise = "the lowest point of the scene, in each frame"}},
+    OptionField{"clamp",
+                &FilmOptions::clamp,
+                {.range = {.low = 0.0, .low_is_excluded = true},
+                 .value = "NIT",
+                 .help = "Clamp each contribution to a pixel to this radiance [nit]: fewer "
+                         "fireflies, but biased; the light lost is reported",
+                 .otherwise = "no clamping"}});
+
+/// Fields of `SamplingOptions`, with all that is known of them.
+template <>
+inline constexpr auto fields<SamplingOptions> = all_fields(
+    OptionField{"samples", &SamplingOptions::samples, {.role = OptionRole::samples}},
+    OptionField{
+        "seed", &SamplingOptions::seed, {.value = "N", .help = "Seed of the random numbers"}},
+    OptionField{"sampler",
+                &SamplingOptions::sampler,
+                {.help = "Random numbers: sobol (Owen-scrambled, less noise, best with a power of "
+                         "two as --spp) or independent"}},
+    OptionField{"env_sampling",
+                &SamplingOptions::environment,
+                {.help = "Light sampling of environments: compensated (MIS compensation, leaves "
+                         "uniform light to BSDF sampling) or plain"}},
+    OptionField{"light_sampling",
+                &SamplingOptions::lights,
+                {.help = "Choice of one light: power (by emitted power), tree (light tree: by "
+                         "estimated contribution to the point), auto (tree for many lights, and "
+                         "for lamps beside the sun or an environment)"}},
+    OptionField{"light_samples",
+                &SamplingOptions::light_samples,
+                {.range = {1, 1024},
+                 .value = "N",
+                 .help = "Light samples at each vertex of a camera path (all integrators but lt), "
+                         "which share the weight of one: less noise in direct light, more time"}},
+    OptionField{"rates", &SamplingOptions::rates, {}});
+
+/// Fields of `TransportOptions`, with all that is known of them.
+template <>
+inline constexpr auto fields<TransportOptions> = all_fields(
+    OptionField{"max_depth",
+                &TransportOptions::max_depth,
+                {.range = {1, max_path_edges},
+                 .value = "N",
+                 .help = "Longest path, in edges: 1 is emitted light only, 2 adds direct light"}},
+    OptionField{"min_depth", &TransportOptions::min_depth, {.range = {1, max_path_edges}}},
+    OptionField{"rr_start",
+                &TransportOptions::rr_start,
+                {.range = {1, std::numeric_limits<int>::max()},
+                 .value = "N",
+                 .help = "Edges before Russian roulette starts"}},
+    OptionField{"rr_survival", &TransportOptions::rr_survival, {.range = {0, 1}}},
+    OptionField{
+        "heuristic", &TransportOptions::heuristic, {.help = "MIS heuristic; uniform is for tests"}},
+    OptionField{"background", &TransportOptions::background, {}});
+
+/// Fields of `BidirectionalOptions`, with all that is known of them.
+template <>
+inline constexpr auto fields<BidirectionalOptions> = all_fields(
+    OptionField{"light_paths",
+                &BidirectionalOptions::light_paths,
+                {.range = {0, 4096},
+                 .value = "N",
+                 .help = "Light subpaths per camera subpath (bdpt, lt, vcm); a fraction, like 0.1, "
+                         "shares them among all pixels",
+                 .otherwise = "1; auto chooses it"}},
+    OptionField{"connections",
+                &BidirectionalOptions::connections,
+                {.range = {0, 4096},
+                 .value = "C",
+                 .help = "Light subpaths that each camera subpath is connected to (bdpt, vcm)",
+                 .otherwise = "all of its own, or 1 if --light-paths is a fraction; auto chooses "
+                              "it"}},
+    OptionField{"merge_radius",
+                &BidirectionalOptions::merge_radius,
+                {.range = {0, 1},
+                 .value = "F",
+                 .help = "How close to a camera vertex light vertices are merged with it (vcm), as "
+                         "a fraction of the radius of the scene's bounding sphere; 0: not at all. "
+                         "Blurs light by so much"}},
+    OptionField{"merge_alpha",
+                &BidirectionalOptions::merge_alpha,
+                {.range = {.low = 0, .high = 1, .low_is_excluded = true},
+                 .value = "A",
+                 .help = "How slowly that radius shrinks (vcm), above 0 and up to 1: sample i has "
+                         "the first radius times i^((A - 1) / 2)"}},
+    OptionField{
+        "light_path_memory", &BidirectionalOptions::light_path_memory, {.role = OptionRole::limit}},
+    OptionField{"max_camera_depth",
+                &BidirectionalOptions::max_camera_depth,
+                {.range = {0, std::numeric_limits<int>::max()},
+                 .value = "N",
+                 .help = "Longest camera subpath, in edges (bdpt, lt, vcm)",
+                 .otherwise = "no limit"}},
+    OptionField{"max_light_depth",
+                &BidirectionalOptions::max_light_depth,
+                {.range = {0, std::numeric_limits<int>::max()},
+                 .value = "N",
+                 .help = "Longest light subpath, in edges (bdpt, lt, vcm)",
+                 .otherwise = "no limit"}},
+    OptionField{"disable",
+                &BidirectionalOptions::disabled,
+                {.range = {0, max_path_edges + 1},  // s and t
+                 .value = "LIST",
+                 .help = "Disable strategies (bdpt, lt, vcm): s vertices from the light and t from "
+                         "the camera, like s2t1,s0t3. Light that only these find is missing",
+                 .otherwise = "none"}},
+    OptionField{
+        "strategy_depth", &BidirectionalOptions::strategy_depth, {.range = {0, max_path_edges}}},
+    OptionField{
+        "strategy_memory", &BidirectionalOptions::strategy_memory, {.role = OptionRole::limit}});
+
+/// Fields of `SystemOptions`, with all that is known of them.
+template <>
+inline constexpr auto fields<SystemOptions> = all_fields(
+    OptionField{"tile_size",
+                &SystemOptions::tile_size,
+                {.range = {1, max_image_side}, .role = OptionRole::machine}},
+    OptionField{"threads",
+                &SystemOptions::threads,
+                {.range = {0, 4096},
+                 .value = "N",
+                 .help = "Number of threads. Does not change the image",
+                 .otherwise = "one for each processor that the process may use; quotas of "
+                              "containers count",
+                 .role = OptionRole::machine}});
+
+/// Fields of `RenderOptions`: the integrator, and the groups of all other options.
+template <>
+inline constexpr auto fields<RenderOptions> = all_fields(
+    OptionField{"integrator", &RenderOptions::integrator, {.help = "Light transport algorithm"}},
+    OptionField{"film", &RenderOptions::film, {}},
+    OptionField{"sampling", &RenderOptions::sampling, {}},
+    OptionField{"transport", &RenderOptions::transport, {}},
+    OptionField{"bidirectional", &RenderOptions::bidirectional, {}},
+    OptionField{"system", &RenderOptions::system, {}});
+
+/// Is `T` a group of options, and not the value of one?
+template <typename T>
+inline constexpr bool is_option_group = false;
+template <>
+inline constexpr bool is_option_group<FilmOptions> = true;
+template <>
+inline constexpr bool is_option_group<SamplingOptions> = true;
+template <>
+inline constexpr bool is_option_group<TransportOptions> = true;
+template <>
+inline constexpr bool is_option_group<BidirectionalOptions> = true;
+template <>
+inline constexpr bool is_option_group<SystemOptions> = true;
+
+/// Calls `visit(field, value)` for each option of `options`, those of groups in it one by one.
+template <typename Options, typename Visitor>
+constexpr void for_each_option(Options& options, Visitor&& visit)
+{
+    for_each_field(options, [&visit](const auto& field, auto& value) {
+        using T = std::remove_cvref_t<decltype(value)>;
+        if constexpr (is_option_group<T>) {
+            for_each_option(value, visit);
+        } else {
+            visit(field, value);
+        }
+    });
+}
+
+}  // namespace bdpt

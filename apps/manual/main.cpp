@@ -11,6 +11,7 @@
 #include "commands/command_line.h"
 #include "completions.h"
 #include "man_page.h"
+#include "options/job_file.h"
 
 namespace bdpt::manual {
 namespace {
@@ -38,6 +39,7 @@ void write_all(const std::filesystem::path& folder)
             write(folder / ("man1/bdpt-" + command.name + ".1"), man_page(command));
         }
     }
+    write(folder / "job.schema.json", app::job_schema(line.program.find("render")->options));
     write(folder / "bash/bdpt", bash_completion(commands));
     write(folder / "zsh/_bdpt", zsh_completion(commands));
     write(folder / "fish/bdpt.fish", fish_completion(commands));

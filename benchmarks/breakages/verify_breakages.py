@@ -32,7 +32,7 @@ def build(folder):
     done = folder / "build"
     if not (done / "CMakeCache.txt").exists():
         subprocess.run(["cmake", "-S", folder, "-B", done, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-                        "-DBDPT_BUILD_TESTS=OFF"], check=True, stdout=subprocess.DEVNULL)
+                        "-DBDPT_BUILD_TESTS=OFF", "-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_UNITY_BUILD_BATCH_SIZE=32"], check=True, stdout=subprocess.DEVNULL)
     made = subprocess.run(["cmake", "--build", done, "--target", "bdpt_app"], capture_output=True, text=True)
     if made.returncode:
         sys.exit(f"verify_breakages: it does not build:\n{made.stdout[-4000:]}")

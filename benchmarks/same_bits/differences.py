@@ -5,10 +5,10 @@ import struct
 
 import exr_bits
 
-# What says when or how fast, not what.
+# What says when or how fast, or what the machine has free, not what.
 CLOCKED_ATTRIBUTES = {"capDate", "renderTimeSeconds", "bdpt.renderTimeSeconds"}
 CLOCKED_CHANNELS = {"time.Y"}
-CLOCKED_STATS = {"seconds", "per_second", "profile"}
+CLOCKED_STATS = {"seconds", "per_second", "profile", "limit_bytes"}
 
 
 def of_keys(before, after, what):

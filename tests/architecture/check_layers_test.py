@@ -32,12 +32,14 @@ SOUND = {
                                       '#include <nlohmann/json.hpp>\n',
     "lib/io/src/gltf/scene/read.h": '#pragma once\n#include "gltf/geometry/mesh.h"\n',
     "lib/io/src/gltf/geometry/mesh.h": "#pragma once\n",
-    "apps/bdpt/CMakeLists.txt": "add_executable(bdpt_cli main.cpp options/words.cpp)\n",
-    "apps/bdpt/main.cpp": '#include "commands/render.h"\n#include <bdpt/io/exr.h>\n#include <CLI/CLI.hpp>\n'
+    "apps/bdpt/CMakeLists.txt": "add_executable(bdpt_cli main.cpp options/words.cpp options/command_parser.cpp)\n",
+    "apps/bdpt/main.cpp": '#include "commands/render.h"\n#include <bdpt/io/exr.h>\n#include <fmt/core.h>\n'
                           "#include <csignal>\n",
     "apps/bdpt/commands/render.h": '#pragma once\n#include "options/words.h"\n',
     "apps/bdpt/options/words.h": "#pragma once\n",
-    "apps/bdpt/options/words.cpp": '#include "options/words.h"\n#include <CLI/CLI.hpp>\n',
+    "apps/bdpt/options/words.cpp": '#include "options/words.h"\n',
+    "apps/bdpt/options/command_parser.cpp": '#include "options/command_parser.h"\n#include <CLI/CLI.hpp>\n',
+    "apps/bdpt/options/command_parser.h": "#pragma once\n",
     "lib/eval/CMakeLists.txt": "add_library(bdpt_eval src/metrics/flip.cpp)\n",
     "lib/eval/include/bdpt/eval/metrics/flip.h": "#pragma once\n#include <bdpt/types.h>\n#include <vector>\n",
     "lib/eval/src/metrics/flip.cpp": '#include <bdpt/eval/metrics/flip.h>\n#include <bdpt/io/exr.h>\n'
@@ -86,6 +88,7 @@ VIOLATIONS = {
                                       "reaches into lib/src"),
     "JSON in a header of eval": ("lib/eval/include/bdpt/eval/metrics/flip.h",
                                         "#include <nlohmann/json.hpp>", "<nlohmann/json.hpp>"),
+    "CLI11 in another file of the command": ("apps/bdpt/options/words.cpp", "#include <CLI/CLI.hpp>", "<CLI/CLI.hpp>"),
     "CLI11 in eval": ("lib/eval/src/metrics/flip.cpp", "#include <CLI/CLI.hpp>", "<CLI/CLI.hpp>"),
     "io includes eval": ("lib/io/src/output/exr.cpp", "#include <bdpt/eval/metrics/flip.h>", "<bdpt/eval/"),
     "C header": ("lib/src/math/warp.h", "#include <math.h>", "may not include <math.h>"),

@@ -1,6 +1,8 @@
 #include "commands/command_line.h"
 
 #include <bdpt/error.h>
+#include <bdpt/io/output_file.h>
+#include <fmt/core.h>
 
 #include <utility>
 
@@ -12,11 +14,16 @@
 #include "commands/render_command.h"
 #include "commands/verify_command.h"
 #include "commands/version_command.h"
+#include "options/job_file.h"
+#include "options/values/output_files.h"
 #include "options/values/value_types.h"
+#include "stage/input_files.h"
 #include "terminal/console.h"
 
 namespace bdpt::app {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr const char* program_footer = R"(Examples:
   bdpt render scene.gltf -o out.exr
@@ -39,6 +46,39 @@ int run_help(Program& program, const std::string& topic)
     }
     print_text(help_text(program, topic));
     return 0;
+}
+
+/// `bdpt render --save-job`: the options have to go together, as they would for a render.
+int save_job(const RenderRequest& request, const OptionList& options)
+{
+    const RenderArguments arguments = checked(request, options);
+    if (arguments.outputs.empty() && !arguments.part) {
+        throw OptionError("--output is required");
+    }
+    const fs::path& file = request.saved_job;
+    check_output("--save-job", file, FileSet(input_files(arguments)), FileSet(arguments.outputs));
+    io::OutputFile output(file);
+    output.write(job_text(options, file));
+    output.commit();
+    Console(arguments.printed.format, arguments.printed.verbosity)
+        .note(fmt::format("wrote {}", file.string()));
+    return 0;
+}
+
+/// `bdpt render SCENE` and `bdpt render JOB`.
+int run_render_words(const RenderRequest& request, OptionList& options,
+                     const std::vector<std::string>& given)
+{
+    std::vector<std::string> words = given;
+    if (is_job(request.arguments.file)) {
+        load_job(fs::path(request.arguments.file), options);
+        // What is told to render the rest then need not name the job.
+        words.resize(2);
+        const std::vector<std::string> more = words_of(options);
+        words.insert(words.end(), more.begin(), more.end());
+    }
+    return request.saved_job.empty() ? run_render(checked(request, options), words)
+                                     : save_job(request, options);
 }
 
 }  // namespace
@@ -82,7 +122,7 @@ CommandLine::CommandLine()
 int CommandLine::run(const ParsedLine& line, const std::vector<std::string>& words)
 {
     const std::string& name = line.command->name;
-    const OptionList& options = line.command->options;
+    OptionList& options = line.command->options;
     if (name == "help") {
         return run_help(program, topic);
     }
@@ -111,7 +151,7 @@ int CommandLine::run(const ParsedLine& line, const std::vector<std::string>& wor
     if (name == "inspect") {
         return run_inspect(checked(inspect, options));
     }
-    return run_render(checked(render, options), words);
+    return run_render_words(render, options, words);
 }
 
 }  // namespace bdpt::app

@@ -33,7 +33,7 @@ struct Program {
 
 /// What a command line asks for.
 struct ParsedLine {
-    const Command* command = nullptr;   ///< whose options have been stored
+    Command* command = nullptr;         ///< whose options have been stored
     std::optional<std::string> text{};  ///< of --help or --version, in place of the command
 };
 

@@ -39,7 +39,7 @@ ValueType<bool> yes_or_no()
         }
         return std::nullopt;
     };
-    return {.parse = parse, .expected = "no value, or true or false"};
+    return {.parse = parse, .expected = "no value, or true or false", .info = {}};
 }
 
 std::vector<std::string> split_at_bars(std::string_view names)
@@ -129,11 +129,19 @@ void OptionList::reject_value(std::string_view name, std::string_view expected) 
 
 void OptionList::store_given()
 {
-    for (Option& option : options_) {
-        if (!option.repeats && option.given()) {
-            option.store(option.texts.back());
-        } else {
-            std::for_each(option.texts.begin(), option.texts.end(), option.store);
+    const auto store = [](const Option& option, const std::string& text) {
+        if (!option.store(text)) {
+            reject(option.name(), text, option.expected);
+        }
+    };
+    for (const Option& option : options_) {
+        if (option.repeats) {
+            option.clear();
+            for (const std::string& text : option.texts) {
+                store(option, text);
+            }
+        } else if (option.given()) {
+            store(option, option.texts.back());
         }
     }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bdpt/error.h>
+#include <bdpt/fields.h>
 
 #include <cstdint>
 #include <deque>
@@ -28,11 +29,24 @@ public:
 [[noreturn]] void reject(std::string_view option, std::string_view value,
                          std::string_view expected);
 
+/// What a value is in JSON.
+enum class JsonType : std::uint8_t { text, whole_number, number, boolean };
+
+/// What is known of the values of an option beside how they are parsed.
+struct ValueInfo {
+    JsonType json = JsonType::text;
+    Range range{};                     ///< of numbers
+    std::vector<std::string> words{};  ///< that it may be, if there are no others
+    bool is_path = false;              ///< of a file or folder, where it is none of `words`
+    char separator = '\0';  ///< of several numbers, which may be an array in JSON; 0: there is one
+};
+
 /// How a text becomes a value.
 template <typename T>
 struct ValueType {
     std::function<std::optional<T>(const std::string&)> parse;  ///< none: it is no such value
     std::string expected;  ///< what it must be, as in "expected a number from 0 to 1"
+    ValueInfo info{};
 };
 
 /// Who else than the command line takes an option.
@@ -42,6 +56,7 @@ struct OptionUses {
     bool python_load = false;    ///< a keyword of bdpt.load()
     bool python_render = false;  ///< a keyword of render() in Python
     bool python_save = false;    ///< a keyword of save() in Python
+    bool job = true;             ///< a member of jobs (options/job_file.h)
 };
 
 /// One option of a command, or an argument that has no name before it.
@@ -53,8 +68,11 @@ struct Option {
     OptionUses uses{};
     bool required = false;
     bool repeats = false;  ///< all its values count, else the last one
-    /// Takes the value of a text that was given. Throws `OptionError`.
-    std::function<void(const std::string&)> store;
+    ValueInfo info{};
+    /// Takes the value of a text. False: it is not what is `expected`.
+    std::function<bool(const std::string&)> store;
+    std::string expected{};
+    std::function<void()> clear{};     ///< forgets all values of one that repeats
     std::vector<std::string> texts{};  ///< what was given; "true" for a flag
 
     [[nodiscard]] bool is_flag() const { return value.empty(); }
@@ -78,9 +96,14 @@ public:
                 ValueType<T> type)
     {
         Option& option = append(std::move(names), std::move(value), std::move(help));
-        option.store = [&target, name = option.name(),
-                        type = std::move(type)](const std::string& text) {
-            target = static_cast<Target>(parse_or_reject(name, text, type));
+        option.info = std::move(type.info);
+        option.expected = std::move(type.expected);
+        option.store = [&target, parse = std::move(type.parse)](const std::string& text) {
+            std::optional<T> parsed = parse(text);
+            if (parsed) {
+                target = static_cast<Target>(std::move(*parsed));
+            }
+            return parsed.has_value();
         };
         return option;
     }
@@ -92,9 +115,15 @@ public:
     {
         Option& option = append(std::move(names), std::move(value), std::move(help));
         option.repeats = true;
-        option.store = [&target, name = option.name(),
-                        type = std::move(type)](const std::string& text) {
-            target.emplace_back(parse_or_reject(name, text, type));
+        option.info = std::move(type.info);
+        option.expected = std::move(type.expected);
+        option.clear = [&target] { target.clear(); };
+        option.store = [&target, parse = std::move(type.parse)](const std::string& text) {
+            std::optional<T> parsed = parse(text);
+            if (parsed) {
+                target.emplace_back(std::move(*parsed));
+            }
+            return parsed.has_value();
         };
         return option;
     }
@@ -106,7 +135,9 @@ public:
     template <typename Target, typename T>
     Option& add_flag(std::string names, std::string help, Target& target, ValueType<T> type)
     {
-        return add(std::move(names), "", std::move(help), target, std::move(type));
+        Option& option = add(std::move(names), "", std::move(help), target, std::move(type));
+        option.info.json = JsonType::boolean;
+        return option;
     }
 
     /// The option of that name, as "--spp". There is one.
@@ -121,22 +152,12 @@ public:
     [[nodiscard]] std::deque<Option>& all() { return options_; }
     [[nodiscard]] const std::deque<Option>& all() const { return options_; }
 
-    /// Stores all that was given.
+    /// Stores all that was given, in place of what was stored before. Throws `OptionError` for the
+    /// first text that is not what its option expects.
     void store_given();
 
 private:
     Option& append(std::string names, std::string value, std::string help);
-
-    template <typename T>
-    static T parse_or_reject(const std::string& name, const std::string& text,
-                             const ValueType<T>& type)
-    {
-        std::optional<T> value = type.parse(text);
-        if (!value) {
-            reject(name, text, type.expected);
-        }
-        return std::move(*value);
-    }
 
     std::deque<Option> options_;  // which stay where they are
     std::string section_;

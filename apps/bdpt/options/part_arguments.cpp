@@ -43,15 +43,21 @@ void add_part_options(OptionList& options, PartChoice& part)
                 part.file, file_named({".exr"}, "a file that is named .exr, best .part.exr"));
     const Choices<ExistingPart> existing{
         {{"true", ExistingPart::restart}, {"false", ExistingPart::go_on}}};
-    options.add_flag("--restart", "Do not go on with the file of --part, but replace it",
-                     part.existing, existing.type());
-    options.add("--plan", "FILE",
-                "Render one task of this plan (bdpt plan), which says all but --threads, "
-                "--max-memory, --stats, --restart, --quiet and --json",
-                part.plan, any_text());
-    options.add("--task", "N|env:NAME",
-                "The task of --plan, from 0, or the environment variable that has its number",
-                part.task, any_text());
+    options
+        .add_flag("--restart", "Do not go on with the file of --part, but replace it",
+                  part.existing, existing.type())
+        .uses.job = false;
+    options
+        .add("--plan", "FILE",
+             "Render one task of this plan (bdpt plan), which says all but --threads, "
+             "--max-memory, --stats, --restart, --quiet and --json",
+             part.plan, any_text())
+        .uses.job = false;
+    options
+        .add("--task", "N|env:NAME",
+             "The task of --plan, from 0, or the environment variable that has its number",
+             part.task, any_text())
+        .uses.job = false;
 }
 
 std::optional<PartChoice> checked(const PartChoice& part, const OptionList& options)
@@ -82,14 +88,15 @@ void add_quiet_option(OptionList& options, Printed& printed, std::string help)
 {
     const Choices<Verbosity> verbosities{
         {{"true", Verbosity::quiet}, {"false", Verbosity::normal}}};
-    options.add_flag("-q,--quiet", std::move(help), printed.verbosity, verbosities.type())
-        .uses = {};
+    options.add_flag("-q,--quiet", std::move(help), printed.verbosity, verbosities.type()).uses = {
+        .job = false};
 }
 
 void add_json_option(OptionList& options, Printed& printed, std::string help)
 {
     const Choices<Format> formats{{{"true", Format::json}, {"false", Format::text}}};
-    options.add_flag("--json", std::move(help), printed.format, formats.type()).uses = {};
+    options.add_flag("--json", std::move(help), printed.format, formats.type()).uses = {.job =
+                                                                                            false};
 }
 
 bool is_part_name(const std::filesystem::path& file)

@@ -34,7 +34,9 @@ ValueType<float> angle()
         }
         return static_cast<float>(*degrees * std::numbers::pi / 180.0);
     };
-    return {.parse = parse, .expected = "degrees between 0 and 180"};
+    return {.parse = parse,
+            .expected = "degrees between 0 and 180",
+            .info = {.json = JsonType::number, .range = {.low = 0, .low_is_excluded = true}}};
 }
 
 void add_how(OptionList& options, RenderRequest& request)
@@ -61,7 +63,7 @@ void add_how(OptionList& options, RenderRequest& request)
     options
         .add("--rates", "FILE",
              "The same by an .exr that --save-rates has written, without a test render",
-             request.rates.file, any_text())
+             request.rates.file, file_path())
         .uses.plan_render = false;
     add_fields(options, render.sampling);
     options.section("How to render", {.python_render = true});
@@ -90,7 +92,7 @@ void add_image_output(OptionList& options, RenderRequest& request)
         .add_repeated("-o,--output", "FILE",
                       "An image, .exr (linear radiance) or .png (tone-mapped); exr:- and png:- are "
                       "the standard output. May be repeated. Required without --part",
-                      arguments.outputs, any_text())
+                      arguments.outputs, file_path({"-", "exr:-", "png:-"}))
         .uses = {};
     add_display_options(options, arguments.display);
     add_denoise_options(options, request.denoise);
@@ -123,7 +125,7 @@ void add_process_options(OptionList& options, RenderRequest& request)
                 arguments.goal.noise, noise_level());
     options.section("Output");
     options.add("--stats", "FILE", "Write counts of rays and paths, and times, to this .json file",
-                arguments.stats, any_text());
+                arguments.stats, file_path({"-"}));
     const Choices<Profiling> profiling{{{"true", Profiling::on}, {"false", Profiling::off}}};
     options.add_flag("--profile",
                      "Profile the render by phase and pixel: printed, in --stats, and as .exr "
@@ -136,13 +138,18 @@ void add_process_options(OptionList& options, RenderRequest& request)
                 file_named({".exr", ".png"}, "a file that is named .exr or .png"));
     add_strategy_options(options, request.strategies);
     add_part_options(options, request.part);
-    options.add("--display", "HOST[:PORT]",
-                "Show the render while it runs in the image viewer tev, which listens there. "
-                "Default port: 14158",
-                arguments.viewer,
-                parsed_by(parse_address,
-                          "HOST or HOST:PORT, like "
-                          "localhost:14158"));
+    options
+        .add("--display", "HOST[:PORT]",
+             "Show the render while it runs in the image viewer tev, which listens there. Default "
+             "port: 14158",
+             arguments.viewer, parsed_by(parse_address, "HOST or HOST:PORT, like localhost:14158"))
+        .uses.job = false;
+    options
+        .add("--save-job", "FILE",
+             "Write what these options say to this .json file, a job, and render nothing. bdpt "
+             "render takes a job in place of a scene; options beside it come before the job's",
+             request.saved_job, file_named({".json"}, "a file that is named .json"))
+        .uses.job = false;
 }
 
 /// How long it renders.
@@ -216,7 +223,7 @@ void add_scene_file(OptionList& options, RenderRequest& request)
     options.section("");
     options
         .add("file", "FILE", "The scene: .gltf or .glb; - is the standard input",
-             request.arguments.file, any_text())
+             request.arguments.file, file_path({"-"}))
         .required = true;
 }
 
@@ -248,7 +255,7 @@ void add_view_options(OptionList& options, RenderRequest& request)
         .add("--env", "FILE|none|default",
              "Environment map: an equirectangular .exr, .hdr or .tif, none, or default (the sky "
              "that scenes without light get). Replaces that of the file",
-             arguments.environment, any_text())
+             arguments.environment, file_path({"none", "default", "-"}))
         .uses.plan_render = false;  // a plan has a place of its own for files
     add_environment_options(options, arguments.environment_change);
     add_fog_options(options, request.fog);

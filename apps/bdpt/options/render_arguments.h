@@ -88,6 +88,7 @@ struct RenderRequest {
     StrategyFiles strategies{};
     PartChoice part{};
     Sequence sequence{};
+    std::filesystem::path saved_job{};  ///< written in place of the render; empty: none
 };
 
 extern const char* const render_footer;

@@ -17,14 +17,15 @@ void add_denoise_options(OptionList& options, DenoiseArguments& denoise)
         "normal; .exr keeps the noisy one as layer \"noisy\". As --denoise=layer the "
         "other way round: .exr gets the layer \"denoised\"",
         denoise.as,
-        ValueType<DenoisedAs>{.parse = kinds.type().parse, .expected = "image or layer"});
+        ValueType<DenoisedAs>{
+            .parse = kinds.type().parse, .expected = "image or layer", .info = {}});
     flag.uses.plan_render = true;  // merging needs its layers
     Option& library =
         options.add("--denoiser-library", "FILE|DIR",
                     "Open Image Denoise 2, a file or its folder. Default: libOpenImageDenoise.so.2 "
                     "where the system finds it",
                     denoise.library, some_text("a file or a folder"));
-    library.uses.plan_merge = false;  // a plan does not say what code is loaded
+    library.uses = {.python_save = true, .job = false};  // no file says what code is loaded
 }
 
 std::optional<DenoiseArguments> checked(const DenoiseArguments& denoise, const OptionList& options)

@@ -28,11 +28,14 @@ void add_volume_options(OptionList& options, VolumeChoice& volume)
              "Put smoke or a cloud into the scene: an OpenVDB file, whose transform is taken as "
              "metres",
              volume.file,
-             parsed_by(
-                 [](const std::string& text) {
-                     return text.empty() || text == "-" ? std::nullopt : std::optional(text);
-                 },
-                 "a file"))
+             ValueType<std::string>{.parse =
+                                        [](const std::string& text) {
+                                            return text.empty() || text == "-"
+                                                       ? std::nullopt
+                                                       : std::optional(text);
+                                        },
+                                    .expected = "a file",
+                                    .info = {.is_path = true}})
         .uses.plan_render = false;  // a plan has a place of its own for files
     options.add("--volume-grid", "NAME",
                 "The grid of the volume that has its densities. Default: density, or the only one "

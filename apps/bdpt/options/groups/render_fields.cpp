@@ -60,7 +60,9 @@ auto value_type(const OptionInfo& info)
             const std::optional<double> value = decimal_number(text);
             return value && range.contains(*value) ? value : std::nullopt;
         };
-        return ValueType<double>{.parse = parse, .expected = text_of(info.range)};
+        return ValueType<double>{.parse = parse,
+                                 .expected = text_of(info.range),
+                                 .info = {.json = JsonType::number, .range = info.range}};
     } else if constexpr (std::is_same_v<T, FilterOptions>) {
         return filter_type();
     } else if constexpr (std::is_same_v<T, AovSet>) {

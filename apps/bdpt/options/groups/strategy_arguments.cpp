@@ -38,10 +38,10 @@ void add_strategy_file_option(OptionList& options, StrategyFiles& strategies, st
         }
         return StrategyFiles::named(text);
     };
-    options
-        .add("--strategies", "FILE", std::move(help), strategies,
-             parsed_by(parse, "a file that is named .exr"))
-        .uses = {};
+    Option& option = options.add("--strategies", "FILE", std::move(help), strategies,
+                                 parsed_by(parse, "a file that is named .exr"));
+    option.uses = {};
+    option.info.is_path = true;
 }
 
 std::optional<StrategyFiles> checked(const StrategyFiles& strategies, const RenderOptions& render,

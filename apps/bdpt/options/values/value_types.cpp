@@ -24,13 +24,15 @@ std::optional<Number> number_of(const std::string& text)
 }
 
 template <typename Accept>
-ValueType<double> number_that(const Accept& accept, std::string expected)
+ValueType<double> number_that(const Accept& accept, std::string expected, Range range = {})
 {
     const auto parse = [accept](const std::string& text) {
         const std::optional<double> value = number_of<double>(text);
         return value && accept(*value) ? value : std::nullopt;
     };
-    return {.parse = parse, .expected = std::move(expected)};
+    return {.parse = parse,
+            .expected = std::move(expected),
+            .info = {.json = JsonType::number, .range = range}};
 }
 
 /// Three numbers in [0, most], or one for all channels.
@@ -46,14 +48,23 @@ ValueType<Rgb> color_up_to(float most, std::string expected)
         }
         return *color;
     };
-    return {.parse = parse, .expected = std::move(expected)};
+    return {.parse = parse, .expected = std::move(expected), .info = {.separator = ','}};
 }
 
 }  // namespace
 
 ValueType<std::string> any_text()
 {
-    return {.parse = [](const std::string& text) { return std::optional(text); }, .expected = ""};
+    return {.parse = [](const std::string& text) { return std::optional(text); },
+            .expected = "a text",
+            .info = {}};
+}
+
+ValueType<std::string> file_path(std::vector<std::string> words)
+{
+    ValueType<std::string> type = any_text();
+    type.info = {.words = std::move(words), .is_path = true};
+    return type;
 }
 
 ValueType<std::string> some_text(std::string expected)
@@ -61,7 +72,7 @@ ValueType<std::string> some_text(std::string expected)
     const auto parse = [](const std::string& text) {
         return text.empty() ? std::nullopt : std::optional(text);
     };
-    return {.parse = parse, .expected = std::move(expected)};
+    return {.parse = parse, .expected = std::move(expected), .info = {}};
 }
 
 ValueType<std::string> file_named(std::vector<std::string> extensions, std::string expected)
@@ -71,7 +82,7 @@ ValueType<std::string> file_named(std::vector<std::string> extensions, std::stri
                                       [&](const std::string& e) { return has_extension(text, e); });
         return good ? std::optional(text) : std::nullopt;
     };
-    return {.parse = parse, .expected = std::move(expected)};
+    return {.parse = parse, .expected = std::move(expected), .info = {.is_path = true}};
 }
 
 std::optional<double> decimal_number(const std::string& text)
@@ -85,12 +96,17 @@ ValueType<std::int64_t> whole_number(std::int64_t least, std::int64_t most)
         const auto value = number_of<std::int64_t>(text);
         return value && *value >= least && *value <= most ? value : std::nullopt;
     };
-    return {.parse = parse, .expected = fmt::format("a whole number from {} to {}", least, most)};
+    return {.parse = parse,
+            .expected = fmt::format("a whole number from {} to {}", least, most),
+            .info = {.json = JsonType::whole_number,
+                     .range = {static_cast<double>(least), static_cast<double>(most)}}};
 }
 
 ValueType<std::uint64_t> any_seed()
 {
-    return {.parse = number_of<std::uint64_t>, .expected = "a whole number from 0 to 2^64 - 1"};
+    return {.parse = number_of<std::uint64_t>,
+            .expected = "a whole number from 0 to 2^64 - 1",
+            .info = {.json = JsonType::whole_number, .range = {.low = 0}}};
 }
 
 ValueType<double> number(double least, double most)
@@ -101,13 +117,13 @@ ValueType<double> number(double least, double most)
 ValueType<double> number(double least, double most, std::string expected)
 {
     return number_that([=](double value) { return value >= least && value <= most; },
-                       std::move(expected));
+                       std::move(expected), {least, most});
 }
 
 ValueType<double> number_above(double low, double most, std::string expected)
 {
     return number_that([=](double value) { return value > low && value <= most; },
-                       std::move(expected));
+                       std::move(expected), {low, most, true});
 }
 
 ValueType<double> finite_number(std::string expected)
@@ -126,8 +142,10 @@ ValueType<double> positive_number(std::string expected)
 
 ValueType<Vec3> point()
 {
-    return parsed_by([](const std::string& text) { return parse_vec3(text); },
-                     "three numbers x,y,z");
+    ValueType<Vec3> type =
+        parsed_by([](const std::string& text) { return parse_vec3(text); }, "three numbers x,y,z");
+    type.info.separator = ',';
+    return type;
 }
 
 ValueType<double> duration(std::string expected)
@@ -138,8 +156,10 @@ ValueType<double> duration(std::string expected)
 
 ValueType<Size> image_size()
 {
-    return parsed_by([](const std::string& text) { return parse_size(text); },
-                     "WIDTHxHEIGHT from 1x1 to 65535x65535");
+    ValueType<Size> type = parsed_by([](const std::string& text) { return parse_size(text); },
+                                     "WIDTHxHEIGHT from 1x1 to 65535x65535");
+    type.info.separator = 'x';
+    return type;
 }
 
 ValueType<double> noise_level()
@@ -156,7 +176,8 @@ ValueType<SampleRange> sample_range()
                                                 : std::nullopt;
     };
     return {.parse = parse,
-            .expected = "two whole numbers A:B with A below B, and below 2^32, like 64:128"};
+            .expected = "two whole numbers A:B with A below B, and below 2^32, like 64:128",
+            .info = {}};
 }
 
 ValueType<double> percent(double most)
@@ -190,7 +211,7 @@ ValueType<float> anisotropy()
         const std::optional<double> value = parse(text);
         return value ? std::optional(static_cast<float>(*value)) : std::nullopt;
     };
-    return {.parse = parse, .expected = wide.expected};
+    return {.parse = parse, .expected = wide.expected, .info = wide.info};
 }
 
 std::string words_text(const std::vector<std::string>& words)

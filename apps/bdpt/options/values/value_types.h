@@ -22,6 +22,9 @@ namespace bdpt::app {
 /// Any text, also an empty one.
 [[nodiscard]] ValueType<std::string> any_text();
 
+/// The path of a file or folder, or one of `words`.
+[[nodiscard]] ValueType<std::string> file_path(std::vector<std::string> words = {});
+
 /// A text that is not empty; `expected` says what it is.
 [[nodiscard]] ValueType<std::string> some_text(std::string expected);
 
@@ -58,7 +61,7 @@ template <typename Parse>
 [[nodiscard]] auto parsed_by(Parse parse, std::string expected)
     -> ValueType<typename decltype(parse(std::declval<const std::string&>()))::value_type>
 {
-    return {.parse = std::move(parse), .expected = std::move(expected)};
+    return {.parse = std::move(parse), .expected = std::move(expected), .info = {}};
 }
 
 /// "three numbers x,y,z".
@@ -117,7 +120,7 @@ struct Choices {
             }
             return std::nullopt;
         };
-        return {.parse = parse, .expected = words_text(words())};
+        return {.parse = parse, .expected = words_text(words()), .info = {.words = words()}};
     }
     /// The first word of `value`, which is one of them.
     [[nodiscard]] std::string word_of(Value value) const

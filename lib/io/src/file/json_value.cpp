@@ -84,6 +84,16 @@ bool JsonValue::is_object() const
     return node(value_).is_object();
 }
 
+bool JsonValue::is_array() const
+{
+    return node(value_).is_array();
+}
+
+bool JsonValue::is_text() const
+{
+    return node(value_).is_string();
+}
+
 bool JsonValue::has(std::string_view key) const
 {
     return node(value_).is_object() && node(value_).contains(key);
@@ -154,6 +164,18 @@ std::vector<std::string> JsonValue::texts() const
         result.push_back(element.text());
     }
     return result;
+}
+
+std::string JsonValue::scalar_text() const
+{
+    const auto& value = node(value_);
+    if (value.is_string()) {
+        return value.template get<std::string>();
+    }
+    if (!value.is_number() && !value.is_boolean()) {
+        fail_expecting("a text, a number, true or false");
+    }
+    return value.dump();
 }
 
 template <typename Number>

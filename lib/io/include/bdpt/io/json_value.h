@@ -34,6 +34,8 @@ public:
 
     [[nodiscard]] bool is_null() const;
     [[nodiscard]] bool is_object() const;
+    [[nodiscard]] bool is_array() const;
+    [[nodiscard]] bool is_text() const;
     [[nodiscard]] bool has(std::string_view key) const;
     [[nodiscard]] JsonValue at(std::string_view key) const;
     [[nodiscard]] JsonValue at(std::size_t index) const;
@@ -45,6 +47,8 @@ public:
     [[nodiscard]] bool boolean() const;
     [[nodiscard]] std::string text() const;
     [[nodiscard]] std::vector<std::string> texts() const;
+    /// Of a text, a number, true or false: the text itself, or what is written for it in JSON.
+    [[nodiscard]] std::string scalar_text() const;
     /// In [low, high]. Integers have no fraction and no exponent; floats and doubles are finite.
     /// For int, std::int64_t, std::uint32_t, std::uint64_t, float and double.
     template <typename Number>

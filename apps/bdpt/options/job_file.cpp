@@ -1,0 +1,307 @@
+#include "options/job_file.h"
+
+#include <bdpt/error.h>
+#include <bdpt/io/json_value.h>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+
+#include "options/values/output_files.h"
+
+namespace bdpt::app {
+namespace {
+
+namespace fs = std::filesystem;
+using io::JsonValue;
+using nlohmann::ordered_json;
+
+constexpr const char* format_key = "bdpt_job";
+constexpr const char* schema_key = "$schema";  // for editors
+
+/// "light_samples" of --light-samples.
+std::string key_of(const Option& option)
+{
+    std::string key = option.name();
+    key.erase(0, key.find_first_not_of('-'));
+    std::replace(key.begin(), key.end(), '-', '_');
+    return key;
+}
+
+bool is_word(const Option& option, const std::string& text)
+{
+    const std::vector<std::string>& words = option.info.words;
+    return std::find(words.begin(), words.end(), text) != words.end();
+}
+
+bool is_path(const Option& option, const std::string& text)
+{
+    return option.info.is_path && !text.empty() && !is_word(option, text);
+}
+
+bool is_number(const Option& option)
+{
+    return option.info.json == JsonType::number || option.info.json == JsonType::whole_number;
+}
+
+/// The text that the command would take for `value`.
+std::string text_of(const Option& option, const JsonValue& value)
+{
+    if (option.info.separator != '\0' && value.is_array()) {
+        std::string text;
+        for (const JsonValue& element : value.elements()) {
+            text +=
+                (text.empty() ? "" : std::string(1, option.info.separator)) + element.scalar_text();
+        }
+        return text;
+    }
+    const std::string text = value.scalar_text();
+    // A number in quotes is a mistake; but JSON has no other form of infinity.
+    if (is_number(option) && value.is_text() && text != "inf") {
+        value.fail_expecting(option.expected);
+    }
+    return text;
+}
+
+/// A path of a job as it is from here.
+std::string resolved_path(const std::string& path, const fs::path& folder)
+{
+    return fs::path(path).is_absolute() ? path : (folder / path).string();
+}
+
+/// Checks `value` and gives it to `option`.
+void take(Option& option, const JsonValue& value, const fs::path& folder)
+{
+    const auto add = [&](const JsonValue& element) {
+        std::string text = text_of(option, element);
+        if (is_path(option, text)) {
+            text = resolved_path(text, folder);
+        }
+        if (!option.store(text)) {
+            element.fail_expecting(option.expected);
+        }
+        option.texts.push_back(std::move(text));
+    };
+    if (option.repeats && value.is_array()) {
+        for (const JsonValue& element : value.elements()) {
+            add(element);
+        }
+    } else {
+        add(value);
+    }
+}
+
+/// The option that `key` is a name of in jobs; null: none is.
+Option* option_of(OptionList& options, const std::string& key)
+{
+    for (Option& option : options.all()) {
+        if (option.uses.job && key_of(option) == key) {
+            return &option;
+        }
+    }
+    return nullptr;
+}
+
+[[noreturn]] void fail_unknown(const OptionList& options, const std::string& key,
+                               const JsonValue& value)
+{
+    std::vector<std::string> keys;
+    for (const Option& option : options.all()) {
+        if (option.uses.job) {
+            keys.push_back(key_of(option));
+        }
+    }
+    const std::optional<std::string> meant = closest(key, keys);
+    value.fail("is no option of a job" +
+               (meant ? fmt::format(" (did you mean \"{}\"?)", *meant) : ""));
+}
+
+void check_format(const JsonValue& job)
+{
+    if (!job.is_object() || !job.has(format_key)) {
+        job.fail(fmt::format("is no job: it has no \"{}\"", format_key));
+    }
+    const auto format = job.at(format_key).number<std::int64_t>();
+    if (format != job_format) {
+        job.at(format_key)
+            .fail(fmt::format("is format {}, where this program knows {}", format, job_format));
+    }
+}
+
+/// `text`, which the option has taken, as JSON; paths as they are from `folder`.
+ordered_json json_of(const Option& option, const std::string& text, const fs::path& folder)
+{
+    if (is_path(option, text)) {
+        const fs::path path = text;
+        return path.is_absolute()
+                   ? text
+                   : fs::weakly_canonical(fs::absolute(path)).lexically_relative(folder).string();
+    }
+    if (option.is_flag() && (text == "true" || text == "false")) {
+        return text == "true";
+    }
+    if (option.info.json == JsonType::whole_number) {
+        std::uint64_t number = 0;  // all whole numbers of options but those below 0
+        const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+        if (error == std::errc{} && stop == text.data() + text.size()) {
+            return number;
+        }
+    }
+    if (option.info.json == JsonType::number) {
+        double number = 0.0;
+        const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+        if (error == std::errc{} && std::isfinite(number)) {
+            return number;
+        }
+    }
+    return text;
+}
+
+/// What values of `option` are, as a schema.
+ordered_json schema_of(const Option& option)
+{
+    const ValueInfo& info = option.info;
+    ordered_json schema = ordered_json::object();
+    if (is_number(option)) {
+        schema["type"] = info.json == JsonType::number ? "number" : "integer";
+        if (std::isfinite(info.range.low)) {
+            schema[info.range.low_is_excluded ? "exclusiveMinimum" : "minimum"] = info.range.low;
+        }
+        if (std::isfinite(info.range.high)) {
+            schema["maximum"] = info.range.high;
+        }
+    } else if (option.is_flag()) {
+        schema["type"] = info.words.size() > 2 || info.words.empty()
+                             ? ordered_json{"boolean", "string"}
+                             : ordered_json("boolean");
+    } else if (!info.words.empty() && !info.is_path) {
+        schema["enum"] = info.words;
+        for (const std::string& word : info.words) {
+            if (word.find_first_not_of("0123456789") == std::string::npos) {
+                schema["enum"].push_back(std::stoi(word));  // which may be a number, too
+            }
+        }
+    } else if (info.separator != '\0') {
+        schema["type"] = {"string", "number", "array"};
+        schema["items"] = {{"type", "number"}};
+    } else {
+        schema["type"] = "string";
+    }
+    if (option.repeats) {
+        schema = {{"type", "array"}, {"items", std::move(schema)}};
+    }
+    schema["description"] = option.help;
+    return schema;
+}
+
+}  // namespace
+
+bool is_job(const fs::path& file)
+{
+    return has_extension(file, ".json");
+}
+
+void load_job(const fs::path& file, OptionList& options)
+{
+    const JsonValue job = JsonValue::read(file);
+    check_format(job);
+    const fs::path folder = file.parent_path();
+    Option& scene = *option_of(options, "file");
+    scene.texts.clear();
+    std::vector<const Option*> given;
+    for (const Option& option : options.all()) {
+        if (option.given()) {
+            given.push_back(&option);
+        }
+    }
+    for (const auto& [key, value] : job.members()) {
+        if (key == format_key || key == schema_key) {
+            continue;
+        }
+        Option* option = option_of(options, key);
+        if (option == nullptr) {
+            fail_unknown(options, key, value);
+        }
+        // Also what the command line overrides has to be right.
+        std::vector<std::string> before = option->texts;
+        take(*option, job.at(key), folder);
+        if (std::find(given.begin(), given.end(), option) != given.end()) {
+            option->texts = std::move(before);
+        }
+    }
+    if (!scene.given()) {
+        job.fail("has no \"file\", the scene");
+    }
+    if (is_job(scene.texts.back())) {
+        job.at("file").fail_expecting("a scene, .gltf or .glb");
+    }
+    options.store_given();
+}
+
+std::string job_text(const OptionList& options, const fs::path& file)
+{
+    const fs::path folder = fs::weakly_canonical(fs::absolute(file)).parent_path();
+    ordered_json job{{format_key, job_format}};
+    for (const Option& option : options.all()) {
+        if (!option.uses.job || !option.given()) {
+            continue;
+        }
+        const std::string key = key_of(option);
+        if (!option.repeats) {
+            job[key] = json_of(option, option.texts.back(), folder);
+            continue;
+        }
+        job[key] = ordered_json::array();
+        for (const std::string& text : option.texts) {
+            job[key].push_back(json_of(option, text, folder));
+        }
+    }
+    return job.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::string job_schema(const OptionList& options)
+{
+    ordered_json members{
+        {format_key, {{"const", job_format}, {"description", "Format of the file"}}},
+        {schema_key, {{"type", "string"}}}};
+    for (const Option& option : options.all()) {
+        if (option.uses.job) {
+            members[key_of(option)] = schema_of(option);
+        }
+    }
+    const ordered_json schema{
+        {schema_key, "https://json-schema.org/draft/2020-12/schema"},
+        {"title", "A job of bdpt render"},
+        {"description",
+         "The options of bdpt render, with _ for -. Paths are relative to the file."},
+        {"type", "object"},
+        {"properties", std::move(members)},
+        {"required", {format_key, "file"}},
+        {"additionalProperties", false}};
+    return schema.dump(2) + "\n";
+}
+
+std::vector<std::string> words_of(const OptionList& options)
+{
+    std::vector<std::string> words;
+    for (const Option& option : options.all()) {
+        if (!option.given()) {
+            continue;
+        }
+        if (option.is_argument()) {
+            words.push_back(option.texts.back());
+        } else if (!option.repeats) {
+            words.push_back(option.word());
+        } else {
+            for (const std::string& text : option.texts) {
+                words.push_back(option.name() + "=" + text);
+            }
+        }
+    }
+    return words;
+}
+
+}  // namespace bdpt::app

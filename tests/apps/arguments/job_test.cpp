@@ -1,0 +1,218 @@
+#include "options/job_file.h"
+
+#include <bdpt/error.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "options/render_arguments.h"
+#include "scene_files.h"
+#include "scratch_folder.h"
+#include "subprocess.h"
+
+namespace bdpt::test::job_test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using Words = std::vector<std::string>;
+
+/// A folder with a scene, and another one for jobs.
+class Studio {
+public:
+    Studio()
+    {
+        write_cube(folder_, "cube", {.cameras = two_cameras});
+        fs::create_directory(folder_ / "jobs");
+    }
+
+    std::string path(const std::string& name) const { return (folder_ / name).string(); }
+    std::string write(const std::string& text) const
+    {
+        write_text(folder_ / "jobs" / "a.json", text);
+        return path("jobs/a.json");
+    }
+    Outcome render(const std::string& job, Words more = {}) const
+    {
+        more.insert(more.begin(), {"render", write(job), "--quiet"});
+        return run(more);
+    }
+    /// The message, which is one line, of a job that is refused with that exit code.
+    std::string refused(const std::string& job, int code = 4, const Words& more = {}) const
+    {
+        const Outcome outcome = render(job, more);
+        CAPTURE(job, outcome.err);
+        CHECK(outcome.exit_code == code);
+        CHECK(outcome.err.find('\n') == outcome.err.size() - 1);
+        CHECK_FALSE(fs::exists(path("o.exr")));
+        return outcome.err;
+    }
+
+private:
+    ScratchFolder folder_;
+};
+
+std::string job_with(const std::string& members)
+{
+    return R"({"bdpt_job": 1, "file": "../cube.gltf", "output": ["../o.exr"])" +
+           (members.empty() ? "" : ", " + members) + "}";
+}
+
+TEST_CASE("a job renders what its options would, from wherever it is started", "[job]")
+{
+    const Studio studio;
+    REQUIRE(studio
+                .render(job_with(R"("spp": 3, "size": [16, 9], "seed": 5, "integrator": "bdpt",
+                    "light_paths": 0.5, "from": [3, 2, 4], "look_at": "0,0,0", "half": true,
+                    "filter": "tent", "env_intensity": 0.5)"))
+                .exit_code == 0);
+    REQUIRE(run({"render",
+                 studio.path("cube.gltf"),
+                 "-o",
+                 studio.path("same.exr"),
+                 "--spp",
+                 "3",
+                 "--size",
+                 "16x9",
+                 "--seed",
+                 "5",
+                 "--integrator",
+                 "bdpt",
+                 "--light-paths",
+                 "0.5",
+                 "--from",
+                 "3,2,4",
+                 "--look-at",
+                 "0,0,0",
+                 "--half",
+                 "--filter",
+                 "tent",
+                 "--env-intensity",
+                 "0.5",
+                 "--quiet"})
+                .exit_code == 0);
+    CHECK(run({"compare", studio.path("o.exr"), studio.path("same.exr"), "--threshold", "mse=0",
+               "--quiet"})
+              .exit_code == 0);
+}
+
+TEST_CASE("options beside a job come before those in it", "[job]")
+{
+    const Studio studio;
+    const std::string job = job_with(R"("spp": 3, "size": "16x9")");
+    REQUIRE(studio.render(job, {"--spp", "1", "-o", studio.path("p.png")}).exit_code == 0);
+    CHECK(fs::exists(studio.path("p.png")));
+    CHECK_FALSE(fs::exists(studio.path("o.exr")));
+    const Outcome wrong = studio.render(job, {"--samples", "0:1"});
+    CHECK(wrong.exit_code == 2);
+    CHECK(wrong.err.find("--samples cannot be combined with --spp") != std::string::npos);
+}
+
+TEST_CASE("a saved job is what was typed, and renders that", "[job]")
+{
+    const Studio studio;
+    const std::string saved = studio.path("jobs/saved.json");
+    const Words typed{
+        "--size",        "16x9",    "--spp",    "2",     "--seed",          "18446744073709551615",
+        "--light-paths", "0.25",    "--camera", "auto",  "--denoise=layer", "--env",
+        "none",          "--clamp", "1e3",      "--half"};
+    Words words{"render", studio.path("cube.gltf"), "-o", studio.path("o.exr"), "--save-job", saved,
+                "--quiet"};
+    words.insert(words.end(), typed.begin(), typed.end());
+    REQUIRE(run(words).exit_code == 0);
+    CHECK_FALSE(fs::exists(studio.path("o.exr")));
+    const json job = json::parse(read_text(saved));
+    json expected = json::parse(R"({"bdpt_job": 1, "size": "16x9", "spp": 2,
+        "seed": 18446744073709551615, "light_paths": 0.25, "camera": "auto", "denoise": "layer",
+        "env": "none", "clamp": 1000.0, "half": true})");
+    expected["file"] = studio.path("cube.gltf");
+    expected["output"] = {studio.path("o.exr")};
+    CHECK(job == expected);
+    // What is saved of a job is that job.
+    const std::string again = studio.path("jobs/again.json");
+    REQUIRE(run({"render", saved, "--save-job", again, "--quiet"}).exit_code == 0);
+    CHECK(read_text(again) == read_text(saved));
+}
+
+TEST_CASE("a job may not be saved where it would overwrite what it reads or writes", "[job]")
+{
+    const Studio studio;
+    const Words words{"render", studio.path("cube.gltf"), "-o", studio.path("o.exr"), "--save-job"};
+    const auto refuse = [&](const std::string& file, int code, const Words& more = {}) {
+        Words all = words;
+        all.push_back(file);
+        all.insert(all.end(), more.begin(), more.end());
+        const Outcome outcome = run(all);
+        CAPTURE(outcome.err);
+        CHECK(outcome.exit_code == code);
+    };
+    refuse(studio.path("job.txt"), 2);
+    refuse(studio.path("none/job.json"), 6);
+    refuse(studio.path("cube.json"), 2, {"-o", studio.path("cube.json")});
+    CHECK(
+        run({"render", studio.path("cube.gltf"), "--save-job", studio.path("j.json")}).exit_code ==
+        2);  // without an output
+    CHECK_FALSE(fs::exists(studio.path("j.json")));
+}
+
+TEST_CASE("mistakes in a job are told with their place", "[job]")
+{
+    const Studio studio;
+    const auto told = [&](const std::string& members, const std::string& text) {
+        const std::string message = studio.refused(job_with(members));
+        CAPTURE(members, message);
+        CHECK(message.find("jobs/a.json: " + text) != std::string::npos);
+    };
+    told(R"("sppp": 3)", R"(/"sppp": is no option of a job (did you mean "spp"?))");
+    told(R"("spp": 0)", "/spp: must be a whole number from 1 to 2147483648, but is 0");
+    told(R"("spp": "64")", "/spp: must be a whole number");
+    told(R"("spp": 1.5)", "/spp: must be a whole number");
+    told(R"("spp": [1])", "/spp: must be a text, a number, true or false");
+    told(R"("spp": null)", "/spp: must be a text, a number, true or false");
+    told(R"("half": 7)", "/half: must be ");
+    told(R"("integrator": "ptt")", "/integrator: must be pt, nee, mis, lt, bdpt, vcm or auto");
+    told(R"("look_at": [0, 1])", "/look_at: must be three numbers x,y,z");
+    told(R"("size": [640, "x"])", "/size: must be WIDTHxHEIGHT");
+    told(R"("denoise": true, "denoiser_library": "evil.so")",
+         "/\"denoiser_library\": is no option");
+    told(R"("plan": "plan.json", "task": 0)", "/\"plan\": is no option of a job");
+    told(R"("quiet": true)", "/\"quiet\": is no option of a job");
+    const auto refused = [&](const std::string& text, const std::string& message, int code = 4) {
+        CHECK(studio.refused(text, code).find(message) != std::string::npos);
+    };
+    refused(R"({"bdpt_job": 1, "file": "../cube.gltf", "output": ["../o.exr", {}]})",
+            "/output/1: must be a text");
+    refused("[]", "is no job");
+    refused("{}", "has no \"bdpt_job\"");
+    refused(R"({"bdpt_job": 2, "file": "x.gltf"})", "/bdpt_job: is format 2");
+    refused(R"({"bdpt_job": "1"})", "/bdpt_job: must be an integer");
+    refused(R"({"bdpt_job": 1})", "has no \"file\"");
+    refused(R"({"bdpt_job": 1, "file": "a.json", "output": "o.exr"})", "/file: must be a scene");
+    refused(R"({"bdpt_job": 1, "file": "../cube.gltf", "spp": 1, "spp": 2})", "spp");
+    refused(R"({"bdpt_job": 1, "file": "../none.gltf", "output": "../o.exr"})", "no such file", 3);
+    refused(R"({"bdpt_job": 1, "file": "../cube.gltf"})", "--output is required", 2);
+    refused(std::string(100'000, '['), "a.json");
+    CHECK(run({"render", studio.path("jobs/none.json")}).exit_code == 3);
+}
+
+TEST_CASE("what a job means by a part that is missing can be typed", "[job]")
+{
+    const Studio studio;
+    const std::string part = studio.path("jobs/p.part.exr");
+    REQUIRE(studio
+                .render(R"({"bdpt_job": 1, "file": "../cube.gltf", "part": "p.part.exr",
+                    "samples": "0:2", "size": "8x8", "integrator": "mis"})")
+                .exit_code == 0);
+    const Outcome missing = run({"merge", part, "-o", studio.path("m.exr"), "--spp", "4"});
+    CAPTURE(missing.err);
+    CHECK(missing.exit_code == 12);
+    CHECK(missing.err.find("cube.gltf") != std::string::npos);
+    CHECK(missing.err.find("--samples 2:4") != std::string::npos);
+    CHECK(missing.err.find("a.json") == std::string::npos);
+}
+
+}  // namespace
+}  // namespace bdpt::test::job_test

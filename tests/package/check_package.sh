@@ -158,13 +158,18 @@ use_pkg_config() {
   compile judge "$consumer/judge.cpp" bdpt_eval
   ./judge
 
-  # The program in the README, with fewer pixels.
-  awk '/^```cpp$/ {inside = 1; next} /^```$/ {inside = 0} inside' "$SOURCE/README.md" \
-    | sed 's/512/16/g; s/{0, 64}/{0, 1}/' >readme.cpp
-  compile readme readme.cpp bdpt_io
+  # The programs in the README and in the page about the library, with fewer pixels.
   ln -s "$SOURCE/scenes" scenes
-  ./readme
+  local page program
+  for page in README.md docs/library.md; do
+    program=$(basename "$page" .md)
+    awk '/^```cpp$/ {inside = 1; next} /^```$/ {inside = 0} inside' "$SOURCE/$page" \
+      | sed 's/512/16/g; s/{0, 64}/{0, 1}/' >"$program.cpp"
+    compile "$program" "$program.cpp" bdpt_io
+    "./$program"
+  done
   [[ -s out.exr ]] || fail "the program in the README wrote no image"
+  [[ -s growing.exr ]] || fail "the program in docs/library.md wrote no image"
 }
 
 # Builds the libraries as a part of a project: static ones, with bdpt::io, as quickly as compilers can (many files as

@@ -1,7 +1,9 @@
 #include <bdpt/error.h>
 #include <bdpt/integrators.h>
+#include <bdpt/noise.h>
 #include <bdpt/part/sample_rates.h>
 #include <bdpt/render.h>
+#include <bdpt/renderer.h>
 
 #include "camera/moving_camera.h"
 #include "integrator/integrator.h"
@@ -18,7 +20,9 @@
 #include <algorithm>
 #include <chrono>
 #include <ctime>
+#include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 
 namespace bdpt {
@@ -137,76 +141,209 @@ RenderResult render(const Scene& scene, const CameraDesc& camera, const RenderOp
     return result_of(render_part(scene, camera, options, {}, control));
 }
 
-PartResult render_part(const Scene& scene, const CameraDesc& camera_desc,
-                       const RenderOptions& asked, RenderPart so_far, const RenderControl& control)
-{
-    const auto start = std::chrono::steady_clock::now();
-    const double cpu_start = cpu_seconds();
-    const RenderOptions options = chosen_options(scene, camera_desc, asked);
-    check_strategy_memory(options, camera_desc);
-    Identity identity = bdpt::identity(scene, camera_desc, options);
-    const PixelRect region = options.film.crop.value_or(whole_image(options));
-    const MovingCamera camera = open_camera(scene.world(), camera_desc, options);
-    const auto integrator = make_integrator(scene.world(), camera, options);
-    const AovPass aov_pass(scene.world(), camera, options);
-    if (!so_far.samples.empty()) {
-        check_part(so_far, identity, options, camera_desc, aov_pass);
+/// What the calls of a render have in common. It stays where it is: its members look at each other.
+class Renderer::Impl {
+public:
+    Impl(const Scene& scene, const CameraDesc& camera_desc, const RenderOptions& asked)
+        : options_(chosen_options(scene, camera_desc, asked)), camera_desc_(camera_desc)
+    {
+        check_strategy_memory(options_, camera_desc_);
+        identity_ = bdpt::identity(scene, camera_desc_, options_);
+        camera_.emplace(open_camera(scene.world(), camera_desc_, options_));
+        integrator_ = make_integrator(scene.world(), *camera_, options_);
+        aov_pass_.emplace(scene.world(), *camera_, options_);
+        pass_size_.emplace(*integrator_, options_);
     }
 
-    Threads threads(options.system.threads);
+    [[nodiscard]] const RenderOptions& options() const { return options_; }
+    [[nodiscard]] const RenderPart& part() const { return part_; }
+    /// Begins without samples. Films take memory, so that they are made once, by this or go_on().
+    void begin() { part_ = empty_part(identity_, options_, camera_desc_, *aov_pass_); }
+    /// Nothing is rendered afterwards before begin() or go_on().
+    [[nodiscard]] RenderPart take() { return std::move(part_); }
+    [[nodiscard]] double seconds() const { return seconds_; }
 
-    PartResult result{.part = so_far.samples.empty()
-                                  ? empty_part(std::move(identity), options, camera_desc, aov_pass)
-                                  : std::move(so_far),
-                      .options = options};
-    RenderPart& part = result.part;
+    /// Goes on with `part` in place of what is here.
+    void go_on(RenderPart part)
+    {
+        check_part(part, identity_, options_, camera_desc_, *aov_pass_);
+        part_ = std::move(part);
+    }
+    void add(const RenderPart& part)
+    {
+        check_part(part, identity_, options_, camera_desc_, *aov_pass_);
+        merge(part_, part);
+    }
+
+    /// The least range of samples from the first one of which `count` are missing.
+    [[nodiscard]] SampleRange next(std::int64_t count) const
+    {
+        SampleRange range{.begin = options_.sampling.samples.begin,
+                          .end = options_.sampling.samples.begin};
+        for (std::int64_t missing = count; missing > 0;
+             missing = count - part_.samples.missing(SampleSet(range)).count()) {
+            range.end += missing;
+        }
+        return range;
+    }
+
+    /// Renders what is missing of `wanted`. `start` is when the call began, for its limit of time.
+    std::optional<TimeProfile> run(SampleRange wanted_range, const RenderControl& control,
+                                   std::chrono::steady_clock::time_point start, double cpu_start);
+
+private:
+    RenderOptions options_;
+    CameraDesc camera_desc_;
+    Identity identity_;
+    std::optional<MovingCamera> camera_;
+    std::unique_ptr<Integrator> integrator_;
+    std::optional<AovPass> aov_pass_;
+    RenderPart part_;
+    std::optional<PassSize> pass_size_;
+    double seconds_ = 0.0;
+};
+
+std::optional<TimeProfile> Renderer::Impl::run(SampleRange wanted_range,
+                                               const RenderControl& control,
+                                               std::chrono::steady_clock::time_point start,
+                                               double cpu_start)
+{
+    Threads threads(options_.system.threads);
     std::optional<TimeRecorder> times;
     if (control.profiling == Profiling::on) {
-        times.emplace(region);
+        times.emplace(options_.film.crop.value_or(whole_image(options_)));
     }
-    const SampleSet wanted(options.sampling.samples);
-    const std::int64_t total = part.samples.missing(wanted).count();
-    const double cpu_before = part.cpu_seconds;
+    const SampleSet wanted(wanted_range);
+    const std::int64_t total = part_.samples.missing(wanted).count();
+    const double cpu_before = part_.cpu_seconds;
+    const double seconds_before = seconds_;
     std::int64_t done = 0;
-    PassSize pass_size(*integrator, options);
-    NoiseWatch noise(control, options.sampling.samples);
-    threads.execute([&] { noise.look(part); });
+    NoiseWatch noise(control, wanted_range);
+    threads.execute([&] { noise.look(part_); });
     while (done < total && !noise.reached()) {
         const SampleRange pass =
-            next_pass(part.samples, wanted, noise.at_most(pass_size.samples(), part));
+            next_pass(part_.samples, wanted, noise.at_most(pass_size_->samples(), part_));
         const double before = seconds_since(start);
         threads.execute([&] {
-            render_pass({.integrator = *integrator,
-                         .aov_pass = aov_pass,
+            render_pass({.integrator = *integrator_,
+                         .aov_pass = *aov_pass_,
                          .on_path = control.on_path,
                          .times = times ? &*times : nullptr},
-                        options, pass, part);
-            noise.look(part);
+                        options_, pass, part_);
+            noise.look(part_);
         });
         done += pass.end - pass.begin;
-        result.seconds = seconds_since(start);
-        part.cpu_seconds = cpu_before + cpu_seconds() - cpu_start;
+        const double seconds = seconds_since(start);
+        seconds_ = seconds_before + seconds;
+        part_.cpu_seconds = cpu_before + cpu_seconds() - cpu_start;
         if (control.on_progress) {
             control.on_progress({.samples_done = done,
                                  .samples_total = total,
-                                 .seconds = result.seconds,
+                                 .seconds = seconds,
                                  .noise = noise.noise(),
                                  .noise_samples = noise.samples()});
         }
         if (control.on_part) {
-            control.on_part(part);
+            control.on_part(part_);
         }
-        pass_size.learn(pass.end - pass.begin, result.seconds - before);
+        pass_size_->learn(pass.end - pass.begin, seconds - before);
         // What `on_part` took counts, too.
         if (control.stop.stop_requested() ||
-            seconds_since(start) + pass_size.seconds() > control.time_limit) {
+            seconds_since(start) + pass_size_->seconds() > control.time_limit) {
             break;
         }
     }
-    if (times) {
-        result.profile = times->profile(done);
+    return times ? std::optional(times->profile(done)) : std::nullopt;
+}
+
+PartResult render_part(const Scene& scene, const CameraDesc& camera, const RenderOptions& options,
+                       RenderPart so_far, const RenderControl& control)
+{
+    const auto start = std::chrono::steady_clock::now();
+    const double cpu_start = cpu_seconds();
+    Renderer::Impl render(scene, camera, options);
+    if (so_far.samples.empty()) {
+        render.begin();
+    } else {
+        render.go_on(std::move(so_far));
     }
-    return result;
+    auto profile = render.run(options.sampling.samples, control, start, cpu_start);
+    return {.part = render.take(),
+            .options = render.options(),
+            .seconds = render.seconds(),
+            .profile = std::move(profile)};
+}
+
+Renderer::Renderer(const Scene& scene, const CameraDesc& camera, const RenderOptions& options)
+    : impl_(std::make_unique<Impl>(scene, camera, options))
+{
+    impl_->begin();
+}
+
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+Renderer::~Renderer() = default;
+
+void Renderer::render(std::int64_t samples, const RenderControl& control)
+{
+    if (samples < 1 || (options().sampling.rates && samples % SampleRates::group != 0)) {
+        throw Error(ErrorCode::usage,
+                    "number of samples to render is " + std::to_string(samples) +
+                        (samples < 1 ? ", not above 0"
+                                     : ", but with rates of samples a multiple of " +
+                                           std::to_string(SampleRates::group)));
+    }
+    static_cast<void>(
+        impl_->run(impl_->next(samples), control, std::chrono::steady_clock::now(), cpu_seconds()));
+}
+
+void Renderer::finish(const RenderControl& control)
+{
+    static_cast<void>(impl_->run(options().sampling.samples, control,
+                                 std::chrono::steady_clock::now(), cpu_seconds()));
+}
+
+Renderer& Renderer::operator+=(const RenderPart& part)
+{
+    impl_->add(part);
+    return *this;
+}
+
+const RenderOptions& Renderer::options() const
+{
+    return impl_->options();
+}
+
+const RenderPart& Renderer::part() const
+{
+    return impl_->part();
+}
+
+std::int64_t Renderer::samples() const
+{
+    return part().samples.count();
+}
+
+double Renderer::noise() const
+{
+    return noise_of(part().film);
+}
+
+Image Renderer::image() const
+{
+    return part().film.develop();
+}
+
+double Renderer::seconds() const
+{
+    return impl_->seconds();
+}
+
+RenderPart Renderer::take()
+{
+    RenderPart taken = impl_->take();
+    impl_->begin();
+    return taken;
 }
 
 }  // namespace bdpt

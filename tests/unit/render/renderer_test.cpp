@@ -1,0 +1,152 @@
+#include <bdpt/renderer.h>
+
+#include <bdpt/error.h>
+#include <bdpt/noise.h>
+
+#include "catch.hpp"
+#include "room.h"
+#include "scene_builder.h"
+
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <stop_token>
+#include <string>
+#include <utility>
+
+namespace bdpt::test::renderer_test {
+namespace {
+
+RenderOptions options(IntegratorKind integrator)
+{
+    RenderOptions result;
+    result.integrator = integrator;
+    result.film.width = 19;
+    result.film.height = 14;
+    result.film.aovs = {Aov::depth};
+    result.sampling.samples = {.begin = 0, .end = 16};
+    result.transport.max_depth = 5;
+    return result;
+}
+
+bool same_bits(const RenderPart& a, const RenderPart& b)
+{
+    return a.samples == b.samples && a.identity == b.identity &&
+           a.film.develop().pixels == b.film.develop().pixels &&
+           a.aovs.develop(a.film).at(0).values == b.aovs.develop(b.film).at(0).values &&
+           a.stats.paths.camera == b.stats.paths.camera &&
+           a.stats.paths.light == b.stats.paths.light;
+}
+
+std::string message_of(const std::function<void()>& call)
+{
+    try {
+        call();
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST_CASE("a render that is held has the bits of one at once, however it grows", "[render]")
+{
+    const Scene scene = room();
+    for (const IntegratorKind kind : {IntegratorKind::mis, IntegratorKind::automatic,
+                                      IntegratorKind::bdpt, IntegratorKind::vcm}) {
+        const RenderOptions asked = options(kind);
+        const RenderPart whole = render_part(scene, room_camera(), asked, {}).part;
+        Renderer renderer(scene, room_camera(), asked);
+        CHECK(renderer.options().integrator ==
+              chosen_options(scene, room_camera(), asked).integrator);
+        CHECK(renderer.options().integrator != IntegratorKind::automatic);
+        CHECK(renderer.samples() == 0);
+        CHECK(std::isinf(renderer.noise()));
+        CHECK(renderer.image().pixels.size() == 19 * 14);
+        for (const std::int64_t more : {1, 5, 2}) {
+            renderer.render(more);
+        }
+        CHECK(renderer.samples() == 8);
+        CHECK(renderer.noise() == noise_of(renderer.part().film));
+        renderer.finish();
+        CHECK(same_bits(renderer.part(), whole));
+        CHECK(renderer.image().pixels == whole.film.develop().pixels);
+        renderer.finish();  // nothing is missing
+        CHECK(renderer.samples() == 16);
+        CHECK(renderer.seconds() > 0.0);
+    }
+}
+
+TEST_CASE("a render that is held goes on beyond the samples of its options", "[render]")
+{
+    const Scene scene = room();
+    RenderOptions asked = options(IntegratorKind::mis);
+    asked.sampling.samples = {.begin = 4, .end = 5};
+    Renderer renderer(scene, room_camera(), asked);
+    renderer.render(12);
+    asked.sampling.samples = {.begin = 4, .end = 16};
+    CHECK(same_bits(renderer.part(), render_part(scene, room_camera(), asked, {}).part));
+}
+
+TEST_CASE("samples from elsewhere are added to a render that is held, and gaps are filled",
+          "[render]")
+{
+    const Scene scene = room();
+    RenderOptions asked = options(IntegratorKind::bdpt);
+    const RenderPart whole = render_part(scene, room_camera(), asked, {}).part;
+    asked.sampling.samples = {.begin = 3, .end = 9};
+    const RenderPart elsewhere = render_part(scene, room_camera(), asked, {}).part;
+    asked.sampling.samples = {.begin = 0, .end = 16};
+    Renderer renderer(scene, room_camera(), asked);
+    renderer.render(1);
+    renderer += elsewhere;
+    CHECK(renderer.part().samples == SampleSet::parse("0:1,3:9"));
+    CHECK(message_of([&] { renderer += elsewhere; }).find("both have the samples 3:9") !=
+          std::string::npos);
+    renderer.render(4);
+    CHECK(renderer.part().samples == SampleSet::parse("0:11"));
+    renderer.render(5);
+    CHECK(same_bits(renderer.part(), whole));
+
+    asked.transport.max_depth = 4;
+    Renderer other(scene, room_camera(), asked);
+    CHECK(message_of([&] { other += elsewhere; }).find("option: max_depth (5, not 4)") !=
+          std::string::npos);
+    CHECK(other.samples() == 0);
+}
+
+TEST_CASE("what a render that is held gives away is gone, and it begins anew", "[render]")
+{
+    const Scene scene = room();
+    Renderer first(scene, room_camera(), options(IntegratorKind::mis));
+    first.render(3);
+    Renderer renderer = std::move(first);
+    const RenderPart taken = renderer.take();
+    CHECK(taken.samples.count() == 3);
+    CHECK(renderer.samples() == 0);
+    renderer.render(3);
+    CHECK(same_bits(renderer.part(), taken));
+}
+
+TEST_CASE("a render that is held is stopped and refused like others", "[render]")
+{
+    const Scene scene = room();
+    Renderer renderer(scene, room_camera(), options(IntegratorKind::mis));
+    for (const std::int64_t wrong : {0, -3}) {
+        CHECK(message_of([&] { renderer.render(wrong); }) ==
+              "number of samples to render is " + std::to_string(wrong) + ", not above 0");
+    }
+    std::stop_source stop;
+    stop.request_stop();
+    RenderControl control;
+    control.stop = stop.get_token();
+    renderer.render(1000, control);
+    CHECK(renderer.samples() > 0);
+    CHECK(renderer.samples() < 1000);
+    RenderOptions wrong = options(IntegratorKind::mis);
+    wrong.transport.max_depth = 0;
+    CHECK(message_of([&] { Renderer(scene, room_camera(), wrong); }) ==
+          "max_depth is 0, not in [1, 4096]");
+}
+
+}  // namespace
+}  // namespace bdpt::test::renderer_test

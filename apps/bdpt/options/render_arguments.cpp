@@ -147,7 +147,7 @@ void add_process_options(OptionList& options, RenderRequest& request)
     options
         .add("--save-job", "FILE",
              "Write what these options say to this .json file, a job, and render nothing. bdpt "
-             "render takes a job in place of a scene; options beside it come before the job's",
+             "render takes a job in place of a scene; options beside it override the job's",
              request.saved_job, file_named({".json"}, "a file that is named .json"))
         .uses.job = false;
 }

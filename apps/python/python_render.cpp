@@ -189,6 +189,12 @@ Render read_part(const fs::path& file)
 
 void bind_render(nb::module_& module)
 {
+    const std::string saving =
+        declaration("def save(self, file: str | os.PathLike[str], *", Call::save, "None");
+    const std::string text_of_saving = documentation(
+        "Writes an image, .exr (linear radiance and layers) or .png (tone-mapped), or a part, "
+        ".part.exr, that bdpt merge and bdpt render --part understand.",
+        Call::save);
     nb::class_<Render>(module, "Render",
                        "What a render brought: sums of samples, which add up exactly.")
         .def_prop_ro(
@@ -224,28 +230,25 @@ void bind_render(nb::module_& module)
             },
             nb::arg("other"), nb::rv_policy::reference,
             "Adds other samples of the same render, to the bit as if one render had made all.")
-        .def(
-            "save", &save, nb::arg("file"), nb::arg("options"),
-            ("Writes an image, .exr (linear radiance and layers) or .png (tone-mapped), or a part, "
-             ".part.exr, that bdpt merge and bdpt render --part understand.\n\nOptions:\n" +
-             option_list(Call::save))
-                .c_str())
+        .def("save", &save, nb::arg("file"), nb::arg("options"), nb::sig(saving.c_str()),
+             text_of_saving.c_str())
         .def("__repr__", [](const Render& render) {
             const FilmLayout& layout = render.part.film.layout();
             return nb::str("<bdpt.Render {}x{}, samples {}>")
                 .format(layout.width, layout.height, render.part.samples.text());
         });
-    module.def(
-        "render", &render_scene, nb::arg("scene"), nb::kw_only(),
-        nb::arg("progress").none() = nb::none(), nb::arg("options"),
-        ("Renders the scene. Options are those of bdpt render, with the same defaults: the image "
-         "is "
-         "that of the command, to the bit. progress(done, total, seconds) is called between "
-         "passes; "
-         "what it raises, or Ctrl-C, ends the render. Other Python threads run meanwhile.\n\n"
-         "Options:\n" +
-         option_list(Call::render))
-            .c_str());
+    const std::string rendering = declaration(
+        "def render(scene: Scene, *, progress: collections.abc.Callable[[int, int, float], object] "
+        "| None = None",
+        Call::render, "Render");
+    const std::string text_of_rendering = documentation(
+        "Renders the scene. Options are those of bdpt render, with the same defaults: the image is "
+        "that of the command, to the bit. progress(done, total, seconds) is called between passes; "
+        "what it raises, or Ctrl-C, ends the render. Other Python threads run meanwhile.",
+        Call::render);
+    module.def("render", &render_scene, nb::arg("scene"), nb::kw_only(),
+               nb::arg("progress").none() = nb::none(), nb::arg("options"),
+               nb::sig(rendering.c_str()), text_of_rendering.c_str());
     module.def("read_part", &read_part, nb::arg("file"),
                "Reads a part: what save('x.part.exr') or bdpt render --part wrote.");
 }

@@ -58,11 +58,14 @@ void bind_scene(nb::module_& module)
                 .format(scene.file.empty() ? "of arrays" : scene.file.c_str(),
                         scene.stage.scene.counts().instanced_triangles);
         });
-    module.def("load", &load, nb::arg("file"), nb::arg("options"),
-               ("Loads a .gltf or .glb file. What it lacks (a camera, light) is filled in as bdpt "
-                "render does.\n\nOptions:\n" +
-                option_list(Call::load))
-                   .c_str());
+    const std::string signature =
+        declaration("def load(file: str | os.PathLike[str], *", Call::load, "Scene");
+    const std::string text = documentation(
+        "Loads a .gltf or .glb file. What it lacks (a camera, light) is filled in as bdpt render "
+        "does.",
+        Call::load);
+    module.def("load", &load, nb::arg("file"), nb::arg("options"), nb::sig(signature.c_str()),
+               text.c_str());
 }
 
 }  // namespace bdpt::python

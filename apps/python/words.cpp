@@ -5,7 +5,9 @@
 #include <nanobind/stl/string.h>
 
 #include <algorithm>
-#include <string_view>
+#include <cstddef>
+#include <map>
+#include <sstream>
 #include <utility>
 
 #include "options/command_parser.h"
@@ -33,11 +35,6 @@ struct SaveRequest {
     app::OptionList options{};
 };
 
-bool has(const std::vector<std::string>& names, std::string_view name)
-{
-    return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 bool belongs(const app::Option& option, Call call)
 {
     const app::OptionUses& uses = option.uses;
@@ -46,59 +43,121 @@ bool belongs(const app::Option& option, Call call)
                                   : uses.python_save;
 }
 
-/// An option as Python has it: "look_at", and what it does.
-struct Keyword {
-    std::string name;
-    std::string help;
-};
-
-std::vector<Keyword> keywords_of(Call call)
+/// Calls `visit(option)` for each option of `call`.
+template <typename Visitor>
+void for_each_option_of(Call call, const Visitor& visit)
 {
     SaveRequest save;
     app::RenderRequest render;
     app::OptionList render_options;
     app::add_render_options(render_options, render);
-    std::vector<Keyword> keywords;
     for (const app::Option& option :
          call == Call::save ? save.options.all() : render_options.all()) {
         if (belongs(option, call)) {
-            keywords.push_back({.name = option.name().substr(2), .help = option.help});
+            visit(option);
         }
+    }
+}
+
+/// "look_at" of --look-at. "from" alone means something else to Python.
+std::string keyword_of(const app::Option& option)
+{
+    std::string keyword = option.name().substr(2);
+    std::replace(keyword.begin(), keyword.end(), '-', '_');
+    return keyword == "from" ? "from_" : keyword;
+}
+
+/// By keyword.
+std::map<std::string, app::Option> options_of(Call call)
+{
+    std::map<std::string, app::Option> options;
+    for_each_option_of(call, [&options](const app::Option& option) {
+        options.emplace(keyword_of(option), option);
+    });
+    return options;
+}
+
+std::vector<std::string> keywords_of(Call call)
+{
+    std::vector<std::string> keywords;
+    for (const auto& [keyword, option] : options_of(call)) {
+        keywords.push_back(keyword);
     }
     return keywords;
 }
 
-std::vector<std::string> names_of(Call call)
+/// An array of NumPy, a list, a tuple, a range, but no text.
+bool has_items(nb::handle value)
 {
-    std::vector<std::string> names;
-    for (Keyword& keyword : keywords_of(call)) {
-        names.push_back(std::move(keyword.name));
+    if (nb::isinstance<nb::str>(value) || nb::isinstance<nb::bytes>(value)) {
+        return false;
     }
-    return names;
+    PyObject* iterator = PyObject_GetIter(value.ptr());
+    PyErr_Clear();
+    Py_XDECREF(iterator);
+    return iterator != nullptr;
 }
 
-/// "from_" is "from": the word without it means something else to Python.
-std::string option_of(std::string keyword)
+std::string text_of(nb::handle value)
 {
-    if (keyword.ends_with('_')) {
-        keyword.pop_back();
+    if (nb::hasattr(value, "__fspath__")) {
+        return nb::cast<std::string>(nb::module_::import_("os").attr("fspath")(value));
     }
-    std::replace(keyword.begin(), keyword.end(), '_', '-');
-    return keyword;
+    return nb::cast<std::string>(nb::str(value));
 }
 
-std::string value_of(const std::string& name, nb::handle value)
+std::string text_of(const app::Option& option, nb::handle value)
 {
-    const bool list = nb::isinstance<nb::list>(value) || nb::isinstance<nb::tuple>(value);
-    if (!list) {
-        return nb::cast<std::string>(nb::str(value));
+    if (!has_items(value)) {
+        return text_of(value);
     }
-    const char* between = name == "size" ? "x" : ",";
+    const char between = option.info.separator != '\0' ? option.info.separator : ',';
     std::string text;
-    for (const nb::handle item : value) {
-        text += (text.empty() ? "" : between) + nb::cast<std::string>(nb::str(item));
+    for (const nb::handle item : nb::iter(value)) {
+        text += (text.empty() ? "" : std::string(1, between)) + text_of(item);
     }
     return text;
+}
+
+/// Names of types, for stubs.
+constexpr const char* whole = "typing.SupportsIndex";  // int, and integers of NumPy
+constexpr const char* real = "typing.SupportsFloat";   // int, float, and those of NumPy
+constexpr const char* path = "str | os.PathLike[str]";
+
+std::string literals(const std::vector<std::string>& words)
+{
+    std::string list;
+    for (const std::string& word : words) {
+        const bool is_number = word.find_first_not_of("0123456789") == std::string::npos;
+        list +=
+            fmt::format("{}\"{}\"{}", list.empty() ? "" : ", ", word, is_number ? ", " + word : "");
+    }
+    return fmt::format("typing.Literal[{}]", list);
+}
+
+/// The values of `option`, as a type of Python.
+std::string type_of(const app::Option& option)
+{
+    const app::ValueInfo& info = option.info;
+    if (option.is_flag()) {
+        std::vector<std::string> words = info.words;
+        std::erase_if(words, [](const auto& word) { return word == "true" || word == "false"; });
+        return words.empty() ? "bool" : "bool | " + literals(words);
+    }
+    if (info.is_path) {
+        return path;
+    }
+    if (!info.words.empty()) {
+        return literals(info.words);
+    }
+    if (info.json == app::JsonType::whole_number) {
+        return whole;
+    }
+    if (info.json == app::JsonType::number) {
+        return real;
+    }
+    return fmt::format("str | {} | collections.abc.Iterable[{}{}]", real,
+                       info.separator != '\0' ? "" : "str | ", real);
 }
 
 const char* function_of(Call call)
@@ -106,34 +165,56 @@ const char* function_of(Call call)
     return call == Call::load ? "load()" : call == Call::render ? "render()" : "save()";
 }
 
+[[noreturn]] void fail_unknown(const std::string& keyword, Call call)
+{
+    for (const Call other : {Call::load, Call::render, Call::save}) {
+        if (options_of(other).contains(keyword)) {
+            throw Error(ErrorCode::usage, fmt::format("{} is an option of {}, not of {}", keyword,
+                                                      function_of(other), function_of(call)));
+        }
+    }
+    const auto meant = app::closest(keyword, keywords_of(call));
+    throw Error(ErrorCode::usage,
+                fmt::format("{} has no option {}{}", function_of(call), keyword,
+                            meant ? fmt::format(" (did you mean {}?)", *meant) : ""));
+}
+
+/// `text` in lines of at most 100 columns, each behind `indent` spaces.
+std::string wrapped(const std::string& text, std::size_t indent)
+{
+    constexpr std::size_t columns = 100;
+    std::istringstream words(text);
+    std::string result;
+    std::size_t column = columns;
+    for (std::string word; words >> word; column += 1 + word.size()) {
+        const bool breaks = column + 1 + word.size() > columns;
+        result += breaks ? (result.empty() ? "" : "\n") + std::string(indent, ' ') : " ";
+        result += word;
+        column = breaks ? indent - 1 : column;
+    }
+    return result + "\n";
+}
+
 }  // namespace
 
 Words words_of(const nb::kwargs& options, Call call)
 {
-    const std::vector<std::string> known = names_of(call);
+    const std::map<std::string, app::Option> known = options_of(call);
     Words words;
     for (const auto& [key, value] : options) {
-        const auto keyword = nb::cast<std::string>(key);
-        const std::string name = option_of(keyword);
-        if (!has(known, name)) {
-            for (const Call other : {Call::load, Call::render, Call::save}) {
-                if (has(names_of(other), name)) {
-                    throw Error(ErrorCode::usage,
-                                fmt::format("{} is an option of {}, not of {}", keyword,
-                                            function_of(other), function_of(call)));
-                }
-            }
-            const auto meant = app::closest(name, known);
-            throw Error(ErrorCode::usage,
-                        fmt::format("{} has no option {}{}", function_of(call), keyword,
-                                    meant ? fmt::format(" (did you mean {}?)", *meant) : ""));
+        auto keyword = nb::cast<std::string>(key);
+        keyword = keyword == "from" ? "from_" : keyword;
+        const auto found = known.find(keyword);
+        if (found == known.end()) {
+            fail_unknown(keyword, call);
         }
-        if (value.is_none() || value.ptr() == Py_False) {
+        const app::Option& option = found->second;
+        if (value.is_none() || (option.is_flag() && value.ptr() == Py_False)) {
             continue;
         }
-        words.push_back(value.ptr() == Py_True
-                            ? "--" + name
-                            : fmt::format("--{}={}", name, value_of(name, value)));
+        const bool flag = option.is_flag() && value.ptr() == Py_True;
+        words.push_back(flag ? option.name()
+                             : fmt::format("{}={}", option.name(), text_of(option, value)));
     }
     return words;
 }
@@ -154,15 +235,23 @@ SaveArguments understand_save(const Words& words)
     return save.arguments;
 }
 
-std::string option_list(Call call)
+std::string declaration(std::string_view head, Call call, std::string_view result)
 {
-    std::string text;
-    for (const Keyword& keyword : keywords_of(call)) {
-        std::string name = keyword.name;
-        std::replace(name.begin(), name.end(), '-', '_');
-        text += fmt::format("    {}: {}\n", name == "from" ? "from_" : name, keyword.help);
-    }
-    return text;
+    std::string text(head);
+    for_each_option_of(call, [&text](const app::Option& option) {
+        text += fmt::format(", {}: {} | None = None", keyword_of(option), type_of(option));
+    });
+    return fmt::format("{}) -> {}", text, result);
+}
+
+std::string documentation(std::string_view text, Call call)
+{
+    std::string result = wrapped(std::string(text), 0) + "\nOptions:\n";
+    for_each_option_of(call, [&result](const app::Option& option) {
+        const std::string value = option.is_flag() ? "True" : option.value;
+        result += fmt::format("    {}: {}\n{}", keyword_of(option), value, wrapped(option.help, 8));
+    });
+    return result;
 }
 
 }  // namespace bdpt::python

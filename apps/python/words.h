@@ -2,7 +2,9 @@
 
 #include <nanobind/nanobind.h>
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "options/groups/denoise_arguments.h"
@@ -34,7 +36,11 @@ struct SaveArguments {
 
 [[nodiscard]] SaveArguments understand_save(const Words& words);
 
-/// The options of `call`, each with what it does: for docstrings.
-[[nodiscard]] std::string option_list(Call call);
+/// `head`, the options of `call` as keywords with their types, and `result`, as Python declares
+/// functions: "def load(file: str, *", "Scene".
+[[nodiscard]] std::string declaration(std::string_view head, Call call, std::string_view result);
+
+/// `text`, and the options of `call`, each with its values and what it does, as a docstring.
+[[nodiscard]] std::string documentation(std::string_view text, Call call);
 
 }  // namespace bdpt::python

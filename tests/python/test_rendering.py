@@ -55,6 +55,16 @@ def test_the_size_of_one_render_is_not_that_of_the_next(cornell_box):
     assert cornell_box.size == (720, 720)
 
 
+@pytest.mark.parametrize("size", ["6x4", (6, 4), [6, 4], np.array([6, 4]), (np.int64(6), np.uint8(4)), range(6, 2, -2)])
+def test_values_are_texts_or_numbers_or_anything_that_has_them(cornell_box, size):
+    assert bdpt.render(cornell_box, size=size, spp=np.int64(1), clamp=np.float32(0.5)).image.shape == (4, 6, 3)
+
+
+def test_paths_may_be_objects(tmp_path, cornell_box):
+    bdpt.render(cornell_box, spp=1, size=(8, 4)).save(tmp_path / "a.exr")
+    assert bdpt.load(SCENES / "cornell-box.gltf", env=tmp_path / "a.exr").lights == cornell_box.lights + 1
+
+
 def test_parts_add_up_to_the_whole(cornell_box):
     whole = bdpt.render(cornell_box, spp=4, **SMALL)
     parts = bdpt.render(cornell_box, samples="3:4", **SMALL)
@@ -132,6 +142,8 @@ def test_a_daemon_thread_does_not_disturb_the_end_of_python(progress):
     (lambda scene: bdpt.render(scene, env="none"), 2, "load"),
     (lambda scene: bdpt.render(scene, intregator="mis"), 2, "did you mean integrator"),
     (lambda scene: bdpt.render(scene, spp=-1), 2, "-1"),
+    (lambda scene: bdpt.render(scene, spp=True), 2, '--spp "True": expected'),
+    (lambda scene: bdpt.render(scene, seed=False), 2, '--seed "False": expected'),
     (lambda scene: bdpt.render(scene, spp=1, aov=[]), 2, '--aov "":'),
     (lambda scene: bdpt.render(scene, spp=1, integrator=""), 2, '--integrator "":'),
     (lambda scene: bdpt.render(scene, spp=2**32), 2, "4294967296"),

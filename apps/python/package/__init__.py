@@ -9,6 +9,11 @@
 
 from ._bdpt import (Camera, DirectionalLight, EnvironmentLight, Error, Material, Mesh, PointLight, Render, Scene,
                     SpotLight, __version__, compare, load, read_part, render)
+from ._signatures import with_signature
 
 __all__ = ["Camera", "DirectionalLight", "EnvironmentLight", "Error", "Material", "Mesh", "PointLight", "Render", "Scene",
            "SpotLight", "compare", "load", "read_part", "render"]
+
+load = with_signature(load)
+render = with_signature(render)
+Render.save = with_signature(Render.save)  # type: ignore[method-assign]

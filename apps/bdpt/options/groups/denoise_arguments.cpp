@@ -18,7 +18,7 @@ void add_denoise_options(OptionList& options, DenoiseArguments& denoise)
         "other way round: .exr gets the layer \"denoised\"",
         denoise.as,
         ValueType<DenoisedAs>{
-            .parse = kinds.type().parse, .expected = "image or layer", .info = {}});
+            .parse = kinds.type().parse, .expected = "image or layer", .info = kinds.type().info});
     flag.uses.plan_render = true;  // merging needs its layers
     Option& library =
         options.add("--denoiser-library", "FILE|DIR",

@@ -1,0 +1,117 @@
+"""What the stubs say of the package: all options, right programs are accepted, wrong ones refused."""
+
+import ast
+import inspect
+import json
+import os
+import pathlib
+import pydoc
+import re
+import subprocess
+import sys
+
+import bdpt
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PACKAGE = pathlib.Path(bdpt.__file__).parent
+FUNCTIONS = {"load": bdpt.load, "render": bdpt.render, "save": bdpt.Render.save}
+# Options of `bdpt render` that Python says in another way, or that concern one process of the command.
+OF_THE_COMMAND = {"file", "output", "float", "stats", "profile", "save_rates", "strategies", "strategy_depth", "part",
+                  "frames", "fps", "orbit", "cameras", "same_noise"}
+NOT_IN_JOBS = {"denoiser_library"}  # it names code that is loaded
+
+PROGRAM = '''
+import pathlib
+import bdpt
+import numpy as np
+
+scene = bdpt.load("scene.glb", env=pathlib.Path("sky.exr"), env_rotation=90, from_=(1, 2.5, 3), camera=0)
+scene = bdpt.load("scene.glb", spp=3)  # refused: spp
+render = bdpt.render(scene, spp=64, size=(640, 480), aov=["albedo", "normal"], time="90s", noise=0.02)
+render = bdpt.render(scene, spp=np.int64(64), clamp=np.float32(3), size=np.array([640, 480]), seed=None)
+render = bdpt.render(scene, sppp=3)  # refused: sppp
+render = bdpt.render(scene, spp="many")  # refused: spp
+render = bdpt.render(scene, integrator="magic")  # refused: integrator
+render = bdpt.render(scene, adaptive=3)  # refused: adaptive
+render = bdpt.render(scene, progress=lambda done, total, seconds: print(done / total, seconds))
+render = bdpt.render(scene, progress=lambda done: print(done))  # refused: .
+render.save("out.png", tone_map="agx", denoise=True, png_bits=16)
+render.save("out.exr", denoise="layer", half=True)
+render.save("out.exr", denoise="yes")  # refused: denoise
+render.image.mean()
+render.immage  # refused: immage
+code: int = bdpt.Error("").code
+camera = bdpt.Camera(from_=(0, 0, 0), look_at=(0, 0, 1), fov=40)
+camera = bdpt.Camera(from_=(0, 0, 0))  # refused: Camera
+'''
+
+
+def keywords_of_stub():
+    """By function."""
+    found = {}
+    for node in ast.walk(ast.parse((PACKAGE / "_bdpt.pyi").read_text(encoding="utf-8"))):
+        if isinstance(node, ast.FunctionDef) and node.name in FUNCTIONS:
+            found[node.name] = {argument.arg for argument in node.args.kwonlyargs} - {"progress"}
+    return found
+
+
+def test_the_package_says_that_it_has_types():
+    assert (PACKAGE / "py.typed").exists() and (PACKAGE / "_bdpt.pyi").exists()
+
+
+def test_stubs_have_each_option_of_the_command():
+    schema = json.loads((ROOT / "docs" / "job.schema.json").read_text(encoding="utf-8"))
+    options = {"from_" if name == "from" else name for name in schema["properties"] if name not in ("bdpt_job", "$schema")}
+    in_stubs = set().union(*keywords_of_stub().values())
+    assert in_stubs - NOT_IN_JOBS == options - OF_THE_COMMAND
+    assert OF_THE_COMMAND < options and NOT_IN_JOBS < in_stubs
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_stubs_signatures_and_help_have_the_same_keywords(name):
+    function, keywords = FUNCTIONS[name], keywords_of_stub()[name]
+    signature = inspect.signature(function)
+    only = {key for key, value in signature.parameters.items() if value.kind is value.KEYWORD_ONLY}
+    assert only - {"progress"} == keywords
+    text = pydoc.plain(pydoc.render_doc(function))
+    documented = set(re.findall(r"^ {8}(\w+): \S.*\n {12}\S", text.partition("Options:")[2], flags=re.M))
+    assert documented == keywords and len(keywords) > 5
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_each_keyword_of_a_stub_is_taken(name, cornell_box, tmp_path):
+    """The first keyword that is not known is the one that is reported."""
+    render = bdpt.render(cornell_box, spp=1, size=(2, 2))
+    first = {"load": "absent.glb", "render": cornell_box, "save": render}[name]
+    rest = [tmp_path / "a.exr"] if name == "save" else []
+    assert keywords_of_stub()[name]
+    for keyword in keywords_of_stub()[name]:
+        with pytest.raises(bdpt.Error) as raised:
+            FUNCTIONS[name](first, *rest, **{keyword: "\0"}, no_such_option=1)
+        assert "no_such_option" in str(raised.value)
+
+
+def mypy(*words, cwd):
+    pytest.importorskip("mypy")
+    environment = {**os.environ, "MYPYPATH": str(PACKAGE.parent), "PYTHONPATH": str(PACKAGE.parent)}
+    return subprocess.run([sys.executable, "-m", *words], cwd=cwd, env=environment, capture_output=True, text=True, check=False)
+
+
+def test_a_type_checker_accepts_what_is_right_and_refuses_what_is_wrong(tmp_path):
+    (tmp_path / "program.py").write_text(PROGRAM, encoding="utf-8")
+    done = mypy("mypy", "--strict", "program.py", cwd=tmp_path)
+    found = {int(line): text for line, text in re.findall(r"^program\.py:(\d+): error: (.*)", done.stdout, flags=re.M)}
+    expected = {number: line.partition("# refused: ")[2] for number, line in enumerate(PROGRAM.splitlines(), 1)
+                if "# refused: " in line}
+    assert found.keys() == expected.keys(), done.stdout + done.stderr
+    assert all(re.search(word, found[number]) for number, word in expected.items()), done.stdout
+
+
+def test_stubs_are_those_of_the_module(tmp_path):
+    done = mypy("mypy.stubtest", "bdpt", cwd=tmp_path)
+    # All classes and functions of nanobind have these; what they say of arguments is checked above.
+    of_nanobind = re.compile(r"is a disjoint base|metaclass differs|is not a function|__init__ is inconsistent")
+    errors = re.findall(r"^error: (.*)", done.stdout, flags=re.M)
+    assert errors and "not checking" not in done.stdout, done.stdout + done.stderr
+    assert [error for error in errors if not of_nanobind.search(error)] == []

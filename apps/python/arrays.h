@@ -2,7 +2,6 @@
 
 #include <bdpt/error.h>
 #include <bdpt/image.h>
-#include <bdpt/layer.h>
 #include <fmt/core.h>
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>

@@ -2,10 +2,11 @@
 """Fails when the source tree breaks the rules of docs/architecture.md: check_layers.py ROOT.
 
 A folder of lib/src, lib/io/src or apps/bdpt includes only folders of a lower layer, public headers need nothing but GLM and the standard
-library, each third-party library stays where it belongs, no file is longer than 600 lines, and every source file is
-listed in a CMakeLists.txt or in a .cmake file beside one.
+library, each third-party library stays where it belongs, no file is longer than 600 lines, no folder has
+more than 30 sources side by side, and every source file is listed in a CMakeLists.txt or in a .cmake file beside one.
 """
 
+import collections
 import pathlib
 import re
 import sys
@@ -18,6 +19,7 @@ IO_LAYERS = {"file": 1, "image": 2, "ies": 2, "output": 2, "volume": 2, "denoise
              "gltf/document": 5, "gltf/animation": 6, "gltf/geometry": 7, "gltf/material": 7, "gltf/light_camera": 7,
              "gltf/scene": 8}
 MAX_LINES = 600
+MAX_FILES = 30
 AREAS = ("lib", "apps", "tests", "benchmarks")
 
 # Area of the tree (the longest prefix counts) -> third-party and system headers that it may include.
@@ -52,13 +54,13 @@ ALLOWED = {
 }
 # Area -> what it may include of our own by <bdpt/...>.
 OWN = {
-    "lib/include": r"bdpt/(film/|part/)?[a-z0-9_]+\.h",
-    "lib/src": r"bdpt/(film/|part/)?[a-z0-9_]+\.h",
-    "lib/io": r"bdpt/(io/|film/|part/)?[a-z0-9_]+\.h",
-    "lib/eval": r"bdpt/(io/|film/|part/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
-    "apps": r"bdpt/(io/|film/|part/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
-    "tests": r"bdpt/(io/|film/|part/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
-    "benchmarks": r"bdpt/(io/|film/|part/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
+    "lib/include": r"bdpt/(film/|options/|part/)?[a-z0-9_]+\.h",
+    "lib/src": r"bdpt/(film/|options/|part/)?[a-z0-9_]+\.h",
+    "lib/io": r"bdpt/(io/|film/|options/|part/)?[a-z0-9_]+\.h",
+    "lib/eval": r"bdpt/(io/|film/|options/|part/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
+    "apps": r"bdpt/(io/|film/|options/|part/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
+    "tests": r"bdpt/(io/|film/|options/|part/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
+    "benchmarks": r"bdpt/(io/|film/|options/|part/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
 }
 STANDARD = re.compile(r"[a-z_]+")  # <vector>; the C headers with .h are not ours to use
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"]+)"|<([^>]+)>)', re.MULTILINE)
@@ -140,6 +142,9 @@ def check(root):
                 errors.append(f"{path}: {error}")
         if file.suffix == ".cpp" and file not in listed:
             errors.append(f"{path}: is in no list of CMake")
+    for folder, number in collections.Counter(file.parent for file in files).items():
+        if number > MAX_FILES:
+            errors.append(f"{folder.relative_to(root).as_posix()}: {number} sources side by side, {MAX_FILES} at most")
     if count == 0:
         errors.append(f"{root}: no source files")
     return errors, count

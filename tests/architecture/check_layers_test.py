@@ -124,6 +124,19 @@ class CheckLayers(unittest.TestCase):
                 self.assertTrue(found[0].startswith(violation[0] + ": "), found)
                 self.assertIn(violation[2], found[0])
 
+    def test_crowded_folder_is_the_only_finding(self):
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder).resolve()
+            crowd = root / "lib/include/bdpt"
+            (crowd / "part").mkdir(parents=True)
+            for number in range(30):
+                (crowd / f"header_{number}.h").write_text("#pragma once\n", encoding="utf-8")
+            (crowd / "part/other.h").write_text("#pragma once\n", encoding="utf-8")
+            self.assertEqual(check_layers.check(root)[0], [])
+            (crowd / "one_more.h").write_text("#pragma once\n", encoding="utf-8")
+            self.assertEqual(check_layers.check(root)[0],
+                             ["lib/include/bdpt: 31 sources side by side, 30 at most"])
+
     def test_empty_tree_is_an_error(self):
         with tempfile.TemporaryDirectory() as folder:
             errors, count = check_layers.check(pathlib.Path(folder))

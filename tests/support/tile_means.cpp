@@ -1,6 +1,6 @@
 #include "tile_means.h"
 
-#include <bdpt/integrators.h>
+#include <bdpt/options/integrators.h>
 
 #include <algorithm>
 

@@ -1,10 +1,10 @@
 #include "commands/plan_command.h"
 
 #include <bdpt/error.h>
-#include <bdpt/integrators.h>
 #include <bdpt/io/rates_file.h>
 #include <bdpt/isa.h>
-#include <bdpt/option_fields.h>
+#include <bdpt/options/integrators.h>
+#include <bdpt/options/option_fields.h>
 #include <bdpt/part/identity.h>
 #include <bdpt/part/sample_rates.h>
 #include <bdpt/render.h>

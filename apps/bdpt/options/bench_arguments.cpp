@@ -1,7 +1,7 @@
 #include "options/bench_arguments.h"
 
-#include <bdpt/enumerators.h>
-#include <bdpt/option_fields.h>
+#include <bdpt/options/enumerators.h>
+#include <bdpt/options/option_fields.h>
 #include <fmt/core.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "options/render_arguments.h"
 
-#include <bdpt/option_text.h>
+#include <bdpt/options/option_text.h>
 #include <bdpt/part/sample_rates.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "report/bench_text.h"
 
 #include <bdpt/eval/bench/summary.h>
-#include <bdpt/option_fields.h>
+#include <bdpt/options/option_fields.h>
 #include <fmt/core.h>
 
 #include <string_view>

@@ -1,8 +1,8 @@
 #pragma once
 
+#include <bdpt/image.h>
 #include <bdpt/inspect.h>
 #include <bdpt/io/tone_map.h>
-#include <bdpt/layer.h>
 
 #include <vector>
 

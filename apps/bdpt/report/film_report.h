@@ -2,7 +2,6 @@
 
 #include <bdpt/film/film.h>
 #include <bdpt/image.h>
-#include <bdpt/layer.h>
 #include <bdpt/time_profile.h>
 
 #include "terminal/console.h"

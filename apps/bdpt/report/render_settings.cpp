@@ -1,6 +1,6 @@
 #include "report/render_settings.h"
 
-#include <bdpt/option_fields.h>
+#include <bdpt/options/option_fields.h>
 #include <bdpt/part/sample_rates.h>
 #include <bdpt/version.h>
 

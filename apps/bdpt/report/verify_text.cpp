@@ -1,7 +1,7 @@
 #include "report/verify_text.h"
 
 #include <bdpt/eval/verify/verify_json.h>
-#include <bdpt/option_fields.h>
+#include <bdpt/options/option_fields.h>
 #include <fmt/core.h>
 
 #include <algorithm>

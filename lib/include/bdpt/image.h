@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace bdpt {
@@ -20,6 +21,15 @@ struct Image {
         return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
                       static_cast<std::size_t>(x)];
     }
+};
+
+/// Named channels of an image, as files of many layers hold them.
+struct Layer {
+    std::string name;      ///< "normal"; empty: the main layer
+    std::string channels;  ///< one letter each, in the order of the values: "XYZ"
+    int width = 0;
+    int height = 0;
+    std::vector<float> values;  ///< row-major from the top left, the channels of a pixel together
 };
 
 /// How the values of an image are stored.

@@ -2,7 +2,7 @@
 
 #include <bdpt/aov.h>
 #include <bdpt/export.h>
-#include <bdpt/filter_options.h>
+#include <bdpt/options/filter_options.h>
 #include <bdpt/pixel_rect.h>
 
 #include <cstdint>

@@ -49,7 +49,7 @@ public:
     /// What is likely not meant, such as bodies that are not closed; one line each.
     [[nodiscard]] const std::vector<std::string>& warnings() const;
 
-    /// What its bits depend on (bdpt/identity.h), the instruction set and Embree included.
+    /// What its bits depend on (bdpt/part/identity.h), the instruction set and Embree included.
     [[nodiscard]] const std::vector<IdentityComponent>& identity() const { return identity_; }
 
     /// For the library itself.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <bdpt/filter_options.h>
+#include <bdpt/options/filter_options.h>
 #include <bdpt/types.h>
 
 #include <vector>

@@ -5,7 +5,7 @@
 #include "render/open_camera.h"
 
 #include <bdpt/error.h>
-#include <bdpt/integrators.h>
+#include <bdpt/options/integrators.h>
 #include <bdpt/render.h>
 
 #include <string>

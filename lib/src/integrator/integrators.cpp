@@ -1,5 +1,5 @@
-#include <bdpt/integrators.h>
-#include <bdpt/option_fields.h>
+#include <bdpt/options/integrators.h>
+#include <bdpt/options/option_fields.h>
 
 #include "integrator/bidirectional/bidirectional_integrator.h"
 #include "integrator/integrator.h"

@@ -5,7 +5,7 @@
 #include "render/megabytes.h"
 
 #include <bdpt/error.h>
-#include <bdpt/integrators.h>
+#include <bdpt/options/integrators.h>
 
 #include <cstdint>
 #include <sstream>

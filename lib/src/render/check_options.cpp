@@ -5,10 +5,10 @@
 #include "render/check_light_paths.h"
 
 #include <bdpt/error.h>
-#include <bdpt/integrators.h>
 #include <bdpt/motion.h>
-#include <bdpt/option_fields.h>
-#include <bdpt/option_text.h>
+#include <bdpt/options/integrators.h>
+#include <bdpt/options/option_fields.h>
+#include <bdpt/options/option_text.h>
 #include <bdpt/part/sample_rates.h>
 
 #include <glm/common.hpp>

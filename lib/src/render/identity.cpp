@@ -4,8 +4,8 @@
 #include "scene/scene_names.h"
 #include "scene/world.h"
 
-#include <bdpt/option_fields.h>
-#include <bdpt/option_text.h>
+#include <bdpt/options/option_fields.h>
+#include <bdpt/options/option_text.h>
 #include <bdpt/render.h>
 #include <bdpt/scene.h>
 #include <bdpt/version.h>

@@ -5,7 +5,7 @@
 #include "integrator/sample_schedule.h"
 #include "render/open_camera.h"
 
-#include <bdpt/integrators.h>
+#include <bdpt/options/integrators.h>
 
 #include <tbb/blocked_range2d.h>
 #include <tbb/combinable.h>

@@ -1,6 +1,6 @@
 #include <bdpt/error.h>
-#include <bdpt/integrators.h>
 #include <bdpt/noise.h>
+#include <bdpt/options/integrators.h>
 #include <bdpt/part/sample_rates.h>
 #include <bdpt/render.h>
 #include <bdpt/renderer.h>

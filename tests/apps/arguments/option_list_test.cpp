@@ -1,6 +1,6 @@
 #include "options/option_list.h"
 
-#include <bdpt/option_fields.h>
+#include <bdpt/options/option_fields.h>
 
 #include <algorithm>
 #include <set>

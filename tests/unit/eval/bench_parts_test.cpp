@@ -5,8 +5,8 @@
 #include <bdpt/eval/bench/reference.h>
 #include <bdpt/eval/image/shrunk.h>
 #include <bdpt/eval/report/packed_image.h>
-#include <bdpt/integrators.h>
-#include <bdpt/option_fields.h>
+#include <bdpt/options/integrators.h>
+#include <bdpt/options/option_fields.h>
 
 #include "bench/trial.h"
 

@@ -1,7 +1,7 @@
 #include "render/check_options.h"
 
 #include <bdpt/error.h>
-#include <bdpt/option_fields.h>
+#include <bdpt/options/option_fields.h>
 
 #include "catch.hpp"
 #include "scene_builder.h"

@@ -1,4 +1,4 @@
-#include <bdpt/option_fields.h>
+#include <bdpt/options/option_fields.h>
 #include <bdpt/part/identity.h>
 
 #include <bdpt/part/sample_rates.h>

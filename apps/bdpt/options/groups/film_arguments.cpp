@@ -1,6 +1,6 @@
 #include "options/groups/film_arguments.h"
 
-#include <bdpt/option_fields.h>
+#include <bdpt/options/option_fields.h>
 
 #include <array>
 #include <string>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <bdpt/aov.h>
-#include <bdpt/filter_options.h>
+#include <bdpt/options/filter_options.h>
 #include <bdpt/pixel_rect.h>
 #include <bdpt/render_options.h>
 

@@ -1,6 +1,6 @@
 #include "options/groups/render_fields.h"
 
-#include <bdpt/option_text.h>
+#include <bdpt/options/option_text.h>
 #include <fmt/core.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <bdpt/option_fields.h>
+#include <bdpt/options/option_fields.h>
 
 #include <span>
 #include <string_view>
@@ -10,7 +10,7 @@
 namespace bdpt::app {
 
 // Options of the command that are fields of `RenderOptions`, by the list in
-// <bdpt/option_fields.h>: a field that has a help text there is an option here.
+// <bdpt/options/option_fields.h>: a field that has a help text there is an option here.
 
 void add_fields(OptionList& options, FilmOptions& film);
 void add_fields(OptionList& options, SamplingOptions& sampling);

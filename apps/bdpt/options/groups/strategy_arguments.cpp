@@ -1,6 +1,6 @@
 #include "options/groups/strategy_arguments.h"
 
-#include <bdpt/integrators.h>
+#include <bdpt/options/integrators.h>
 #include <fmt/core.h>
 
 #include <array>

@@ -1,8 +1,8 @@
 #include "options/groups/transport_arguments.h"
 
-#include <bdpt/integrators.h>
-#include <bdpt/option_fields.h>
-#include <bdpt/option_text.h>
+#include <bdpt/options/integrators.h>
+#include <bdpt/options/option_fields.h>
+#include <bdpt/options/option_text.h>
 
 #include <fmt/format.h>
 

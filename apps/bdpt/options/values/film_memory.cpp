@@ -2,7 +2,7 @@
 
 #include <bdpt/film/exact_sum.h>
 #include <bdpt/film/id_film.h>
-#include <bdpt/integrators.h>
+#include <bdpt/options/integrators.h>
 
 #include <array>
 #include <utility>

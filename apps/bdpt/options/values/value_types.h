@@ -1,6 +1,6 @@
 #pragma once
 
-#include <bdpt/enumerators.h>
+#include <bdpt/options/enumerators.h>
 #include <bdpt/render_options.h>
 #include <bdpt/types.h>
 

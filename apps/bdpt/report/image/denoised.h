@@ -2,7 +2,6 @@
 
 #include <bdpt/image.h>
 #include <bdpt/io/denoise.h>
-#include <bdpt/layer.h>
 
 #include <filesystem>
 #include <optional>

@@ -5,7 +5,6 @@
 #include <bdpt/image.h>
 #include <bdpt/io/denoise.h>
 #include <bdpt/io/exr.h>
-#include <bdpt/layer.h>
 
 #include <cstddef>
 #include <filesystem>

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <bdpt/image.h>
 #include <bdpt/io/denoise.h>
-#include <bdpt/layer.h>
 
 #include <span>
 #include <vector>

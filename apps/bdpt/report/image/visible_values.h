@@ -1,6 +1,6 @@
 #pragma once
 
-#include <bdpt/layer.h>
+#include <bdpt/image.h>
 
 #include <span>
 

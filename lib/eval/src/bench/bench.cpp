@@ -1,5 +1,5 @@
 #include <bdpt/eval/bench/bench.h>
-#include <bdpt/option_fields.h>
+#include <bdpt/options/option_fields.h>
 
 #include <bdpt/error.h>
 #include <bdpt/eval/bench/error_floor.h>

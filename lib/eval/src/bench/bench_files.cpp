@@ -2,7 +2,7 @@
 
 #include <bdpt/error.h>
 #include <bdpt/io/output_file.h>
-#include <bdpt/option_fields.h>
+#include <bdpt/options/option_fields.h>
 #include <bdpt/version.h>
 
 #include <cmath>

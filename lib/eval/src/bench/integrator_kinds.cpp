@@ -1,5 +1,5 @@
 #include <bdpt/eval/bench/integrator_kinds.h>
-#include <bdpt/integrators.h>
+#include <bdpt/options/integrators.h>
 
 namespace bdpt::eval {
 

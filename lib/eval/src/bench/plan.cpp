@@ -1,7 +1,7 @@
 #include "bench/plan.h"
 
 #include <bdpt/error.h>
-#include <bdpt/option_fields.h>
+#include <bdpt/options/option_fields.h>
 
 #include <algorithm>
 #include <limits>

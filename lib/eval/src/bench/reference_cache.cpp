@@ -3,7 +3,7 @@
 #include <bdpt/error.h>
 #include <bdpt/io/exr.h>
 #include <bdpt/io/read_image.h>
-#include <bdpt/option_fields.h>
+#include <bdpt/options/option_fields.h>
 #include <bdpt/version.h>
 
 #include <chrono>

@@ -2,7 +2,7 @@
 
 #include <bdpt/error.h>
 #include <bdpt/eval/report/packed_image.h>
-#include <bdpt/option_fields.h>
+#include <bdpt/options/option_fields.h>
 #include <bdpt/render.h>
 
 #include <algorithm>

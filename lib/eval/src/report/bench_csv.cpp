@@ -1,5 +1,5 @@
 #include <bdpt/eval/report/bench_output.h>
-#include <bdpt/option_fields.h>
+#include <bdpt/options/option_fields.h>
 #include <bdpt/version.h>
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include <bdpt/eval/report/packed_image.h>
 #include <bdpt/io/read_image.h>
 #include <bdpt/io/tone_map.h>
-#include <bdpt/option_fields.h>
+#include <bdpt/options/option_fields.h>
 
 #include <algorithm>
 #include <cmath>

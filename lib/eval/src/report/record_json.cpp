@@ -1,6 +1,6 @@
 #include "report/record_json.h"
 
-#include <bdpt/option_fields.h>
+#include <bdpt/options/option_fields.h>
 #include <bdpt/version.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
 #include <bdpt/eval/verify/verify_json.h>
-#include <bdpt/option_fields.h>
+#include <bdpt/options/option_fields.h>
 
 #include <nlohmann/json.hpp>
 

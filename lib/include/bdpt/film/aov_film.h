@@ -4,7 +4,7 @@
 #include <bdpt/export.h>
 #include <bdpt/film/exact_sum.h>
 #include <bdpt/film/film.h>
-#include <bdpt/layer.h>
+#include <bdpt/image.h>
 #include <bdpt/pixel_rect.h>
 #include <bdpt/types.h>
 

@@ -6,7 +6,7 @@
 #include <bdpt/film/film.h>
 #include <bdpt/film/id_counts.h>
 #include <bdpt/film/name_id.h>
-#include <bdpt/layer.h>
+#include <bdpt/image.h>
 #include <bdpt/pixel_rect.h>
 
 #include <array>

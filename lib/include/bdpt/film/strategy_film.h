@@ -3,7 +3,6 @@
 #include <bdpt/export.h>
 #include <bdpt/film/exact_sum.h>
 #include <bdpt/image.h>
-#include <bdpt/layer.h>
 #include <bdpt/pixel_rect.h>
 #include <bdpt/render_options.h>
 #include <bdpt/types.h>

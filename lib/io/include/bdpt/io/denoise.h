@@ -2,7 +2,6 @@
 
 #include <bdpt/export.h>
 #include <bdpt/image.h>
-#include <bdpt/layer.h>
 
 #include <filesystem>
 #include <memory>

@@ -4,7 +4,6 @@
 #include <bdpt/film/id_film.h>
 #include <bdpt/image.h>
 #include <bdpt/io/image_metadata.h>
-#include <bdpt/layer.h>
 
 #include <cstddef>
 #include <cstdint>

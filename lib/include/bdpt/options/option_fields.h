@@ -1,9 +1,9 @@
 #pragma once
 
 #include <bdpt/aov.h>
-#include <bdpt/enumerators.h>
 #include <bdpt/fields.h>
-#include <bdpt/filter_options.h>
+#include <bdpt/options/enumerators.h>
+#include <bdpt/options/filter_options.h>
 #include <bdpt/part/sample_rates.h>
 #include <bdpt/pixel_rect.h>
 #include <bdpt/render_options.h>

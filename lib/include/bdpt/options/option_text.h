@@ -1,6 +1,6 @@
 #pragma once
 
-#include <bdpt/option_fields.h>
+#include <bdpt/options/option_fields.h>
 
 #include <array>
 #include <charconv>

@@ -160,16 +160,20 @@ use_pkg_config() {
 
   # The programs in the README and in the page about the library, with fewer pixels.
   ln -s "$SOURCE/scenes" scenes
-  local page program
+  local page program image
   for page in README.md docs/library.md; do
-    program=$(basename "$page" .md)
-    awk '/^```cpp$/ {inside = 1; next} /^```$/ {inside = 0} inside' "$SOURCE/$page" \
-      | sed 's/512/16/g; s/{0, 64}/{0, 1}/' >"$program.cpp"
-    compile "$program" "$program.cpp" bdpt_io
-    "./$program"
+    awk -v name="$(basename "$page" .md)" \
+      '/^```cpp$/ {inside = 1; ++number; next} /^```$/ {inside = 0} inside {print >(name number ".cpp")}' \
+      "$SOURCE/$page"
   done
-  [[ -s out.exr ]] || fail "the program in the README wrote no image"
-  [[ -s growing.exr ]] || fail "the program in docs/library.md wrote no image"
+  for program in README?.cpp library?.cpp; do
+    sed -i 's/512/16/g; s/{0, 64}/{0, 1}/' "$program"
+    compile "${program%.cpp}" "$program" bdpt_io
+    "./${program%.cpp}"
+  done
+  for image in out growing edited; do
+    [[ -s $image.exr ]] || fail "no program in the documentation wrote $image.exr"
+  done
 }
 
 # Builds the libraries as a part of a project: static ones, with bdpt::io, as quickly as compilers can (many files as

@@ -3,11 +3,13 @@
 #include <bdpt/export.h>
 #include <bdpt/isa.h>
 #include <bdpt/part/identity.h>
-#include <bdpt/scene_desc.h>
+#include <bdpt/shared_scene_desc.h>
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace bdpt {
@@ -36,10 +38,26 @@ public:
     /// Throws `Error`: invalid_input when an index, a transform or a value in `desc` is invalid,
     /// and the message names the item and the value; usage when this CPU lacks `isa`; out_of_memory
     /// or internal when Embree fails.
-    explicit Scene(SceneDesc desc, Isa isa = Isa::native);
+    explicit Scene(SharedSceneDesc desc, Isa isa = Isa::native);
     Scene(Scene&&) noexcept;
     Scene& operator=(Scene&&) noexcept;
     ~Scene();
+
+    /// What it was built from. Its lists are shared: a copy takes no time.
+    [[nodiscard]] const SharedSceneDesc& description() const;
+    /// The scene of another description, traced with the same instruction set, as if built from it:
+    /// the same bits. What stays the same is shared: where triangles keep their places no tree is
+    /// built, and where lists are those of `description()` nothing is checked or hashed. This scene
+    /// stays as it is, and may go. Throws as a new one.
+    [[nodiscard]] Scene edited(SharedSceneDesc desc) const;
+    /// The same with one material, instance or list in place of another. Throws `Error`
+    /// (invalid_input), too, when nothing or more than one thing has that number or name.
+    [[nodiscard]] Scene with(MaterialId id, MaterialDesc material) const;
+    [[nodiscard]] Scene with(std::string_view name, MaterialDesc material) const;
+    [[nodiscard]] Scene with(std::string_view name, InstanceDesc instance) const;
+    [[nodiscard]] Scene with_lights(std::vector<LightDesc> lights) const;
+    /// Instead of the one that there is, or besides all other lights; none: without one.
+    [[nodiscard]] Scene with_environment(std::optional<EnvironmentLightDesc> environment) const;
 
     /// Of all instances; both corners are zero in an empty scene.
     [[nodiscard]] Bounds bounds() const;
@@ -50,14 +68,16 @@ public:
     [[nodiscard]] const std::vector<std::string>& warnings() const;
 
     /// What its bits depend on (bdpt/part/identity.h), the instruction set and Embree included.
-    [[nodiscard]] const std::vector<IdentityComponent>& identity() const { return identity_; }
+    [[nodiscard]] const std::vector<IdentityComponent>& identity() const;
 
     /// For the library itself.
-    [[nodiscard]] const World& world() const { return *world_; }
+    [[nodiscard]] const World& world() const;
 
 private:
-    std::vector<IdentityComponent> identity_;
-    std::unique_ptr<const World> world_;  // after the identity, as it takes the description
+    struct State;
+    explicit Scene(std::unique_ptr<const State> state);
+
+    std::unique_ptr<const State> state_;
 };
 
 }  // namespace bdpt

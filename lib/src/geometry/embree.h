@@ -22,12 +22,13 @@ using Context = RTCIntersectContext;
 struct RayContext {
     Context embree;
     const Ray* ray;
+    const void* owner;
 };
 
-/// `of`: the ray of `ray_hit`, as callbacks will get to know it.
-inline void intersect(RTCScene scene, RTCRayHit& ray_hit, const Ray& of)
+/// `of`: the ray of `ray_hit`, as callbacks will get to know it, and `owner`: who asks.
+inline void intersect(RTCScene scene, RTCRayHit& ray_hit, const Ray& of, const void* owner)
 {
-    RayContext context{.embree = {}, .ray = &of};
+    RayContext context{.embree = {}, .ray = &of, .owner = owner};
 #if BDPT_EMBREE_MAJOR >= 4
     rtcInitRayQueryContext(&context.embree);
     RTCIntersectArguments arguments;
@@ -41,9 +42,9 @@ inline void intersect(RTCScene scene, RTCRayHit& ray_hit, const Ray& of)
 }
 
 /// Sets `ray.tfar` to minus infinity when anything is in the way.
-inline void occluded(RTCScene scene, RTCRay& ray, const Ray& of)
+inline void occluded(RTCScene scene, RTCRay& ray, const Ray& of, const void* owner)
 {
-    RayContext context{.embree = {}, .ray = &of};
+    RayContext context{.embree = {}, .ray = &of, .owner = owner};
 #if BDPT_EMBREE_MAJOR >= 4
     rtcInitRayQueryContext(&context.embree);
     RTCOccludedArguments arguments;
@@ -56,10 +57,10 @@ inline void occluded(RTCScene scene, RTCRay& ray, const Ray& of)
 #endif
 }
 
-/// The ray, in the world, of the query that a callback belongs to.
-inline const Ray& ray_of(const Context* context)
+/// The query that a callback belongs to; its ray is that in the world.
+inline const RayContext& query_of(const Context* context)
 {
-    return *reinterpret_cast<const RayContext*>(context)->ray;
+    return *reinterpret_cast<const RayContext*>(context);
 }
 
 }  // namespace bdpt::embree

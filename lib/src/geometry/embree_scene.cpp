@@ -53,43 +53,41 @@ OwnedScene new_scene(RTCDevice device)
     return scene;
 }
 
-/// What decides which hits count, and for whom.
-struct HitFilter {
-    AnyHitFilter rule;
+/// What a query is asked of, as callbacks get to know it.
+struct QueryOwner {
+    const AnyHitFilter* filter;
     std::span<const PlacedMesh> placed;
 };
 
-/// Asks the rule whether the hit counts. Only single rays are asked for, and packets of one have
+/// Asks the filter whether the hit counts. Only single rays are asked for, and packets of one have
 /// the layout of the struct.
 void filter_hit(const RTCFilterFunctionNArguments* args)
 {
     if (args->valid[0] == 0) {
         return;
     }
-    const auto& [rule, placed] = *static_cast<const HitFilter*>(args->geometryUserPtr);
+    const embree::RayContext& query = embree::query_of(args->context);
+    const auto& [filter, placed] = *static_cast<const QueryOwner*>(query.owner);
     const auto& hit = *reinterpret_cast<const RTCHit*>(args->hit);
     const bool shared = hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
     const std::uint32_t instance = shared ? hit.instID[0] : hit.geomID;
-    const Ray& ray = embree::ray_of(args->context);
     TriangleHit at;
-    placed[instance].hit(hit.primID, ray, at);
-    if (rule.passes(rule.owner, {.instance = instance,
-                                 .triangle = hit.primID,
-                                 .barycentrics = at.barycentrics,
-                                 .segment = ray.segment})) {
+    placed[instance].hit(hit.primID, *query.ray, at);
+    if (filter->passes(filter->owner, {.instance = instance,
+                                       .triangle = hit.primID,
+                                       .barycentrics = at.barycentrics,
+                                       .segment = query.ray->segment})) {
         args->valid[0] = 0;
     }
 }
 
-void let_pass(RTCDevice device, RTCGeometry geometry, const HitFilter& filter)
+void let_pass(RTCDevice device, RTCGeometry geometry)
 {
     if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_FILTER_FUNCTION_SUPPORTED) == 0) {
         throw Error(
             ErrorCode::unsupported,
             "this Embree was built without filter functions, which surfaces with alpha need");
     }
-    // Embree wants a pointer to non-const, but the callback does not write.
-    rtcSetGeometryUserData(geometry, const_cast<HitFilter*>(&filter));
     rtcSetGeometryIntersectFilterFunction(geometry, &filter_hit);
     rtcSetGeometryOccludedFilterFunction(geometry, &filter_hit);
 }
@@ -97,9 +95,9 @@ void let_pass(RTCDevice device, RTCGeometry geometry, const HitFilter& filter)
 /// Vertices of a mesh, at one or more equally spaced times.
 using PaddedPositions = std::vector<std::vector<Vec3>>;
 
-/// `filter` is null where no ray passes; it must outlive the geometry, like the vectors.
+/// The vectors must outlive the geometry.
 OwnedGeometry new_triangles(RTCDevice device, const PaddedPositions& positions,
-                            const std::vector<UVec3>& triangles, const HitFilter* filter)
+                            const std::vector<UVec3>& triangles, bool filtered)
 {
     OwnedGeometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
     rtcSetGeometryTimeStepCount(geometry.get(), static_cast<unsigned>(positions.size()));
@@ -111,8 +109,8 @@ OwnedGeometry new_triangles(RTCDevice device, const PaddedPositions& positions,
     rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                triangles.data(), 0, sizeof(UVec3), triangles.size());
     rtcSetGeometryMask(geometry.get(), all_rays);
-    if (filter != nullptr) {
-        let_pass(device, geometry.get(), *filter);
+    if (filtered) {
+        let_pass(device, geometry.get());
     }
     rtcCommitGeometry(geometry.get());
     check_embree(device, "take over a mesh");
@@ -175,17 +173,46 @@ RTCRay to_embree(const Ray& ray)
             .flags = 0};
 }
 
+/// A mesh that instances share.
+struct MeshTree {
+    PaddedPositions positions;  // what Embree reads
+    OwnedScene scene;
+};
+
+MeshTree new_tree(RTCDevice device, const MeshDesc& desc, bool filtered)
+{
+    MeshTree tree;
+    tree.positions.push_back(padded(desc.positions));
+    tree.scene = new_scene(device);
+    const OwnedGeometry geometry = new_triangles(device, tree.positions, desc.triangles, filtered);
+    rtcAttachGeometryByID(tree.scene.get(), geometry.get(), 0);
+    rtcCommitScene(tree.scene.get());
+    check_embree(device, "build the BVH of a mesh");
+    return tree;
+}
+
 }  // namespace
 
-struct EmbreeScene::State {
-    explicit State(Isa isa) : device(isa) {}
+std::vector<bool> filtered_meshes(std::span<const InstanceDesc> instances, std::size_t mesh_count,
+                                  const AnyHitFilter& filter)
+{
+    std::vector<bool> filtered(mesh_count, false);
+    for (std::size_t i = 0; filter.concerns != nullptr && i < instances.size(); ++i) {
+        const auto mesh = static_cast<std::size_t>(instances[i].mesh);
+        filtered[mesh] =
+            filtered[mesh] || filter.concerns(filter.owner, static_cast<std::uint32_t>(i));
+    }
+    return filtered;
+}
 
-    EmbreeDevice device;
-    std::vector<OwnedScene> shared;          // by mesh; null for those that are in the top level
-    std::vector<PaddedPositions> positions;  // what Embree reads: by mesh or by instance
+struct EmbreeScene::State {
+    std::shared_ptr<const EmbreeDevice> device;
+    std::vector<bool> filtered;  // by mesh
+    // By mesh; null for those that are in the top level.
+    std::vector<std::shared_ptr<const MeshTree>> trees;
+    std::vector<PaddedPositions> positions;  // of the top level, as Embree reads them
     OwnedScene top;
     std::span<const PlacedMesh> placed;
-    HitFilter filter;
     float reach = 0.0f;
 
     [[nodiscard]] float farthest_origin() const { return 8.0f * reach; }
@@ -197,31 +224,38 @@ struct EmbreeScene::State {
         return is_within(ray.origin, farthest_origin()) &&
                is_within(ray.direction, 16.0f * reach) && ray.t_max >= 0.0f;
     }
+
+    /// That of `like` if it will do.
+    [[nodiscard]] std::shared_ptr<const MeshTree> tree_of(std::size_t mesh, const MeshDesc& desc,
+                                                          const State* like) const
+    {
+        if (like != nullptr && like->trees[mesh] && like->filtered[mesh] == filtered[mesh]) {
+            return like->trees[mesh];
+        }
+        return std::make_shared<const MeshTree>(new_tree(device->get(), desc, filtered[mesh]));
+    }
 };
 
 EmbreeScene::EmbreeScene(std::span<const InstanceDesc> instances, std::span<PlacedMesh> placed,
                          std::size_t mesh_count, std::span<const Sphere> spheres,
-                         const AnyHitFilter& any_hit_filter, Isa isa)
-    : state_(std::make_unique<State>(isa))
+                         const AnyHitFilter& any_hit_filter, Isa isa, const EmbreeScene* like)
+    : filter_(any_hit_filter)
 {
-    State& state = *state_;
-    RTCDevice device = state.device.get();
+    const auto building = std::make_shared<State>();
+    State& state = *building;
+    const State* known = like != nullptr ? like->state_.get() : nullptr;
+    state.device = known != nullptr ? known->device : std::make_shared<const EmbreeDevice>(isa);
+    RTCDevice device = state.device->get();
     state.placed = placed;
     state.reach = coordinate_limit_of(instances, mesh_count);
-    state.filter = {.rule = any_hit_filter, .placed = placed};
+    state.filtered = filtered_meshes(instances, mesh_count, any_hit_filter);
     state.top = new_scene(device);
 
     std::vector<std::size_t> uses(mesh_count, 0);
-    std::vector<const HitFilter*> filters(mesh_count, nullptr);
-    for (std::size_t i = 0; i < instances.size(); ++i) {
-        const auto mesh = static_cast<std::size_t>(instances[i].mesh);
-        ++uses[mesh];
-        if (any_hit_filter.concerns != nullptr &&
-            any_hit_filter.concerns(any_hit_filter.owner, static_cast<std::uint32_t>(i))) {
-            filters[mesh] = &state.filter;
-        }
+    for (const InstanceDesc& instance : instances) {
+        ++uses[static_cast<std::size_t>(instance.mesh)];
     }
-    state.shared.resize(mesh_count);
+    state.trees.resize(mesh_count);
     for (std::size_t i = 0; i < instances.size(); ++i) {
         const auto mesh = static_cast<std::size_t>(instances[i].mesh);
         const MeshDesc& desc = placed[i].mesh();
@@ -236,20 +270,15 @@ EmbreeScene::EmbreeScene(std::span<const InstanceDesc> instances, std::span<Plac
                 placed[i].settle(world.front());
             }
             const OwnedGeometry geometry =
-                new_triangles(device, world, desc.triangles, filters[mesh]);
+                new_triangles(device, world, desc.triangles, state.filtered[mesh]);
             rtcAttachGeometryByID(state.top.get(), geometry.get(), id);
             continue;
         }
-        if (!state.shared[mesh]) {
-            state.positions.push_back({padded(desc.positions)});
-            state.shared[mesh] = new_scene(device);
-            const OwnedGeometry geometry =
-                new_triangles(device, state.positions.back(), desc.triangles, filters[mesh]);
-            rtcAttachGeometryByID(state.shared[mesh].get(), geometry.get(), 0);
-            rtcCommitScene(state.shared[mesh].get());
-            check_embree(device, "build the BVH of a mesh");
+        if (!state.trees[mesh]) {
+            state.trees[mesh] = state.tree_of(mesh, desc, known);
         }
-        const OwnedGeometry geometry = new_instance(device, state.shared[mesh].get(), placed[i]);
+        const OwnedGeometry geometry =
+            new_instance(device, state.trees[mesh]->scene.get(), placed[i]);
         rtcAttachGeometryByID(state.top.get(), geometry.get(), id);
     }
     if (!spheres.empty()) {
@@ -263,7 +292,12 @@ EmbreeScene::EmbreeScene(std::span<const InstanceDesc> instances, std::span<Plac
     }
     rtcCommitScene(state.top.get());
     check_embree(device, "build the BVH of the scene");
+    state_ = building;
 }
+
+EmbreeScene::EmbreeScene(const EmbreeScene& same, const AnyHitFilter& any_hit_filter)
+    : state_(same.state_), filter_(any_hit_filter)
+{}
 
 EmbreeScene::EmbreeScene(EmbreeScene&&) noexcept = default;
 EmbreeScene::~EmbreeScene() = default;
@@ -275,12 +309,22 @@ float EmbreeScene::farthest_origin() const noexcept
 
 Isa EmbreeScene::isa() const noexcept
 {
-    return state_->device.isa();
+    return state_->device->isa();
 }
 
 std::string EmbreeScene::embree_version() const
 {
-    return state_->device.version();
+    return state_->device->version();
+}
+
+const std::vector<bool>& EmbreeScene::filtered() const noexcept
+{
+    return state_->filtered;
+}
+
+const void* EmbreeScene::tree(std::size_t mesh) const noexcept
+{
+    return state_->trees[mesh].get();
 }
 
 std::optional<RayHit> EmbreeScene::intersect(const Ray& ray) const noexcept
@@ -293,7 +337,8 @@ std::optional<RayHit> EmbreeScene::intersect(const Ray& ray) const noexcept
     query.ray = to_embree(ray);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    embree::intersect(state_->top.get(), query, ray);
+    const QueryOwner owner{.filter = &filter_, .placed = state_->placed};
+    embree::intersect(state_->top.get(), query, ray, &owner);
     const RTCHit& hit = query.hit;
     if (hit.geomID == RTC_INVALID_GEOMETRY_ID) {
         return found;
@@ -318,7 +363,8 @@ bool EmbreeScene::occluded(const Ray& ray) const noexcept
         return true;  // No light comes along a line that nothing is known of.
     }
     RTCRay query = to_embree(ray);
-    embree::occluded(state_->top.get(), query, ray);
+    const QueryOwner owner{.filter = &filter_, .placed = state_->placed};
+    embree::occluded(state_->top.get(), query, ray, &owner);
     return query.tfar < 0.0f;
 }
 

@@ -4,6 +4,8 @@
 
 #include <cstddef>
 #include <string>
+#include <type_traits>
+#include <utility>
 
 namespace bdpt {
 namespace {
@@ -12,11 +14,11 @@ namespace {
 constexpr std::size_t most_items_by_themselves = 64;
 
 template <typename T>
-void add_list(std::vector<IdentityComponent>& result, const std::string& name,
-              const std::vector<T>& list)
+void add_component(std::vector<IdentityComponent>& result, const std::string& name,
+                   const SharedList<T>& list)
 {
     if (list.size() > most_items_by_themselves) {
-        result.push_back({.name = name, .value = hash_text(list)});
+        result.push_back({.name = name, .value = hash_text(list.values())});
         return;
     }
     for (std::size_t i = 0; i < list.size(); ++i) {
@@ -26,20 +28,65 @@ void add_list(std::vector<IdentityComponent>& result, const std::string& name,
 }
 
 template <typename T>
-void add_list(std::vector<IdentityComponent>& result, const std::string& name, const T& value)
+void add_component(std::vector<IdentityComponent>& result, const std::string& name, const T& value)
 {
     result.push_back({.name = name, .value = hash_text(value)});
 }
 
+template <typename T>
+bool is_known(const SharedList<T>& list, const SharedList<T>& before)
+{
+    return !list.empty() && list.is_shared_with(before);
+}
+
+/// It takes no time.
+template <typename T>
+bool is_known(const T& /*value*/, const T& /*before*/)
+{
+    return false;
+}
+
+template <std::size_t... i>
+SceneComponents components_of(const SharedSceneDesc& scene, const SharedSceneDesc& before,
+                              const SceneComponents& known, std::index_sequence<i...>)
+{
+    const auto values = scene.members();
+    const auto values_before = before.members();
+    SceneComponents result;
+    const auto add = [&]<std::size_t member>(std::integral_constant<std::size_t, member>) {
+        const auto& value = std::get<member>(values);
+        if (is_known(value, std::get<member>(values_before))) {
+            result[member] = known[member];
+        } else {
+            const std::string name(std::get<member>(fields<SceneDesc>).name);
+            add_component(result[member], "scene: " + name, value);
+        }
+    };
+    (add(std::integral_constant<std::size_t, i>()), ...);
+    return result;
+}
+
 }  // namespace
 
-std::vector<IdentityComponent> identity_components(const SceneDesc& scene)
+SceneComponents scene_components(const SharedSceneDesc& scene, const SharedSceneDesc& before,
+                                 const SceneComponents& known)
+{
+    return components_of(scene, before, known,
+                         std::make_index_sequence<std::tuple_size_v<SceneComponents>>());
+}
+
+std::vector<IdentityComponent> joined(const SceneComponents& components)
 {
     std::vector<IdentityComponent> result;
-    for_each_field(scene, [&result](const auto& field, const auto& value) {
-        add_list(result, "scene: " + std::string(field.name), value);
-    });
+    for (const std::vector<IdentityComponent>& some : components) {
+        result.insert(result.end(), some.begin(), some.end());
+    }
     return result;
+}
+
+std::vector<IdentityComponent> identity_components(const SharedSceneDesc& scene)
+{
+    return joined(scene_components(scene, {}, {}));
 }
 
 }  // namespace bdpt

@@ -5,17 +5,35 @@
 #include <algorithm>
 
 namespace bdpt {
+namespace {
+
+bool need_coat(std::span<const MaterialDesc> materials)
+{
+    return std::any_of(materials.begin(), materials.end(),
+                       [](const MaterialDesc& desc) { return desc.clearcoat.factor > 0.0f; });
+}
+
+bool need_sheen(std::span<const MaterialDesc> materials)
+{
+    return std::any_of(materials.begin(), materials.end(),
+                       [](const MaterialDesc& desc) { return !is_black(desc.sheen.color); });
+}
+
+}  // namespace
 
 LayerTables::LayerTables(std::span<const MaterialDesc> materials)
 {
-    const auto coated = [](const MaterialDesc& desc) { return desc.clearcoat.factor > 0.0f; };
-    const auto cloth = [](const MaterialDesc& desc) { return !is_black(desc.sheen.color); };
-    if (std::any_of(materials.begin(), materials.end(), coated)) {
+    if (need_coat(materials)) {
         coat = std::make_unique<const SpecularAlbedo>(1.5f);
     }
-    if (std::any_of(materials.begin(), materials.end(), cloth)) {
+    if (need_sheen(materials)) {
         sheen = std::make_unique<const SheenAlbedo>();
     }
+}
+
+bool LayerTables::are_enough_for(std::span<const MaterialDesc> materials) const
+{
+    return (coat || !need_coat(materials)) && (sheen || !need_sheen(materials));
 }
 
 }  // namespace bdpt

@@ -16,6 +16,8 @@ namespace bdpt {
 struct LayerTables {
     /// Those that these materials need.
     explicit LayerTables(std::span<const MaterialDesc> materials);
+    /// Are those here that these materials need?
+    [[nodiscard]] bool are_enough_for(std::span<const MaterialDesc> materials) const;
 
     std::unique_ptr<const SpecularAlbedo> coat;  ///< of index 1.5
     std::unique_ptr<const SheenAlbedo> sheen;

@@ -101,7 +101,7 @@ Material::Material(const MaterialDesc& desc, const TextureImages& images,
     const bool varies = any_turned || base_color_map_ || metallic_roughness_map_ || specular_map_ ||
                         specular_color_map_ || transmission_map_ || glossiness_map_;
     if (has_layers(desc) && !any_turned) {
-        layers_ = std::make_unique<const MaterialLayers>(desc, images, albedos, *tables);
+        layers_ = std::make_shared<const MaterialLayers>(desc, images, albedos, *tables);
     } else if (!varies && !unlit_ && !disperses()) {
         plain_ = plain_model(surface_, albedos_.at(Wavelength::green));
     }

@@ -16,7 +16,8 @@
 
 namespace bdpt {
 
-/// A `MaterialDesc` made ready for lookups. Refers to the images, which must outlive it.
+/// A `MaterialDesc` made ready for lookups. Refers to the images, which must outlive it and its
+/// copies.
 class Material {
 public:
     /// `albedos` belong to `boundary_indices(desc, exterior)`; `tables` are needed where
@@ -132,7 +133,7 @@ private:
     std::optional<Texture> specular_color_map_;
     std::optional<Texture> transmission_map_;
     std::optional<Texture> glossiness_map_;
-    std::unique_ptr<const MaterialLayers> layers_;  ///< of a material that has any
+    std::shared_ptr<const MaterialLayers> layers_;  ///< of a material that has any
     std::optional<int> tangent_uv_set_;
 };
 

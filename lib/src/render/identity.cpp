@@ -59,7 +59,7 @@ void add_camera(std::vector<IdentityComponent>& result, const CameraDesc& camera
 }
 
 /// Names are in no image but those of ids.
-void add_names(std::vector<IdentityComponent>& result, const SceneDesc& scene, AovSet aovs)
+void add_names(std::vector<IdentityComponent>& result, const SharedSceneDesc& scene, AovSet aovs)
 {
     if (!asks_for_ids(aovs)) {
         return;

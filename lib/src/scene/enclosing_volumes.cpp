@@ -114,7 +114,7 @@ EnclosingVolumes::EnclosingVolumes(std::span<const PlacedMesh> placed,
                                    std::span<const Sphere> spheres, const EmbreeScene& embree)
     : placed_(placed),
       spheres_(spheres),
-      embree_(embree),
+      embree_(embree, embree.filter()),
       instances_(std::move(instances)),
       volume_of_instance_(placed.size()),
       all_(instances_.size()),

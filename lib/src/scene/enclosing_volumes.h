@@ -25,7 +25,8 @@ public:
     /// How many may lie one in the other: the work grows with that for each of them.
     static constexpr std::size_t max_depth = 64;
 
-    /// `instances` are those whose meshes bound bodies, `most` of them. All else must outlive this.
+    /// `instances` are those whose meshes bound bodies, `most` of them. All else must outlive this,
+    /// but for `embree`, whose filter must only if it concerns any mesh.
     /// Throws `Error` (invalid_input) if more than `max_depth` lie one in the other.
     EnclosingVolumes(std::span<const PlacedMesh> placed, std::vector<std::uint32_t> instances,
                      std::span<const Sphere> spheres, const EmbreeScene& embree);
@@ -48,7 +49,7 @@ private:
 
     std::span<const PlacedMesh> placed_;
     std::span<const Sphere> spheres_;
-    const EmbreeScene& embree_;
+    EmbreeScene embree_;
     std::vector<std::uint32_t> instances_;
     std::vector<std::optional<std::size_t>> volume_of_instance_;
     Set all_;

@@ -28,29 +28,13 @@ std::optional<Sphere> sphere_of(const LightDesc& desc)
         desc);
 }
 
-/// How many samples of its emission texture a triangle may take along each side, so that all
-/// together stay in the range of a second.
-int most_emission_samples(std::span<const InstanceDesc> instances,
-                          std::span<const PlacedMesh> placed, std::span<const Material> materials)
-{
-    constexpr double budget = 0x1p24;
-    std::size_t textured = 0;
-    for (std::size_t i = 0; i < instances.size(); ++i) {
-        const bool counts =
-            materials[static_cast<std::size_t>(instances[i].material)].emission_needs_texture();
-        textured += counts ? placed[i].triangle_count() : 0U;
-    }
-    const double each = budget / static_cast<double>(std::max<std::size_t>(textured, 1));
-    return static_cast<int>(std::clamp(std::sqrt(each), 8.0, 1024.0));
-}
-
-std::size_t emissive_triangles(std::span<const InstanceDesc> instances,
+std::size_t emissive_triangles(std::span<const MaterialId> material_ids,
                                std::span<const PlacedMesh> placed,
                                std::span<const Material> materials)
 {
     std::size_t count = 0;
-    for (std::size_t i = 0; i < instances.size(); ++i) {
-        const Material& material = materials[static_cast<std::size_t>(instances[i].material)];
+    for (std::size_t i = 0; i < material_ids.size(); ++i) {
+        const Material& material = materials[static_cast<std::size_t>(material_ids[i])];
         count += is_black(material.mean_emission()) ? 0U : placed[i].triangle_count();
     }
     return count;
@@ -79,16 +63,30 @@ std::vector<Sphere> light_spheres(std::span<const LightDesc> lights)
     return spheres;
 }
 
-LightSet::LightSet(std::span<const InstanceDesc> instances, std::span<const PlacedMesh> placed,
+int most_emission_samples(std::span<const MaterialId> material_ids,
+                          std::span<const PlacedMesh> placed, std::span<const Material> materials)
+{
+    constexpr double budget = 0x1p24;
+    std::size_t textured = 0;
+    for (std::size_t i = 0; i < material_ids.size(); ++i) {
+        const bool counts =
+            materials[static_cast<std::size_t>(material_ids[i])].emission_needs_texture();
+        textured += counts ? placed[i].triangle_count() : 0U;
+    }
+    const double each = budget / static_cast<double>(std::max<std::size_t>(textured, 1));
+    return static_cast<int>(std::clamp(std::sqrt(each), 8.0, 1024.0));
+}
+
+LightSet::LightSet(std::span<const MaterialId> material_ids, std::span<const PlacedMesh> placed,
                    std::span<const Material> materials, std::span<const LightDesc> lights,
                    std::span<const IntensityProfile> profiles, const BoundingSphere& bounds,
                    std::span<const MediumId> media)
-    : first_of_instance_(instances.size())
+    : first_of_instance_(material_ids.size())
 {
-    const int most_samples = most_emission_samples(instances, placed, materials);
-    lights_.reserve(lights.size() + emissive_triangles(instances, placed, materials));
-    for (std::size_t i = 0; i < instances.size(); ++i) {
-        const Material& material = materials[static_cast<std::size_t>(instances[i].material)];
+    const int most_samples = most_emission_samples(material_ids, placed, materials);
+    lights_.reserve(lights.size() + emissive_triangles(material_ids, placed, materials));
+    for (std::size_t i = 0; i < material_ids.size(); ++i) {
+        const Material& material = materials[static_cast<std::size_t>(material_ids[i])];
         if (is_black(material.mean_emission())) {
             continue;
         }

@@ -8,39 +8,20 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <optional>
+#include <span>
 #include <sstream>
 #include <variant>
 
 namespace bdpt {
 namespace {
 
-struct Box {
-    Vec3 center{0.0f};
-    Vec3 half{0.0f};
-};
-
 float greatest(Vec3 v)
 {
     return std::max({v.x, v.y, v.z});
 }
 
-std::optional<Box> box_of(const MeshDesc& mesh)
-{
-    if (mesh.triangles.empty()) {
-        return std::nullopt;
-    }
-    Vec3 low(std::numeric_limits<float>::max());
-    Vec3 high(-std::numeric_limits<float>::max());
-    for (const Vec3& position : mesh.positions) {
-        low = min(low, position);
-        high = max(high, position);
-    }
-    return Box{.center = 0.5f * low + 0.5f * high, .half = 0.5f * high - 0.5f * low};
-}
-
-Box transformed(const Box& box, const Mat4& m)
+MeshBox transformed(const MeshBox& box, const Mat4& m)
 {
     return {.center = Vec3(m * Vec4(box.center, 1.0f)),
             .half = abs(Vec3(m[0])) * box.half.x + abs(Vec3(m[1])) * box.half.y +
@@ -50,7 +31,7 @@ Box transformed(const Box& box, const Mat4& m)
 /// An instance, and how inexact the points on it are.
 struct Placed {
     std::size_t instance = 0;
-    Box box;
+    MeshBox box;
     float distance = 0.0f;  ///< of its farthest point from the origin, in one coordinate [m]
     float error = 0.0f;     ///< [m]
 
@@ -62,18 +43,14 @@ struct Placed {
     }
 };
 
-std::vector<Placed> place(const SceneDesc& desc)
+std::vector<Placed> place(const SharedSceneDesc& desc,
+                          std::span<const std::optional<MeshBox>> boxes)
 {
-    std::vector<std::optional<Box>> boxes;
-    boxes.reserve(desc.meshes.size());
-    for (const MeshDesc& mesh : desc.meshes) {
-        boxes.push_back(box_of(mesh));
-    }
     std::vector<Placed> result;
     for (std::size_t i = 0; i < desc.instances.size(); ++i) {
         const InstanceDesc& instance = desc.instances[i];
         if (const auto& box = boxes[static_cast<std::size_t>(instance.mesh)]) {
-            const Box world = transformed(*box, instance.world_from_object);
+            const MeshBox world = transformed(*box, instance.world_from_object);
             const float distance = greatest(abs(world.center) + world.half);
             result.push_back({i, world, distance, position_error(distance)});
         }
@@ -104,11 +81,12 @@ std::string known_to(const Placed& placed)
 
 }  // namespace
 
-std::vector<std::string> precision_warnings(const SceneDesc& desc)
+std::vector<std::string> precision_warnings(const SharedSceneDesc& desc,
+                                            const SceneGeometry& geometry)
 {
     constexpr float least_exact = 0.1f;  // of its size
     std::vector<std::string> warnings;
-    const std::vector<Placed> all = place(desc);
+    const std::vector<Placed> all = place(desc, geometry.boxes);
     const Placed* coarsest = nullptr;
     const Placed* vaguest = nullptr;  // of those that are small
     std::size_t vague = 0;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <bdpt/scene_desc.h>
+#include "scene/scene_geometry.h"
 
 #include <string>
 #include <vector>
@@ -8,7 +8,9 @@
 namespace bdpt {
 
 /// Where single precision is too coarse for a valid scene, one line each: meshes that are small for
-/// their distance from the origin, and lamps that are too near to a vast plane.
-[[nodiscard]] std::vector<std::string> precision_warnings(const SceneDesc& desc);
+/// their distance from the origin, and lamps that are too near to a vast plane. `geometry` fits
+/// `desc`.
+[[nodiscard]] std::vector<std::string> precision_warnings(const SharedSceneDesc& desc,
+                                                          const SceneGeometry& geometry);
 
 }  // namespace bdpt

@@ -1,41 +1,158 @@
 #include <bdpt/scene.h>
 
 #include "identity/scene_identity.h"
+#include "scene/checks/value_checks.h"
 #include "scene/world.h"
 
+#include <algorithm>
 #include <utility>
+#include <variant>
 
 namespace bdpt {
+namespace {
 
-Scene::Scene(SceneDesc desc, Isa isa)
-    : identity_(identity_components(desc)),
-      world_(std::make_unique<const World>(std::move(desc), isa))
+/// The number of the only item of that name; `kind` is for messages.
+template <typename T>
+std::size_t number_of(const SharedList<T>& list, std::string_view kind, std::string_view name)
 {
-    identity_.push_back({.name = "build: instruction set", .value = isa_name(world_->isa())});
-    identity_.push_back({.name = "build: Embree", .value = world_->embree_version()});
+    const auto has_name = [name](const T& item) { return item.name == name; };
+    const auto count = std::count_if(list.begin(), list.end(), has_name);
+    if (count != 1) {
+        fail("the scene has ", count, " ", kind, "s with the name \"", name, "\", not one");
+    }
+    return static_cast<std::size_t>(std::find_if(list.begin(), list.end(), has_name) -
+                                    list.begin());
 }
+
+template <typename T>
+SharedList<T> replaced(const SharedList<T>& list, std::size_t number, T item)
+{
+    std::vector<T> values = list;
+    values[number] = std::move(item);
+    return values;
+}
+
+}  // namespace
+
+struct Scene::State {
+    State(SharedSceneDesc desc, Isa isa)
+        : components(scene_components(desc, {}, {})), world(std::move(desc), isa)
+    {
+        finish();
+    }
+    State(SharedSceneDesc desc, const State& like)
+        : components(scene_components(desc, like.world.description(), like.components)),
+          world(std::move(desc), like.world)
+    {
+        finish();
+    }
+    void finish()
+    {
+        identity = joined(components);
+        identity.push_back({.name = "build: instruction set", .value = isa_name(world.isa())});
+        identity.push_back({.name = "build: Embree", .value = world.embree_version()});
+    }
+
+    SceneComponents components;
+    World world;
+    std::vector<IdentityComponent> identity;
+};
+
+Scene::Scene(SharedSceneDesc desc, Isa isa)
+    : state_(std::make_unique<const State>(std::move(desc), isa))
+{}
+Scene::Scene(std::unique_ptr<const State> state) : state_(std::move(state)) {}
 Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;
 Scene::~Scene() = default;
 
+const SharedSceneDesc& Scene::description() const
+{
+    return state_->world.description();
+}
+
+Scene Scene::edited(SharedSceneDesc desc) const
+{
+    return Scene(std::make_unique<const State>(std::move(desc), *state_));
+}
+
+Scene Scene::with(MaterialId id, MaterialDesc material) const
+{
+    SharedSceneDesc desc = description();
+    const auto number = static_cast<std::size_t>(id);
+    if (number >= desc.materials.size()) {
+        fail("material ", number, ", but there are ", desc.materials.size(), " materials");
+    }
+    desc.materials = replaced(desc.materials, number, std::move(material));
+    return edited(std::move(desc));
+}
+
+Scene Scene::with(std::string_view name, MaterialDesc material) const
+{
+    const std::size_t number = number_of(description().materials, "material", name);
+    return with(static_cast<MaterialId>(number), std::move(material));
+}
+
+Scene Scene::with(std::string_view name, InstanceDesc instance) const
+{
+    SharedSceneDesc desc = description();
+    const std::size_t number = number_of(desc.instances, "instance", name);
+    desc.instances = replaced(desc.instances, number, std::move(instance));
+    return edited(std::move(desc));
+}
+
+Scene Scene::with_lights(std::vector<LightDesc> lights) const
+{
+    SharedSceneDesc desc = description();
+    desc.lights = std::move(lights);
+    return edited(std::move(desc));
+}
+
+Scene Scene::with_environment(std::optional<EnvironmentLightDesc> environment) const
+{
+    const auto is_environment = [](const LightDesc& light) {
+        return std::holds_alternative<EnvironmentLightDesc>(light);
+    };
+    std::vector<LightDesc> lights = description().lights;
+    const auto old = std::find_if(lights.begin(), lights.end(), is_environment);
+    if (environment && old != lights.end()) {
+        *old = *std::move(environment);
+    } else if (environment) {
+        lights.emplace_back(*std::move(environment));
+    } else if (old != lights.end()) {
+        lights.erase(old);
+    }
+    return with_lights(std::move(lights));
+}
+
+const std::vector<IdentityComponent>& Scene::identity() const
+{
+    return state_->identity;
+}
+
+const World& Scene::world() const
+{
+    return state_->world;
+}
+
 Bounds Scene::bounds() const
 {
-    return world_->bounds();
+    return state_->world.bounds();
 }
 
 SceneCounts Scene::counts() const
 {
-    return world_->counts();
+    return state_->world.counts();
 }
 
 const std::vector<std::string>& Scene::warnings() const
 {
-    return world_->warnings();
+    return state_->world.warnings();
 }
 
 Isa Scene::isa() const
 {
-    return world_->isa();
+    return state_->world.isa();
 }
 
 }  // namespace bdpt

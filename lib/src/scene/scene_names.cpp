@@ -50,7 +50,7 @@ std::vector<NamedId> named_ids(std::vector<std::string> names)
 
 }  // namespace
 
-SceneNames::SceneNames(const SceneDesc& desc)
+SceneNames::SceneNames(const SharedSceneDesc& desc)
 {
     std::vector<NameId> materials;
     for (std::size_t i = 0; i < desc.materials.size(); ++i) {

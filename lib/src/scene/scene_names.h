@@ -4,7 +4,7 @@
 
 #include <bdpt/aov.h>
 #include <bdpt/film/id_film.h>
-#include <bdpt/scene_desc.h>
+#include <bdpt/shared_scene_desc.h>
 
 #include <string>
 #include <vector>
@@ -17,7 +17,7 @@ namespace bdpt {
 /// material: the light's name stands for that, too.
 class SceneNames {
 public:
-    explicit SceneNames(const SceneDesc& desc);
+    explicit SceneNames(const SharedSceneDesc& desc);
 
     /// Those of the kinds that `aovs` ask for, each once, sorted. Throws `Error` (invalid_input)
     /// for more text than parts of renders hold.

@@ -40,21 +40,39 @@ struct ForRowsAtOnce {
 
 }  // namespace
 
-World::World(SceneDesc desc, Isa isa) : desc_(std::move(desc)), mip_maps_(ForRowsAtOnce{})
+World::World(SharedSceneDesc desc, Isa isa)
+    : desc_(std::move(desc)),
+      mip_maps_(ForRowsAtOnce{}),
+      all_materials_(std::make_shared<std::vector<Material>>())
 {
     limit_threads(0);
-    WorldBuilder(*this).build(isa);
+    WorldBuilder(*this, nullptr).build(isa);
+}
+
+World::World(SharedSceneDesc desc, const World& like)
+    : desc_(std::move(desc)),
+      mip_maps_(ForRowsAtOnce{}),
+      all_materials_(std::make_shared<std::vector<Material>>())
+{
+    limit_threads(0);
+    WorldBuilder(*this, &like).build(like.isa());
+}
+
+void World::set_geometry(std::shared_ptr<const SceneGeometry> geometry)
+{
+    geometry_ = std::move(geometry);
+    placed_ = geometry_->placed;
 }
 
 MediumId World::medium_at(Vec3 p) const
 {
-    const auto body = bodies_ ? bodies_->at(p) : std::nullopt;
-    return body ? within_[static_cast<std::size_t>(desc_.instances[*body].material)] : fog_;
+    const auto body = bodies_ ? bodies_->volumes->at(p) : std::nullopt;
+    return body ? material_sources_[static_cast<std::size_t>(material_ids_[*body])].within : fog_;
 }
 
 const Material& World::material_of(std::uint32_t instance) const noexcept
 {
-    return materials_[static_cast<std::size_t>(desc_.instances[instance].material)];
+    return materials_[static_cast<std::size_t>(material_ids_[instance])];
 }
 
 bool World::may_be_passed(std::uint32_t instance) const noexcept

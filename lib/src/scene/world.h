@@ -10,15 +10,19 @@
 #include "scene/enclosing_volumes.h"
 #include "scene/light_set.h"
 #include "scene/media.h"
+#include "scene/scene_geometry.h"
 #include "scene/volume.h"
 #include "texture/mip_maps.h"
 
 #include <bdpt/scene.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -46,7 +50,10 @@ struct SurfacePoint {
 class World {
 public:
     /// Throws `Error`: invalid_input, or what `EmbreeScene` throws.
-    explicit World(SceneDesc desc, Isa isa = Isa::native);
+    explicit World(SharedSceneDesc desc, Isa isa = Isa::native);
+    /// The same that a new one would be, but for the time that it takes: what does not change is
+    /// shared with `like`, which may go.
+    World(SharedSceneDesc desc, const World& like);
     World(const World&) = delete;
     World& operator=(const World&) = delete;
 
@@ -93,14 +100,15 @@ public:
                                                 SegmentKey segment) const noexcept;
 
     /// What it was made of.
-    [[nodiscard]] const SceneDesc& description() const { return desc_; }
+    [[nodiscard]] const SharedSceneDesc& description() const { return desc_; }
     [[nodiscard]] const LightSet& lights() const { return *lights_; }
+    [[nodiscard]] const SceneGeometry& geometry() const { return *geometry_; }
     /// Does any material?
     [[nodiscard]] bool disperses() const { return disperses_; }
     /// Does anything, while the shutter is open?
     [[nodiscard]] bool moves() const { return moves_; }
-    [[nodiscard]] const BoundingSphere& bounding_sphere() const { return sphere_; }
-    [[nodiscard]] const Bounds& bounds() const { return bounds_; }
+    [[nodiscard]] const BoundingSphere& bounding_sphere() const { return geometry_->sphere; }
+    [[nodiscard]] const Bounds& bounds() const { return geometry_->bounds; }
     [[nodiscard]] const SceneCounts& counts() const { return counts_; }
     [[nodiscard]] Isa isa() const noexcept { return embree_->isa(); }
     [[nodiscard]] std::string embree_version() const { return embree_->embree_version(); }
@@ -132,27 +140,50 @@ private:
     [[nodiscard]] SurfacePoint sphere_point(const RayHit& hit, Vec3 direction,
                                             float time) const noexcept;
 
-    SceneDesc desc_;
-    std::map<float, std::unique_ptr<const SpecularAlbedo>> albedos_;  // by index of refraction
-    std::unique_ptr<const LayerTables> layer_tables_;                 // if any material needs them
+    void set_geometry(std::shared_ptr<const SceneGeometry> geometry);
+    /// What a material was made of.
+    struct MaterialSource {
+        std::size_t desc = 0;  ///< number of its description
+        Exterior exterior;
+        MediumId within = MediumId::clear;
+        friend bool operator==(const MaterialSource&, const MaterialSource&) = default;
+    };
+    /// Bodies that light passes through.
+    struct Bodies {
+        std::vector<std::uint32_t> instances;
+        std::optional<EnclosingVolumes> volumes;
+        std::vector<std::optional<std::uint32_t>> around;  ///< by instance
+    };
+    /// The lights, and what they refer to that scenes may share.
+    struct Lit {
+        std::shared_ptr<const std::vector<Material>> materials;
+        std::vector<MediumId> media;  ///< around each light that is no surface
+        std::vector<IntensityProfile> profiles;
+        std::optional<LightSet> lights;
+    };
+
+    SharedSceneDesc desc_;
+    std::map<float, std::shared_ptr<const SpecularAlbedo>> albedos_;  // by index of refraction
+    std::shared_ptr<const LayerTables> layer_tables_;                 // if any material needs them
     MipMaps mip_maps_;                                                // if textures have any
     Media media_;
     MediumId fog_ = MediumId::clear;
     Volumes volumes_;
-    std::vector<Material> materials_;
-    std::vector<MediumId> within_;  // each material
+    std::shared_ptr<std::vector<Material>> all_materials_;
+    std::span<const Material> materials_;  // the same
+    std::vector<MaterialSource> material_sources_;
+    std::vector<MaterialId> material_ids_;  // by instance: what is around it counts, too
     bool disperses_ = false;
     bool moves_ = false;
-    std::vector<PlacedMesh> placed_;
-    std::vector<Sphere> spheres_;
-    Bounds bounds_;
-    BoundingSphere sphere_;
+    std::shared_ptr<const SceneGeometry> geometry_;
+    std::span<const PlacedMesh> placed_;  // of it
     SceneCounts counts_;
     std::unique_ptr<const EmbreeScene> embree_;
-    std::vector<IntensityProfile> profiles_;
-    std::unique_ptr<const EnclosingVolumes> bodies_;  // if there are any
+    std::shared_ptr<const Bodies> bodies_;           // if there are any
+    std::map<std::size_t, std::size_t> open_edges_;  // by mesh, of those that bound bodies
     std::vector<std::string> warnings_;
-    std::unique_ptr<const LightSet> lights_;
+    std::shared_ptr<const Lit> lit_;
+    const LightSet* lights_ = nullptr;  // of it
 };
 
 }  // namespace bdpt

@@ -1,57 +1,18 @@
 #include "scene/world_builder.h"
 
+#include "identity/same_bits.h"
 #include "material/specular_albedo.h"
+#include "math/rgb.h"
 #include "scene/checks/check_powers.h"
 #include "scene/checks/validate.h"
 #include "scene/precision.h"
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-
 #include <algorithm>
-#include <limits>
-#include <span>
+#include <cstddef>
 #include <variant>
 
 namespace bdpt {
 namespace {
-
-Bounds bounds_of(std::span<const PlacedMesh> placed, std::span<const Sphere> spheres,
-                 std::span<const VolumeDesc> volumes)
-{
-    Bounds bounds{.min = Vec3(std::numeric_limits<float>::infinity()),
-                  .max = Vec3(-std::numeric_limits<float>::infinity())};
-    for (const PlacedMesh& mesh : placed) {
-        for (const UVec3& triangle : mesh.mesh().triangles) {
-            for (int corner = 0; corner < 3; ++corner) {
-                for (std::size_t step = 0; step <= mesh.steps(); ++step) {
-                    const Vec3 p = mesh.world_point_at(step, triangle[corner]);
-                    bounds.min = min(bounds.min, p);
-                    bounds.max = max(bounds.max, p);
-                }
-            }
-        }
-    }
-    const auto add_sphere = [&bounds](Vec3 center, float radius) {
-        bounds.min = min(bounds.min, center - radius);
-        bounds.max = max(bounds.max, center + radius);
-    };
-    for (const Sphere& sphere : spheres) {
-        add_sphere(sphere.center, sphere.radius);
-        for (const Vec3& center : sphere.motion) {
-            add_sphere(center, sphere.radius);
-        }
-    }
-    for (const VolumeDesc& volume : volumes) {
-        for (int corner = 0; corner < 8; ++corner) {
-            const Vec3 sides((corner & 1) != 0, (corner & 2) != 0, (corner & 4) != 0);
-            const Vec3 p(volume.world_from_grid * Vec4(sides * Vec3(volume.size), 1.0f));
-            bounds.min = min(bounds.min, p);
-            bounds.max = max(bounds.max, p);
-        }
-    }
-    return bounds.min.x <= bounds.max.x ? bounds : Bounds{};
-}
 
 bool light_moves(const LightDesc& light)
 {
@@ -69,91 +30,142 @@ bool light_moves(const LightDesc& light)
         light);
 }
 
-BoundingSphere sphere_around(const Bounds& bounds)
-{
-    const float radius = 0.5f * glm::length(bounds.max - bounds.min);
-    // A little more, so that rounding leaves no corner outside.
-    return {.center = 0.5f * (bounds.min + bounds.max),
-            .radius = radius > 0.0f ? 1.0001f * radius : 1.0f};
-}
-
 }  // namespace
 
 void WorldBuilder::build(Isa isa)
 {
     World& w = world_;
-    validate(w.desc_);
-    place_meshes();
-    if (w.desc_.fog) {
-        w.fog_ = w.media_.add_fog(medium_of(*w.desc_.fog), w.sphere_);
+    validate(w.desc_, like_ != nullptr ? like_->desc_ : SharedSceneDesc());
+    if (like_ != nullptr && like_->geometry_->fits(w.desc_)) {
+        w.set_geometry(like_->geometry_);
+    } else {
+        own_geometry_ = std::make_shared<SceneGeometry>(w.desc_);
+        w.set_geometry(own_geometry_);
     }
-    w.volumes_ = Volumes(w.desc_.volumes);
+    w.moves_ = std::any_of(w.placed_.begin(), w.placed_.end(),
+                           [](const PlacedMesh& mesh) { return mesh.moves(); }) ||
+               std::any_of(w.desc_.lights.begin(), w.desc_.lights.end(), light_moves);
+    if (w.desc_.fog) {
+        w.fog_ = w.media_.add_fog(medium_of(*w.desc_.fog), w.geometry_->sphere);
+    }
+    w.volumes_ = is_shared(&SharedSceneDesc::volumes) ? Volumes(like_->volumes_)
+                                                      : Volumes(w.desc_.volumes.values());
     add_materials();
-    w.embree_ = std::make_unique<const EmbreeScene>(
-        w.desc_.instances, w.placed_, w.desc_.meshes.size(), w.spheres_, w.any_hit_filter(), isa);
-    w.warnings_ = precision_warnings(w.desc_);
+    build_trees(isa);
+    w.warnings_ = precision_warnings(w.desc_, *w.geometry_);
     find_enclosing_volumes();
     add_lights();
 }
 
-void WorldBuilder::add_materials()
-{
-    const std::vector<MaterialDesc>& materials = world_.desc_.materials;
-    if (std::any_of(materials.begin(), materials.end(), has_layers)) {
-        world_.layer_tables_ = std::make_unique<const LayerTables>(materials);
-    }
-    for (const MaterialDesc& material : materials) {
-        add_material(material, {.medium = world_.fog_});
-    }
-}
-
-void WorldBuilder::add_material(const MaterialDesc& desc, const Exterior& exterior)
-{
-    const MediumId within = world_.media_.add(medium_within(desc));
-    world_.materials_.push_back(make_material(desc, exterior, within));
-    world_.within_.push_back(within);
-}
-
-Material WorldBuilder::make_material(const MaterialDesc& desc, const Exterior& exterior,
-                                     MediumId within)
+/// Takes over the trees of the scene that it is like, if rays meet the same there.
+void WorldBuilder::build_trees(Isa isa)
 {
     World& w = world_;
-    const auto [red, green, blue] = boundary_indices(desc, exterior).greater_by_less;
+    const AnyHitFilter filter = w.any_hit_filter();
+    if (!own_geometry_ &&
+        w.geometry_->trees->filtered() !=
+            filtered_meshes(w.desc_.instances.values(), w.desc_.meshes.size(), filter)) {
+        own_geometry_ = std::make_shared<SceneGeometry>(w.desc_);
+        w.set_geometry(own_geometry_);
+    }
+    if (own_geometry_) {
+        own_geometry_->build(filter, isa, like_ != nullptr ? like_->geometry_.get() : nullptr);
+    }
+    w.embree_ = std::make_unique<const EmbreeScene>(*w.geometry_->trees, filter);
+}
+
+void WorldBuilder::add_materials()
+{
+    World& w = world_;
+    const SharedList<MaterialDesc>& materials = w.desc_.materials;
+    if (is_shared(&SharedSceneDesc::images)) {
+        w.mip_maps_ = like_->mip_maps_;
+    }
+    if (std::any_of(materials.begin(), materials.end(), has_layers)) {
+        const LayerTables* known = like_ != nullptr ? like_->layer_tables_.get() : nullptr;
+        w.layer_tables_ = known != nullptr && known->are_enough_for(materials.values())
+                              ? like_->layer_tables_
+                              : std::make_shared<const LayerTables>(materials.values());
+    }
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+        is_known_desc_.push_back(is_known(i));
+    }
+    w.all_materials_->reserve(materials.size());
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+        add_material(i, {.medium = w.fog_});
+    }
+    for (const InstanceDesc& instance : w.desc_.instances) {
+        w.material_ids_.push_back(instance.material);
+    }
+}
+
+/// Does the scene that it is like have that material, but for its name?
+bool WorldBuilder::is_known(std::size_t material) const
+{
+    const SharedSceneDesc& desc = world_.desc_;
+    return is_shared(&SharedSceneDesc::images) &&
+           desc.texture_filter == like_->desc_.texture_filter &&
+           material < like_->desc_.materials.size() &&
+           same_bits(desc.materials[material], like_->desc_.materials[material]) &&
+           (!has_layers(desc.materials[material]) || world_.layer_tables_ == like_->layer_tables_);
+}
+
+/// `number`: of its description.
+void WorldBuilder::add_material(std::size_t number, const Exterior& exterior)
+{
+    World& w = world_;
+    const MaterialDesc& desc = w.desc_.materials[number];
+    const MediumId within = w.media_.add(medium_within(desc));
+    const World::MaterialSource source{number, exterior, within};
+    std::optional<std::size_t> known;
+    if (is_known_desc_[number]) {
+        const auto& sources = like_->material_sources_;
+        const auto first = std::find(sources.begin(), sources.end(), source);
+        known = first != sources.end()
+                    ? std::optional(static_cast<std::size_t>(first - sources.begin()))
+                    : std::nullopt;
+    }
+    const std::size_t id = w.all_materials_->size();
+    is_kept_.push_back(known == id);
+    const ChannelAlbedos albedos = albedos_of(desc, exterior);
+    w.all_materials_->push_back(known ? (*like_->all_materials_)[*known]
+                                      : make_material(desc, albedos, exterior, within));
+    w.materials_ = *w.all_materials_;
+    w.material_sources_.push_back(source);
+    w.disperses_ = w.disperses_ || w.materials_.back().disperses();
+}
+
+Material WorldBuilder::make_material(const MaterialDesc& desc, const ChannelAlbedos& albedos,
+                                     const Exterior& exterior, MediumId within)
+{
+    World& w = world_;
     const bool mip_mapped = w.desc_.texture_filter == TextureFilter::mip_mapped;
-    const TextureImages texture_images(w.desc_.images, mip_mapped ? &w.mip_maps_ : nullptr);
-    Material material(desc, texture_images, {albedo_of(red), albedo_of(green), albedo_of(blue)},
-                      w.layer_tables_.get(), exterior, within);
-    w.disperses_ = w.disperses_ || material.disperses();
-    return material;
+    const TextureImages texture_images(w.desc_.images.values(),
+                                       mip_mapped ? &w.mip_maps_ : nullptr);
+    return {desc, texture_images, albedos, w.layer_tables_.get(), exterior, within};
+}
+
+ChannelAlbedos WorldBuilder::albedos_of(const MaterialDesc& desc, const Exterior& exterior)
+{
+    const auto [red, green, blue] = boundary_indices(desc, exterior).greater_by_less;
+    return {albedo_of(red), albedo_of(green), albedo_of(blue)};
 }
 
 const SpecularAlbedo& WorldBuilder::albedo_of(float ior)
 {
     auto& albedo = world_.albedos_[ior];
+    if (!albedo && like_ != nullptr) {
+        const auto known = like_->albedos_.find(ior);
+        albedo = known != like_->albedos_.end() ? known->second : nullptr;
+    }
     if (!albedo) {
-        albedo = std::make_unique<const SpecularAlbedo>(ior);
+        albedo = std::make_shared<const SpecularAlbedo>(ior);
     }
     return *albedo;
 }
 
-void WorldBuilder::place_meshes()
-{
-    World& w = world_;
-    const SceneDesc& desc = w.desc_;
-    w.placed_.reserve(desc.instances.size());
-    for (const InstanceDesc& instance : desc.instances) {
-        w.placed_.emplace_back(desc.meshes[static_cast<std::size_t>(instance.mesh)], instance);
-    }
-    w.moves_ = std::any_of(w.placed_.begin(), w.placed_.end(),
-                           [](const PlacedMesh& mesh) { return mesh.moves(); }) ||
-               std::any_of(desc.lights.begin(), desc.lights.end(), light_moves);
-    w.spheres_ = light_spheres(desc.lights);
-    w.bounds_ = bounds_of(w.placed_, w.spheres_, desc.volumes);
-    w.sphere_ = sphere_around(w.bounds_);
-}
-
 /// What is around each light; around those at infinity, where their rays enter the scene.
-std::vector<MediumId> WorldBuilder::media_around(const std::vector<LightDesc>& lights) const
+std::vector<MediumId> WorldBuilder::media_around(const SharedList<LightDesc>& lights) const
 {
     std::vector<MediumId> media;
     for (const LightDesc& light : lights) {
@@ -169,19 +181,51 @@ std::vector<MediumId> WorldBuilder::media_around(const std::vector<LightDesc>& l
     return media;
 }
 
+/// Do triangles emit the same light as in the scene that it is like, whose lights then refer to
+/// materials and places that are still there?
+bool WorldBuilder::emission_stays() const
+{
+    const World& w = world_;
+    if (like_ == nullptr || w.geometry_ != like_->geometry_ ||
+        most_emission_samples(w.material_ids_, w.placed_, w.materials_) !=
+            most_emission_samples(like_->material_ids_, like_->placed_, like_->materials_)) {
+        return false;
+    }
+    for (std::size_t i = 0; i < w.placed_.size(); ++i) {
+        const auto now = static_cast<std::size_t>(w.material_ids_[i]);
+        const auto before = static_cast<std::size_t>(like_->material_ids_[i]);
+        const bool dark = is_black(w.materials_[now].mean_emission()) &&
+                          is_black(like_->materials_[before].mean_emission());
+        if (!dark && !(now == before && is_kept_[now])) {
+            return false;
+        }
+    }
+    return true;
+}
+
 void WorldBuilder::add_lights()
 {
     World& w = world_;
-    const SceneDesc& desc = w.desc_;
-    w.profiles_.reserve(desc.profiles.size());
-    for (const LightProfile& profile : desc.profiles) {
-        w.profiles_.emplace_back(profile);
+    const SharedSceneDesc& desc = w.desc_;
+    w.counts_ = w.geometry_->counts;
+    const std::vector<MediumId> media = media_around(desc.lights);
+    if (is_shared(&SharedSceneDesc::lights) && is_shared(&SharedSceneDesc::profiles) &&
+        emission_stays() && media == like_->lit_->media) {
+        w.lit_ = like_->lit_;
+    } else {
+        const auto lit = std::make_shared<World::Lit>();
+        lit->materials = w.all_materials_;
+        lit->media = media;
+        lit->profiles.reserve(desc.profiles.size());
+        for (const LightProfile& profile : desc.profiles) {
+            lit->profiles.emplace_back(profile);
+        }
+        lit->lights.emplace(w.material_ids_, w.placed_, w.materials_, desc.lights.values(),
+                            lit->profiles, w.geometry_->sphere, media);
+        check_powers(desc, w.material_ids_, w.materials_, *lit->lights);
+        w.lit_ = lit;
     }
-    w.lights_ =
-        std::make_unique<const LightSet>(desc.instances, w.placed_, w.materials_, desc.lights,
-                                         w.profiles_, w.sphere_, media_around(desc.lights));
-    check_powers(desc, w.materials_, *w.lights_);
-    w.counts_ = count(desc);
+    w.lights_ = &*w.lit_->lights;
     w.counts_.lights = w.lights_->size();
     w.counts_.emissive_triangles = w.lights_->size() - desc.lights.size();
 }

@@ -2,7 +2,9 @@
 #include "scene/open_edges.h"
 #include "scene/world_builder.h"
 
+#include <algorithm>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -32,47 +34,63 @@ void WorldBuilder::find_enclosing_volumes()
                               " bodies that light passes through are too many to find out which of "
                               "them lies in which: all have air around them");
     } else if (!instances.empty()) {
-        w.bodies_ = std::make_unique<const EnclosingVolumes>(w.placed_, std::move(instances),
-                                                             w.spheres_, *w.embree_);
-        give_surroundings(w.bodies_->around_all());
+        w.bodies_ = bodies_of(std::move(instances));
+        give_surroundings(w.bodies_->around);
     }
+}
+
+/// Those of the world that it is like, if they are the same and no ray passes anything by chance.
+std::shared_ptr<const World::Bodies> WorldBuilder::bodies_of(
+    std::vector<std::uint32_t> instances) const
+{
+    const World& w = world_;
+    const std::vector<bool>& filtered = w.embree_->filtered();
+    const bool stays = like_ != nullptr && like_->bodies_ && w.geometry_ == like_->geometry_ &&
+                       like_->bodies_->instances == instances &&
+                       std::find(filtered.begin(), filtered.end(), true) == filtered.end();
+    if (stays) {
+        return like_->bodies_;
+    }
+    const auto bodies = std::make_shared<World::Bodies>();
+    bodies->instances = instances;
+    bodies->volumes.emplace(w.placed_, std::move(instances), w.geometry_->spheres, *w.embree_);
+    bodies->around = bodies->volumes->around_all();
+    return bodies;
 }
 
 /// Instances within a body get a material of their own, for what is around them is a fact of theirs
 /// that does not change: no walk needs to remember where it has been.
 void WorldBuilder::give_surroundings(const std::vector<std::optional<std::uint32_t>>& around)
 {
-    SceneDesc& scene = world_.desc_;
+    const SharedSceneDesc& scene = world_.desc_;
     std::map<std::pair<MaterialId, MaterialId>, MaterialId> nested;
-    std::vector<MaterialId> result(around.size());
     for (std::size_t i = 0; i < around.size(); ++i) {
-        const MaterialId own = scene.instances[i].material;
-        result[i] = own;
         if (!around[i]) {
             continue;
         }
+        const MaterialId own = scene.instances[i].material;
         const MaterialId outer = scene.instances[*around[i]].material;
-        const MaterialDesc& desc = scene.materials[static_cast<std::size_t>(own)];
         const auto number = static_cast<std::size_t>(outer);
-        const Exterior exterior = exterior_within(scene.materials[number], world_.within_[number]);
+        const Exterior exterior =
+            exterior_within(scene.materials[number], world_.material_sources_[number].within);
         if (exterior == Exterior{.medium = world_.fog_}) {
             continue;
         }
         const auto [known, is_new] =
             nested.try_emplace({own, outer}, static_cast<MaterialId>(world_.materials_.size()));
         if (is_new) {
-            add_material(desc, exterior);
+            add_material(static_cast<std::size_t>(own), exterior);
         }
-        result[i] = known->second;
-    }
-    for (std::size_t i = 0; i < result.size(); ++i) {
-        scene.instances[i].material = result[i];
+        world_.material_ids_[i] = known->second;
     }
 }
 
 void WorldBuilder::warn_of_open_volumes()
 {
-    const SceneDesc& desc = world_.desc_;
+    const SharedSceneDesc& desc = world_.desc_;
+    if (is_shared(&SharedSceneDesc::meshes)) {
+        world_.open_edges_ = like_->open_edges_;
+    }
     std::vector<bool> asked(desc.meshes.size());
     for (const InstanceDesc& instance : desc.instances) {
         const auto mesh = static_cast<std::size_t>(instance.mesh);
@@ -81,7 +99,11 @@ void WorldBuilder::warn_of_open_volumes()
             continue;
         }
         asked[mesh] = true;
-        if (const std::size_t open = count_open_edges(desc.meshes[mesh])) {
+        const auto [known, is_new] = world_.open_edges_.try_emplace(mesh, 0);
+        if (is_new) {
+            known->second = count_open_edges(desc.meshes[mesh]);
+        }
+        if (const std::size_t open = known->second) {
             world_.warnings_.push_back(
                 label("mesh", mesh, desc.meshes[mesh].name) + ": " + std::to_string(open) +
                 (open == 1 ? " edge is" : " edges are") +

@@ -129,16 +129,17 @@ TexelImage half_size(const TexelImage& image, Encoding encoding, const ForRows& 
 std::span<const TexelImage> MipMaps::of(std::size_t index, const TexelImage& image,
                                         Encoding encoding)
 {
-    const auto [found, is_new] = copies_.try_emplace({index, encoding});
-    std::vector<TexelImage>& levels = found->second;
-    if (is_new) {
+    auto& copies = copies_[{index, encoding}];
+    if (!copies) {
+        std::vector<TexelImage> levels;
         const TexelImage* finer = &image;
         while (finer->width > 1 || finer->height > 1) {
             levels.push_back(half_size(*finer, encoding, for_rows_));
             finer = &levels.back();
         }
+        copies = std::make_shared<const std::vector<TexelImage>>(std::move(levels));
     }
-    return levels;
+    return *copies;
 }
 
 }  // namespace bdpt

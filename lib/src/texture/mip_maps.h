@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -22,19 +23,21 @@ using ForRows = std::function<void(int count, const std::function<void(int begin
 [[nodiscard]] TexelImage half_size(const TexelImage& image, Encoding encoding,
                                    const ForRows& for_rows);
 
-/// Smaller copies of images, each made when it is first asked for.
+/// Smaller copies of images, each made when it is first asked for. A copy of this has those that
+/// there are by then, too.
 class MipMaps {
 public:
     explicit MipMaps(ForRows for_rows) : for_rows_(std::move(for_rows)) {}
 
     /// Copies of image number `index`, from half the size down to one texel; none of an image of
-    /// one texel. They stay where they are.
+    /// one texel. They stay where they are as long as this, or a later copy of it, is there.
     [[nodiscard]] std::span<const TexelImage> of(std::size_t index, const TexelImage& image,
                                                  Encoding encoding);
 
 private:
     ForRows for_rows_;
-    std::map<std::pair<std::size_t, Encoding>, std::vector<TexelImage>> copies_;
+    std::map<std::pair<std::size_t, Encoding>, std::shared_ptr<const std::vector<TexelImage>>>
+        copies_;
 };
 
 }  // namespace bdpt

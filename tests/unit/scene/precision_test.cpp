@@ -19,6 +19,11 @@ namespace {
 
 using test::SceneBuilder;
 
+std::vector<std::string> warnings_of(const SceneDesc& desc)
+{
+    return precision_warnings(desc, SceneGeometry(desc));
+}
+
 /// A square at distance `size` that is twice as large, seen from the origin.
 SceneBuilder wall(float size, const MaterialDesc& material)
 {
@@ -96,17 +101,17 @@ TEST_CASE("a camera beyond the reach of rays is refused, where it would see noth
 TEST_CASE("what is small for its distance is named", "[precision]")
 {
     SceneBuilder builder = wall(1.0f, test::lambertian(Rgb(0.5f)));
-    CHECK(precision_warnings(builder.desc).empty());
+    CHECK(warnings_of(builder.desc).empty());
     builder.desc.instances[0].name = "house";
     builder.desc.instances[0].world_from_object =
         glm::translate(Mat4(1.0f), Vec3(1e8f, 0.0f, 0.0f));
-    const std::vector<std::string> warnings = precision_warnings(builder.desc);
+    const std::vector<std::string> warnings = warnings_of(builder.desc);
     REQUIRE(warnings.size() == 1);
     CHECK(warnings[0].find("instance 0 \"house\": is 2 m large, but points on it are known to 7") ==
           0);
     CHECK(warnings[0].find("1e+08 m from the origin") != std::string::npos);
     CHECK(Scene(builder.desc).warnings() == warnings);
-    CHECK(precision_warnings(wall(1e8f, test::lambertian(Rgb(0.5f))).desc).empty());
+    CHECK(warnings_of(wall(1e8f, test::lambertian(Rgb(0.5f))).desc).empty());
 }
 
 TEST_CASE("a lamp that is too near to a vast plane is named", "[precision]")
@@ -116,7 +121,7 @@ TEST_CASE("a lamp that is too near to a vast plane is named", "[precision]")
         builder.quad({-size, 0, size}, {size, 0, size}, {size, 0, -size}, {-size, 0, -size},
                      test::lambertian(Rgb(0.5f)));
         builder.light(PointLightDesc{.name = "lamp", .position = {0.0f, height, 0.0f}});
-        return precision_warnings(builder.desc);
+        return warnings_of(builder.desc);
     };
     CHECK(with_lamp(1e4f, 2.0f).empty());
     CHECK(with_lamp(1e8f, 200.0f).empty());

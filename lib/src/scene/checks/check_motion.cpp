@@ -146,9 +146,7 @@ void check_moving(const Light& light, std::size_t index, float reach)
     }
 }
 
-}  // namespace
-
-void check_motion(const SceneDesc& desc, float reach)
+void check_places(const SharedSceneDesc& desc, float reach)
 {
     std::vector<Vec3> extents;
     extents.reserve(desc.meshes.size());
@@ -164,6 +162,15 @@ void check_motion(const SceneDesc& desc, float reach)
             check_moving(instance, label("instance", i, instance.name), desc.meshes[mesh],
                          extents[mesh], reach);
         }
+    }
+}
+
+}  // namespace
+
+void check_motion(const SharedSceneDesc& desc, float reach, bool places_are_valid)
+{
+    if (!places_are_valid) {
+        check_places(desc, reach);
     }
     for (std::size_t i = 0; i < desc.lights.size(); ++i) {
         std::visit([&](const auto& light) { check_moving(light, i, reach); }, desc.lights[i]);

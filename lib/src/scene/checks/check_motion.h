@@ -1,11 +1,12 @@
 #pragma once
 
-#include <bdpt/scene_desc.h>
+#include <bdpt/shared_scene_desc.h>
 
 namespace bdpt {
 
 /// Checks all that moves in a scene that is valid when the shutter opens; `reach` as in
-/// geometry/coordinate_limit.h. Throws `Error` (invalid_input).
-void check_motion(const SceneDesc& desc, float reach);
+/// geometry/coordinate_limit.h, and of lights only if the places of meshes are known to be valid.
+/// Throws `Error` (invalid_input).
+void check_motion(const SharedSceneDesc& desc, float reach, bool places_are_valid);
 
 }  // namespace bdpt

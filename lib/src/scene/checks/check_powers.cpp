@@ -24,8 +24,8 @@ bool is_too_great(Rgb power)
 
 }  // namespace
 
-void check_powers(const SceneDesc& desc, std::span<const Material> materials,
-                  const LightSet& lights)
+void check_powers(const SharedSceneDesc& desc, std::span<const MaterialId> material_ids,
+                  std::span<const Material> materials, const LightSet& lights)
 {
     std::uint32_t number = 0;
     for (std::uint32_t i = 0; i < desc.instances.size(); ++i) {
@@ -38,7 +38,7 @@ void check_powers(const SceneDesc& desc, std::span<const Material> materials,
         for (std::size_t t = 0; t < triangles; ++t, ++number) {
             const Rgb power = lights[LightId{number}].power();
             if (is_too_great(power)) {
-                const Material& material = materials[static_cast<std::size_t>(instance.material)];
+                const Material& material = materials[static_cast<std::size_t>(material_ids[i])];
                 fail(label("instance", i, instance.name), ": triangle ", t, " with an emission of ",
                      greatest_channel(material.mean_emission()), " nit shines with ",
                      greatest_channel(power), " lm, but ", greatest_light_power, " lm is the most");

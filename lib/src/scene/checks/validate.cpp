@@ -139,7 +139,7 @@ void check(const VolumeDesc& volume, const std::string& item)
     }
 }
 
-void check(const InstanceDesc& instance, const std::string& item, const SceneDesc& desc)
+void check(const InstanceDesc& instance, const std::string& item, const SharedSceneDesc& desc)
 {
     if (static_cast<std::size_t>(instance.mesh) >= desc.meshes.size()) {
         fail(item, ": mesh ", static_cast<std::size_t>(instance.mesh), ", but there are ",
@@ -153,7 +153,7 @@ void check(const InstanceDesc& instance, const std::string& item, const SceneDes
 }
 
 /// What is traced must be within reach of rays, as they are single-precision numbers.
-void check_coordinates(const SceneDesc& desc, float reach)
+void check_coordinates(const SharedSceneDesc& desc, float reach)
 {
     std::vector<Vec3> extents;
     extents.reserve(desc.meshes.size());
@@ -186,34 +186,46 @@ bool is_degenerate(const MeshDesc& mesh, const UVec3& triangle)
 
 }  // namespace
 
-void validate(const SceneDesc& desc)
+void validate(const SharedSceneDesc& desc, const SharedSceneDesc& valid)
 {
-    for (std::size_t i = 0; i < desc.images.size(); ++i) {
+    const bool same_images = desc.images.is_shared_with(valid.images);
+    const bool same_meshes = desc.meshes.is_shared_with(valid.meshes);
+    const bool same_instances = desc.instances.is_shared_with(valid.instances);
+    const bool same_volumes = desc.volumes.is_shared_with(valid.volumes);
+    for (std::size_t i = 0; !same_images && i < desc.images.size(); ++i) {
         check_texels(desc.images[i], label("image", i, ""));
     }
     for (std::size_t i = 0; i < desc.materials.size(); ++i) {
         const MaterialDesc& material = desc.materials[i];
         check(material, label("material", i, material.name), desc.images.size());
     }
-    for (std::size_t i = 0; i < desc.meshes.size(); ++i) {
+    for (std::size_t i = 0; !same_meshes && i < desc.meshes.size(); ++i) {
         check(desc.meshes[i], label("mesh", i, desc.meshes[i].name));
     }
-    for (std::size_t i = 0; i < desc.instances.size(); ++i) {
+    const bool same_numbers = same_meshes && desc.materials.size() == valid.materials.size();
+    for (std::size_t i = 0; !(same_instances && same_numbers) && i < desc.instances.size(); ++i) {
         check(desc.instances[i], label("instance", i, desc.instances[i].name), desc);
     }
-    for (std::size_t i = 0; i < desc.volumes.size(); ++i) {
+    for (std::size_t i = 0; !same_volumes && i < desc.volumes.size(); ++i) {
         check(desc.volumes[i], label("volume", i, desc.volumes[i].name));
     }
     if (desc.fog) {
         check_own_limits("fog", *desc.fog);
     }
-    const float reach = coordinate_limit_of(desc.instances, desc.meshes.size());
-    check_coordinates(desc, reach);
-    validate_lights(desc, reach);
-    check_motion(desc, reach);
+    const bool same_places = same_meshes && same_instances;
+    const float reach = coordinate_limit_of(desc.instances.values(), desc.meshes.size());
+    if (!same_places || !same_volumes) {
+        check_coordinates(desc, reach);
+    }
+    const bool same_lights = same_places && desc.lights.is_shared_with(valid.lights) &&
+                             desc.profiles.is_shared_with(valid.profiles);
+    if (!same_lights) {
+        validate_lights(desc, reach);
+        check_motion(desc, reach, same_places);
+    }
 }
 
-SceneCounts count(const SceneDesc& desc)
+SceneCounts count(const SharedSceneDesc& desc)
 {
     SceneCounts counts;
     for (const MeshDesc& mesh : desc.meshes) {

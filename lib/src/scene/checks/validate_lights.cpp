@@ -191,7 +191,7 @@ void check(const Light& light, std::size_t index, float reach,
 
 }  // namespace
 
-void validate_lights(const SceneDesc& desc, float reach)
+void validate_lights(const SharedSceneDesc& desc, float reach)
 {
     std::vector<float> peaks;
     for (std::size_t i = 0; i < desc.profiles.size(); ++i) {

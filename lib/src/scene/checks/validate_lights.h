@@ -1,6 +1,6 @@
 #pragma once
 
-#include <bdpt/scene_desc.h>
+#include <bdpt/shared_scene_desc.h>
 
 #include <string>
 
@@ -8,7 +8,7 @@ namespace bdpt {
 
 /// Throws `Error` (invalid_input) for the first value of the lights and their profiles that no
 /// scene can have. `reach`: how far from the origin lights may be [m].
-void validate_lights(const SceneDesc& desc, float reach);
+void validate_lights(const SharedSceneDesc& desc, float reach);
 
 /// How far things may be, and why: the end of a message.
 [[nodiscard]] std::string limit_text(float reach);

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "identity/desc_hasher.h"
+
+#include <cstddef>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace bdpt {
+
+/// Do descriptions have the same bits? Names do not count, as in `DescHasher`. For those without
+/// images, which are compared as what they are in.
+template <typename T>
+[[nodiscard]] bool same_bits(const T& a, const T& b);
+
+/// The same of each item.
+template <typename T>
+[[nodiscard]] bool same_bits(const std::vector<T>& a, const std::vector<T>& b)
+{
+    if (a.size() != b.size()) {
+        return false;
+    }
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        if (!same_bits(a[i], b[i])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// The same of what they have, if anything.
+template <typename T>
+[[nodiscard]] bool same_bits(const std::optional<T>& a, const std::optional<T>& b)
+{
+    return a.has_value() == b.has_value() && (!a || same_bits(*a, *b));
+}
+
+template <typename T>
+bool same_bits(const T& a, const T& b)
+{
+    if constexpr (std::is_same_v<T, std::string>) {
+        return true;
+    } else if constexpr (HasFields<T>) {
+        return std::apply(
+            [&](const auto&... field) {
+                return (same_bits(a.*(field.member), b.*(field.member)) && ...);
+            },
+            fields<T>);
+    } else {
+        static_assert(PlainValue<T>);
+        return std::memcmp(&a, &b, sizeof a) == 0;
+    }
+}
+
+}  // namespace bdpt

@@ -61,6 +61,8 @@ if(BDPT_BUILD_APPS)
   install(TARGETS bdpt_app RUNTIME COMPONENT bdpt_runtime)
   install(DIRECTORY "${BDPT_MANUAL_DIR}/man1" DESTINATION "${CMAKE_INSTALL_MANDIR}"
           COMPONENT bdpt_runtime)
+  install(FILES apps/desktop/bdpt.thumbnailer DESTINATION "${CMAKE_INSTALL_DATADIR}/thumbnailers"
+          COMPONENT bdpt_runtime)
   install(FILES "${BDPT_MANUAL_DIR}/bash/bdpt" COMPONENT bdpt_runtime
           DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions")
   install(FILES "${BDPT_MANUAL_DIR}/zsh/_bdpt" COMPONENT bdpt_runtime

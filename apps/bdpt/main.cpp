@@ -26,6 +26,10 @@ namespace {
 int run(const std::vector<std::string>& given)
 {
     CommandLine line;
+    if (given.size() < 2) {
+        put(stderr, help_text(line.program, ""));
+        return static_cast<int>(ErrorCode::usage);
+    }
     try {
         const std::vector<std::string> words = with_planned_words(given);
         const ParsedLine parsed = parse(line.program, {words.begin() + 1, words.end()});

@@ -110,6 +110,13 @@ std::vector<CommandInfo> commands_of(const app::Program& program)
         info.name = command.name;
         info.text = command.summary;
         info.options.push_back(info_of(program).options.front());
+        if (!command.essentials.empty()) {
+            info.options.push_back({.names = {"--help-all"},
+                                    .value = "",
+                                    .text = "Print the help of all options",
+                                    .group = "Options",
+                                    .choices = {}});
+        }
         info.footer = paragraphs(command.footer);
         for (const app::Option& option : command.options.all()) {
             (option.is_argument() ? info.arguments : info.options).push_back(option_info(option));

@@ -157,8 +157,10 @@ void save(const Render& render, const fs::path& file, const nb::kwargs& options)
     } else if (!render.backdrop) {
         throw Error(ErrorCode::usage, "background: render() needs it, too");
     }
+    app::check_transparency(asked.display, files);
     const FilmLayout& layout = render.part.film.layout();
     const auto denoiser = app::open_denoiser(asked.denoise, files, 0);
+    app::Attempts attempts;
     app::write_image_files(
         files, render.part.film.develop(),
         {.exr = {.type = asked.exr.channel_type,
@@ -172,7 +174,9 @@ void save(const Render& render, const fs::path& file, const nb::kwargs& options)
          .layers = all_layers(render.part),
          .display = asked.display,
          .denoiser = denoiser ? &*denoiser : nullptr,
-         .denoised_as = asked.denoise ? asked.denoise->as : app::DenoisedAs::image});
+         .denoised_as = asked.denoise ? asked.denoise->as : app::DenoisedAs::image},
+        attempts);
+    attempts.finish();
 }
 
 Render read_part(const fs::path& file)
@@ -192,7 +196,8 @@ void bind_render(nb::module_& module)
     const std::string saving =
         declaration("def save(self, file: str | os.PathLike[str], *", Call::save, "None");
     const std::string text_of_saving = documentation(
-        "Writes an image, .exr (linear radiance and layers) or .png (tone-mapped), or a part, "
+        "Writes an image, .exr (linear radiance and layers), .hdr (linear radiance), .png, .jpg or "
+        ".webp (tone-mapped), or a part, "
         ".part.exr, that bdpt merge and bdpt render --part understand.",
         Call::save);
     nb::class_<Render>(module, "Render",

@@ -21,7 +21,8 @@ target_sources(bdpt_io PRIVATE
   src/image/png_image.cpp
   src/image/texels.cpp
   src/image/webp_image.cpp
-  # images of linear radiance: OpenEXR, Radiance HDR, TIFF
+  # images as linear radiance: OpenEXR, Radiance HDR, TIFF, and those for screens
+  src/image/linear/display_reader.cpp
   src/image/linear/environment.cpp
   src/image/linear/exr_channels.cpp
   src/image/linear/exr_header.cpp

@@ -6,13 +6,16 @@ target_sources(bdpt_io PRIVATE
   src/output/cryptomatte.cpp
   src/output/exr.cpp
   src/output/exr_metadata.cpp
+  src/output/hdr.cpp
   src/output/image_metadata.cpp
+  src/output/jpeg.cpp
   src/output/output_file.cpp
   src/output/output_target.cpp
   src/output/png.cpp
   src/output/temporary_file.cpp
   src/output/tone_curve.cpp
   src/output/tone_map.cpp
+  src/output/webp.cpp
   src/part/id_json.cpp
   src/part/part_header.cpp
   src/part/part_planes.cpp

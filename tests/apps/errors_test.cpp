@@ -1,6 +1,9 @@
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "catch.hpp"
@@ -37,20 +40,20 @@ TEST_CASE("wrong usage gives exit code 2 and names the option")
         words.insert(words.end(), more.begin(), more.end());
         check_error(folder, words, 2, text);
     };
-    check_error(folder, {}, 2, "no command");
     check_error(folder, {scene, "-o", out}, 2, "unknown command \"" + scene + "\"");
-    check_error(folder, {"render", scene}, 2, "--output is required");
+    check_error(folder, {"render", "-"}, 2, "--output is required");
+    check_error(folder, {"render", scene, "--orbit", "4"}, 2, "--output is required");
     check_error(folder, {"render", "-o", out}, 2, "file is required");
     check_error(folder, {"info"}, 2, "file is required");
     check_error(folder, {"--frobnicate"}, 2, "unknown option --frobnicate");
     rejects({"--frobnicate"}, "unknown option --frobnicate");
     rejects({"--intergrator", "pt"}, "did you mean --integrator?");
-    rejects({"another.gltf"}, "unexpected argument \"another.gltf\"");
+    rejects({"another.gltf"}, "out.exr: several scenes would write it");
     rejects({"--size", "0x0"}, "--size \"0x0\"");
     // The next word is not taken for the value that is missing.
-    rejects({"--size=", "16x16"}, "unexpected argument \"16x16\"");
+    rejects({"--size=", "16x16"}, "--size \"\"");
     rejects({"--aov=", "--quiet"}, "--aov \"\"");
-    rejects({"--size", "640"}, "--size \"640\"");
+    rejects({"--size", "640,480"}, "--size \"640,480\"");
     rejects({"--size", "640x480x3"}, "--size");
     rejects({"--size", "-5x5"}, "--size");
     rejects({"--size", "99999x1"}, "--size");
@@ -123,6 +126,9 @@ TEST_CASE("wrong usage gives exit code 2 and names the option")
     rejects({"--exposure", "nan"}, "--exposure");
     rejects({"--tone-map", "aces"}, "--tone-map");
     rejects({"--background", "red"}, "--background \"red\"");
+    rejects({"--background", "#ff"}, "--background \"#ff\"");
+    rejects({"--background", "0.5,0.5,1.5"}, "--background \"0.5,0.5,1.5\"");
+    rejects({"--background", "1,1"}, "--background \"1,1\"");
     rejects({"--background", "#12345"}, "--background \"#12345\"");
     rejects({"--background", "#12345g"}, "--background");
     rejects({"--background", "#1234567"}, "--background");
@@ -154,8 +160,12 @@ TEST_CASE("wrong usage gives exit code 2 and names the option")
     rejects({"--seed", "18446744073709551616"}, "--seed");
     rejects({"--threads", "-1"}, "--threads");
     rejects({"--half", "--float"}, "--half");
-    check_error(folder, {"render", scene, "-o", (folder / "out.jpg").string()}, 2,
-                "out.jpg: unknown type");
+    check_error(folder, {"render", scene, "-o", (folder / "out.gif").string()}, 2,
+                "out.gif: unknown type");
+    check_error(
+        folder,
+        {"render", scene, "--background", "transparent", "-o", (folder / "out.jpg").string()}, 2,
+        "out.jpg: JPEG has no alpha");
     check_error(folder, {"render", scene, "-o", (folder / "out").string()}, 2, "unknown type");
 }
 
@@ -178,7 +188,7 @@ TEST_CASE("a missing input gives exit code 3 and names it")
     check_error(folder, {"render", missing, "-o", out}, 3, missing);
     check_error(folder, {"info", missing}, 3, missing);
     check_error(folder, {"render", scene, "-o", out, "--camera", "top"}, 3,
-                "no camera \"top\"; there are 0 \"front\", 1 \"side\"");
+                "no camera \"top\"; this scene has 2 cameras: 0 \"front\", 1 \"side\"");
     check_error(folder, {"render", scene, "-o", out, "--camera", "2"}, 3, "no camera \"2\"");
     check_error(folder, {"render", scene, "-o", out, "--scene", "attic"}, 3, "attic");
     check_error(folder, {"render", scene, "-o", out, "--env", missing}, 3, missing);
@@ -224,6 +234,24 @@ TEST_CASE("an invalid input gives exit code 4 and names it")
     }
     write_text(bad, text);
     check_error(folder, {"render", bad, "-o", out}, 4, expected);
+}
+
+TEST_CASE("models in other formats are called by their names", "[other formats]")
+{
+    const ScratchFolder folder;
+    const auto check_named = [&](const char* name, std::string_view bytes, const char* kind) {
+        const std::filesystem::path file = folder / name;
+        write_text(file, std::string(bytes));
+        check_error(folder, {"render", file.string(), "-o", (folder / "o.exr").string()}, 4,
+                    fmt::format("{}: not a glTF file but {}: export it as .glb first",
+                                file.string(), kind));
+    };
+    check_named("m.obj", "mtllib m.mtl\nv 1 2 3\n", "a Wavefront OBJ file");
+    check_named("m.STL", std::string(100, '\0'), "an STL file");
+    check_named("m.dae", "<?xml version=\"1.0\"?><COLLADA/>", "a COLLADA file");
+    // What may be glTF is read as that, whatever its name.
+    write_text(folder / "g.obj", read_text(write_cube(folder, "cube", {})));
+    CHECK(run({"info", (folder / "g.obj").string()}).exit_code == 0);
 }
 
 TEST_CASE("an unsupported required extension gives exit code 5 and names it")

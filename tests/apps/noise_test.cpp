@@ -42,7 +42,10 @@ TEST_CASE("a noise is a percentage or a fraction", "[noise]")
     CHECK(app::parse_share("2%") == 0.02);
     CHECK(app::parse_share("0.02") == 0.02);
     CHECK(app::parse_share("100%") == 1.0);
-    for (const char* word : {"", "%", "0", "0%", "-1%", "101%", "2", "2 %", "nan", "x%"}) {
+    CHECK(app::parse_share("2") == 0.02);
+    CHECK(app::parse_share("1") == 0.01);
+    CHECK(app::parse_share("1%") == 0.01);
+    for (const char* word : {"", "%", "0", "0%", "-1%", "101%", "101", "2 %", "nan", "x%"}) {
         CAPTURE(word);
         CHECK_FALSE(app::parse_share(word));
     }
@@ -108,7 +111,7 @@ TEST_CASE("words about noise that make no sense are refused", "[noise]")
         CHECK(outcome.err.find(text) != std::string::npos);
         CHECK_FALSE(std::filesystem::exists(out));
     };
-    refused({"-o", out, "--noise", "2"}, "--noise \"2\"");
+    refused({"-o", out, "--noise", "200"}, "--noise \"200\"");
     refused({"-o", out, "--noise", "-2%"}, "--noise \"-2%\"");
     refused({"-o", out, "--noise", "2%", "--samples", "0:64"},
             "--noise cannot be combined with --samples");

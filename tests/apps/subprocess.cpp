@@ -62,6 +62,9 @@ constexpr unsigned longest_run = 300;  // [s]
         ::setenv(name.c_str(), value.c_str(), 1);
     }
     ::alarm(longest_run);
+    if (!launch.folder.empty() && ::chdir(launch.folder.c_str()) != 0) {
+        ::_exit(98);
+    }
     limit(RLIMIT_AS, launch.address_space);
     limit(RLIMIT_FSIZE, launch.file_size);
 

@@ -4,6 +4,7 @@
 #include <sys/types.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -21,6 +22,7 @@ struct Launch {
     StderrKind stderr_kind = StderrKind::pipe;
     std::optional<rlim_t> address_space{};  ///< [bytes]
     std::optional<rlim_t> file_size{};      ///< [bytes]; writing beyond fails as on a full disk
+    std::filesystem::path folder{};         ///< the working directory; empty: ours
 };
 
 struct Outcome {

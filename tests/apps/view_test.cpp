@@ -38,8 +38,9 @@ TEST_CASE("a camera is selected by name, then by index")
         (void)select_camera(list, "top", "a.gltf");
     } catch (const Error& error) {
         CHECK(error.code() == ErrorCode::not_found);
-        CHECK(std::string(error.what()) ==
-              "a.gltf: no camera \"top\"; there are 0 \"main\", 1 \"2\", 2 \"side\"");
+        CHECK(
+            std::string(error.what()) ==
+            "a.gltf: no camera \"top\"; this scene has 3 cameras: 0 \"main\", 1 \"2\", 2 \"side\"");
     }
 }
 

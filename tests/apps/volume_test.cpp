@@ -132,7 +132,7 @@ TEST_CASE("smoke comes into a scene by --volume", "[volume]")
         room.render({"--volume", smoke, "--volume-extinction", "1,2,0.5", "--volume-albedo",
                      "0.5,1,0.25", "--volume-anisotropy", "-0.5"});
     const json settings = json::parse(file.text("bdpt.settings"))["volume"];
-    CHECK(settings["file"] == smoke);
+    CHECK(settings["file"] == "smoke.vdb");
     CHECK(settings["extinction"] == json({1.0, 2.0, 0.5}));
     CHECK(settings["albedo"] == json({0.5, 1.0, 0.25}));
     CHECK(settings["anisotropy"] == -0.5);

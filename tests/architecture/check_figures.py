@@ -85,7 +85,7 @@ def main():
     from figures import BALL, FIGURES
     known = {}
     if len(sys.argv) > 2:
-        known = options_of(subprocess.run([sys.argv[2], "render", "--help"], check=True, capture_output=True,
+        known = options_of(subprocess.run([sys.argv[2], "render", "--help-all"], check=True, capture_output=True,
                                           text=True).stdout)
     scenes = {file.name for file in (root / "scenes").glob("*.gltf")}
     scenes |= {cell.scene for figure in FIGURES.values() for cell in figure.cells if BALL.fullmatch(cell.scene)}

@@ -19,6 +19,7 @@
 #include "report/bench_text.h"
 #include "stage/input_files.h"
 #include "stage/prepared_scene.h"
+#include "stage/render_preparation.h"
 #include "terminal/interrupt.h"
 #include "terminal/text.h"
 
@@ -136,9 +137,7 @@ public:
         const PreparedScene stage = prepare_scene(
             subject.render, [&](const SceneDesc& desc) { content = eval::content_hash(desc); });
         check_not_read(all_files(arguments_), input_files(subject.render, stage));
-        for (const std::string& warning : stage.warnings) {
-            console_.warning(warning);
-        }
+        tell_findings(console_, stage);
         const Size size = arguments_.size.value_or(bench_size(stage.size, arguments_.pixels));
         const eval::BenchScene scene{.name = subject.name,
                                      .file = subject.render.file.string(),

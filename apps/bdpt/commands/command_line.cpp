@@ -8,10 +8,12 @@
 
 #include "commands/bench_command.h"
 #include "commands/compare_command.h"
+#include "commands/develop_command.h"
 #include "commands/inspect_command.h"
 #include "commands/merge_command.h"
 #include "commands/plan_command.h"
 #include "commands/render_command.h"
+#include "commands/render_scenes.h"
 #include "commands/verify_command.h"
 #include "commands/version_command.h"
 #include "options/job_file.h"
@@ -26,8 +28,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* program_footer = R"(Examples:
-  bdpt render scene.gltf -o out.exr
+  bdpt render model.glb                                        (writes model.png)
   bdpt render scene.glb -o out.exr -o preview.png --spp 256
+  bdpt develop out.exr -o bright.png --exposure 2
   bdpt info scene.glb
   bdpt plan scene.glb -o out.exr --spp 4096 --parts 64 --for slurm -d job
   bdpt merge part-*.part.exr -o out.exr
@@ -36,7 +39,7 @@ constexpr const char* program_footer = R"(Examples:
   bdpt verify scene.gltf
   bdpt inspect scene.gltf --pixel 640,360
 
-"bdpt help render", or "bdpt render --help", has all options and the exit codes.)";
+"bdpt help COMMAND", or "bdpt COMMAND --help", has the options of a command.)";
 
 /// `bdpt help` and `bdpt help COMMAND`: as `--help`.
 int run_help(Program& program, const std::string& topic)
@@ -52,9 +55,6 @@ int run_help(Program& program, const std::string& topic)
 int save_job(const RenderRequest& request, const OptionList& options)
 {
     const RenderArguments arguments = checked(request, options);
-    if (arguments.outputs.empty() && !arguments.part) {
-        throw OptionError("--output is required");
-    }
     const fs::path& file = request.saved_job;
     check_output("--save-job", file, FileSet(input_files(arguments)), FileSet(arguments.outputs));
     io::OutputFile output(file);
@@ -65,20 +65,26 @@ int save_job(const RenderRequest& request, const OptionList& options)
     return 0;
 }
 
-/// `bdpt render SCENE` and `bdpt render JOB`.
+/// `bdpt render SCENE...` and `bdpt render JOB`.
 int run_render_words(const RenderRequest& request, OptionList& options,
                      const std::vector<std::string>& given)
 {
     std::vector<std::string> words = given;
-    if (is_job(request.arguments.file)) {
-        load_job(fs::path(request.arguments.file), options);
+    std::vector<fs::path> scenes{request.arguments.file};
+    scenes.insert(scenes.end(), request.others.begin(), request.others.end());
+    if (scenes.size() == 1 && is_job(scenes.front())) {
+        load_job(scenes.front(), options);
+        scenes = {request.arguments.file};
         // What is told to render the rest then need not name the job.
         words.resize(2);
         const std::vector<std::string> more = words_of(options);
         words.insert(words.end(), more.begin(), more.end());
     }
-    return request.saved_job.empty() ? run_render(checked(request, options), words)
-                                     : save_job(request, options);
+    if (!request.saved_job.empty() && scenes.size() == 1) {
+        return save_job(request, options);
+    }
+    return run_render_scenes(checked(request, options), scenes, options,
+                             [&](const RenderArguments& one) { return run_render(one, words); });
 }
 
 }  // namespace
@@ -97,12 +103,15 @@ CommandLine::CommandLine()
         command.footer = footer;
         add_options(command.options, places...);
     };
-    add("render", "Render a scene to .exr and .png files", render_footer, add_render_options,
-        render);
+    add("render", "Render a scene to an image", render_footer, add_render_options, render);
+    program.commands.back().essentials = render_essentials();
+    program.commands.back().short_footer = render_short_footer;
     add("plan", "Share a render among many processes or machines", plan_footer, add_plan_options,
         plan);
     add("merge", "Add parts of a render that were rendered apart", merge_footer, add_merge_options,
         merge);
+    add("develop", "Make another picture of an .exr file, without rendering", develop_footer,
+        add_develop_options, develop);
     add("info", "Print what a scene contains", info_footer, add_info_options, info);
     add("compare", "Measure the error of images against a reference", compare_footer,
         add_compare_options, compare);
@@ -135,6 +144,9 @@ int CommandLine::run(const ParsedLine& line, const std::vector<std::string>& wor
     }
     if (name == "merge") {
         return run_merge(checked(merge, options));
+    }
+    if (name == "develop") {
+        return run_develop(checked(develop, options));
     }
     if (name == "info") {
         return run_info(info, options);

@@ -6,6 +6,7 @@
 #include "options/bench_arguments.h"
 #include "options/command_parser.h"
 #include "options/compare_arguments.h"
+#include "options/develop_arguments.h"
 #include "options/inspect_arguments.h"
 #include "options/part_arguments.h"
 #include "options/plan_arguments.h"
@@ -27,6 +28,7 @@ struct CommandLine {
     PlanRequest plan;
     MergeRequest merge;
     InfoArguments info;
+    DevelopRequest develop;
     CompareRequest compare;
     BenchRequest bench;
     VerifyRequest verify;

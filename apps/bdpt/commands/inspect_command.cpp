@@ -18,6 +18,7 @@
 #include "report/inspect_text.h"
 #include "stage/input_files.h"
 #include "stage/prepared_scene.h"
+#include "stage/render_preparation.h"
 #include "terminal/console.h"
 
 namespace bdpt::app {
@@ -58,9 +59,7 @@ int run_inspect(const InspectArguments& arguments)
     Console console(Format::text, what.printed.verbosity);
     const PreparedScene stage = prepare_scene(what);
     check_directions(input_files(what, stage));
-    for (const std::string& warning : stage.warnings) {
-        console.warning(warning);
-    }
+    tell_findings(console, stage);
     RenderOptions options = what.options;
     options.film.width = stage.size.width;
     options.film.height = stage.size.height;

@@ -162,6 +162,7 @@ void merge(const MergeArguments& arguments, const PartCollection& collection,
     check_strategies(arguments, parts.front());
     const DisplayArguments display =
         display_of_parts(parts.front().notes.metadata, arguments.display);
+    check_transparency(display, arguments.outputs);
     RenderPart sum;
     io::MemoryBudget memory(memory_limit(std::nullopt));
     for (const PartInfo& part : parts) {

@@ -298,9 +298,7 @@ int run_plan(const PlanArguments& arguments)
     const PreparedScene stage = load_first_image(asked, console);
     const FileSet inputs = input_files(asked, stage);
     check_files(arguments, inputs);
-    for (const std::string& warning : stage.warnings) {
-        console.warning(warning);
-    }
+    tell_findings(console, stage);
     const std::vector<SequenceView> views = views_of(asked, camera_names(stage));
     const FirstImage first = first_image(asked, views.front(), stage, console);
     const RenderOptions& options = first.arguments.options;

@@ -9,8 +9,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
-#include <exception>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -136,20 +136,6 @@ PartResult render_stage(const RenderArguments& arguments, const PreparedScene& s
     return result;
 }
 
-/// Writes the part, if there is to be one. Returns what went wrong: images are written all the
-/// same.
-std::exception_ptr finish_part(std::optional<PartKeeper>& keeper, const RenderPart& part)
-{
-    try {
-        if (keeper) {
-            keeper->finish(part);
-        }
-    } catch (const Error&) {
-        return std::current_exception();
-    }
-    return nullptr;
-}
-
 io::PartNotes part_notes(const RenderArguments& arguments, io::ImageMetadata metadata,
                          const std::vector<std::string>& words)
 {
@@ -201,19 +187,31 @@ ordered_json head_of_stats(const RenderArguments& arguments, const ordered_json&
     return stats;
 }
 
+/// What to do about the noise that is left, where people see it.
+void note_noise(Console& console, const RenderArguments& arguments, double noise)
+{
+    constexpr double preview = 0.05;
+    if (std::isfinite(noise) && noise > preview && !arguments.goal.noise &&
+        !arguments.outputs.empty()) {
+        console.detail(fmt::format("noise {}{}: more --time or --spp{}", noise_text(noise),
+                                   arguments.denoise ? " before denoising" : "",
+                                   arguments.denoise ? "" : ", or --denoise"));
+    }
+}
+
 /// What was written: a line for each file or, if there are several images, one for all.
-void note_done(Console& console, const RenderArguments& arguments, const RenderResult& result)
+void note_done(Console& console, const RenderArguments& arguments, const RenderResult& result,
+               std::vector<std::filesystem::path> files)
 {
     const std::string work =
         fmt::format("{} spp in {:.1f} s", result.film.sample_count(), result.seconds);
-    std::vector<std::filesystem::path> files = all_image_files(arguments);
     if (!is_one_of_many(arguments)) {
         for (const std::filesystem::path& file : files) {
             console.note(fmt::format("wrote {}: {}", file.string(), work));
         }
         return;
     }
-    if (files.empty()) {
+    if (files.empty() && arguments.part) {
         files.push_back(arguments.part->file);
     }
     std::string names;
@@ -227,15 +225,15 @@ void report_done(Console& console, const RenderArguments& arguments, const Rende
                  const WrittenImages& images, std::optional<int> signal)
 {
     ordered_json outputs = ordered_json::array();
-    for (const std::filesystem::path& output : all_image_files(arguments)) {
+    for (const std::filesystem::path& output : images.files) {
         outputs.push_back(output.string());
     }
-    note_done(console, arguments, result);
     ordered_json fields{{"samples", result.film.sample_count()},
                         {"seconds", result.seconds},
                         {"outputs", std::move(outputs)}};
     const double noise = noise_of(result.film);
     fields["noise"] = noise_json(noise);
+    note_noise(console, arguments, noise);
     if (const std::optional<double> goal = arguments.goal.noise; goal && noise > *goal) {
         const std::int64_t samples = samples_for_noise(noise, result.film.sample_count(), *goal);
         console.note(
@@ -277,9 +275,7 @@ void render_view(const RenderArguments& asked, const PreparedScene& stage,
     }
     interrupt.allow_stop();
     announce(console, arguments, stage, settings);
-    for (const std::string& warning : stage.warnings) {
-        console.warning(warning);
-    }
+    tell_findings(console, stage);
     if (const std::optional<std::string> warning = warning_of_darkness(arguments, stage)) {
         console.warning(*warning);
     }
@@ -289,7 +285,10 @@ void render_view(const RenderArguments& asked, const PreparedScene& stage,
     }
     PartResult done = render_stage(arguments, stage, part_notes(arguments, metadata, session.words),
                                    session, keeper);
-    const std::exception_ptr part_failure = finish_part(keeper, done.part);
+    Attempts attempts;
+    if (keeper) {
+        attempts.run([&] { keeper->finish(done.part); });
+    }
     const double cpu_seconds = done.part.cpu_seconds;
     const std::string samples = done.part.samples.text();
     const RenderResult result = result_of(std::move(done));
@@ -304,10 +303,17 @@ void render_view(const RenderArguments& asked, const PreparedScene& stage,
     report_clamp(console, result.film, image);
     const ImageFileOptions options =
         image_file_options(arguments, stage, result, metadata, session);
-    const WrittenImages images = write_image_files(arguments.outputs, image, options);
+    WrittenImages images = write_image_files(arguments.outputs, image, options, attempts);
     if (arguments.strategies && !arguments.strategies->both().empty()) {
-        write_strategy_files(*arguments.strategies, image, result.strategies, options.exr,
-                             arguments.display.exposure.value_or(io::automatic_exposure(image)));
+        const bool written = attempts.run([&] {
+            write_strategy_files(
+                *arguments.strategies, image, result.strategies, options.exr,
+                arguments.display.exposure.value_or(io::automatic_exposure(image)));
+        });
+        if (written) {
+            const std::vector<std::filesystem::path> both = arguments.strategies->both();
+            images.files.insert(images.files.end(), both.begin(), both.end());
+        }
     }
     const std::chrono::duration<double> writing = std::chrono::steady_clock::now() - writing_start;
     if (images.clamped_pixels > 0) {
@@ -332,15 +338,14 @@ void render_view(const RenderArguments& asked, const PreparedScene& stage,
                              {"samples", samples},
                              {"cpu_seconds", cpu_seconds}};
         }
-        write_stats_file(*arguments.stats, stats);
+        attempts.run([&] { write_stats_file(*arguments.stats, stats); });
     }
     if (signal) {
         console.note(fmt::format("stopped by {} after {} samples per pixel", signal_name(*signal),
                                  result.film.sample_count()));
     }
-    if (part_failure) {
-        std::rethrow_exception(part_failure);
-    }
+    note_done(console, arguments, result, images.files);
+    attempts.finish();
     report_done(console, arguments, result, images, signal);
 }
 

@@ -10,6 +10,7 @@
 #include "options/groups/transport_arguments.h"
 #include "report/verify_text.h"
 #include "stage/prepared_scene.h"
+#include "stage/render_preparation.h"
 #include "terminal/interrupt.h"
 #include "terminal/text.h"
 
@@ -64,9 +65,7 @@ int run_verify(const VerifyArguments& arguments)
     const PreparedScene stage = prepare_scene(what);
     interrupt.allow_stop();
     const std::string file = what.file.string();
-    for (const std::string& warning : stage.warnings) {
-        console.warning(warning);
-    }
+    tell_findings(console, stage);
     console.note(fmt::format("{}: {}, {}; {}x{}, camera {}", file,
                              counted(stage.scene.counts().instanced_triangles, "triangle"),
                              counted(stage.lights, "light"), stage.size.width, stage.size.height,

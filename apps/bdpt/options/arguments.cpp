@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 namespace bdpt::app {
 namespace {
@@ -22,15 +23,22 @@ std::optional<Number> parse_number(std::string_view text)
 
 }  // namespace
 
+std::string lower_case(std::string_view text)
+{
+    std::string result(text);
+    for (char& c : result) {
+        c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    }
+    return result;
+}
+
 std::optional<Size> parse_size(std::string_view text)
 {
     constexpr int largest = 65535;
-    const std::size_t cross = text.find('x');
-    if (cross == std::string_view::npos) {
-        return std::nullopt;
-    }
+    const std::size_t cross = text.find_first_of("xX");
+    const bool square = cross == std::string_view::npos;
     const auto width = parse_number<int>(text.substr(0, cross));
-    const auto height = parse_number<int>(text.substr(cross + 1));
+    const auto height = square ? width : parse_number<int>(text.substr(cross + 1));
     if (!width || !height || *width < 1 || *height < 1 || *width > largest || *height > largest) {
         return std::nullopt;
     }
@@ -39,17 +47,28 @@ std::optional<Size> parse_size(std::string_view text)
 
 std::optional<double> parse_duration(std::string_view text)
 {
-    double unit = 1.0;
-    if (!text.empty()) {
-        const char last = text.back();
-        unit = last == 'm' ? 60.0 : last == 'h' ? 3600.0 : 1.0;
-        text.remove_suffix(last == 's' || last == 'm' || last == 'h' ? 1 : 0);
+    const std::string words = lower_case(text);
+    std::string_view rest = words;
+    double seconds = 0.0;
+    // Of several parts each has its unit, and the longer units come first.
+    bool is_first = true;
+    for (const auto& [name, unit] :
+         {std::pair{'h', 3600.0}, std::pair{'m', 60.0}, std::pair{'s', 1.0}}) {
+        const std::size_t end = rest.find(name);
+        const bool plain = name == 's' && is_first && end == std::string_view::npos;
+        if (end == std::string_view::npos && !plain) {
+            continue;
+        }
+        const auto count = parse_number<double>(rest.substr(0, end));
+        if (!count || !std::isfinite(*count) || *count < 0.0) {
+            return std::nullopt;
+        }
+        seconds += *count * unit;
+        rest.remove_prefix(plain ? rest.size() : end + 1);
+        is_first = false;
     }
-    const auto count = parse_number<double>(text);
-    if (!count || !std::isfinite(*count) || *count <= 0.0) {
-        return std::nullopt;
-    }
-    return *count * unit;
+    return rest.empty() && seconds > 0.0 && std::isfinite(seconds) ? std::optional(seconds)
+                                                                   : std::nullopt;
 }
 
 std::optional<std::uint64_t> parse_bytes(std::string_view text)
@@ -73,10 +92,14 @@ std::optional<std::uint64_t> parse_bytes(std::string_view text)
 
 std::optional<double> parse_share(std::string_view text)
 {
-    const bool percent = text.ends_with('%');
-    text.remove_suffix(percent ? 1 : 0);
+    const bool has_sign = text.ends_with('%');
+    text.remove_suffix(has_sign ? 1 : 0);
     const auto number = parse_number<double>(text);
-    const double share = number ? *number / (percent ? 100.0 : 1.0) : 0.0;
+    if (!number) {
+        return std::nullopt;
+    }
+    // Nobody asks for a noise of 100 % and more.
+    const double share = *number / (has_sign || *number >= 1.0 ? 100.0 : 1.0);
     return share > 0.0 && share <= 1.0 ? std::optional(share) : std::nullopt;
 }
 

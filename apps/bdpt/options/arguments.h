@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace bdpt::app {
@@ -15,16 +16,19 @@ struct Size {
     int height = 0;
 };
 
-/// "1280x720"; both at least 1 and at most 65535.
+/// ASCII letters as small ones.
+[[nodiscard]] std::string lower_case(std::string_view text);
+
+/// "1280x720", or "512" of a square; both at least 1 and at most 65535.
 [[nodiscard]] std::optional<Size> parse_size(std::string_view text);
 
-/// "90", "90s", "2m" or "1.5h", as seconds; more than 0.
+/// "90", "90s", "2m", "1.5h" or "1h30m", as seconds; more than 0.
 [[nodiscard]] std::optional<double> parse_duration(std::string_view text);
 
 /// "1500000", "800K", "500M" or "2.5G", as bytes, by powers of 1024; at least 1 and below 2^63.
 [[nodiscard]] std::optional<std::uint64_t> parse_bytes(std::string_view text);
 
-/// "2%" or "0.02"; above 0 and at most 1.
+/// "2%", "2" or "0.02": numbers from 1 are percent, too. Above 0 and at most 1.
 [[nodiscard]] std::optional<double> parse_share(std::string_view text);
 
 /// "x,y,z", all finite.

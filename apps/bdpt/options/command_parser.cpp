@@ -6,19 +6,26 @@
 #include <algorithm>
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <sstream>
 #include <utility>
+
+#include "terminal/standard_streams.h"
+#include "terminal/text.h"
 
 namespace bdpt::app {
 namespace {
 
-constexpr std::size_t name_columns = 32;
-constexpr std::size_t text_columns = 100 - name_columns;
+constexpr std::string_view help_all = "--help-all";
 
-/// Prints options as "--name VALUE   what it does" in at most 100 columns.
+/// Prints options as "--name VALUE   what it does", as wide as the terminal, but for 60 to 100
+/// columns.
 class HelpFormatter : public CLI::Formatter {
 public:
-    HelpFormatter() { column_width(name_columns); }
+    HelpFormatter() : columns_(std::clamp(output_columns().value_or(100), 60, 100))
+    {
+        column_width(columns_ < 80 ? 26 : 32);
+    }
     std::string make_option_opts(const CLI::Option* option) const override
     {
         const std::string value = option->get_type_name();
@@ -26,17 +33,17 @@ public:
     }
     std::string make_option_desc(const CLI::Option* option) const override
     {
-        std::istringstream words(option->get_description());
-        std::string result;
-        std::size_t column = 0;
-        for (std::string word; words >> word;) {
-            const bool wraps = column > 0 && column + 1 + word.size() > text_columns;
-            column = wraps ? word.size() : column + word.size() + (column > 0 ? 1 : 0);
-            result += result.empty() ? "" : wraps ? "\n" : " ";
-            result += word;
-        }
-        return result;
+        return wrapped(option->get_description(),
+                       static_cast<std::size_t>(columns_) - get_column_width());
     }
+    std::string make_footer(const CLI::App* app) const override
+    {
+        return wrapped_paragraphs(CLI::Formatter::make_footer(app),
+                                  static_cast<std::size_t>(columns_));
+    }
+
+private:
+    int columns_;
 };
 
 /// `words` as CLI11 takes them, from the end. "--name=" becomes "--name" and an empty word: CLI11
@@ -61,11 +68,16 @@ std::vector<std::string> words_for_cli(const std::vector<std::string>& words)
 /// Options as CLI11 knows them. It tells words apart; values are understood by `Option::store`.
 class CliOptions {
 public:
-    void add(CLI::App& app, OptionList& list)
+    /// Help shows the options of the names `shown`; empty: all of them.
+    void add(CLI::App& app, OptionList& list, std::span<const std::string_view> shown = {})
     {
         for (Option& option : list.all()) {
             CLI::Option* added = add(app, option);
-            if (!option.section.empty()) {
+            const bool is_hidden = !shown.empty() && std::find(shown.begin(), shown.end(),
+                                                               option.name()) == shown.end();
+            if (is_hidden) {
+                added->group("");
+            } else if (!option.section.empty()) {
                 added->group(option.section);
             }
             added->required(option.required);
@@ -121,7 +133,8 @@ std::string command_names(const Program& program)
 
 /// A command line in CLI11's terms.
 struct CommandLineParser {
-    explicit CommandLineParser(Program& program) : app(program.summary, program.name)
+    explicit CommandLineParser(Program& program, HelpDetail detail = HelpDetail::essentials)
+        : app(program.summary, program.name)
     {
         app.set_version_flag("--version", program.version,
                              "Print the version, that of libraries, and the instruction set");
@@ -131,18 +144,48 @@ struct CommandLineParser {
         for (Command& command : program.commands) {
             CLI::App* added = app.add_subcommand(command.name, command.summary);
             added->footer(command.footer);
-            options.emplace_back().add(*added, command.options);
+            const bool is_short = detail == HelpDetail::essentials;
+            options.emplace_back().add(
+                *added, command.options,
+                is_short ? std::span(command.essentials) : std::span<const std::string_view>());
+            if (!command.essentials.empty()) {
+                added->add_flag(std::string(help_all), all_flag,
+                                "Print the help of all options, with examples and exit codes");
+            }
+            if (is_short && !command.essentials.empty()) {
+                added->footer(command.short_footer);
+            }
         }
     }
 
     CLI::App app;
     std::deque<CliOptions> options;  ///< of the commands
+    bool all_flag = false;
 };
 
 /// Where all about `command` is told; null: about the program.
 std::string help_of(const CLI::App* command)
 {
     return command != nullptr ? fmt::format("bdpt {} --help", command->get_name()) : "bdpt --help";
+}
+
+/// What `error` says, in our words.
+std::string complaint(const CLI::ParseError& error)
+{
+    std::string text = error.what();
+    const std::string name = text.substr(0, text.find_first_of(": "));
+    constexpr std::string_view before = ": 1 required ";
+    constexpr std::string_view after = " missing";
+    const std::size_t begin = text.find(before);
+    if (begin != std::string::npos && text.ends_with(after)) {
+        text = text.substr(begin + before.size());
+        return fmt::format("{} needs a value, {}", name,
+                           text.substr(0, text.size() - after.size()));
+    }
+    if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && name == "files") {
+        return "files are required";
+    }
+    return text;
 }
 
 /// One line for what the parser did not like, with a hint. `command`: that was given, or null.
@@ -156,10 +199,15 @@ std::string explain(const Program& program, const CLI::App& app, const CLI::App*
             command == nullptr && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
         return no_command ? fmt::format("no command: there are {}; see \"{}\"",
                                         command_names(program), help)
-                          : fmt::format("{}; see \"{}\"", error.what(), help);
+                          : fmt::format("{}; see \"{}\"", complaint(error), help);
     }
     const std::string& word = extras.front();
     if (!word.starts_with("-")) {
+        const bool is_scene = word.ends_with(".gltf") || word.ends_with(".glb");
+        if (command == nullptr && is_scene) {
+            return fmt::format("unknown command \"{0}\"; \"bdpt render {0}\" renders a scene",
+                               word);
+        }
         return command == nullptr
                    ? unknown_command(program, word, help)
                    : fmt::format("unexpected argument \"{}\"; see \"{}\"", word, help);
@@ -195,13 +243,22 @@ std::string unknown_command(const Program& program, const std::string& word,
 
 ParsedLine parse(Program& program, const std::vector<std::string>& words)
 {
-    CommandLineParser parser(program);
+    const auto end = std::find(words.begin(), words.end(), "--");
+    const auto all = std::find(words.begin(), end, help_all);
+    if (all != end && program.find(words.front()) != nullptr &&
+        !program.find(words.front())->essentials.empty()) {
+        return {.text = help_text(program, words.front(), HelpDetail::all)};
+    }
+    // Options that help hides have no names in errors.
+    CommandLineParser parser(program, HelpDetail::all);
     const auto given = [&parser]() -> const CLI::App* {
         const std::vector<CLI::App*> commands = parser.app.get_subcommands();
         return commands.empty() ? nullptr : commands.front();
     };
     try {
         parser.app.parse(words_for_cli(words));
+    } catch (const CLI::CallForHelp&) {
+        return {.text = help_text(program, given() != nullptr ? given()->get_name() : "")};
     } catch (const CLI::Success& success) {
         std::ostringstream text;
         parser.app.exit(success, text, text);
@@ -227,14 +284,14 @@ void parse(OptionList& options, const std::vector<std::string>& words)
     try {
         app.parse(words_for_cli(words));
     } catch (const CLI::ParseError& error) {
-        throw OptionError(error.what());
+        throw OptionError(complaint(error));
     }
     added.store(options);
 }
 
-std::string help_text(Program& program, std::string_view command)
+std::string help_text(Program& program, std::string_view command, HelpDetail detail)
 {
-    const CommandLineParser parser(program);
+    const CommandLineParser parser(program, detail);
     if (command.empty()) {
         return parser.app.help();
     }

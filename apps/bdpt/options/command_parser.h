@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <optional>
@@ -17,7 +18,13 @@ struct Command {
     std::string summary;  ///< what it does, in a line
     std::string footer;   ///< below the options in its help: examples, exit codes
     OptionList options;
+    /// Names of the options that its help shows; --help-all shows the others, too. Empty: all.
+    std::vector<std::string_view> essentials{};
+    std::string short_footer{};  ///< in place of `footer`, below the essentials
 };
+
+/// How much of a command a help text shows.
+enum class HelpDetail : std::uint8_t { essentials, all };
 
 /// A program that is a set of commands.
 struct Program {
@@ -44,8 +51,9 @@ struct ParsedLine {
 /// `words` of one command, stored into `options`. Throws `OptionError`.
 void parse(OptionList& options, const std::vector<std::string>& words);
 
-/// The text of --help, of the program or of one command.
-[[nodiscard]] std::string help_text(Program& program, std::string_view command = "");
+/// The text of --help, of the program or of one command; or that of --help-all.
+[[nodiscard]] std::string help_text(Program& program, std::string_view command = "",
+                                    HelpDetail detail = HelpDetail::essentials);
 
 /// "unknown command ...: there are ...".
 [[nodiscard]] std::string unknown_command(const Program& program, const std::string& word,

@@ -76,7 +76,7 @@ std::string resolved_path(const std::string& path, const fs::path& folder)
 void take(Option& option, const JsonValue& value, const fs::path& folder)
 {
     const auto add = [&](const JsonValue& element) {
-        std::string text = text_of(option, element);
+        std::string text = option.spelled(text_of(option, element));
         if (is_path(option, text)) {
             text = resolved_path(text, folder);
         }

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "options/arguments.h"
+
 namespace bdpt::app {
 namespace {
 
@@ -30,7 +32,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b)
 /// What shells and configuration files take for yes and no.
 ValueType<bool> yes_or_no()
 {
-    const auto parse = [](const std::string& text) -> std::optional<bool> {
+    const auto parse = [](const std::string& given) -> std::optional<bool> {
+        const std::string text = lower_case(given);
         if (text == "true" || text == "1" || text == "yes" || text == "on") {
             return true;
         }
@@ -76,6 +79,15 @@ std::string Option::word() const
 {
     const std::string& text = texts.back();
     return is_flag() && text == "true" ? name() : name() + "=" + text;
+}
+
+std::string Option::spelled(std::string text) const
+{
+    const auto word = std::find_if(info.words.begin(), info.words.end(),
+                                   [small = lower_case(text)](const std::string& known) {
+                                       return lower_case(known) == small;
+                                   });
+    return word != info.words.end() ? *word : text;
 }
 
 void OptionList::section(std::string title, OptionUses uses)
@@ -129,19 +141,19 @@ void OptionList::reject_value(std::string_view name, std::string_view expected) 
 
 void OptionList::store_given()
 {
-    const auto store = [](const Option& option, const std::string& text) {
-        if (!option.store(text)) {
-            reject(option.name(), text, option.expected);
+    for (Option& option : options_) {
+        for (std::string& text : option.texts) {
+            text = option.spelled(std::move(text));
         }
-    };
-    for (const Option& option : options_) {
         if (option.repeats) {
             option.clear();
-            for (const std::string& text : option.texts) {
-                store(option, text);
+        }
+        const std::size_t first =
+            option.repeats || !option.given() ? 0 : option.texts.size() - 1;  // else the last
+        for (std::size_t i = first; i < option.texts.size(); ++i) {
+            if (!option.store(option.texts[i])) {
+                reject(option.name(), option.texts[i], option.expected);
             }
-        } else if (option.given()) {
-            store(option, option.texts.back());
         }
     }
 }

@@ -82,6 +82,8 @@ struct Option {
     [[nodiscard]] bool given() const { return !texts.empty(); }
     /// As one word that says the same: "--spp=64", "--half".
     [[nodiscard]] std::string word() const;
+    /// `text`, or the word among `info.words` that it is but for capital letters.
+    [[nodiscard]] std::string spelled(std::string text) const;
 };
 
 /// The options of a command, in the order of its help, and what was given for them.

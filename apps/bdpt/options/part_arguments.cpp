@@ -112,10 +112,12 @@ void add_merge_options(OptionList& options, MergeRequest& request)
                          arguments.parts, any_text());
     options.section("Output");
     options
-        .add_repeated("-o,--output", "FILE",
-                      "Required: .part.exr (a part again), .exr (linear radiance) or .png "
-                      "(tone-mapped); exr:- and png:- are the standard output. May be repeated",
-                      arguments.outputs, any_text())
+        .add_repeated(
+            "-o,--output", "FILE",
+            "Required: .part.exr (a part again), .exr or .hdr (linear radiance), .png, .jpg "
+            "or .webp (tone-mapped); exr:-, png:- and the like are the standard output. "
+            "May be repeated",
+            arguments.outputs, any_text())
         .required = true;
     options.section("Parts");
     options.add("--plan", "FILE",

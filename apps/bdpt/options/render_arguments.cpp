@@ -89,10 +89,13 @@ void add_image_output(OptionList& options, RenderRequest& request)
     RenderArguments& arguments = request.arguments;
     options.section("Output", of_save);
     options
-        .add_repeated("-o,--output", "FILE",
-                      "An image, .exr (linear radiance) or .png (tone-mapped); exr:- and png:- are "
-                      "the standard output. May be repeated. Required without --part",
-                      arguments.outputs, file_path({"-", "exr:-", "png:-"}))
+        .add_repeated(
+            "-o,--output", "FILE",
+            "An image: .exr or .hdr (linear radiance), .png, .jpg or .webp (tone-mapped); "
+            "exr:-, png:- and the like are the standard output. May be repeated. Default of bdpt "
+            "render without "
+            "--part: the name of the scene with .png, in the working directory",
+            arguments.outputs, file_path(standard_output_names()))
         .uses = {};
     add_display_options(options, arguments.display);
     add_denoise_options(options, request.denoise);
@@ -104,6 +107,12 @@ void add_image_output(OptionList& options, RenderRequest& request)
                   types.type())
         .uses = {};
     add_tiled_option(options, arguments.exr);
+    const Choices<PathNames> names{{{"true", PathNames::paths}, {"false", PathNames::files}}};
+    options
+        .add_flag("--full-paths",
+                  "Metadata of images name the scene and other files with their folders",
+                  arguments.path_names, names.type())
+        .uses = {.plan_render = true};
     add_quiet_option(options, arguments.printed);
     add_json_option(options, arguments.printed,
                     "Print one JSON object per line on stdout: start, progress, warning, done, "
@@ -198,8 +207,10 @@ void check_combinations(const OptionList& options)
 }  // namespace
 
 const char* const render_footer = R"(Examples:
+  bdpt render model.glb
   bdpt render scene.gltf -o out.exr
   bdpt render scene.glb -o out.exr -o out.png --spp 256 --size 1920x1080
+  bdpt render *.glb -o 'out/{name}.png'
   bdpt render room.glb -o out.exr --time 90s --camera "Camera 2"
   bdpt render chair.glb -o out.png --background transparent --ground shadow
   bdpt render walk.glb -o out.png --animation run --frame-time 0.25
@@ -217,6 +228,21 @@ was killed goes on when the same command runs again.
 Exit codes: 0 done, 1 internal error, 2 wrong usage, 3 input not found, 4 invalid input,
 5 unsupported feature, 6 output cannot be written, 7 out of memory or threads, 129 stopped by
 SIGHUP, 130 by SIGINT, 143 by SIGTERM.)";
+
+const char* const render_short_footer = R"(Examples:
+  bdpt render model.glb
+  bdpt render scene.glb -o out.exr -o out.png --time 60s --size 1920x1080
+  bdpt render chair.glb -o chair.png --background transparent --ground shadow
+  bdpt render model.glb -o out.png --env sky.hdr --from 3,2,4 --look-at 0,1,0 --fov 40
+
+"bdpt render --help-all" has all options, more examples and the exit codes.)";
+
+std::vector<std::string_view> render_essentials()
+{
+    return {"file",         "others",   "--output", "--spp",      "--time",   "--noise",
+            "--size",       "--camera", "--from",   "--look-at",  "--fov",    "--env",
+            "--background", "--ground", "--orbit",  "--exposure", "--denoise"};
+}
 
 void add_scene_file(OptionList& options, RenderRequest& request)
 {
@@ -253,7 +279,8 @@ void add_view_options(OptionList& options, RenderRequest& request)
                 angle());
     options
         .add("--env", "FILE|none|default",
-             "Environment map: an equirectangular .exr, .hdr or .tif, none, or default (the sky "
+             "Environment map: an equirectangular .exr, .hdr, .tif, .png or .jpg, none, or default "
+             "(the sky "
              "that scenes without light get). Replaces that of the file",
              arguments.environment, file_path({"none", "default", "-"}))
         .uses.plan_render = false;  // a plan has a place of its own for files
@@ -285,6 +312,14 @@ void add_plannable_options(OptionList& options, RenderRequest& request)
 void add_render_options(OptionList& options, RenderRequest& request)
 {
     add_plannable_options(options, request);
+    options.section("");
+    options
+        .add_repeated(
+            "others", "FILE",
+            "More scenes, rendered one after the other; {name} in names of outputs is the "
+            "name of the scene",
+            request.others, file_path())
+        .uses.job = false;
     add_process_options(options, request);
     add_sequence_options(options, request.sequence);
 }
@@ -312,6 +347,7 @@ RenderArguments checked(const RenderRequest& request, const OptionList& options)
     if (options.given("--volume")) {
         result.volume = request.volume;
     }
+    check_transparency(result.display, result.outputs);
     if (result.display.backdrop) {
         result.options.transport.background = Background::none;
         result.options.film.aovs.insert(Aov::alpha);

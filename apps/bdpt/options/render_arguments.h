@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "options/arguments.h"
@@ -35,6 +36,12 @@ namespace bdpt::app {
 struct RatesChoice {
     std::optional<std::filesystem::path> file{};   ///< none: a pilot finds them
     std::optional<std::filesystem::path> saved{};  ///< .exr or .png
+};
+
+/// How metadata calls the files of a render.
+enum class PathNames : std::uint8_t {
+    files,  ///< without their folders, which are nobody else's business
+    paths,  ///< as they were given
 };
 
 /// What `bdpt render` is to do.
@@ -68,6 +75,7 @@ struct RenderArguments {
     std::optional<SequenceView> sequence_view{};  ///< which of them this is
     std::optional<DisplayAddress> viewer{};       ///< of the viewer that shows the render
     Printed printed{};
+    PathNames path_names = PathNames::files;  ///< in the metadata of images
 };
 
 /// The options of `bdpt render`, as they are given: `arguments`, and what is understood only when
@@ -88,10 +96,15 @@ struct RenderRequest {
     StrategyFiles strategies{};
     PartChoice part{};
     Sequence sequence{};
-    std::filesystem::path saved_job{};  ///< written in place of the render; empty: none
+    std::vector<std::filesystem::path> others{};  ///< scenes behind the first
+    std::filesystem::path saved_job{};            ///< written in place of the render; empty: none
 };
 
 extern const char* const render_footer;
+extern const char* const render_short_footer;
+
+/// The options that people need first.
+[[nodiscard]] std::vector<std::string_view> render_essentials();
 
 /// Adds the options of `bdpt render`.
 void add_render_options(OptionList& options, RenderRequest& request);

@@ -42,7 +42,9 @@ std::vector<std::filesystem::path> check_files(const RenderArguments& arguments,
                                                const FileSet& inputs)
 {
     if (arguments.outputs.empty() && !arguments.part) {
-        throw OptionError("--output is required");
+        throw OptionError(arguments.sequence
+                              ? "--output is required for several images, like -o out.####.png"
+                              : "--output is required for a scene from the standard input");
     }
     check_outputs(arguments.outputs, inputs);
     FileSet outputs(arguments.outputs);

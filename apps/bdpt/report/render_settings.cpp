@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -37,10 +38,17 @@ ordered_json view_json(const CameraDesc& camera)
     return view;
 }
 
-ordered_json volume_json(const VolumeChoice& volume)
+/// What metadata call `file`.
+std::string named(const RenderArguments& arguments, const std::filesystem::path& file)
 {
-    const io::VolumeOptions& options = volume.options;
-    ordered_json json{{"file", one_line(volume.file.string())}};
+    const bool whole = arguments.path_names == PathNames::paths || !file.has_filename();
+    return one_line((whole ? file : file.filename()).string());
+}
+
+ordered_json volume_json(const RenderArguments& arguments)
+{
+    const io::VolumeOptions& options = arguments.volume->options;
+    ordered_json json{{"file", named(arguments, arguments.volume->file)}};
     if (options.grid) {
         json["grid"] = one_line(*options.grid);
     }
@@ -75,7 +83,7 @@ ordered_json settings_of(const RenderArguments& arguments, const PreparedScene& 
     }
     settings["isa"] = isa_name(stage.scene.isa());
     settings.update(view_json(stage.camera));
-    settings["environment"] = stage.environment_name;
+    settings["environment"] = named(arguments, stage.environment_name);
     if (arguments.environment_change.rotation != 0.0) {
         settings["environment_rotation_degrees"] = arguments.environment_change.rotation;
     }
@@ -88,7 +96,7 @@ ordered_json settings_of(const RenderArguments& arguments, const PreparedScene& 
                            {"anisotropy", arguments.fog->anisotropy}};
     }
     if (arguments.volume) {
-        settings["volume"] = volume_json(*arguments.volume);
+        settings["volume"] = volume_json(arguments);
     }
     if (arguments.display.backdrop) {
         settings["background"] = backdrop_text(*arguments.display.backdrop);
@@ -150,7 +158,7 @@ io::ImageMetadata metadata_of(const RenderArguments& arguments, const PreparedSc
 {
     io::ImageMetadata metadata;
     metadata.version = BDPT_VERSION;
-    metadata.scene = one_line(arguments.file.string());
+    metadata.scene = named(arguments, arguments.file);
     metadata.settings = settings.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
     metadata.integrator = name_of(arguments.options.integrator);
     metadata.seed = arguments.options.sampling.seed;

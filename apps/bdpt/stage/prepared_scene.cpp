@@ -31,6 +31,7 @@ struct LitScene {
     Sky sky = Sky::none;
     std::string environment_name = "none";
     std::vector<std::string> warnings{};
+    std::vector<std::string> notes{};
     std::size_t added = 0;  ///< lights that nobody asked for
 };
 
@@ -89,7 +90,7 @@ LitScene add_environment(SceneDesc desc, const RenderArguments& arguments)
         lit.sky = Sky::chosen;
         lit.environment_name = "scene";
     } else if (!has_light(lit.desc)) {
-        lit.warnings.push_back(fmt::format(
+        lit.notes.push_back(fmt::format(
             "{}: no light: lit by the default environment, a soft sky (--env chooses another)",
             file));
         lit.sky = Sky::fallback;
@@ -125,7 +126,7 @@ BuiltScene build(LitScene& lit, const RenderArguments& arguments, float aspect,
         show();
         return {std::move(scene), framed};
     }
-    lit.warnings.push_back(fmt::format(
+    lit.notes.push_back(fmt::format(
         "{}: a closed room without light: a lamp was added at {:.3g},{:.3g},{:.3g} (--env none "
         "takes it away)",
         arguments.file.string(), framed.lamp_position.x, framed.lamp_position.y,
@@ -234,7 +235,7 @@ PreparedScene prepare_scene(const RenderArguments& asked,
     }
     warnings.insert(warnings.end(), lit.warnings.begin(), lit.warnings.end());
     if (!from_file && !arguments.camera && !arguments.view.from) {
-        warnings.push_back(
+        lit.notes.push_back(
             fmt::format("{}: no camera: the whole scene is framed (--from, --look-at and --fov "
                         "choose another view)",
                         file));
@@ -252,6 +253,7 @@ PreparedScene prepare_scene(const RenderArguments& asked,
             lit.environment_name,
             size,
             std::move(warnings),
+            std::move(lit.notes),
             seconds(loading_end - start),
             seconds(building_end - loading_end),
             std::move(loaded.facts.xmp),

@@ -21,6 +21,7 @@ struct PreparedScene {
     std::string environment_name;  ///< for people: its file, "scene", "default" or "none"
     Size size;
     std::vector<std::string> warnings;  ///< one line each
+    std::vector<std::string> notes{};   ///< the same: what was added to a file that lacks it
     double load_seconds = 0.0;          ///< for reading files
     double build_seconds = 0.0;         ///< for making the scene ready
     std::string xmp{};                  ///< what the file says about itself

@@ -97,6 +97,16 @@ std::uint64_t image_cache_bytes(const RenderArguments& arguments)
     return std::min(most, arguments.memory.bytes / 4);
 }
 
+void tell_findings(Console& console, const PreparedScene& stage)
+{
+    for (const std::string& note : stage.notes) {
+        console.note(note, Repeat::never);
+    }
+    for (const std::string& warning : stage.warnings) {
+        console.warning(warning);
+    }
+}
+
 void spend_film(io::MemoryBudget& memory, const RenderOptions& options, const Size& size)
 {
     memory.spend(fmt::format("the film of {}x{} pixels", size.width, size.height),

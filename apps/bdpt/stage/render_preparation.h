@@ -18,6 +18,9 @@ namespace bdpt::app {
 [[nodiscard]] PreparedScene prepare_with_progress(const RenderArguments& arguments,
                                                   Console& console);
 
+/// Tells what was noticed while the scene was prepared: warnings and notes, each once.
+void tell_findings(Console& console, const PreparedScene& stage);
+
 /// Takes what the film of a render of `size` and its layers need. Throws `Error` if that is too
 /// much.
 void spend_film(io::MemoryBudget& memory, const RenderOptions& options, const Size& size);

@@ -81,7 +81,11 @@ std::string bar(double fraction)
 
 std::string noise_text(double noise)
 {
-    return std::isfinite(noise) ? fmt::format("{:.2g} %", 100.0 * noise) : "unknown";
+    if (!std::isfinite(noise)) {
+        return "unknown";
+    }
+    return noise < 0.1 ? fmt::format("{:.2g} %", 100.0 * noise)
+                       : fmt::format("{:.0f} %", 100.0 * noise);
 }
 
 std::string label_text(const ImageLabel& label)
@@ -143,10 +147,11 @@ void Console::event(std::string_view name, const ordered_json& fields)
     }
 }
 
-void Console::note(std::string_view message)
+void Console::note(std::string_view message, Repeat repeat)
 {
     const std::lock_guard lock(mutex_);
-    if (format_ == Format::text && verbosity_ == Verbosity::normal) {
+    const bool is_news = repeat == Repeat::always || told_.emplace(message).second;
+    if (is_news && format_ == Format::text && verbosity_ == Verbosity::normal) {
         print_line("bdpt: ", message);
     }
 }
@@ -167,7 +172,7 @@ void Console::begin_image(const ImageLabel& label)
 void Console::warning(std::string_view message, Repeat repeat)
 {
     const std::lock_guard lock(mutex_);
-    const bool is_news = warned_.emplace(message).second || repeat == Repeat::always;
+    const bool is_news = told_.emplace(message).second || repeat == Repeat::always;
     if (verbosity_ == Verbosity::quiet || !is_news) {
         return;
     }

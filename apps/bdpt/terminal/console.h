@@ -38,7 +38,7 @@ struct TaskProgress {
     std::string activity;  ///< what is being done
 };
 
-/// How often a warning is shown.
+/// How often a message is shown.
 enum class Repeat : std::uint8_t {
     never,   ///< the same message is shown once
     always,  ///< each time is news
@@ -73,7 +73,7 @@ public:
     /// the user wants quiet, but for the event "done".
     void event(std::string_view name, const nlohmann::ordered_json& fields);
     /// A line for people; nothing when the format is JSON.
-    void note(std::string_view message);
+    void note(std::string_view message, Repeat repeat = Repeat::always);
     /// A line for people, if there is one image only.
     void detail(std::string_view message);
     void warning(std::string_view message, Repeat repeat = Repeat::never);
@@ -101,7 +101,7 @@ private:
     std::mutex mutex_;
     std::size_t drawn_ = 0;  // characters of the progress line on the screen
     ImageLabel label_;
-    std::set<std::string, std::less<>> warned_;
+    std::set<std::string, std::less<>> told_;
     double last_shown_ = -std::numeric_limits<double>::infinity();  // [s] of the render
 };
 

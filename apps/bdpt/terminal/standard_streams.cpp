@@ -3,6 +3,7 @@
 #include <bdpt/error.h>
 #include <fcntl.h>
 #include <fmt/core.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -62,6 +63,13 @@ void put(std::FILE* stream, std::string_view text)
         std::fflush(stream) != 0) {
         failure_of(stream).note(errno);
     }
+}
+
+std::optional<int> output_columns()
+{
+    winsize size{};
+    const bool is_known = ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+    return is_known ? std::optional(int{size.ws_col}) : std::nullopt;
 }
 
 int finish_standard_streams(int exit_code)

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 namespace bdpt::app {
 namespace {
@@ -138,6 +139,43 @@ std::string clock_time(double seconds)
         return fmt::format("{}:{:02}:{:02}", hours, minutes, total % 60);
     }
     return fmt::format("{}:{:02}", minutes, total % 60);
+}
+
+std::string wrapped(std::string_view text, std::size_t columns)
+{
+    std::istringstream words{std::string(text)};
+    std::string result;
+    std::size_t column = 0;
+    for (std::string word; words >> word;) {
+        const bool wraps = column > 0 && column + 1 + word.size() > columns;
+        column = wraps ? word.size() : column + word.size() + (column > 0 ? 1 : 0);
+        result += result.empty() ? "" : wraps ? "\n" : " ";
+        result += word;
+    }
+    return result;
+}
+
+std::string wrapped_paragraphs(std::string_view text, std::size_t columns)
+{
+    std::istringstream lines{std::string(text)};
+    std::string result;
+    std::string paragraph;
+    const auto end_paragraph = [&] {
+        result += paragraph.empty() ? "" : wrapped(paragraph, columns) + "\n";
+        paragraph.clear();
+    };
+    for (std::string line; std::getline(lines, line);) {
+        // A title above an example stands alone.
+        const bool is_fixed = line.empty() || line.front() == ' ';
+        if (is_fixed) {
+            end_paragraph();
+            result += line + "\n";
+        } else {
+            paragraph += line + " ";
+        }
+    }
+    end_paragraph();
+    return result;
 }
 
 }  // namespace bdpt::app

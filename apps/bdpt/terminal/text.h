@@ -24,6 +24,12 @@ namespace bdpt::app {
 /// "x0,y0,x1,y1"
 [[nodiscard]] std::string rect_text(const PixelRect& rect);
 
+/// The words of `text` in lines of up to `columns`.
+[[nodiscard]] std::string wrapped(std::string_view text, std::size_t columns);
+
+/// Paragraphs of `text` that are wider, wrapped; lines that begin with a space stay as they are.
+[[nodiscard]] std::string wrapped_paragraphs(std::string_view text, std::size_t columns);
+
 /// Seconds as "1:07" or "2:03:09".
 [[nodiscard]] std::string clock_time(double seconds);
 

@@ -1,5 +1,7 @@
 #include "texture/texel_coding.h"
 
+#include <bdpt/srgb.h>
+
 #include <array>
 #include <cstddef>
 #include <limits>
@@ -7,24 +9,6 @@
 
 namespace bdpt {
 namespace {
-
-/// x^2.4 for x in (0, 1], by Newton's method for the fifth root of x^2; needs no C library.
-[[nodiscard]] constexpr double power_2_4(double x)
-{
-    const double square = x * x;
-    double root = 1.0;
-    for (int i = 0; i < 40; ++i) {
-        const double fourth = root * root * root * root;
-        root -= (root * fourth - square) / (5.0 * fourth);
-    }
-    return square * root;
-}
-
-/// The electro-optical function of IEC 61966-2-1.
-[[nodiscard]] constexpr float srgb_to_linear(double c)
-{
-    return static_cast<float>(c <= 0.04045 ? c / 12.92 : power_2_4((c + 0.055) / 1.055));
-}
 
 using Table8 = std::array<float, 256>;
 using Table16 = std::array<float, 65536>;

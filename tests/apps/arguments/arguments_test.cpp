@@ -18,8 +18,13 @@ TEST_CASE("sizes are two whole numbers and a cross")
     CHECK(size->width == 640);
     CHECK(size->height == 360);
     CHECK(parse_size("65535x1"));
-    for (const char* wrong : {"", "x", "640", "640x", "x360", "640x360x2", "640 x 360", "0x1",
-                              "1x0", "-1x1", "65536x1", "1e3x10", "640X360", "99999999999x1"}) {
+    const auto square = parse_size("512");
+    REQUIRE(square);
+    CHECK(square->width == 512);
+    CHECK(square->height == 512);
+    CHECK(parse_size("640X360")->height == 360);
+    for (const char* wrong : {"", "x", "0", "640x", "x360", "640x360x2", "640 x 360", "0x1", "1x0",
+                              "-1x1", "65536x1", "1e3x10", "640XX360", "65536", "99999999999x1"}) {
         CAPTURE(wrong);
         CHECK_FALSE(parse_size(wrong));
     }
@@ -32,6 +37,13 @@ TEST_CASE("durations have a unit, seconds if none")
     CHECK(parse_duration("2m") == 120.0);
     CHECK(parse_duration("1.5h") == 5400.0);
     CHECK(parse_duration("0.25s") == 0.25);
+    CHECK(parse_duration("1h30m") == 5400.0);
+    CHECK(parse_duration("2M5S") == 125.0);
+    CHECK(parse_duration("1h0.5s") == 3600.5);
+    for (const char* wrong : {"1h30", "30m1h", "1h1h", "h30m", "1h-5m", "0h0m", "1m30s5"}) {
+        CAPTURE(wrong);
+        CHECK_FALSE(parse_duration(wrong));
+    }
     for (const char* wrong : {"", "s", "h", "0", "0s", "-1s", "1d", "1 s", "infs", "nan", "1ms"}) {
         CAPTURE(wrong);
         CHECK_FALSE(parse_duration(wrong));

@@ -10,13 +10,14 @@ namespace {
 TEST_CASE("filters have a name and perhaps a radius")
 {
     CHECK(parse_filter("box") == FilterOptions{.kind = FilterKind::box, .radius = {}});
+    CHECK(parse_filter("Box") == parse_filter("box"));
     CHECK(parse_filter("tent") == FilterOptions{.kind = FilterKind::tent, .radius = {}});
     CHECK(parse_filter("gaussian:2.5") ==
           FilterOptions{.kind = FilterKind::gaussian, .radius = 2.5f});
     CHECK(parse_filter("blackman-harris:16") ==
           FilterOptions{.kind = FilterKind::blackman_harris, .radius = 16.0f});
-    for (const char* wrong : {"", ":", ":1", "Box", "box:", "box:0", "box:-1", "box:17", "box:nan",
-                              "box:1:2", "box 1", "gauss", "tent:1px"}) {
+    for (const char* wrong : {"", ":", ":1", "Boxes", "box:", "box:0", "box:-1", "box:17",
+                              "box:nan", "box:1:2", "box 1", "gauss", "tent:1px"}) {
         CAPTURE(wrong);
         CHECK_FALSE(parse_filter(wrong));
     }
@@ -27,11 +28,12 @@ TEST_CASE("AOVs are names with commas between")
 {
     CHECK(parse_aovs("depth") == AovSet{Aov::depth});
     CHECK(parse_aovs("alpha,albedo,samples") == AovSet{Aov::albedo, Aov::sample_count, Aov::alpha});
+    CHECK(parse_aovs("Depth,ALBEDO") == parse_aovs("depth,albedo"));
     CHECK(parse_aovs("depth,depth") == AovSet{Aov::depth});
     CHECK(parse_aovs("normal,position,variance") ==
           AovSet{Aov::normal, Aov::position, Aov::variance});
     CHECK(parse_aovs("object,material") == AovSet{Aov::object, Aov::material});
-    for (const char* wrong : {"", ",", "depth,", ",depth", "depth, alpha", "Depth", "uv"}) {
+    for (const char* wrong : {"", ",", "depth,", ",depth", "depth, alpha", "uv"}) {
         CAPTURE(wrong);
         CHECK_FALSE(parse_aovs(wrong));
     }

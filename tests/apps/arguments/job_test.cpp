@@ -152,10 +152,20 @@ TEST_CASE("a job may not be saved where it would overwrite what it reads or writ
     refuse(studio.path("job.txt"), 2);
     refuse(studio.path("none/job.json"), 6);
     refuse(studio.path("cube.json"), 2, {"-o", studio.path("cube.json")});
-    CHECK(
-        run({"render", studio.path("cube.gltf"), "--save-job", studio.path("j.json")}).exit_code ==
-        2);  // without an output
-    CHECK_FALSE(fs::exists(studio.path("j.json")));
+}
+
+TEST_CASE("a job without an output renders into the default one", "[job]")
+{
+    const Studio studio;
+    const std::string job = studio.path("j.json");
+    CHECK(run({"render", studio.path("cube.gltf"), "--size", "8", "--spp", "1", "--save-job", job})
+              .exit_code == 0);
+    fs::create_directory(studio.path("desk"));
+    const Outcome outcome =
+        run(Launch{.arguments = {"render", job}, .folder = studio.path("desk")});
+    CAPTURE(outcome.err);
+    CHECK(outcome.exit_code == 0);
+    CHECK(fs::exists(studio.path("desk/cube.png")));
 }
 
 TEST_CASE("mistakes in a job are told with their place", "[job]")
@@ -193,7 +203,7 @@ TEST_CASE("mistakes in a job are told with their place", "[job]")
     refused(R"({"bdpt_job": 1, "file": "a.json", "output": "o.exr"})", "/file: must be a scene");
     refused(R"({"bdpt_job": 1, "file": "../cube.gltf", "spp": 1, "spp": 2})", "spp");
     refused(R"({"bdpt_job": 1, "file": "../none.gltf", "output": "../o.exr"})", "no such file", 3);
-    refused(R"({"bdpt_job": 1, "file": "../cube.gltf"})", "--output is required", 2);
+    refused(R"({"bdpt_job": 1, "file": "../cube.gltf", "orbit": 4})", "--output is required", 2);
     refused(std::string(100'000, '['), "a.json");
     CHECK(run({"render", studio.path("jobs/none.json")}).exit_code == 3);
 }

@@ -88,14 +88,24 @@ TEST_CASE("what was chosen is told in the words that choose it by hand")
     options.integrator = IntegratorKind::bdpt;
     options.bidirectional.light_paths = 0.25;
     options.bidirectional.connections = 2.0;
-    CHECK(integrator_text(options, true) == "auto: bdpt --light-paths 0.25 --connections 2");
+    CHECK(integrator_text(options, true) ==
+          "auto chose bidirectional path tracing (1 light path for 4 camera paths, 2 connections)");
+    CHECK(integrator_text(options, false) == "bdpt");
     options.bidirectional.disabled = {{.s = 1, .t = 1}, {.s = 0, .t = 12}};
     CHECK(disabled_text(options) == "s1t1,s0t12");
     CHECK(parse_strategies(disabled_text(options)) == options.bidirectional.disabled);
     CHECK(integrator_words(options) ==
           "bdpt --light-paths 0.25 --connections 2 --disable s1t1,s0t12");
     options.integrator = IntegratorKind::mis;
-    CHECK(integrator_text(options, true) == "auto: mis");
+    CHECK(integrator_text(options, true) == "auto chose path tracing, light and BSDF sampling");
+    options.integrator = IntegratorKind::bdpt;
+    options.bidirectional.light_paths = 0.0625;
+    options.bidirectional.connections = 1.0;
+    CHECK(integrator_text(options, true) ==
+          "auto chose bidirectional path tracing (1 light path for 16 camera paths)");
+    options.bidirectional.light_paths = 1.0;
+    CHECK(integrator_text(options, true) ==
+          "auto chose bidirectional path tracing (1 light path for each camera path)");
 }
 
 TEST_CASE("how vcm merges is kept with the image")

@@ -8,6 +8,7 @@
 #include "scene_files.h"
 #include "scratch_folder.h"
 #include "subprocess.h"
+#include "terminal/text.h"
 
 namespace bdpt::test::usage_test {
 namespace {
@@ -32,8 +33,48 @@ std::string usage_error(const Words& words)
 
 TEST_CASE("help shows the whole of a value that has a colon")
 {
-    CHECK(contains(run({"render", "--help"}).out, "--filter NAME[:RADIUS]  "));
+    CHECK(contains(run({"render", "--help-all"}).out, "--filter NAME[:RADIUS]  "));
     CHECK_FALSE(contains(run({"render", "--help"}).out, "--spp N:"));
+    CHECK(contains(run({"render", "--help"}).out, "--spp N  "));
+}
+
+TEST_CASE("help has what people need first, --help-all the rest")
+{
+    const std::string help = run({"render", "--help"}).out;
+    const std::string all = run({"render", "--help-all"}).out;
+    for (const char* option : {"--output", "--time", "--size", "--env", "--help-all"}) {
+        CAPTURE(option);
+        CHECK(contains(help, option));
+        CHECK(contains(all, option));
+    }
+    for (const char* option : {"--connections", "--isa", "--strategies", "Exit codes:"}) {
+        CAPTURE(option);
+        CHECK_FALSE(contains(help, option));
+        CHECK(contains(all, option));
+    }
+    CHECK(std::count(help.begin(), help.end(), '\n') < 80);
+    ;
+    CHECK(run({"render", "scene.glb", "--spp", "4", "--help-all"}).out == all);
+    // Behind "--" it is no option.
+    CHECK(run({"render", "--", "--help-all"}).exit_code == 3);
+}
+
+TEST_CASE("help is as wide as the terminal, within limits")
+{
+    const auto widest = [](const std::string& text) {
+        std::size_t most = 0;
+        std::size_t column = 0;
+        for (const char c : text) {
+            column = c == '\n' ? 0 : column + 1;
+            most = std::max(most, column);
+        }
+        return most;
+    };
+    CHECK(widest(app::wrapped("one two three four", 9)) == 7);
+    CHECK(app::wrapped("one two three four", 9) == "one two\nthree\nfour");
+    CHECK(app::wrapped_paragraphs("a b c\nd\n\nTitle:\n  as it is\nend", 3) ==
+          "a b\nc d\n\nTitle:\n  as it is\nend\n");
+    CHECK(widest(run({"render", "--help"}).out) <= 100);
 }
 
 TEST_CASE("each command points to its own help")
@@ -93,7 +134,8 @@ TEST_CASE("of an option that is given again, the last one counts")
     CHECK(exr.integer("bdpt.spp") == 2);
     CHECK(exr.text("bdpt.integrator") == "mis");
     CHECK(read_exr(folder / "b.exr").image.width == 6);
-    CHECK(contains(usage_error({"render", scene, scene, "-o", "out.exr"}), "unexpected argument"));
+    CHECK(contains(usage_error({"render", scene, scene, "-o", "out.exr"}),
+                   "out.exr: several scenes would write it"));
 }
 
 TEST_CASE("an output is named once only")

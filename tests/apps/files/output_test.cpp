@@ -1,4 +1,7 @@
+#include <signal.h>
+
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -22,7 +25,7 @@ TEST_CASE("help and version are worth reading and no errors")
         CHECK(outcome.err.empty());
         CHECK(outcome.out.find("Examples:") != std::string::npos);
     }
-    const std::string help = run({"render", "--help"}).out;
+    const std::string help = run({"render", "--help-all"}).out;
     for (const char* word : {"--output",         "--sampler",    "--spp",       "--time",
                              "--size",           "--integrator", "--heuristic", "--max-depth",
                              "--camera",         "--look-at",    "--from",      "--fov",
@@ -61,7 +64,7 @@ TEST_CASE("all outputs are written, with their size and how they were made")
     CHECK(exr.image.height == 20);
     CHECK(exr.header.channels().findChannel("R")->type == Imf::FLOAT);
     CHECK(exr.text("software") == std::string("bdpt ") + BDPT_VERSION);
-    CHECK(exr.text("bdpt.scene") == scene);
+    CHECK(exr.text("bdpt.scene") == "cube.gltf");
     CHECK(exr.text("bdpt.seed") == "12345678901234567890");
     CHECK(exr.text("bdpt.integrator") == "mis");
     CHECK(exr.integer("bdpt.spp") == 5);
@@ -129,6 +132,56 @@ TEST_CASE("option --exposure fixes the brightness of PNG files")
     CHECK(brightest("-3") < brightest("-1"));
     CHECK(brightest("10") == 255);
     CHECK(brightest("-40") == 0);
+}
+
+TEST_CASE("an image is written where another output cannot be", "[outputs]")
+{
+    const ScratchFolder folder;
+    const std::string scene = write_cube(folder, "cube", {}).string();
+    std::filesystem::create_directory(folder / "gone");
+    const std::string gone = (folder / "gone" / "x.exr").string();
+    const std::string stats = (folder / "gone" / "x.json").string();
+    const std::string keep = (folder / "keep.png").string();
+    Subprocess command(Launch{.arguments = {"render", scene, "--spp", "2000000000", "--size", "16",
+                                            "-o", gone, "-o", keep, "--stats", stats}});
+    command.wait_for("camera auto");
+    std::filesystem::remove_all(folder / "gone");
+    command.send(SIGINT);
+    const Outcome outcome = command.finish();
+    CAPTURE(outcome.err);
+    CHECK(outcome.exit_code == 6);
+    CHECK(read_png(keep).width == 16);
+    CHECK(outcome.err.find("wrote " + keep) != std::string::npos);
+    CHECK(outcome.err.find("wrote " + gone) == std::string::npos);
+    CHECK(outcome.err.find("bdpt: error: " + gone + ": cannot write") != std::string::npos);
+    CHECK(outcome.err.find("; " + stats + ": cannot write") != std::string::npos);
+}
+
+TEST_CASE("outputs have the format of their names", "[outputs]")
+{
+    const ScratchFolder folder;
+    const std::string scene = write_cube(folder, "cube", {}).string();
+    std::vector<std::string> words{"render", scene, "--spp", "4", "--size", "24x16"};
+    for (const char* name : {"a.exr", "a.hdr", "a.png", "a.jpg", "b.JPEG", "a.webp"}) {
+        words.insert(words.end(), {"-o", (folder / name).string()});
+    }
+    const Outcome outcome = run(words);
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.exit_code == 0);
+    // All show the same: those for screens to the losses of their formats.
+    const auto compared = [&](const char* a, const char* b) {
+        const Outcome result = run({"compare", (folder / a).string(), (folder / b).string(),
+                                    "--json", "--metrics", "rmse", "--quiet"});
+        CAPTURE(result.err);
+        REQUIRE(result.exit_code == 0);
+        return nlohmann::json::parse(result.out)["images"][0]["metrics"]["rmse"].get<double>();
+    };
+    CHECK(compared("a.hdr", "a.exr") < 0.01);
+    CHECK(compared("a.jpg", "a.png") < 0.02);
+    CHECK(compared("b.JPEG", "a.jpg") == 0.0);
+    CHECK(compared("a.webp", "a.png") < 0.03);
+    CHECK(compared("a.png", "a.exr") > 0.03);
+    CHECK(read_text(folder / "a.jpg").find("bdpt.settings: {") != std::string::npos);
 }
 
 }  // namespace

@@ -137,10 +137,18 @@ TEST_CASE("a plan pins all that auto has chosen", "[plan]")
         CHECK(std::any_of(pinned.begin(), pinned.end(),
                           [&](const std::string& other) { return other.starts_with(word); }));
     }
-    // The line that a render prints has the same words.
-    const Outcome outcome = checked(run(joined({"render"}, room)));
-    CHECK(contains(outcome.out + outcome.err, "auto: bdpt --light-paths"));
-    CHECK(contains(outcome.out + outcome.err, " --disable s1t1"));
+    // The settings that a render tells say the same.
+    const Outcome outcome = checked(run(joined({"render", "--json"}, room)));
+    const json settings = json::parse(outcome.out.substr(0, outcome.out.find('\n')))["settings"];
+    CHECK(settings["chosen_by"] == "auto");
+    const auto is_pinned = [&](const std::string& word) {
+        CAPTURE(word);
+        CHECK(std::find(pinned.begin(), pinned.end(), word) != pinned.end());
+    };
+    is_pinned("--integrator=" + settings["integrator"].get<std::string>());
+    is_pinned("--light-paths=" + settings["light_paths"].dump());
+    is_pinned("--connections=" + settings["connections"].dump());
+    is_pinned("--disable=" + settings["disabled"][0].get<std::string>());
 }
 
 TEST_CASE("a plan pins what another machine would choose otherwise", "[plan]")

@@ -24,11 +24,11 @@ TEST_CASE("the time that is left follows samples or time, whichever ends first")
     CHECK_FALSE(time_left({}, {.samples = 64}));
 }
 
-/// A render that goes on for some passes.
+/// A render that goes on for some passes, and warns that its image will be black.
 Launch some_passes(const test::ScratchFolder& folder)
 {
     return {.arguments = {"render", write_cube(folder, "cube", {}).string(), "--size", "64x36",
-                          "--time", "0.5s", "-o", (folder / "out.exr").string()}};
+                          "--time", "0.5s", "--env", "none", "-o", (folder / "out.exr").string()}};
 }
 
 TEST_CASE("on a terminal there is a progress line with an ETA, in colour if that is wanted")

@@ -101,7 +101,7 @@ TEST_CASE("words of a benchmark that make no sense")
          {{"--seeds", "0"}, "--seeds"},
          {{"--spp", "0"}, "--spp"},
          {{"--strategy-depth", "99"}, "--strategy-depth"},
-         {{"--size", "8"}, "--size \"8\""},
+         {{"--size", "8x"}, "--size \"8x\""},
          {{"--sampler", "halton"}, "--sampler"},
          {{"--frobnicate"}, "unknown option --frobnicate"}}));
     std::vector<std::string> all{"bench", box, "-o", (folder / "out").string()};

@@ -256,7 +256,8 @@ TEST_CASE("bad input of compare gives one line and the documented exit code")
     check_error({"compare", a, infinite}, 4, "inf.exr: pixel (2, 3) has inf in channel blue");
     check_error({"compare", (folder / "no.exr").string(), a}, 3, "no.exr: no such file");
     check_error({"compare", a, (folder / "no.exr").string()}, 3, "no.exr: no such file");
-    check_error({"compare", text, a}, 5, "text.exr: neither OpenEXR nor Radiance HDR");
+    check_error({"compare", text, a}, 5,
+                "text.exr: neither OpenEXR, Radiance HDR, PNG, JPEG nor WebP");
     check_error({"compare", cut, a}, 4, "cut.exr: OpenEXR");
     check_error({"compare", empty, a}, 3, "the folder has no .exr or .hdr file");
     check_error({"compare", a, empty}, 2, "the reference is a folder");

@@ -3,35 +3,71 @@
 #include <fmt/core.h>
 
 #include <charconv>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 
+#include "options/arguments.h"
+#include "options/values/output_files.h"
 #include "options/values/value_types.h"
 
 namespace bdpt::app {
 
-std::optional<Backdrop> parse_backdrop(std::string_view text)
+namespace {
+
+/// "f0f0f0", or "fff" with each digit for two.
+std::optional<io::SrgbColor> parse_hexadecimal(std::string_view text)
 {
-    constexpr std::size_t color_size = 7;  // #rrggbb
     constexpr int hexadecimal = 16;
+    io::SrgbColor color{};
+    const std::size_t digits = text.size() / color.size();
+    if (text.size() % color.size() != 0 || (digits != 1 && digits != 2)) {
+        return std::nullopt;
+    }
+    for (std::size_t i = 0; i < color.size(); ++i) {
+        const std::string_view part = text.substr(digits * i, digits);
+        const auto [stop, error] =
+            std::from_chars(part.data(), part.data() + digits, color[i], hexadecimal);
+        if (error != std::errc{} || stop != part.data() + digits) {
+            return std::nullopt;
+        }
+        color[i] = static_cast<std::uint8_t>(digits == 1 ? 0x11 * color[i] : color[i]);
+    }
+    return color;
+}
+
+/// "1,0.5,0": parts of the brightest that a screen shows.
+std::optional<io::SrgbColor> parse_parts(std::string_view text)
+{
+    const std::optional<Vec3> parts = parse_vec3(text);
+    io::SrgbColor color{};
+    for (int i = 0; i < 3; ++i) {
+        if (!parts || !((*parts)[i] >= 0.0f && (*parts)[i] <= 1.0f)) {
+            return std::nullopt;
+        }
+        color[static_cast<std::size_t>(i)] =
+            static_cast<std::uint8_t>(std::lround(255.0f * (*parts)[i]));
+    }
+    return color;
+}
+
+}  // namespace
+
+std::optional<Backdrop> parse_backdrop(std::string_view given)
+{
+    const std::string text = lower_case(given);
     if (text == "transparent") {
         return Backdrop{};
     }
-    if (text == "black") {
-        return Backdrop{.color = io::SrgbColor{}};
+    if (text == "black" || text == "white") {
+        return Backdrop{.color = *parse_hexadecimal(text == "black" ? "000" : "fff")};
     }
-    if (text.size() != color_size || text.front() != '#') {
-        return std::nullopt;
-    }
-    io::SrgbColor color{};
-    for (std::size_t i = 0; i < color.size(); ++i) {
-        const std::string_view digits = text.substr(1 + 2 * i, 2);
-        const char* end = digits.data() + digits.size();
-        const auto [stop, error] = std::from_chars(digits.data(), end, color[i], hexadecimal);
-        if (error != std::errc{} || stop != end) {
-            return std::nullopt;
-        }
-    }
-    return Backdrop{.color = color};
+    const bool has_sign = text.starts_with('#');
+    const std::optional<io::SrgbColor> color =
+        text.find(',') != std::string::npos
+            ? parse_parts(text)
+            : parse_hexadecimal(std::string_view(text).substr(has_sign ? 1 : 0));
+    return color ? std::optional(Backdrop{.color = color}) : std::nullopt;
 }
 
 std::string backdrop_text(const Backdrop& backdrop)
@@ -41,24 +77,40 @@ std::string backdrop_text(const Backdrop& backdrop)
                           : "transparent";
 }
 
+void check_transparency(const DisplayArguments& display,
+                        std::span<const std::filesystem::path> outputs)
+{
+    for (const std::filesystem::path& output : outputs) {
+        if (display.backdrop && !display.backdrop->color && type_of(output) == ImageType::jpeg) {
+            throw OptionError(fmt::format(
+                "{}: JPEG has no alpha for --background transparent: name it .png or .webp",
+                output.string()));
+        }
+    }
+}
+
 void add_display_options(OptionList& options, DisplayArguments& display)
 {
     // 2^100 is far beyond any ratio of a scene to a screen.
-    options.add("--exposure", "EV", "Exposure of .png: pixels times 2^EV. Default: automatic",
+    options.add("--exposure", "EV",
+                "Exposure of .png, .jpg and .webp: pixels times 2^EV. Default: automatic",
                 display.exposure, number(-100.0, 100.0, "EV from -100 to 100"));
     const auto curves = choices_of(io::all_tone_curves, io::tone_curve_name);
     options.add("--tone-map", choice_text(curves.words()),
-                "Tone mapping of .png: filmic (default), pbr-neutral (keeps base colours under "
+                "Tone mapping of .png, .jpg and .webp: filmic (default), pbr-neutral (keeps base "
+                "colours under "
                 "grey light, best with --exposure), agx, or none (clamps)",
                 display.curve, curves.type());
     Option& background = options.add(
-        "--background", "transparent|black|#RRGGBB",
+        "--background", "transparent|black|white|#RRGGBB",
         "Leave out the environment where the camera sees it directly; it still lights the scene. "
-        ".exr gets alpha (colours are premultiplied), .png gets alpha (transparent) or that sRGB "
-        "colour there",
+        ".exr gets alpha (colours are premultiplied), .png and .webp get alpha (transparent) or "
+        "that "
+        "sRGB colour there",
         display.backdrop,
         parsed_by([](const std::string& text) { return parse_backdrop(text); },
-                  "transparent, black, or a colour of six hexadecimal digits like #f0f0f0"));
+                  "transparent, black, white, or a colour like #f0f0f0, #fff or 0.9,0.9,0.9"));
+    background.info.separator = ',';
     background.uses.plan_render = true;    // merging needs its alpha
     background.uses.python_render = true;  // as does save()
     const Choices<TexelType> depths{{{"8", TexelType::unorm8}, {"16", TexelType::unorm16}}};

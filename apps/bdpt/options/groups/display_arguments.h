@@ -3,7 +3,9 @@
 #include <bdpt/image.h>
 #include <bdpt/io/display.h>
 
+#include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -24,11 +26,15 @@ struct DisplayArguments {
     std::optional<Backdrop> backdrop{};  ///< none: the environment is seen
 };
 
-/// "transparent", "black" or "#rrggbb".
+/// "transparent", "black", "white", "#rrggbb", "#rgb" or sRGB-encoded "r,g,b" from 0 to 1.
 [[nodiscard]] std::optional<Backdrop> parse_backdrop(std::string_view text);
 
 /// Its inverse; black is "#000000".
 [[nodiscard]] std::string backdrop_text(const Backdrop& backdrop);
+
+/// Throws `OptionError` where a transparent image goes to one of `outputs` that has no alpha.
+void check_transparency(const DisplayArguments& display,
+                        std::span<const std::filesystem::path> outputs);
 
 /// Adds --exposure, --tone-map, --background and --png-bits.
 void add_display_options(OptionList& options, DisplayArguments& display);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "options/arguments.h"
 #include "options/values/value_types.h"
 
 namespace bdpt::app {
@@ -30,7 +31,8 @@ std::vector<std::string_view> split_at_commas(std::string_view text)
 std::optional<FilterOptions> parse_filter(std::string_view text)
 {
     const std::size_t colon = text.find(':');
-    const std::optional<FilterKind> kind = enumerator_of<FilterKind>(text.substr(0, colon));
+    const std::optional<FilterKind> kind =
+        enumerator_of<FilterKind>(lower_case(text.substr(0, colon)));
     if (!kind) {
         return std::nullopt;
     }
@@ -48,7 +50,7 @@ std::optional<AovSet> parse_aovs(std::string_view text)
 {
     AovSet result;
     for (const std::string_view part : split_at_commas(text)) {
-        const std::optional<Aov> aov = enumerator_of<Aov>(part);
+        const std::optional<Aov> aov = enumerator_of<Aov>(lower_case(part));
         if (!aov || *aov == Aov::shadow) {  // that is --ground
             return std::nullopt;
         }

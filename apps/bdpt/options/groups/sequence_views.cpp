@@ -90,11 +90,13 @@ void check_patterns(const RenderArguments& arguments)
 
 std::optional<std::string> warning_of_flicker(const RenderArguments& arguments)
 {
-    const bool writes_png =
-        std::any_of(arguments.outputs.begin(), arguments.outputs.end(),
-                    [](const fs::path& output) { return type_of(output) == ImageType::png; });
+    const bool writes_pictures =
+        std::any_of(arguments.outputs.begin(), arguments.outputs.end(), [](const fs::path& output) {
+            const std::optional<ImageType> type = type_of(output);
+            return type && is_for_screens(*type);
+        });
     if (!arguments.sequence || !arguments.sequence->frames || arguments.display.exposure ||
-        !writes_png) {
+        !writes_pictures) {
         return std::nullopt;
     }
     return "each .png file has an exposure of its own, so that frames may flicker; --exposure EV "

@@ -245,7 +245,25 @@ std::string integrator_words(const RenderOptions& options)
 
 std::string integrator_text(const RenderOptions& options, bool chosen)
 {
-    return chosen ? "auto: " + integrator_words(options) : std::string(name_of(options.integrator));
+    if (!chosen) {
+        return std::string(name_of(options.integrator));
+    }
+    const std::string text = fmt::format("auto chose {}", info(options.integrator).summary);
+    if (!info(options.integrator).traces_light_paths) {
+        return text;
+    }
+    const double light_paths = options.bidirectional.light_paths;
+    const double standard = light_paths < 1.0 ? 1.0 : light_paths;
+    const double connections = options.bidirectional.connections.value_or(standard);
+    const auto number = [](double count, const char* noun) {
+        return fmt::format("{:g} {}{}", count, noun, count == 1.0 ? "" : "s");
+    };
+    const std::string paths =
+        light_paths > 0.0 && light_paths < 1.0
+            ? fmt::format("1 light path for {:.3g} camera paths", 1.0 / light_paths)
+            : fmt::format("{} for each camera path", number(light_paths, "light path"));
+    return fmt::format("{} ({}{})", text, paths,
+                       connections == standard ? "" : ", " + number(connections, "connection"));
 }
 
 }  // namespace bdpt::app

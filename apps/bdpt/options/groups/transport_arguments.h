@@ -37,7 +37,7 @@ void add_transport_options(OptionList& options, RenderOptions& render, PathsOnly
 /// left out: "bdpt --light-paths 0.5 --connections 1 --disable s1t1".
 [[nodiscard]] std::string integrator_words(const RenderOptions& options);
 
-/// The integrator's name; or, if it was chosen by auto, the words that choose the same by hand.
+/// The integrator's name; or, if it was chosen by auto, what that chose, for people.
 [[nodiscard]] std::string integrator_text(const RenderOptions& options, bool chosen);
 
 /// The options as members of the settings that are written into images.

@@ -15,17 +15,30 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view camera_place = "{camera}";
+constexpr std::string_view scene_place = "{name}";
 
-std::string as_file_name(std::string camera)
+std::string as_file_name(std::string word)
 {
-    for (std::size_t i = 0; i < camera.size(); ++i) {
-        const auto c = static_cast<unsigned char>(camera[i]);
+    for (std::size_t i = 0; i < word.size(); ++i) {
+        const auto c = static_cast<unsigned char>(word[i]);
         const bool special = c < 0x20 || c == 0x7f || c == '/' || c == '\\' || c == ':';
         if (special || (i == 0 && c == '.')) {
-            camera[i] = '_';
+            word[i] = '_';
         }
     }
-    return camera;
+    return word;
+}
+
+/// `file` with `word` wherever its name has `place`.
+fs::path with_word(const fs::path& file, std::string_view place, const std::string& word)
+{
+    std::string name = file.filename().string();
+    const std::string replacement = as_file_name(word);
+    for (std::size_t at = name.find(place); at != std::string::npos;
+         at = name.find(place, at + replacement.size())) {
+        name.replace(at, place.size(), replacement);
+    }
+    return file.parent_path() / name;
 }
 
 }  // namespace
@@ -59,13 +72,12 @@ bool takes_camera(const fs::path& file)
 
 fs::path with_camera(const fs::path& file, const std::string& camera)
 {
-    std::string name = file.filename().string();
-    const std::string replacement = as_file_name(camera);
-    for (std::size_t at = name.find(camera_place); at != std::string::npos;
-         at = name.find(camera_place, at + replacement.size())) {
-        name.replace(at, camera_place.size(), replacement);
-    }
-    return file.parent_path() / name;
+    return with_word(file, camera_place, camera);
+}
+
+fs::path with_scene(const fs::path& file, const std::string& name)
+{
+    return with_word(file, scene_place, name);
 }
 
 }  // namespace bdpt::app

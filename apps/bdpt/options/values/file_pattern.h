@@ -20,4 +20,8 @@ namespace bdpt::app {
 [[nodiscard]] std::filesystem::path with_camera(const std::filesystem::path& file,
                                                 const std::string& camera);
 
+/// `file` with `name`, that of a scene, in the place of "{name}" in its name.
+[[nodiscard]] std::filesystem::path with_scene(const std::filesystem::path& file,
+                                               const std::string& name);
+
 }  // namespace bdpt::app

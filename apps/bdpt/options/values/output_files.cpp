@@ -5,8 +5,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "options/values/pipes.h"
 
@@ -15,13 +18,29 @@ namespace fs = std::filesystem;
 
 std::optional<ImageType> type_of(const fs::path& output)
 {
-    if (is_standard_output(output)) {
-        return output == "png:-" ? ImageType::png : ImageType::exr;
+    using enum ImageType;
+    static constexpr std::array<std::pair<std::string_view, ImageType>, 6> types{{{".exr", exr},
+                                                                                  {".hdr", hdr},
+                                                                                  {".png", png},
+                                                                                  {".jpg", jpeg},
+                                                                                  {".jpeg", jpeg},
+                                                                                  {".webp", webp}}};
+    if (output == "-") {
+        return exr;
     }
-    if (has_extension(output, ".exr")) {
-        return ImageType::exr;
+    const bool is_stream = is_standard_output(output);
+    const std::string stream = is_stream ? "." + output.string() : "";  // ".png:-"
+    for (const auto& [extension, type] : types) {
+        if (is_stream ? stream.starts_with(extension) : has_extension(output, extension)) {
+            return type;
+        }
     }
-    return has_extension(output, ".png") ? std::optional(ImageType::png) : std::nullopt;
+    return std::nullopt;
+}
+
+bool is_for_screens(ImageType type)
+{
+    return type != ImageType::exr && type != ImageType::hdr;
 }
 
 bool has_extension(const fs::path& file, std::string_view extension)
@@ -49,9 +68,11 @@ void check_outputs(std::span<const fs::path> outputs, const FileSet& inputs)
     FileSet known;
     for (const fs::path& output : outputs) {
         if (!type_of(output)) {
-            throw Error(ErrorCode::usage,
-                        fmt::format("{}: unknown type of output file: name it .exr or .png",
-                                    output.string()));
+            throw Error(
+                ErrorCode::usage,
+                fmt::format(
+                    "{}: unknown type of output file: name it .exr, .hdr, .png, .jpg or .webp",
+                    output.string()));
         }
         if (!known.add(output)) {
             throw Error(ErrorCode::usage,

@@ -12,9 +12,12 @@
 namespace bdpt::app {
 
 /// The types of images that we write.
-enum class ImageType : std::uint8_t { exr, png };
+enum class ImageType : std::uint8_t { exr, hdr, png, jpeg, webp };
 
-/// By the name of `output`; none: of neither type.
+/// Has it tone-mapped images for screens, not linear radiance?
+[[nodiscard]] bool is_for_screens(ImageType type);
+
+/// By the name of `output`; none: of none of these types.
 [[nodiscard]] std::optional<ImageType> type_of(const std::filesystem::path& output);
 
 /// Does the name of `file` end with `extension`, like ".exr", in small or capital letters?

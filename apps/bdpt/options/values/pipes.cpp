@@ -8,9 +8,15 @@ namespace bdpt::app {
 
 namespace fs = std::filesystem;
 
+std::vector<std::string> standard_output_names()
+{
+    return {"-", "exr:-", "hdr:-", "png:-", "jpg:-", "webp:-"};
+}
+
 bool is_standard_output(const fs::path& output)
 {
-    return output == "-" || output == "exr:-" || output == "png:-";
+    const std::vector<std::string> names = standard_output_names();
+    return std::find(names.begin(), names.end(), output) != names.end();
 }
 
 bool use_standard_output(std::span<const fs::path> outputs)

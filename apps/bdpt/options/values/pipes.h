@@ -2,12 +2,17 @@
 
 #include <filesystem>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "terminal/console.h"
 
 namespace bdpt::app {
 
-/// Is it the standard output: "-" or "exr:-", an EXR file, or "png:-"?
+/// "-", an EXR file, and "exr:-", "png:-" and so on.
+[[nodiscard]] std::vector<std::string> standard_output_names();
+
+/// Is it one of these?
 [[nodiscard]] bool is_standard_output(const std::filesystem::path& output);
 
 /// Is one of `outputs`?

@@ -156,8 +156,9 @@ ValueType<double> duration(std::string expected)
 
 ValueType<Size> image_size()
 {
-    ValueType<Size> type = parsed_by([](const std::string& text) { return parse_size(text); },
-                                     "WIDTHxHEIGHT from 1x1 to 65535x65535");
+    ValueType<Size> type =
+        parsed_by([](const std::string& text) { return parse_size(text); },
+                  "WIDTHxHEIGHT from 1x1 to 65535x65535, or one number for both");
     type.info.separator = 'x';
     return type;
 }
@@ -165,7 +166,7 @@ ValueType<Size> image_size()
 ValueType<double> noise_level()
 {
     return parsed_by([](const std::string& text) { return parse_share(text); },
-                     "a relative error above 0% and up to 100%, like 2% or 0.02");
+                     "a relative error above 0% and up to 100%, like 2%");
 }
 
 ValueType<SampleRange> sample_range()

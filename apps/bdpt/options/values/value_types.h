@@ -67,13 +67,13 @@ template <typename Parse>
 /// "three numbers x,y,z".
 [[nodiscard]] ValueType<Vec3> point();
 
-/// "a time like 60s, 2m or 1.5h", as seconds.
-[[nodiscard]] ValueType<double> duration(std::string expected = "a time like 60s, 2m or 1.5h");
+/// "a time like 60s, 2m or 1h30m", as seconds.
+[[nodiscard]] ValueType<double> duration(std::string expected = "a time like 60s, 2m or 1h30m");
 
-/// "WIDTHxHEIGHT from 1x1 to 65535x65535".
+/// "WIDTHxHEIGHT", or one number for both.
 [[nodiscard]] ValueType<Size> image_size();
 
-/// "2%" or "0.02" as a fraction.
+/// "2%", "2" or "0.02" as a fraction.
 [[nodiscard]] ValueType<double> noise_level();
 
 /// "A:B": samples A to B - 1.

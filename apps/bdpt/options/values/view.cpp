@@ -7,6 +7,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "terminal/text.h"
+
 namespace bdpt::app {
 namespace {
 
@@ -49,10 +51,13 @@ const CameraDesc& select_camera(std::span<const CameraDesc> cameras,
         return cameras[*index];
     }
     const std::string what = fmt::format("{}: no camera \"{}\"", file, name_or_index);
-    throw Error(ErrorCode::not_found,
-                cameras.empty()
-                    ? fmt::format("{}; the scene has none (--camera auto frames it)", what)
-                    : fmt::format("{}; there are {}", what, list_cameras(cameras)));
+    throw Error(
+        ErrorCode::not_found,
+        cameras.empty()
+            ? fmt::format("{}; the scene has none (--camera auto frames it)", what)
+            : fmt::format("{}; this scene has {}: {}", what,
+                          cameras.size() == 1 ? "one camera" : counted(cameras.size(), "camera"),
+                          list_cameras(cameras)));
 }
 
 CameraDesc apply(const ViewOverrides& overrides, const CameraDesc& camera,

@@ -1,6 +1,7 @@
 #include "report/image/image_files.h"
 
 #include <bdpt/io/display.h>
+#include <bdpt/io/picture.h>
 #include <bdpt/io/png.h>
 #include <bdpt/io/tone_map.h>
 
@@ -19,41 +20,59 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What .png files show.
+/// What files for screens show.
 struct Picture {
     const Image& image;
     Matte matte;
 };
 
-WrittenImages write_as_they_are(std::span<const fs::path> outputs, const Image& exr_image,
-                                const Picture& picture, const ImageFileOptions& options)
+/// Writes `picture` into a file of that type.
+void write_picture(const fs::path& file, ImageType type, const Picture& picture, float exposure,
+                   const ImageFileOptions& options)
 {
     const DisplayArguments& display = options.display;
-    const auto background = display.backdrop ? display.backdrop->color : std::nullopt;
-    const Matte& matte = picture.matte;
-    const auto coverage = display.backdrop ? std::span(matte.alpha) : std::span<const float>();
-    const auto shadow = display.backdrop ? std::span(matte.shadow) : std::span<const float>();
+    const bool has_backdrop = display.backdrop.has_value();
+    const io::PngOptions file_options{
+        .exposure = exposure, .metadata = options.exr.metadata, .curve = display.curve};
+    const TexelImage texels = io::to_display(
+        picture.image, has_backdrop ? std::span(picture.matte.alpha) : std::span<const float>(),
+        {.exposure = exposure,
+         .curve = display.curve,
+         .type = type == ImageType::png ? display.type : TexelType::unorm8,
+         .background = has_backdrop ? display.backdrop->color : std::nullopt,
+         .shadow = has_backdrop ? std::span(picture.matte.shadow) : std::span<const float>()});
+    if (type == ImageType::png) {
+        io::write_png(file, texels, file_options);
+    } else if (type == ImageType::jpeg) {
+        io::write_jpeg(file, texels, file_options);
+    } else {
+        io::write_webp(file, texels);
+    }
+}
+
+WrittenImages write_as_they_are(std::span<const fs::path> outputs, const Image& linear_image,
+                                const Picture& picture, const ImageFileOptions& options,
+                                Attempts& attempts)
+{
     WrittenImages report;
-    for (const fs::path& output : outputs) {
-        const fs::path file = written_file(output);
-        if (type_of(output) == ImageType::exr) {
+    const auto write = [&](const fs::path& file, ImageType type) {
+        if (type == ImageType::exr) {
             report.clamped_pixels =
-                io::write_exr(file, exr_image, options.layers, options.exr).clamped_pixels;
-            continue;
+                io::write_exr(file, linear_image, options.layers, options.exr).clamped_pixels;
+        } else if (type == ImageType::hdr) {
+            io::write_hdr(file, linear_image, options.exr.metadata);
+        } else {
+            if (!report.exposure) {
+                report.exposure =
+                    options.display.exposure.value_or(io::automatic_exposure(picture.image));
+            }
+            write_picture(file, type, picture, *report.exposure, options);
         }
-        if (!report.exposure) {
-            report.exposure = display.exposure.value_or(io::automatic_exposure(picture.image));
+    };
+    for (const fs::path& output : outputs) {
+        if (attempts.run([&] { write(written_file(output), *type_of(output)); })) {
+            report.files.push_back(output);
         }
-        io::write_png(file,
-                      io::to_display(picture.image, coverage,
-                                     {.exposure = *report.exposure,
-                                      .curve = display.curve,
-                                      .type = display.type,
-                                      .background = background,
-                                      .shadow = shadow}),
-                      {.exposure = *report.exposure,
-                       .metadata = options.exr.metadata,
-                       .curve = display.curve});
     }
     return report;
 }
@@ -69,11 +88,11 @@ std::vector<Layer> layers_of(const Film& film, const AovFilm& aovs, const IdFilm
 }
 
 WrittenImages write_image_files(std::span<const fs::path> outputs, const Image& image,
-                                ImageFileOptions options)
+                                ImageFileOptions options, Attempts& attempts)
 {
     const Matte noisy = matte_of(options.layers);
     if (options.denoiser == nullptr || outputs.empty()) {
-        return write_as_they_are(outputs, image, {image, noisy}, options);
+        return write_as_they_are(outputs, image, {image, noisy}, options, attempts);
     }
     // Without a backdrop what no surface covers is the sky.
     const Image clean = options.display.backdrop && !noisy.alpha.empty()
@@ -88,7 +107,8 @@ WrittenImages write_image_files(std::span<const fs::path> outputs, const Image& 
         put(noisy, clean_matte, "denoisedShadow", options.layers);
         options.layers.push_back(layer_of(clean, "denoised"));
     }
-    return write_as_they_are(outputs, clean_first ? clean : image, {clean, clean_matte}, options);
+    return write_as_they_are(outputs, clean_first ? clean : image, {clean, clean_matte}, options,
+                             attempts);
 }
 
 }  // namespace bdpt::app

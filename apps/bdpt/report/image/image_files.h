@@ -14,30 +14,32 @@
 
 #include "options/groups/denoise_arguments.h"
 #include "options/groups/display_arguments.h"
+#include "report/image/attempts.h"
 
 namespace bdpt::app {
 
 struct ImageFileOptions {
     io::ExrOptions exr;
     std::vector<Layer> layers;               ///< of EXR files, beside the image
-    DisplayArguments display;                ///< of PNG files
+    DisplayArguments display;                ///< of files for screens
     const io::Denoiser* denoiser = nullptr;  ///< null: images stay as they are
     DenoisedAs denoised_as = DenoisedAs::image;
 };
 
 struct WrittenImages {
-    std::size_t clamped_pixels = 0;  ///< in an EXR file of halves
-    std::optional<float> exposure;   ///< [EV] of the PNG files, if there were any
+    std::size_t clamped_pixels = 0;            ///< in an EXR file of halves
+    std::optional<float> exposure;             ///< [EV] of the files for screens, if there were any
+    std::vector<std::filesystem::path> files;  ///< that could be written
 };
 
 /// All layers that were asked for; `film` is of the same samples.
 [[nodiscard]] std::vector<Layer> layers_of(const Film& film, const AovFilm& aovs,
                                            const IdFilm& ids);
 
-/// Writes all `outputs`, each as its extension says; with a denoiser PNG files are denoised, and
-/// EXR files have both images. A PNG file with a backdrop needs the layer with alpha. Throws
-/// `Error` (output).
+/// Writes all `outputs`, each as its extension says; with a denoiser files for screens are
+/// denoised, and EXR files have both images. A file for screens with a backdrop needs the layer
+/// with alpha. What cannot be written is left to `attempts`.
 WrittenImages write_image_files(std::span<const std::filesystem::path> outputs, const Image& image,
-                                ImageFileOptions options);
+                                ImageFileOptions options, Attempts& attempts);
 
 }  // namespace bdpt::app

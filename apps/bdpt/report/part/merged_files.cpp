@@ -135,14 +135,16 @@ void write_merged_files(const MergeArguments& arguments, const DisplayArguments&
     notes.metadata.settings =
         settings_of(notes.metadata.settings, part.samples.count(), display.backdrop);
     std::vector<fs::path> images;
+    Attempts attempts;
     for (const fs::path& output : arguments.outputs) {
         if (is_part_name(output)) {
-            io::write_part(output, part, notes, io::OldPart::replace);
+            attempts.run([&] { io::write_part(output, part, notes, io::OldPart::replace); });
         } else {
             images.push_back(output);
         }
     }
     if (images.empty() && !arguments.strategies) {
+        attempts.finish();
         return;
     }
     const FilmLayout& layout = part.film.layout();
@@ -161,11 +163,15 @@ void write_merged_files(const MergeArguments& arguments, const DisplayArguments&
         .display = display,
         .denoiser = denoiser,
         .denoised_as = arguments.denoise ? arguments.denoise->as : DenoisedAs::image};
-    write_image_files(images, image, options);
+    write_image_files(images, image, options, attempts);
     if (arguments.strategies) {
-        write_strategy_files(StrategyFiles::named(*arguments.strategies), image, part.strategies,
-                             options.exr, display.exposure.value_or(io::automatic_exposure(image)));
+        attempts.run([&] {
+            write_strategy_files(StrategyFiles::named(*arguments.strategies), image,
+                                 part.strategies, options.exr,
+                                 display.exposure.value_or(io::automatic_exposure(image)));
+        });
     }
+    attempts.finish();
 }
 
 }  // namespace bdpt::app

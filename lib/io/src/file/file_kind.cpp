@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace bdpt::io {
@@ -44,6 +46,18 @@ constexpr Kind text_kinds[] = {
     {"<!doctype html"sv, "an HTML page"}, {"<html"sv, "an HTML page"}, {"<?xml"sv, "an XML file"},
     {"<"sv, "an HTML or XML file"},       {"#usda"sv, "a USD file"},   {"ply\n"sv, "a PLY file"},
     {"ply\r\n"sv, "a PLY file"},          {"solid "sv, "an STL file"},
+};
+
+/// By the ends of their names: formats of models whose first bytes tell little.
+constexpr Kind models[] = {
+    {".obj"sv, "a Wavefront OBJ file"}, {".stl"sv, "an STL file"},
+    {".ply"sv, "a PLY file"},           {".fbx"sv, "an FBX file"},
+    {".dae"sv, "a COLLADA file"},       {".blend"sv, "a Blender file"},
+    {".3ds"sv, "a 3DS file"},           {".usd"sv, "a USD file"},
+    {".usda"sv, "a USD file"},          {".usdc"sv, "a USD file"},
+    {".usdz"sv, "a USD file"},          {".step"sv, "a STEP file"},
+    {".stp"sv, "a STEP file"},          {".iges"sv, "an IGES file"},
+    {".3mf"sv, "a 3MF file"},
 };
 
 bool starts_with(ByteView bytes, std::string_view start)
@@ -92,6 +106,27 @@ std::optional<std::string_view> other_kind(ByteView file)
         return "a file that starts with zeros";
     }
     return find(text_kinds, text);
+}
+
+std::optional<std::string> kind_instead_of_gltf(ByteView bytes, const std::filesystem::path& file)
+{
+    const std::string extension = file.extension().string();
+    const ByteView end{reinterpret_cast<const std::uint8_t*>(extension.data()), extension.size()};
+    const auto* const named =
+        std::find_if(std::begin(models), std::end(models), [end](const Kind& model) {
+            return end.size() == model.start.size() && starts_with(end, model.start);
+        });
+    const auto first = std::find_if_not(bytes.begin(), bytes.end(), is_space);
+    const bool may_be_gltf = first == bytes.end() || *first == '{';
+    const std::optional<std::string_view> kind =
+        named != std::end(models) && !may_be_gltf ? std::optional(named->name) : other_kind(bytes);
+    if (!kind) {
+        return std::nullopt;
+    }
+    const bool is_model = std::any_of(std::begin(models), std::end(models),
+                                      [&](const Kind& model) { return model.name == *kind; });
+    return std::string(*kind) +
+           (is_model ? ": export it as .glb first, from Blender for example" : "");
 }
 
 }  // namespace bdpt::io

@@ -58,6 +58,8 @@ EncodedImage::EncodedImage(ByteView bytes, const ReadLimits& limits) : file_(ope
     const std::uint64_t texel_bytes =
         static_cast<std::uint64_t>(layout.channels) * size_of(layout.type);
     check_image_size(layout.width, layout.height, texel_bytes, limits);
+    width_ = layout.width;
+    height_ = layout.height;
     decoded_bytes_ = static_cast<std::uint64_t>(layout.width) *
                      static_cast<std::uint64_t>(layout.height) * texel_bytes;
 }

@@ -29,6 +29,8 @@ public:
     /// it.
     EncodedImage(ByteView bytes, const ReadLimits& limits);
 
+    [[nodiscard]] int width() const { return width_; }
+    [[nodiscard]] int height() const { return height_; }
     /// Of the texels. It takes up to three times that while it is decoded.
     [[nodiscard]] std::uint64_t decoded_bytes() const { return decoded_bytes_; }
 
@@ -39,6 +41,8 @@ public:
 
 private:
     std::variant<PngImage, JpegImage, WebpImage> file_;
+    int width_ = 0;
+    int height_ = 0;
     std::uint64_t decoded_bytes_ = 0;
 };
 

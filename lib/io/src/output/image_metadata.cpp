@@ -1,4 +1,11 @@
 #include <bdpt/io/image_metadata.h>
+#include <fmt/chrono.h>
+#include <fmt/core.h>
+
+#include <chrono>
+#include <ctime>
+
+#include "output/picture_text.h"
 
 namespace bdpt::io {
 
@@ -18,6 +25,23 @@ std::vector<std::pair<std::string, std::string>> text_entries(const ImageMetadat
         entries.emplace_back("bdpt.xmp", metadata.xmp);
     }
     return entries;
+}
+
+std::vector<std::pair<std::string, std::string>> picture_text(const PngOptions& options)
+{
+    const ImageMetadata& metadata = options.metadata;
+    const std::time_t created = std::chrono::system_clock::to_time_t(metadata.created);
+    std::vector<std::pair<std::string, std::string>> text{
+        {"Software", software_name(metadata)},
+        {"Creation Time", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(created))},
+        {"bdpt.spp", std::to_string(metadata.samples_per_pixel)},
+        {"bdpt.renderTimeSeconds", fmt::format("{}", metadata.render_seconds)},
+        {"bdpt.exposure", fmt::format("{}", options.exposure)},
+        {"bdpt.toneMap", std::string(tone_curve_name(options.curve))}};
+    for (auto& entry : text_entries(metadata)) {
+        text.push_back(std::move(entry));
+    }
+    return text;
 }
 
 std::string software_name(const ImageMetadata& metadata)

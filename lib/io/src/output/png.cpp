@@ -2,43 +2,30 @@
 
 #include <bdpt/error.h>
 #include <bdpt/io/output_file.h>
-#include <fmt/chrono.h>
 #include <fmt/core.h>
 #include <png.h>
 
+#include <algorithm>
 #include <bit>
 #include <csetjmp>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <fstream>
 #include <new>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "output/check_pixels.h"
+#include "output/picture_text.h"
 
 namespace bdpt::io {
 namespace {
 
 using Text = std::vector<std::pair<std::string, std::string>>;
-
-Text all_text(const PngOptions& options)
-{
-    const ImageMetadata& metadata = options.metadata;
-    const std::time_t created = std::chrono::system_clock::to_time_t(metadata.created);
-    Text text{{"Software", software_name(metadata)},
-              {"Creation Time", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(created))},
-              {"bdpt.spp", std::to_string(metadata.samples_per_pixel)},
-              {"bdpt.renderTimeSeconds", fmt::format("{}", metadata.render_seconds)},
-              {"bdpt.exposure", fmt::format("{}", options.exposure)},
-              {"bdpt.toneMap", std::string(tone_curve_name(options.curve))}};
-    for (auto& entry : text_entries(metadata)) {
-        text.push_back(std::move(entry));
-    }
-    return text;
-}
 
 /// Uncompressed UTF-8 entries that point into `text`.
 std::vector<png_text> to_png_text(Text& text)
@@ -139,7 +126,7 @@ void write_pixels(const std::filesystem::path& file, const Pixels& pixels,
     const std::size_t size = pixels.pixel_size();
     const bool whole = pixels.bytes.size() % size == 0;
     check_pixels(file, pixels.width, pixels.height, whole ? pixels.bytes.size() / size : 0);
-    Text text = all_text(options);
+    Text text = picture_text(options);
     const std::vector<png_text> entries = to_png_text(text);
     Sink sink;
     png_structp png =
@@ -164,7 +151,47 @@ void write_pixels(const std::filesystem::path& file, const Pixels& pixels,
     output.commit();
 }
 
+/// Four bytes of a PNG chunk's header as a number.
+std::uint32_t chunk_number(std::string_view bytes)
+{
+    std::uint32_t number = 0;
+    for (const char byte : bytes.substr(0, 4)) {
+        number = number << 8U | static_cast<std::uint8_t>(byte);
+    }
+    return number;
+}
+
 }  // namespace
+
+bool is_png_of_bdpt(const std::filesystem::path& file)
+{
+    // `write_png` writes the entry "Software" first, after chunks of few bytes.
+    constexpr std::size_t enough = 1024;
+    constexpr std::size_t signature = 8;
+    constexpr std::size_t head = 8;      // of a chunk: its size and its type
+    constexpr std::size_t checksum = 4;  // behind it
+    std::string start(enough, '\0');
+    std::ifstream stream(file, std::ios::binary);
+    stream.read(start.data(), static_cast<std::streamsize>(start.size()));
+    start.resize(static_cast<std::size_t>(stream.gcount()));
+    std::string_view rest = start;
+    if (!rest.starts_with("\x89PNG\r\n\x1a\n")) {
+        return false;
+    }
+    rest.remove_prefix(signature);
+    while (rest.size() > head) {
+        const std::size_t size = chunk_number(rest);
+        const std::string_view type = rest.substr(4, 4);
+        rest.remove_prefix(head);
+        // Keyword, flags for no compression, no language and no translation [PNG, 11.3.4.5].
+        using namespace std::string_view_literals;
+        if (type == "iTXt" && rest.starts_with("Software\0\0\0\0\0bdpt "sv)) {
+            return true;
+        }
+        rest.remove_prefix(std::min(size + checksum, rest.size()));
+    }
+    return false;
+}
 
 void write_png(const std::filesystem::path& file, const DisplayImage& image,
                const PngOptions& options)

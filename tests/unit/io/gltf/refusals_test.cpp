@@ -269,6 +269,7 @@ TEST_CASE("a file of another kind is called by its name")
         CAPTURE(name);
         CHECK(contains(json_error(bytes), name));
     }
+    CHECK(contains(json_error("solid cube\n"), "an STL file: export it as .glb first"));
     // What is nothing known is broken JSON.
     CHECK(contains(json_error("v 1 2 3\n"), "JSON: byte 1"));
     CHECK(contains(json_error("glTF"), "GLB: truncated"));

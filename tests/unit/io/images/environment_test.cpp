@@ -174,9 +174,12 @@ TEST_CASE("environments that cannot be read are refused")
     CHECK(missing.code() == ErrorCode::not_found);
     CHECK(missing.what() == (folder.path() / "none.exr").string() + ": no such file");
 
-    const Error format = environment_error(folder.write("sky.png", "\x89PNG\r\n"));
+    const Error format = environment_error(folder.write("sky.gif", "GIF89a"));
     CHECK(format.code() == ErrorCode::unsupported);
-    CHECK(contains(format.what(), "neither OpenEXR, Radiance HDR nor TIFF, but a PNG image"));
+    CHECK(contains(format.what(),
+                   "neither OpenEXR, Radiance HDR, TIFF, PNG, JPEG nor WebP, but a GIF image"));
+    const Error headless = environment_error(folder.write("sky.png", "\x89PNG\r\n\x1a\n"));
+    CHECK(headless.code() == ErrorCode::invalid_input);
 
     const auto file = folder.path() / "sky.exr";
     write_exr_channels(file, box(0, 0, 3, 1), box(0, 0, 3, 1), Imf::FLOAT,

@@ -17,8 +17,9 @@ struct LoadedEnvironment {
     std::vector<std::string> warnings;  ///< one line each, without the file's name
 };
 
-/// Reads an equirectangular image in OpenEXR, Radiance HDR or TIFF format; which of these it is,
-/// its first bytes say; "-" is the standard input. Pixels are taken as linear Rec. 709 [nit];
+/// Reads an equirectangular image in OpenEXR, Radiance HDR, TIFF, PNG, JPEG or WebP format; which
+/// of these it is, its first bytes say; "-" is the standard input. Colours of the last three are
+/// taken as sRGB-encoded, so that white is 1 nit. Other pixels are taken as linear Rec. 709 [nit];
 /// negative, infinite and NaN ones become 0, with a warning. TIFF images are of floats; they are
 /// read by OpenImageIO, which is opened for the first of them. What the environment takes until it
 /// lights a scene is taken from `memory`, if there is one.

@@ -26,4 +26,7 @@ BDPT_EXPORT void write_png(const std::filesystem::path& file, const DisplayImage
 BDPT_EXPORT void write_png(const std::filesystem::path& file, const TexelImage& image,
                            const PngOptions& options);
 
+/// Has `write_png` written `file`? False for one that is missing, unreadable or no PNG.
+[[nodiscard]] BDPT_EXPORT bool is_png_of_bdpt(const std::filesystem::path& file);
+
 }  // namespace bdpt::io

@@ -200,7 +200,7 @@ CheckedGltf read_checked_gltf(const std::filesystem::path& file, LoadContext& co
             bin = std::move(bytes);
         }
     } else {
-        if (const std::optional<std::string_view> kind = other_kind(bytes)) {
+        if (const std::optional<std::string> kind = kind_instead_of_gltf(bytes, file)) {
             throw Error(ErrorCode::invalid_input, fmt::format("not a glTF file but {}", *kind));
         }
         memory.spend("its JSON", bytes.size() * parsed_growth);

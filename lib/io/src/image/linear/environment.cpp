@@ -6,6 +6,7 @@
 #include "file/named_errors.h"
 #include "file/standard_input.h"
 #include "file/warnings.h"
+#include "image/linear/display_reader.h"
 #include "image/linear/exr_reader.h"
 #include "image/linear/hdr_reader.h"
 #include "image/linear/tiff_reader.h"
@@ -49,9 +50,14 @@ Image read_any(ByteView bytes, const ReadLimits& limits, Warnings& warnings,
     if (is_tiff(bytes)) {
         return read_tiff(bytes, limits, memory);
     }
+    if (is_display_image(bytes)) {
+        warnings.add("an image for screens: nothing in it is brighter than white",
+                     "--env-intensity scales it");
+        return read_display_image(bytes, limits, warnings, memory);
+    }
     const auto kind = other_kind(bytes);
     throw Error(ErrorCode::unsupported,
-                fmt::format("neither OpenEXR, Radiance HDR nor TIFF{}",
+                fmt::format("neither OpenEXR, Radiance HDR, TIFF, PNG, JPEG nor WebP{}",
                             kind ? fmt::format(", but {}", *kind) : std::string()));
 }
 
@@ -59,7 +65,8 @@ LoadedEnvironment load(const std::filesystem::path& file, const ReadLimits& limi
                        MemoryBudget* memory)
 {
     const auto worth = [&](ByteView start) {
-        const bool known = is_exr(start) || is_hdr(start) || is_tiff(start);
+        const bool known =
+            is_exr(start) || is_hdr(start) || is_tiff(start) || is_display_image(start);
         return known ? limits.file_bytes : start.size();
     };
     const Bytes bytes = read_named(file, limits.file_bytes, worth, memory);

@@ -9,12 +9,15 @@
 #include <ImathBox.h>
 #include <ImfArray.h>
 #include <ImfChannelList.h>
+#include <ImfFloatAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfIO.h>
 #include <ImfInputFile.h>
+#include <ImfIntAttribute.h>
 #include <ImfPartType.h>
 #include <ImfRgbaFile.h>
+#include <ImfStringAttribute.h>
 #include <ImfVersion.h>
 #include <fmt/format.h>
 
@@ -168,6 +171,22 @@ PixelRect filled_part(const Imath::Box2i& data, const Imath::Box2i& display)
     return rect;
 }
 
+std::vector<std::pair<std::string, std::string>> attributes_of(const Imf::Header& header)
+{
+    std::vector<std::pair<std::string, std::string>> result;
+    for (auto entry = header.begin(); entry != header.end(); ++entry) {
+        const Imf::Attribute& attribute = entry.attribute();
+        if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute)) {
+            result.emplace_back(entry.name(), text->value());
+        } else if (const auto* number = dynamic_cast<const Imf::IntAttribute*>(&attribute)) {
+            result.emplace_back(entry.name(), fmt::format("{}", number->value()));
+        } else if (const auto* real = dynamic_cast<const Imf::FloatAttribute*>(&attribute)) {
+            result.emplace_back(entry.name(), fmt::format("{}", real->value()));
+        }
+    }
+    return result;
+}
+
 /// The channels of `layer`, or those of the image itself.
 ColorChannels choose_channels(const Imf::ChannelList& channels,
                               const std::optional<std::string>& layer, Warnings& warnings)
@@ -204,7 +223,8 @@ ExrImage read(ByteView file, const std::optional<std::string>& layer, const Read
     std::vector<Rgb> pixels = colors.chroma ? read_chroma(file, colors.prefix, data, data_size)
                                             : read_channels(input, colors, data, data_size);
     return {.image = place(std::move(pixels), data, display, data_size, size),
-            .filled = filled_part(data, display)};
+            .filled = filled_part(data, display),
+            .attributes = attributes_of(header)};
 }
 
 }  // namespace

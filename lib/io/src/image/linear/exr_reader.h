@@ -10,6 +10,8 @@
 
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace bdpt::io {
 
@@ -20,6 +22,8 @@ namespace bdpt::io {
 struct ExrImage {
     Image image;
     PixelRect filled;  ///< where there is data
+    /// Names and values of texts and numbers in the header.
+    std::vector<std::pair<std::string, std::string>> attributes{};
 };
 
 /// Decodes a layer of the first part of an OpenEXR file as linear RGB: `find_layer`, or without a

@@ -1,0 +1,104 @@
+#include "commands/develop_command.h"
+
+#include <bdpt/error.h>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "options/values/default_output.h"
+#include "options/values/output_files.h"
+#include "report/image/denoised.h"
+#include "report/image/image_files.h"
+#include "report/image/layered_image.h"
+#include "terminal/console.h"
+#include "terminal/interrupt.h"
+
+namespace bdpt::app {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+std::vector<fs::path> outputs_of(const DevelopArguments& arguments)
+{
+    if (!arguments.outputs.empty()) {
+        return arguments.outputs;
+    }
+    if (arguments.file == "-") {
+        throw OptionError("--output is required for an image from the standard input");
+    }
+    return {default_output(arguments.file)};
+}
+
+/// How `image` is shown: with the backdrop of its render, or that of `display` in its place.
+DisplayArguments display_of(DisplayArguments display, const LayeredImage& image,
+                            const fs::path& file)
+{
+    if (display.backdrop && !image.backdrop) {
+        throw Error(ErrorCode::invalid_input,
+                    fmt::format("--background \"{}\": {} shows the environment; render it with "
+                                "--background, too",
+                                backdrop_text(*display.backdrop), file.string()));
+    }
+    if (!display.backdrop) {
+        display.backdrop = image.backdrop;
+    }
+    return display;
+}
+
+bool has_layer(const LayeredImage& image, const char* name)
+{
+    return std::any_of(image.layers.begin(), image.layers.end(),
+                       [name](const Layer& layer) { return layer.name == name; });
+}
+
+}  // namespace
+
+int run_develop(const DevelopArguments& arguments)
+{
+    const std::vector<fs::path> outputs = outputs_of(arguments);
+    const std::string file = arguments.file.string();
+    check_outputs(outputs, FileSet({arguments.file}));
+    Console console(arguments.printed.format, arguments.printed.verbosity);
+    const Interrupt interrupt(temporary_paths(outputs), [] {});
+    LayeredImage image =
+        read_layered_image(arguments.file, arguments.denoise ? Wanted::clean : Wanted::main);
+    for (const std::string& warning : image.warnings) {
+        console.warning(fmt::format("{}: {}", file, warning));
+    }
+    const DisplayArguments display = display_of(arguments.display, image, arguments.file);
+    check_transparency(display, outputs);
+    const bool denoises = arguments.denoise && !image.is_denoised;
+    if (denoises && !has_layer(image, "albedo")) {
+        console.warning(
+            fmt::format("{}: denoised without the layers albedo and normal, which keep "
+                        "edges (--aov albedo,normal)",
+                        file));
+    }
+    const std::optional<io::Denoiser> denoiser =
+        open_denoiser(denoises ? arguments.denoise : std::nullopt, outputs, 0);
+    ImageFileOptions options{.exr = {.metadata = std::move(image.metadata)},
+                             .layers = std::move(image.layers),
+                             .display = display,
+                             .denoiser = denoiser ? &*denoiser : nullptr};
+    Attempts attempts;
+    const WrittenImages written =
+        write_image_files(outputs, image.image, std::move(options), attempts);
+    ordered_json names = ordered_json::array();
+    for (const fs::path& output : written.files) {
+        console.note(fmt::format("wrote {}", output.string()));
+        names.push_back(output.string());
+    }
+    attempts.finish();
+    console.event("done", {{"outputs", std::move(names)},
+                           {"exposure",
+                            written.exposure ? ordered_json(*written.exposure) : ordered_json()}});
+    return 0;
+}
+
+}  // namespace bdpt::app

@@ -1,0 +1,138 @@
+#include "commands/render_scenes.h"
+
+#include <bdpt/error.h>
+#include <fmt/core.h>
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <new>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "options/job_file.h"
+#include "options/values/default_output.h"
+#include "options/values/file_pattern.h"
+#include "options/values/file_set.h"
+#include "options/values/pipes.h"
+#include "stage/input_files.h"
+#include "terminal/console.h"
+#include "terminal/text.h"
+
+namespace bdpt::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+void check_scenes(const std::vector<fs::path>& scenes, const OptionList& options)
+{
+    if (scenes.size() < 2) {
+        return;
+    }
+    for (const char* option : {"--part", "--plan", "--strategies", "--save-rates", "--save-job"}) {
+        if (options.given(option)) {
+            throw OptionError(fmt::format("{} is for one scene, not for several", option));
+        }
+    }
+    for (const fs::path& scene : scenes) {
+        if (scene == "-" || is_job(scene)) {
+            throw OptionError(
+                fmt::format("{}: only files of scenes can be among several", scene.string()));
+        }
+    }
+}
+
+/// `asked` for `scene`, whose name goes into the names of its files.
+RenderArguments for_scene(const RenderArguments& asked, const fs::path& scene)
+{
+    RenderArguments one = asked;
+    one.file = scene;
+    const std::string name = scene.stem().string();
+    for (fs::path& output : one.outputs) {
+        output = with_scene(output, name);
+    }
+    if (one.stats) {
+        one.stats = with_scene(*one.stats, name);
+    }
+    if (one.outputs.empty() && !one.part && !one.sequence && scene != "-") {
+        one.outputs.push_back(default_output(scene));
+    }
+    return one;
+}
+
+/// Throws `OptionError` when two scenes would write the same file, and `Error` (usage) when one
+/// would write what is read for another.
+void check_separate(const std::vector<RenderArguments>& all)
+{
+    FileSet inputs;
+    for (const RenderArguments& one : all) {
+        inputs.add(one.file);
+    }
+    FileSet written;
+    for (const RenderArguments& one : all) {
+        std::vector<fs::path> files = one.outputs;
+        if (one.stats) {
+            files.push_back(*one.stats);
+        }
+        for (const fs::path& file : files) {
+            if (inputs.contains(file)) {
+                throw Error(
+                    ErrorCode::usage,
+                    fmt::format("{}: is an input and cannot be the output too", file.string()));
+            }
+            if (!written.add(file)) {
+                throw OptionError(fmt::format(
+                    "{}: several scenes would write it: name outputs like -o '{{name}}.png', and "
+                    "scenes with the same name apart",
+                    file.string()));
+            }
+        }
+    }
+}
+
+}  // namespace
+
+int run_render_scenes(const RenderArguments& asked, const std::vector<fs::path>& scenes,
+                      const OptionList& options, const RenderScene& render)
+{
+    check_scenes(scenes, options);
+    std::vector<RenderArguments> all;
+    for (const fs::path& scene : scenes) {
+        all.push_back(for_scene(asked, scene));
+    }
+    if (all.size() == 1) {
+        return render(all.front());
+    }
+    check_separate(all);
+    int first_failure = 0;
+    std::size_t failures = 0;
+    const auto fail = [&](int code, const std::string& message) {
+        report_error(asked.printed.format, code, message);
+        first_failure = failures++ == 0 ? code : first_failure;
+    };
+    for (const RenderArguments& one : all) {
+        try {
+            const int code = render(one);
+            if (code != 0) {
+                return code;  // a signal stopped it
+            }
+        } catch (const Error& error) {
+            const std::string message = error.what();
+            const std::string file = one.file.string();
+            fail(static_cast<int>(error.code()), message.find(file) != std::string::npos
+                                                     ? message
+                                                     : fmt::format("{}: {}", file, message));
+        } catch (const std::bad_alloc&) {
+            fail(static_cast<int>(ErrorCode::out_of_memory),
+                 fmt::format("{}: out of memory", one.file.string()));
+        }
+    }
+    if (failures > 0) {
+        Console(asked.printed.format, asked.printed.verbosity)
+            .note(fmt::format("{} of {} failed", failures, counted(all.size(), "scene")));
+    }
+    return first_failure;
+}
+
+}  // namespace bdpt::app

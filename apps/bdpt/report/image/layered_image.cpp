@@ -1,0 +1,154 @@
+#include "report/image/layered_image.h"
+
+#include <bdpt/error.h>
+#include <bdpt/io/read_image.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <utility>
+
+#include "report/image/denoised.h"
+#include "report/image/matte.h"
+
+namespace bdpt::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Attributes = std::vector<std::pair<std::string, std::string>>;
+
+/// The pixels in `rect`.
+Image cropped(Image image, const PixelRect& rect)
+{
+    if (rect.x0 == 0 && rect.y0 == 0 && rect.x1 == image.width && rect.y1 == image.height) {
+        return image;
+    }
+    Image result{rect.x1 - rect.x0, rect.y1 - rect.y0, {}};
+    for (int y = rect.y0; y < rect.y1; ++y) {
+        for (int x = rect.x0; x < rect.x1; ++x) {
+            result.pixels.push_back(image.at(x, y));
+        }
+    }
+    return result;
+}
+
+/// A layer of `file`, where it has data; none: it has no such layer.
+std::optional<Image> layer_in(const fs::path& file, const char* name)
+{
+    try {
+        io::LoadedImage loaded = io::read_image(file, {.layer = name});
+        return cropped(std::move(loaded.image), loaded.filled);
+    } catch (const Error& error) {
+        if (error.code() != ErrorCode::not_found) {
+            throw;
+        }
+        return std::nullopt;
+    }
+}
+
+/// One value a pixel.
+Layer alpha_layer(const Image& image, const char* name)
+{
+    Layer layer{
+        .name = name, .channels = "A", .width = image.width, .height = image.height, .values = {}};
+    for (const Rgb& pixel : image.pixels) {
+        layer.values.push_back(pixel.r);
+    }
+    return layer;
+}
+
+std::string text_in(const Attributes& attributes, std::string_view name)
+{
+    const auto found = std::find_if(attributes.begin(), attributes.end(),
+                                    [name](const auto& entry) { return entry.first == name; });
+    return found != attributes.end() ? found->second : std::string();
+}
+
+template <typename Number>
+Number number_in(const Attributes& attributes, std::string_view name)
+{
+    const std::string text = text_in(attributes, name);
+    Number number{};
+    std::from_chars(text.data(), text.data() + text.size(), number);
+    return number;
+}
+
+io::ImageMetadata metadata_in(const Attributes& attributes)
+{
+    io::ImageMetadata metadata;
+    metadata.version = text_in(attributes, "bdpt.version");
+    metadata.scene = text_in(attributes, "bdpt.scene");
+    metadata.settings = text_in(attributes, "bdpt.settings");
+    metadata.integrator = text_in(attributes, "bdpt.integrator");
+    metadata.xmp = text_in(attributes, "bdpt.xmp");
+    metadata.seed = number_in<std::uint64_t>(attributes, "bdpt.seed");
+    metadata.samples_per_pixel = number_in<std::int64_t>(attributes, "bdpt.spp");
+    metadata.render_seconds = number_in<double>(attributes, "bdpt.renderTimeSeconds");
+    return metadata;
+}
+
+/// What is behind the image, by the settings of its render. Alpha of other programs is that of a
+/// transparent image; ours may also be a layer of one that shows the environment.
+std::optional<Backdrop> backdrop_of(const io::ImageMetadata& metadata, bool has_alpha)
+{
+    if (!has_alpha) {
+        return std::nullopt;
+    }
+    if (metadata.version.empty()) {
+        return Backdrop{};
+    }
+    const auto settings = nlohmann::json::parse(metadata.settings, nullptr, false);
+    const bool is_named = settings.is_object() && settings.contains("background") &&
+                          settings["background"].is_string();
+    return is_named ? parse_backdrop(settings["background"].get<std::string>()) : std::nullopt;
+}
+
+}  // namespace
+
+LayeredImage read_layered_image(const fs::path& file, Wanted wanted)
+{
+    io::LoadedImage main = io::read_image(file);
+    LayeredImage result{.image = cropped(std::move(main.image), main.filled),
+                        .layers = {},
+                        .metadata = metadata_in(main.attributes),
+                        .warnings = std::move(main.warnings)};
+    if (result.image.pixels.empty()) {
+        throw Error(ErrorCode::invalid_input, file.string() + ": has no pixels in its window");
+    }
+    const std::optional<Image> alpha = layer_in(file, "A");
+    if (alpha) {
+        result.layers.push_back(alpha_layer(*alpha, ""));
+    }
+    if (const std::optional<Image> shadow = layer_in(file, "shadow")) {
+        result.layers.push_back(alpha_layer(*shadow, "shadow"));
+    }
+    result.backdrop = backdrop_of(result.metadata, alpha.has_value());
+    result.is_denoised = layer_in(file, "noisy").has_value();
+    std::optional<Image> clean =
+        wanted == Wanted::clean ? layer_in(file, "denoised") : std::nullopt;
+    if (clean) {
+        result.image = std::move(*clean);
+        result.is_denoised = true;
+        const std::optional<Image> shadow = layer_in(file, "denoisedShadow");
+        const Matte noisy = matte_of(result.layers);
+        if (shadow && !noisy.alpha.empty()) {
+            Matte matte = noisy;
+            matte.alpha = coverage_of(noisy);
+            for (std::size_t i = 0; i < matte.alpha.size(); ++i) {
+                matte.shadow[i] = shadow->pixels[i].r;
+                matte.alpha[i] += matte.shadow[i];
+            }
+            put(matte, noisy, "noisyShadow", result.layers);
+        }
+    }
+    for (const char* name : {"albedo", "normal"}) {
+        if (const std::optional<Image> layer = layer_in(file, name)) {
+            result.layers.push_back(layer_of(*layer, name));
+        }
+    }
+    return result;
+}
+
+}  // namespace bdpt::app

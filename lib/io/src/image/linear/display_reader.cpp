@@ -1,0 +1,95 @@
+#include "image/linear/display_reader.h"
+
+#include "image/image_size.h"
+#include "image/texels.h"
+
+#include <bdpt/error.h>
+#include <bdpt/srgb.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+namespace bdpt::io {
+
+namespace {
+
+/// The linear value of each code.
+std::vector<float> linear_values(TexelType type)
+{
+    const std::size_t codes = type == TexelType::unorm8 ? 256 : 65536;
+    std::vector<float> values(codes);
+    for (std::size_t code = 0; code < codes; ++code) {
+        values[code] = srgb_to_linear(static_cast<double>(code) / static_cast<double>(codes - 1));
+    }
+    return values;
+}
+
+/// Value `index` of `texels` as it is stored.
+std::size_t code_at(const TexelImage& texels, std::size_t index)
+{
+    if (texels.type == TexelType::unorm8) {
+        return texels.bytes[index];
+    }
+    std::uint16_t code = 0;
+    std::memcpy(&code, texels.bytes.data() + index * sizeof code, sizeof code);
+    return code;
+}
+
+Image linear_image(const TexelImage& texels)
+{
+    const std::vector<float> values = linear_values(texels.type);
+    const auto channels = static_cast<std::size_t>(texels.channels);
+    const std::size_t green = channels < 3 ? 0 : 1;
+    Image image{texels.width, texels.height, {}};
+    const std::size_t pixels =
+        static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+    image.pixels.reserve(pixels);
+    for (std::size_t i = 0; i < pixels; ++i) {
+        const std::size_t first = i * channels;
+        image.pixels.emplace_back(values[code_at(texels, first)],
+                                  values[code_at(texels, first + green)],
+                                  values[code_at(texels, first + 2 * green)]);
+    }
+    return image;
+}
+
+}  // namespace
+
+bool is_display_image(ByteView file)
+{
+    const auto has = [file](std::string_view magic, std::size_t offset) {
+        return file.size() >= offset + magic.size() &&
+               std::memcmp(file.data() + offset, magic.data(), magic.size()) == 0;
+    };
+    return has("\x89PNG\r\n\x1a\n", 0) || has("\xff\xd8\xff", 0) ||
+           (has("RIFF", 0) && has("WEBP", 8));
+}
+
+Image read_display_image(ByteView file, const ReadLimits& limits, Warnings& warnings,
+                         const MemoryBudget* memory)
+{
+    try {
+        EncodedImage encoded(file, limits);
+        check_image_size(encoded.width(), encoded.height(), sizeof(Rgb), limits, memory);
+        if (memory != nullptr) {
+            memory->check("its pixels", 3 * encoded.decoded_bytes());
+        }
+        const DecodedImage decoded = std::move(encoded).decode();
+        if (!decoded.damage.empty()) {
+            warnings.add("the image is damaged", decoded.damage);
+        }
+        return linear_image(decoded.image);
+    } catch (const Error&) {
+        throw;
+    } catch (const std::runtime_error& error) {
+        throw Error(ErrorCode::invalid_input, error.what());
+    }
+}
+
+}  // namespace bdpt::io

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <bdpt/io/png.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace bdpt::io {
+
+/// What files of images for screens say about them: names and values.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> picture_text(
+    const PngOptions& options);
+
+}  // namespace bdpt::io

@@ -1,0 +1,157 @@
+// bdpt develop: pictures of an .exr file are those that bdpt render writes with the same options.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "image_files.h"
+#include "scene_files.h"
+#include "scratch_folder.h"
+#include "subprocess.h"
+
+namespace bdpt::test::develop_test {
+namespace {
+
+using Words = std::vector<std::string>;
+
+Words joined(Words words, const Words& more)
+{
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+class Darkroom {
+public:
+    Darkroom() : scene_(write_cube(folder_, "cube", {.cameras = two_cameras}).string()) {}
+
+    [[nodiscard]] std::string path(const std::string& name) const
+    {
+        return (folder_ / name).string();
+    }
+    void render(const Words& words) const
+    {
+        succeed(joined({"render", scene_, "--size", "32x16", "--spp", "4", "--integrator", "mis"},
+                       words));
+    }
+    void succeed(const Words& words) const
+    {
+        const Outcome outcome = run(Launch{.arguments = words, .folder = folder_ / ""});
+        CAPTURE(words, outcome.out, outcome.err);
+        REQUIRE(outcome.exit_code == 0);
+    }
+    /// What `develop` answers.
+    [[nodiscard]] std::string refused(const Words& words, int code) const
+    {
+        const auto before = folder_.names();
+        const Outcome outcome =
+            run(Launch{.arguments = joined({"develop"}, words), .folder = folder_ / ""});
+        CAPTURE(words, outcome.err);
+        CHECK(outcome.exit_code == code);
+        CHECK(folder_.names() == before);
+        return outcome.err;
+    }
+    /// Renders with `rendering`, and with `look` into a picture as well; then develops that with
+    /// `look` from the .exr file. Both pictures have to be equal to the bit.
+    void check_equal(const Words& rendering, const Words& look) const
+    {
+        render(joined(joined(rendering, look), {"-o", "r.png", "-o", "r.webp", "-o", "r.exr"}));
+        render(joined(rendering, {"-o", "image.exr"}));
+        succeed(joined({"develop", "image.exr", "-o", "d.png", "-o", "d.webp"}, look));
+        CAPTURE(rendering, look);
+        const PngFile rendered = read_png(path("r.png"));
+        const PngFile developed = read_png(path("d.png"));
+        CHECK(rendered.width == developed.width);
+        CHECK(rendered.height == developed.height);
+        CHECK(rendered.channels == developed.channels);
+        CHECK(rendered.bits == developed.bits);
+        CHECK(rendered.values == developed.values);
+        CHECK(read_text(path("r.webp")) == read_text(path("d.webp")));
+        CHECK(rendered.text.at("bdpt.exposure") == developed.text.at("bdpt.exposure"));
+        CHECK(developed.text.at("bdpt.scene") == "cube.gltf");
+    }
+
+private:
+    ScratchFolder folder_;
+    std::string scene_;
+};
+
+const Words denoising{"--denoise", "--denoiser-library", BDPT_FAKE_OIDN};
+
+TEST_CASE("pictures of an image are those that its render would have written", "[develop]")
+{
+    const Darkroom room;
+    room.check_equal({}, {});
+    room.check_equal({}, {"--exposure", "1.5", "--tone-map", "agx", "--png-bits", "16"});
+    room.check_equal({"--crop", "4,2,20,15"}, {"--tone-map", "pbr-neutral"});
+    room.check_equal({"--aov", "alpha,albedo"}, {});
+    // A background that the .exr file was rendered with, and another one.
+    room.check_equal({"--background", "transparent"}, {});
+    room.check_equal({"--background", "transparent"}, {"--background", "white"});
+    room.check_equal({"--background", "#204060", "--ground", "shadow"}, {});
+    room.check_equal({"--background", "black", "--ground", "shadow"},
+                     {"--background", "transparent"});
+}
+
+TEST_CASE("denoised pictures of an image are those that its render would have written", "[develop]")
+{
+    const Darkroom room;
+    const Words layers{"--aov", "albedo,normal"};
+    const Words backdrop{"--background", "transparent", "--ground", "shadow"};
+    room.check_equal(layers, denoising);
+    room.check_equal(joined(layers, backdrop), denoising);
+    // The file has the denoised image already, as its image or as a layer.
+    room.check_equal(denoising, {});
+    room.check_equal(joined(denoising, backdrop), {});
+    const auto same = [&](const Words& words, const Words& other_words) {
+        room.succeed(joined(joined({"develop"}, words), {"-o", "a.png"}));
+        room.succeed(joined(joined({"develop"}, other_words), {"-o", "b.png"}));
+        CAPTURE(words, other_words);
+        CHECK(read_png(room.path("a.png")).values == read_png(room.path("b.png")).values);
+    };
+    for (const Words& more : {Words{}, backdrop}) {
+        const Words as_layer{"--denoise=layer", "--denoiser-library", BDPT_FAKE_OIDN};
+        room.render(joined(joined(denoising, more), {"-o", "image.exr"}));
+        room.render(joined(joined(as_layer, more), {"-o", "layer.exr"}));
+        same(joined({"image.exr"}, denoising), {"image.exr"});
+        same(joined({"layer.exr"}, denoising), {"image.exr"});
+    }
+}
+
+TEST_CASE("a picture without a name is that of the image", "[develop]")
+{
+    const Darkroom room;
+    room.render({"-o", "image.exr"});
+    room.succeed({"develop", "image.exr"});
+    CHECK(read_png(room.path("image.png")).width == 32);
+    write_text(room.path("image.png"), "of somebody else");
+    CHECK(room.refused({"image.exr"}, 6).find("was not written by bdpt") != std::string::npos);
+}
+
+TEST_CASE("what cannot be developed is refused", "[develop]")
+{
+    const Darkroom room;
+    room.render({"-o", "image.exr"});
+    room.render({"-o", "clear.exr", "--background", "transparent"});
+    write_text(room.path("text.exr"), "no image");
+    const std::string whole = read_text(room.path("image.exr"));
+    write_text(room.path("cut.exr"), whole.substr(0, whole.size() / 2));
+    const auto refused = [&](const Words& words, int code, const std::string& message) {
+        const std::string said = room.refused(words, code);
+        CAPTURE(said);
+        CHECK(said.find(message) != std::string::npos);
+    };
+    refused({"image.exr", "-o", "a.png", "--background", "white"}, 4,
+            "--background \"#ffffff\": image.exr shows the environment");
+    refused({"image.exr", "-o", "a.exr"}, 2, "a.exr: develop writes pictures for screens");
+    refused({"image.exr", "-o", "a.png", "-o", "a.png"}, 2, "named twice");
+    refused({"clear.exr", "-o", "a.jpg"}, 2, "a.jpg: JPEG has no alpha");
+    refused({"image.exr", "-o", "a.png", "--denoise=layer"}, 2, "--denoise \"layer\"");
+    refused({"none.exr", "-o", "a.png"}, 3, "none.exr: no such file");
+    refused({"text.exr", "-o", "a.png"}, 5, "text.exr: neither OpenEXR");
+    refused({"cut.exr", "-o", "a.png"}, 4, "cut.exr: OpenEXR");
+    refused({}, 2, "file is required");
+}
+
+}  // namespace
+}  // namespace bdpt::test::develop_test

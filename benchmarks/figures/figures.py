@@ -191,9 +191,10 @@ def denoised():
     cells = []
     for scene in ("lamp-box.gltf", "caustic-metal.gltf", "glass-rough.gltf"):
         for name in ("mis", "auto"):
-            cells += [Cell(f"{name}{label}", scene, by(name) + more, seconds=2.0, reference=(), metric="flip")
+            cells += [Cell(f"{name}{label}", scene, by(name) + depth(8) + more, seconds=2.0, reference=depth(8),
+                           metric="flip")
                       for label, more in (("", ()), (", denoised", ("--denoise",)))]
-        cells.append(Cell("reference", scene, (), 1024, reference=(), metric="flip"))
+        cells.append(Cell("reference", scene, depth(8), 1024, reference=depth(8), metric="flip"))
     return tuple(cells)
 
 

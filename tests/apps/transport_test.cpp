@@ -30,16 +30,25 @@ public:
 
     ExrFile rendered(const Words& more) const
     {
-        const std::string out = (folder_ / "out.exr").string();
-        Words words{"render", scene_, "-o", out, "--spp", "16", "--size", "16x8", "--quiet"};
+        Words quiet{"--quiet"};
+        quiet.insert(quiet.end(), more.begin(), more.end());
+        static_cast<void>(said(quiet));
+        return read_exr(out());
+    }
+    /// What the command prints to the terminal.
+    std::string said(const Words& more) const
+    {
+        Words words{"render", scene_, "-o", out(), "--spp", "16", "--size", "16x8"};
         words.insert(words.end(), more.begin(), more.end());
         const Outcome outcome = run(words);
         CAPTURE(words, outcome.err);
         REQUIRE(outcome.exit_code == 0);
-        return read_exr(out);
+        return outcome.out + outcome.err;
     }
 
 private:
+    std::string out() const { return (folder_ / "out.exr").string(); }
+
     ScratchFolder folder_;
     std::string scene_;
 };
@@ -95,6 +104,28 @@ TEST_CASE("an image says how light was transported")
     CHECK(settings["rr_start"] == 2);
     CHECK(settings["disabled"] == nlohmann::json::array({"s2t1", "s0t4"}));
     CHECK(settings["projection"] == "perspective");
+}
+
+TEST_CASE("an image says how much light a limit of the length of paths leaves out")
+{
+    const GlowingRoom room;
+    const auto left_out = [&](const Words& words) {
+        return nlohmann::json::parse(room.rendered(words).text("bdpt.settings"))
+            .value("light_beyond_max_depth", 0.0);
+    };
+    // Of what is reflected, once and more: 0.5^3
+    const Words four{"--integrator", "mis", "--max-depth", "4"};
+    CHECK(left_out(four) == Approx(0.125).margin(0.02));
+    CHECK(room.said(four).find("% of the light is left out: it comes by paths of more than 4 "
+                               "edges (--max-depth)") != std::string::npos);
+    const std::string events = room.said({"--max-depth", "4", "--json"});
+    CHECK(events.find("\"light_beyond_max_depth\":0.1") != std::string::npos);
+    for (const Words& words : {Words{}, Words{"--max-depth", "20"}, Words{"--only", "direct"},
+                               Words{"--max-depth", "2"}}) {
+        CAPTURE(words);
+        CHECK(left_out(words) == 0.0);
+        CHECK(room.said(words).find("left out") == std::string::npos);
+    }
 }
 
 TEST_CASE("a strategy that is disabled makes no path")

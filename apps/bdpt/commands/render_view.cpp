@@ -273,9 +273,20 @@ void render_view(const RenderArguments& asked, const PreparedScene& stage,
     if (asked.options.integrator == IntegratorKind::automatic) {
         settings["chosen_by"] = "auto";
     }
+    const double light_beyond = light_beyond_max_depth(arguments, stage);
+    if (light_beyond > 0.0) {
+        settings["light_beyond_max_depth"] = std::round(light_beyond * 1000.0) / 1000.0;
+    }
     interrupt.allow_stop();
     announce(console, arguments, stage, settings);
     tell_findings(console, stage);
+    const bool is_first = !is_one_of_many(arguments) || arguments.sequence_view->index == 0;
+    if (light_beyond > 0.0 && is_first) {  // it is much the same for all
+        console.note(fmt::format(
+            "about {:.2g} % of the light is left out: it comes by paths of more than {} edges "
+            "(--max-depth)",
+            100.0 * light_beyond, arguments.options.transport.max_depth));
+    }
     if (const std::optional<std::string> warning = warning_of_darkness(arguments, stage)) {
         console.warning(*warning);
     }

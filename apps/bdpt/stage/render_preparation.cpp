@@ -149,4 +149,15 @@ RenderArguments with_choice(RenderArguments arguments, const PreparedScene& stag
     return arguments;
 }
 
+double light_beyond_max_depth(const RenderArguments& arguments, const PreparedScene& stage)
+{
+    constexpr int direct_light = 2;  // [edges]
+    constexpr double worth_telling = 0.01;
+    if (arguments.options.transport.max_depth <= direct_light) {
+        return 0.0;
+    }
+    const double share = bdpt::light_beyond_max_depth(stage.scene, stage.camera, arguments.options);
+    return share >= worth_telling ? share : 0.0;
+}
+
 }  // namespace bdpt::app

@@ -30,6 +30,12 @@ void spend_film(io::MemoryBudget& memory, const RenderOptions& options, const Si
 [[nodiscard]] PreparedScene prepare_within_memory(const RenderArguments& arguments,
                                                   Console& console);
 
+/// About which share of the light `arguments`, which have all their options, leave out as their
+/// paths may not be longer, in [0, 1]; 0 if it is below 1 % or if nothing but emitted and direct
+/// light is asked for. By a short render.
+[[nodiscard]] double light_beyond_max_depth(const RenderArguments& arguments,
+                                            const PreparedScene& stage);
+
 /// `arguments` with all their options: size, samples and limits of memory filled in, and what is
 /// left open chosen by a pilot; and with rates of samples, unless they have them already, from a
 /// file or another pilot. Throws `Error`.

@@ -95,6 +95,15 @@ struct IntegratorChoice {
 [[nodiscard]] BDPT_EXPORT RenderOptions chosen_options(const Scene& scene, const CameraDesc& camera,
                                                        const RenderOptions& options);
 
+/// About which share of the light that surfaces and media scatter to the camera comes by paths of
+/// more than `max_depth` edges, which `options` leave out, in [0, 1]; 0 if that is too little to be
+/// told from noise. By a short render of its own, which depends on scene, camera, size of the film
+/// and `max_depth`, and is spared (0) where nothing is lost: no medium scatters light, and
+/// `max_depth` is not below its default; and from 512 edges on. Throws `Error` as render() does.
+[[nodiscard]] BDPT_EXPORT double light_beyond_max_depth(const Scene& scene,
+                                                        const CameraDesc& camera,
+                                                        const RenderOptions& options);
+
 /// Blocks until all samples are done, the noise is low enough, `control.stop` is requested or the
 /// time is up; at least one pass is always done. The result depends on scene, camera and options
 /// only, to the bit: not on threads, tiles or time. May be called from several threads at once, for

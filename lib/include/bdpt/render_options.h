@@ -122,7 +122,9 @@ struct SamplingOptions {
 /// Which paths are measured, and how strategies share them. Ranges: max_depth [1, 4096], min_depth
 /// [1, max_depth], rr_start from 1, rr_survival [0, 1].
 struct TransportOptions {
-    int max_depth = 8;  ///< longest path in edges: 1 sees lights only, 2 adds direct light
+    /// Longest path in edges: 1 sees lights only, 2 adds direct light. Russian roulette ends nearly
+    /// all paths before the default does (docs/decisions/0058-length-of-paths.md).
+    int max_depth = 64;
     int min_depth = 1;  ///< shortest path in edges that is measured
     /// Edges of a subpath after which Russian roulette may end it; `max_depth` or more: never. A
     /// light subpath goes on with the probability that its throughput has kept since the start, a
@@ -155,7 +157,7 @@ struct BidirectionalOptions {
     /// vcm: sample index i merges within merge_radius * (i + 1)^((merge_alpha - 1) / 2). Below 1
     /// the bias vanishes in the limit, the sooner the smaller it is, and noise the later.
     double merge_alpha = 0.75;
-    /// Bytes that shared light paths of one sample index may take at most.
+    /// Bytes that shared light paths of one sample index may take, by their usual length.
     std::uint64_t light_path_memory = 4'000'000'000;
     /// Longest subpaths in edges; strategies with longer ones are left out.
     int max_camera_depth = std::numeric_limits<int>::max();

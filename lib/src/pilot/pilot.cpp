@@ -2,7 +2,6 @@
 
 #include "geometry/flush_denormals.h"
 #include "integrator/bidirectional/bidirectional_integrator.h"
-#include "path/strategy_set.h"
 #include "pilot/merged_finds.h"
 #include "pilot/pilot_errors.h"
 #include "pilot/prices.h"
@@ -24,7 +23,7 @@ constexpr Strategy see_lamp{.s = 1, .t = 1};
 
 std::uint64_t cache_bytes(const RenderOptions& options)
 {
-    return LightPathCache::bytes(LightPathCounts(options), StrategySet(options).light_vertices());
+    return LightPathCache::bytes(LightPathCounts(options), LightPathCache::usual_vertices(options));
 }
 
 RenderOptions pilot_options(RenderOptions options, const PilotGrid& grid)
@@ -79,10 +78,18 @@ double error_of(const PilotResult& pilot, std::size_t candidate, bool sees_lamps
                                (sees_lamps ? pilot.seen_lamps.by_both : pilot.seen_lamps.by_hits));
 }
 
-bool fits(const RenderOptions& options)
+bool fits(const RenderOptions& options, const PilotResult& pilot)
 {
-    return options.integrator == IntegratorKind::mis ||
-           cache_bytes(options) <= options.bidirectional.light_path_memory;
+    if (options.integrator == IntegratorKind::mis) {
+        return true;
+    }
+    const PathCounts& paths = pilot.stats.paths;
+    const double measured = paths.light == 0 ? 0.0
+                                             : 1.0 + static_cast<double>(pilot.stats.rays.light) /
+                                                         static_cast<double>(paths.light);
+    const double usual = LightPathCache::usual_vertices(options);
+    return LightPathCache::bytes(LightPathCounts(options), std::max(usual, measured)) <=
+           options.bidirectional.light_path_memory;
 }
 
 /// Traces the light paths of sample `index`, and then the camera paths that meet them.
@@ -153,7 +160,7 @@ RenderOptions with_best(const PilotResult& pilot, const RenderOptions& asked)
             const double product = error_of(pilot, k, sees_lamps) *
                                    (pilot.costs[k] + (sees_lamps ? seen_lamp_cost : 0.0));
             RenderOptions options = with_candidate(asked, candidates[k], sees_lamps);
-            if ((!best || product < least) && fits(options)) {
+            if ((!best || product < least) && fits(options, pilot)) {
                 best = std::move(options);
                 least = product;
             }

@@ -1,7 +1,6 @@
 #include "render/check_light_paths.h"
 
 #include "integrator/bidirectional/light_path_cache.h"
-#include "path/strategy_set.h"
 #include "render/megabytes.h"
 
 #include <bdpt/error.h>
@@ -53,7 +52,7 @@ void check_light_paths(const RenderOptions& options)
         return;
     }
     const std::uint64_t bytes =
-        LightPathCache::bytes(counts, StrategySet(options).light_vertices());
+        LightPathCache::bytes(counts, LightPathCache::usual_vertices(options));
     if (bytes > options.bidirectional.light_path_memory) {
         throw Error(ErrorCode::usage,
                     text(light_paths) + " shared light paths for each camera path (light_paths) " +

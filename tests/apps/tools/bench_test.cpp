@@ -63,7 +63,7 @@ TEST_CASE("a benchmark writes a page, JSON and CSV, and prints a table")
         const Outcome other = run(tiny(folder, {"--max-depth", "3"}));
         CHECK(other.exit_code == 2);
         CHECK(line_count(other.err) == 1);
-        CHECK(other.err.find("holds runs with max_depth 8, not 3") != std::string::npos);
+        CHECK(other.err.find("holds runs with max_depth 64, not 3") != std::string::npos);
     }
     SECTION("and does not take a broken run for good")
     {

@@ -4,7 +4,9 @@
 #include "math/sampler.h"
 #include "math/sobol.h"
 #include "math/split_mix.h"
+#include "path/strategy_set.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -50,7 +52,16 @@ LightPathCache::LightPathCache(const LightPathCounts& counts, const RenderOption
     }
 }
 
-std::uint64_t LightPathCache::bytes(const LightPathCounts& counts, int max_vertices)
+int LightPathCache::usual_vertices(const RenderOptions& options)
+{
+    constexpr int under_roulette = 5;
+    const int longest = StrategySet(options).light_vertices();
+    const TransportOptions& transport = options.transport;
+    const bool has_roulette = transport.rr_survival == 0.0f && transport.rr_start < longest;
+    return has_roulette ? std::min(longest, transport.rr_start + under_roulette) : longest;
+}
+
+std::uint64_t LightPathCache::bytes(const LightPathCounts& counts, double mean_vertices)
 {
     if (!counts.kept()) {
         return 0;
@@ -58,7 +69,7 @@ std::uint64_t LightPathCache::bytes(const LightPathCounts& counts, int max_verti
     // In floating point, where the greatest numbers that options can have do not overflow.
     const std::size_t vertex =
         sizeof(PathVertex) + sizeof(Bsdf) + (counts.merged ? LightVertexGrid::bytes_of_vertex : 0);
-    const double bytes = static_cast<double>(counts.bundles) * counts.bundle * max_vertices *
+    const double bytes = static_cast<double>(counts.bundles) * counts.bundle * mean_vertices *
                          static_cast<double>(vertex);
     constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
     return bytes < 0x1p63 ? static_cast<std::uint64_t>(bytes) : most;

@@ -30,16 +30,19 @@ public:
     /// `options` have been checked.
     LightPathCache(const LightPathCounts& counts, const RenderOptions& options);
 
-    /// Most bytes that it takes with light paths of `max_vertices`.
-    [[nodiscard]] static std::uint64_t bytes(const LightPathCounts& counts, int max_vertices);
+    /// What the mean number of vertices of light paths hardly exceeds: Russian roulette ends most
+    /// paths soon after it begins. Without it, that of the longest.
+    [[nodiscard]] static int usual_vertices(const RenderOptions& options);
+    /// Bytes that it takes with light paths of so many vertices in the mean.
+    [[nodiscard]] static std::uint64_t bytes(const LightPathCounts& counts, double mean_vertices);
 
     [[nodiscard]] const LightPathCounts& counts() const { return counts_; }
     [[nodiscard]] std::int64_t chunks() const
     {
         return (counts_.bundles + chunk_bundles - 1) / chunk_bundles;
     }
-    /// The random numbers of light path `which` of a bundle of sample `index`: all those of a bundle,
-    /// over all indices, are one sequence, as a camera path is joined to several of them.
+    /// The random numbers of light path `which` of a bundle of sample `index`: all those of a
+    /// bundle, over all indices, are one sequence, as a camera path is joined to several of them.
     [[nodiscard]] Sampler sampler(std::int64_t index, std::int64_t bundle, int which) const;
 
     // Filling: a chunk is begun, gets its bundles in their order, each with its light paths, and is

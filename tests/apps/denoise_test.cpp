@@ -2,6 +2,8 @@
 // (tests/support/fake_oidn.cpp): images become 2 * image + albedo + 1 + normal + 2.
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -101,6 +103,40 @@ TEST_CASE("before a backdrop colours of surfaces are denoised, and edges stay")
     }
     CHECK(std::count(coverage.begin(), coverage.end(), 0.0f) > 0);
     CHECK(partial > 0);
+}
+
+TEST_CASE("before a backdrop denoised images have no noise in the alpha of surfaces that blend")
+{
+    const ScratchFolder folder;
+    const std::string scene =
+        write_cube(folder, "veil",
+                   {.material = R"({"pbrMetallicRoughness": {"metallicFactor": 0,
+                        "baseColorFactor": [0.5, 0.5, 0.5, 0.5]}, "alphaMode": "BLEND"})",
+                    .cameras = two_cameras})
+            .string();
+    const std::string file = (folder / "veil.exr").string();
+    const Words words{"render",      scene,          "-o",          file,
+                      "--size",      "16x8",         "--spp",       "4",
+                      "--quiet",     "--background", "transparent", "--denoiser-library",
+                      BDPT_FAKE_OIDN};
+    const bool as_layer = GENERATE(false, true);
+    Words asked = words;
+    asked.push_back(as_layer ? "--denoise=layer" : "--denoise");
+    REQUIRE(run(asked).exit_code == 0);
+    const ExrChannels exr = read_channels(file);
+    const std::vector<float>& clean = exr.at(as_layer ? "denoisedAlpha.A" : "A");
+    const std::vector<float>& noisy = exr.at(as_layer ? "A" : "noisyAlpha.A");
+    CHECK(clean == exr.at("opacity.A"));
+    // Front and back of the cube, each of which takes half of the light; the middle has no edges.
+    const std::size_t middle = 4 * 16 + 8;
+    CHECK(clean[middle] == Approx(0.75f));
+    CHECK(clean.front() == 0.0f);
+    double chance = 0.0;
+    for (std::size_t i = 0; i < clean.size(); ++i) {
+        chance += std::abs(static_cast<double>(clean[i] - noisy[i]));
+        CHECK((clean[i] > 0.0f || noisy[i] == 0.0f));
+    }
+    CHECK(chance > 0.5);
 }
 
 TEST_CASE("with --denoise=layer the denoised image is a layer")

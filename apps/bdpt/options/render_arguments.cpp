@@ -357,6 +357,9 @@ RenderArguments checked(const RenderRequest& request, const OptionList& options)
     if (result.denoise) {
         result.options.film.aovs.insert(Aov::albedo);
         result.options.film.aovs.insert(Aov::normal);
+        if (result.display.backdrop) {
+            result.options.film.aovs.insert(Aov::opacity);
+        }
     }
     result.strategies = checked(request.strategies, result.options, options);
     std::vector<std::filesystem::path> written = result.outputs;

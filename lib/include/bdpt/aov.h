@@ -33,6 +33,9 @@ enum class Aov : std::uint8_t {
     object,
     /// The same by the names of materials.
     material,
+    /// `alpha` without the shadow and without the noise of surfaces that let a share of the light
+    /// through: along each ray it is what all of them take away, not one met by chance.
+    opacity,
 };
 
 /// A set of them.

@@ -66,6 +66,7 @@ AovFilm::AovFilm(const PixelRect& region, AovSet aovs, PixelCounts counts)
     hits_.resize(std::max({room(Aov::albedo), room(Aov::normal), room(Aov::position),
                            room(Aov::depth), room(Aov::alpha)}));
     counts_.resize(counts == PixelCounts::own ? room(Aov::sample_count) : 0);
+    opacity_.resize(room(Aov::opacity));
     unshadowed_.resize(room(Aov::shadow));
     shadowed_.resize(room(Aov::shadow));
     ground_hits_.resize(room(Aov::shadow));
@@ -105,6 +106,11 @@ void AovFilm::add_ground(int x, int y, const GroundLight& light) noexcept
     shadowed_[i].add(std::min(light.shadowed, ExactSum::max_value));
 }
 
+void AovFilm::add_opacity(int x, int y, float opacity) noexcept
+{
+    opacity_[index(x, y)].add(opacity);
+}
+
 void AovFilm::count_samples(int x, int y, std::int64_t count) noexcept
 {
     counts_[index(x, y)] += static_cast<std::uint64_t>(count);
@@ -121,6 +127,7 @@ void AovFilm::merge(const AovFilm& other)
     merge_sums(depth_, other.depth_);
     merge_counts(hits_, other.hits_);
     merge_counts(counts_, other.counts_);
+    merge_sums(opacity_, other.opacity_);
     merge_sums(unshadowed_, other.unshadowed_);
     merge_sums(shadowed_, other.shadowed_);
     merge_counts(ground_hits_, other.ground_hits_);
@@ -147,6 +154,9 @@ std::vector<AovFilm::Plane> AovFilm::planes() const
     }
     if (!counts_.empty()) {
         result.push_back({.name = "counts", .count = &AovFilm::counts_});
+    }
+    if (needs_opacity()) {
+        result.push_back({.name = "opacity", .single = &AovFilm::opacity_});
     }
     if (needs_ground()) {
         result.push_back({.name = "ground.unshadowed", .single = &AovFilm::unshadowed_});
@@ -240,6 +250,8 @@ std::vector<Layer> AovFilm::develop(const Film& film) const
         return over_samples(static_cast<double>(hits_[i])) + (needs_ground() ? shadow(i, 0) : 0.0);
     });
     layer(Aov::shadow, "shadow", "A", shadow);
+    layer(Aov::opacity, "opacity", "A",
+          [&](Index i, Index) { return over_samples(opacity_[i].value()); });
     layer(Aov::albedo, "albedo", "RGB",
           [&](Index i, Index c) { return over_samples(albedo_[i][c].value()); });
     layer(Aov::normal, "normal", "XYZ",

@@ -64,9 +64,11 @@ void AovPass::add_sample(int x, int y, std::int64_t sample_index, AovFilm& film,
     segment.wavelength = start.moment.wavelength;
     segment.time = start.moment.time;
     ++rays.aov;
+    bool is_opaque = false;
     if (const auto hit = world_.first_hit(ray.lens, ray.direction, segment)) {
         const SurfacePoint point =
             world_.surface_at(*hit, ray.direction, segment, camera.pixel_cone());
+        is_opaque = point.opacity >= 1.0f;
         const Vec3 normal = point.bsdf.shading_normal();
         film.add(x, y,
                  {.albedo = point.bsdf.base_color(),
@@ -81,6 +83,32 @@ void AovPass::add_sample(int x, int y, std::int64_t sample_index, AovFilm& film,
             film.add_ground(x, y, *light);
         }
     }
+    if (film.needs_opacity()) {
+        film.add_opacity(x, y, is_opaque ? 1.0f : opacity_along(ray, segment, rays));
+    }
+}
+
+float AovPass::opacity_along(const CameraRay& ray, SegmentKey segment, RayCounts& rays) const
+{
+    constexpr int most_surfaces = 64;
+    constexpr float nothing = 1e-4f;
+    const SegmentKey key = segment.without_chance();
+    SegmentEnd from = ray.lens;
+    float transmittance = 1.0f;
+    for (int i = 0; i < most_surfaces; ++i) {
+        ++rays.aov;
+        const auto hit = world_.first_hit(from, ray.direction, key);
+        if (!hit) {
+            return 1.0f - transmittance;
+        }
+        const SurfacePoint point = world_.surface_at(*hit, ray.direction, key, PixelCone{});
+        transmittance *= 1.0f - point.opacity;
+        if (transmittance < nothing) {
+            break;
+        }
+        from = point.end;
+    }
+    return 1.0f;
 }
 
 }  // namespace bdpt

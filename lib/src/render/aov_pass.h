@@ -31,6 +31,10 @@ private:
     void add_sample(int x, int y, std::int64_t sample_index, AovFilm& film,
                     std::vector<SurfaceIds>& met, RayCounts& rays) const;
 
+    /// What surfaces take away of the light along a camera ray, in [0, 1].
+    [[nodiscard]] float opacity_along(const CameraRay& ray, SegmentKey segment,
+                                      RayCounts& rays) const;
+
     const World& world_;
     const MovingCamera& camera_;
     RenderOptions options_;

@@ -24,6 +24,11 @@ Words joined(Words words, const Words& more)
 class Darkroom {
 public:
     Darkroom() : scene_(write_cube(folder_, "cube", {.cameras = two_cameras}).string()) {}
+    /// With a cube of that material.
+    explicit Darkroom(const char* material)
+        : scene_(
+              write_cube(folder_, "cube", {.material = material, .cameras = two_cameras}).string())
+    {}
 
     [[nodiscard]] std::string path(const std::string& name) const
     {
@@ -95,8 +100,12 @@ TEST_CASE("pictures of an image are those that its render would have written", "
 
 TEST_CASE("denoised pictures of an image are those that its render would have written", "[develop]")
 {
-    const Darkroom room;
-    const Words layers{"--aov", "albedo,normal"};
+    const bool blends = GENERATE(false, true);
+    const Darkroom room = blends ? Darkroom(R"({"pbrMetallicRoughness": {"metallicFactor": 0,
+                                       "baseColorFactor": [0.5, 0.5, 0.5, 0.5]},
+                                       "alphaMode": "BLEND"})")
+                                 : Darkroom();
+    const Words layers{"--aov", "albedo,normal,opacity"};
     const Words backdrop{"--background", "transparent", "--ground", "shadow"};
     room.check_equal(layers, denoising);
     room.check_equal(joined(layers, backdrop), denoising);

@@ -108,6 +108,38 @@ TEST_CASE("AOVs of a wall are what geometry says", "[aov]")
     }
 }
 
+TEST_CASE("opacity is alpha without chance where surfaces blend", "[aov]")
+{
+    // Two veils one behind the other, and nothing else.
+    MaterialDesc veil = test::lambertian(Rgb(0.5f));
+    veil.alpha_mode = AlphaMode::blend;
+    veil.base_color.w = 0.4f;
+    test::SceneBuilder builder;
+    builder.quad({5, -20, 3}, {5, -20, -40}, {5, 20, -40}, {5, 20, 3}, veil);
+    builder.quad({6, -20, 3}, {6, -20, -40}, {6, 20, -40}, {6, 20, 3}, veil);
+    const bool backed = GENERATE(false, true);
+    if (backed) {
+        builder.quad({7, -20, 3}, {7, -20, -40}, {7, 20, -40}, {7, 20, 3},
+                     test::lambertian(Rgb(0.5f)));
+    }
+    const RenderResult result =
+        render(Scene(builder.desc), camera, options({Aov::alpha, Aov::opacity}));
+    const std::vector<Layer> layers = result.aovs.develop(result.film);
+    REQUIRE(layers.size() == 2);
+    const Layer& opacity = layer(layers, "opacity");
+    CHECK(opacity.channels == "A");
+    double chance = 0.0;
+    for (int y = 0; y < size; ++y) {
+        for (int x = 0; x < size / 2 - 1; ++x) {
+            const float expected = backed ? 1.0f : 1.0f - 0.6f * 0.6f;
+            CHECK(value(opacity, x, y, 0) == Approx(expected).epsilon(1e-5));
+            CHECK(value(opacity, size - 1 - x, y, 0) == 0.0f);
+            chance += std::abs(static_cast<double>(value(layer(layers, ""), x, y, 0) - expected));
+        }
+    }
+    CHECK((chance > 1.0) == !backed);  // alpha itself is met by chance
+}
+
 TEST_CASE("AOVs are of the very rays that make the image", "[aov]")
 {
     // Paths of one edge on a surface of one nit: the pixel is the share of rays that hit.

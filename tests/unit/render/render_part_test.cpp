@@ -38,7 +38,7 @@ std::vector<RenderOptions> kinds()
         result.push_back(options());
         result.back().integrator = kind;
     }
-    result.back().film.aovs = {Aov::albedo, Aov::depth, Aov::alpha, Aov::shadow};
+    result.back().film.aovs = {Aov::albedo, Aov::depth, Aov::alpha, Aov::shadow, Aov::opacity};
     result.push_back(options());
     result.back().bidirectional.light_paths = 0.3;
     result.push_back(options());

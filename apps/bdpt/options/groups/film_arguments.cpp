@@ -90,9 +90,10 @@ ValueType<FilterOptions> filter_type()
 
 ValueType<AovSet> aov_type()
 {
-    return parsed_by([](const std::string& text) { return parse_aovs(text); },
-                     "albedo, normal, depth, position, samples, variance, alpha, object, material "
-                     "or some of them, with commas between");
+    return parsed_by(
+        [](const std::string& text) { return parse_aovs(text); },
+        "albedo, normal, depth, position, samples, variance, alpha, opacity, object, material "
+        "or some of them, with commas between");
 }
 
 ValueType<PixelRect> crop_type()

@@ -24,7 +24,7 @@ struct AovCost {
 constexpr std::uint64_t two_ids = sizeof(IdCounts) + 32;
 constexpr std::uint64_t id_channels = 2 * IdFilm::levels;
 
-constexpr std::array<AovCost, 10> aov_costs{{{Aov::albedo, color_sum, 3},
+constexpr std::array<AovCost, 11> aov_costs{{{Aov::albedo, color_sum, 3},
                                              {Aov::normal, color_sum, 3},
                                              {Aov::depth, sizeof(ExactSum), 1},
                                              {Aov::position, color_sum, 3},
@@ -32,6 +32,7 @@ constexpr std::array<AovCost, 10> aov_costs{{{Aov::albedo, color_sum, 3},
                                              {Aov::variance, 0, 3},
                                              {Aov::alpha, sizeof(std::uint64_t), 1},
                                              {Aov::shadow, shadow_sums, 1},
+                                             {Aov::opacity, sizeof(ExactSum), 1},
                                              {Aov::object, two_ids, id_channels},
                                              {Aov::material, two_ids, id_channels}}};
 

@@ -38,19 +38,20 @@ Image denoised(const io::Denoiser& denoiser, const Image& image, std::span<const
 }
 
 Image denoised(const io::Denoiser& denoiser, const Image& image, std::span<const Layer> layers,
-               std::span<const float> coverage)
+               const Coverage& coverage)
 {
     std::vector<Layer> helpers;
     for (const char* name : {"albedo", "normal"}) {
         if (const Layer* layer = find(layers, name)) {
-            helpers.push_back(visible_values(*layer, coverage));
+            helpers.push_back(visible_values(*layer, coverage.noisy));
         }
     }
-    const Image colors = image_of(visible_values(layer_of(image, ""), coverage));
+    const Image colors = image_of(visible_values(layer_of(image, ""), coverage.noisy));
     Image result = denoised(denoiser, colors, helpers);
     for (std::size_t i = 0; i < result.pixels.size(); ++i) {
         // Light paths may find what no camera ray of the pixel has found.
-        result.pixels[i] = coverage[i] > 0.0f ? coverage[i] * result.pixels[i] : image.pixels[i];
+        const float clean = coverage.clean[i];
+        result.pixels[i] = clean > 0.0f ? clean * result.pixels[i] : image.pixels[i];
     }
     return result;
 }

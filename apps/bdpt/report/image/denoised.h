@@ -21,10 +21,17 @@ namespace bdpt::app {
 [[nodiscard]] Image denoised(const io::Denoiser& denoiser, const Image& image,
                              std::span<const Layer> layers);
 
-/// The same for an image that is black where surfaces do not cover it, by those shares of pixels.
-/// What is denoised are colours of surfaces, so edges stay as they are.
+/// Shares of pixels that surfaces cover: by those samples that the image is made of, and without
+/// the noise of surfaces that blend.
+struct Coverage {
+    std::vector<float> noisy;
+    std::vector<float> clean;
+};
+
+/// The same for an image that is black where surfaces do not cover it. What is denoised are colours
+/// of surfaces, so edges stay as they are.
 [[nodiscard]] Image denoised(const io::Denoiser& denoiser, const Image& image,
-                             std::span<const Layer> layers, std::span<const float> coverage);
+                             std::span<const Layer> layers, const Coverage& coverage);
 
 /// The values of an image as a layer of that name.
 [[nodiscard]] Layer layer_of(const Image& image, const char* name);

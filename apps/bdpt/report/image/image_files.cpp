@@ -96,15 +96,18 @@ WrittenImages write_image_files(std::span<const fs::path> outputs, const Image& 
     }
     // Without a backdrop what no surface covers is the sky.
     const Image clean = options.display.backdrop && !noisy.alpha.empty()
-                            ? denoised(*options.denoiser, image, options.layers, coverage_of(noisy))
+                            ? denoised(*options.denoiser, image, options.layers,
+                                       {.noisy = coverage_of(noisy),
+                                        .clean = clean_coverage(noisy, options.layers)})
                             : denoised(*options.denoiser, image, options.layers);
     const Matte clean_matte = denoised(*options.denoiser, noisy, options.layers);
     const bool clean_first = options.denoised_as == DenoisedAs::image;
     if (clean_first) {
-        put(clean_matte, noisy, "noisyShadow", options.layers);
+        put(clean_matte, noisy, {.alpha = "noisyAlpha", .shadow = "noisyShadow"}, options.layers);
         options.layers.push_back(layer_of(image, "noisy"));
     } else {
-        put(noisy, clean_matte, "denoisedShadow", options.layers);
+        put(noisy, clean_matte, {.alpha = "denoisedAlpha", .shadow = "denoisedShadow"},
+            options.layers);
         options.layers.push_back(layer_of(clean, "denoised"));
     }
     return write_as_they_are(outputs, clean_first ? clean : image, {clean, clean_matte}, options,

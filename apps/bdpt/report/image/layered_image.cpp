@@ -59,6 +59,29 @@ Layer alpha_layer(const Image& image, const char* name)
     return layer;
 }
 
+/// `layers` of `file` with its denoised alpha and shadow in the place of the noisy ones, if it has
+/// them.
+std::vector<Layer> with_clean_matte(const fs::path& file, std::vector<Layer> layers)
+{
+    const Matte noisy = matte_of(layers);
+    if (noisy.alpha.empty()) {
+        return layers;
+    }
+    Matte matte = noisy;
+    if (const std::optional<Image> shadow = layer_in(file, "denoisedShadow")) {
+        matte.shadow = alpha_layer(*shadow, "").values;
+        matte.alpha = coverage_of(noisy);
+        for (std::size_t i = 0; i < matte.alpha.size(); ++i) {
+            matte.alpha[i] += matte.shadow[i];
+        }
+    }
+    if (const std::optional<Image> alpha = layer_in(file, "denoisedAlpha")) {
+        matte.alpha = alpha_layer(*alpha, "").values;
+    }
+    put(matte, noisy, {.alpha = "noisyAlpha", .shadow = "noisyShadow"}, layers);
+    return layers;
+}
+
 std::string text_in(const Attributes& attributes, std::string_view name)
 {
     const auto found = std::find_if(attributes.begin(), attributes.end(),
@@ -131,17 +154,10 @@ LayeredImage read_layered_image(const fs::path& file, Wanted wanted)
     if (clean) {
         result.image = std::move(*clean);
         result.is_denoised = true;
-        const std::optional<Image> shadow = layer_in(file, "denoisedShadow");
-        const Matte noisy = matte_of(result.layers);
-        if (shadow && !noisy.alpha.empty()) {
-            Matte matte = noisy;
-            matte.alpha = coverage_of(noisy);
-            for (std::size_t i = 0; i < matte.alpha.size(); ++i) {
-                matte.shadow[i] = shadow->pixels[i].r;
-                matte.alpha[i] += matte.shadow[i];
-            }
-            put(matte, noisy, "noisyShadow", result.layers);
-        }
+        result.layers = with_clean_matte(file, std::move(result.layers));
+    }
+    if (const std::optional<Image> opacity = layer_in(file, "opacity")) {
+        result.layers.push_back(alpha_layer(*opacity, "opacity"));
     }
     for (const char* name : {"albedo", "normal"}) {
         if (const std::optional<Image> layer = layer_in(file, name)) {

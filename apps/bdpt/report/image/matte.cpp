@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <string_view>
 #include <utility>
 
@@ -24,6 +25,7 @@ auto* find(Layers& layers, std::string_view name)
 
 constexpr std::string_view main_layer;
 constexpr std::string_view shadow_layer = "shadow";
+constexpr std::string_view opacity_layer = "opacity";
 
 }  // namespace
 
@@ -44,14 +46,25 @@ std::vector<float> coverage_of(const Matte& matte)
     return coverage;
 }
 
+std::vector<float> clean_coverage(const Matte& noisy, std::span<const Layer> layers)
+{
+    const Layer* opacity = find(layers, opacity_layer);
+    return opacity != nullptr ? opacity->values : coverage_of(noisy);
+}
+
 Matte denoised(const io::Denoiser& denoiser, const Matte& noisy, std::span<const Layer> layers)
 {
-    const Layer* shadow = find(layers, shadow_layer);
-    if (shadow == nullptr || noisy.alpha.empty()) {
-        return noisy;
+    Matte result = noisy;
+    if (noisy.alpha.empty()) {
+        return result;
     }
-    const std::vector<float> coverage = coverage_of(noisy);
-    std::vector<float> seen(coverage);  // of the ground
+    const std::vector<float> coverage = clean_coverage(noisy, layers);
+    const Layer* shadow = find(layers, shadow_layer);
+    if (shadow == nullptr) {
+        result.alpha = coverage;
+        return result;
+    }
+    std::vector<float> seen = coverage_of(noisy);  // of the ground
     std::transform(seen.begin(), seen.end(), seen.begin(),
                    [](float covered) { return 1.0f - covered; });
     const Layer opacity = visible_values(*shadow, seen);
@@ -61,29 +74,36 @@ Matte denoised(const io::Denoiser& denoiser, const Matte& noisy, std::span<const
         image.pixels.emplace_back(value);
     }
     const Image clean = denoiser.denoise({.image = image});
-    Matte result = noisy;
     for (std::size_t i = 0; i < clean.pixels.size(); ++i) {
-        result.shadow[i] = seen[i] * std::clamp(clean.pixels[i].g, 0.0f, 1.0f);
+        result.shadow[i] = (1.0f - coverage[i]) * std::clamp(clean.pixels[i].g, 0.0f, 1.0f);
         result.alpha[i] = coverage[i] + result.shadow[i];
     }
     return result;
 }
 
-void put(const Matte& matte, const Matte& other, const char* name_of_other,
+void put(const Matte& matte, const Matte& other, const MatteNames& names_of_other,
          std::vector<Layer>& layers)
 {
+    std::vector<Layer> extra;
+    const auto exchange = [&extra](Layer* layer, const std::vector<float>& values,
+                                   const std::vector<float>& others, const char* name) {
+        if (layer != nullptr) {
+            layer->values = others;
+            extra.push_back(*layer);
+            extra.back().name = name;
+            layer->values = values;
+        }
+    };
+    const bool blends = find(layers, opacity_layer) != nullptr;
+    Layer* alpha = find(layers, main_layer);
     Layer* shadow = find(layers, shadow_layer);
-    if (shadow == nullptr) {
-        return;
-    }
-    shadow->values = matte.shadow;
-    if (Layer* alpha = find(layers, main_layer)) {
+    if (blends) {
+        exchange(alpha, matte.alpha, other.alpha, names_of_other.alpha);
+    } else if (alpha != nullptr) {
         alpha->values = matte.alpha;
     }
-    Layer extra = *shadow;
-    extra.name = name_of_other;
-    extra.values = other.shadow;
-    layers.push_back(std::move(extra));
+    exchange(shadow, matte.shadow, other.shadow, names_of_other.shadow);
+    std::move(extra.begin(), extra.end(), std::back_inserter(layers));
 }
 
 }  // namespace bdpt::app

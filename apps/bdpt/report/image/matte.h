@@ -20,14 +20,23 @@ struct Matte {
 /// Shares of pixels that surfaces cover: alpha without the shadow.
 [[nodiscard]] std::vector<float> coverage_of(const Matte& matte);
 
-/// `noisy` with its shadow denoised: its opacity where the ground is seen. The layers are those
-/// that it is of.
+/// The same by the layer `opacity`, if there is one, which has no noise where surfaces blend.
+[[nodiscard]] std::vector<float> clean_coverage(const Matte& noisy, std::span<const Layer> layers);
+
+/// `noisy` with clean coverage, and with its shadow denoised: its opacity where the ground is seen.
+/// The layers are those that it is of.
 [[nodiscard]] Matte denoised(const io::Denoiser& denoiser, const Matte& noisy,
                              std::span<const Layer> layers);
 
-/// Puts `matte` into those layers, and adds the shadow of `other` as a layer of that name; nothing
-/// without a shadow.
-void put(const Matte& matte, const Matte& other, const char* name_of_other,
+/// What is not put into the place of the other is kept as a layer of that name.
+struct MatteNames {
+    const char* alpha;
+    const char* shadow;
+};
+
+/// Puts `matte` into those layers, and adds those of `other` under their names, as far as they
+/// differ: the shadow if there is one, alpha if there is a layer `opacity`.
+void put(const Matte& matte, const Matte& other, const MatteNames& names_of_other,
          std::vector<Layer>& layers);
 
 }  // namespace bdpt::app

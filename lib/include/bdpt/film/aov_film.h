@@ -47,7 +47,11 @@ public:
     [[nodiscard]] AovSet aovs() const { return aovs_; }
     [[nodiscard]] PixelCounts counts() const { return pixel_counts_; }
     /// Is there anything to add?
-    [[nodiscard]] bool needs_camera_rays() const { return !hits_.empty() || needs_ground(); }
+    [[nodiscard]] bool needs_camera_rays() const
+    {
+        return !hits_.empty() || needs_ground() || needs_opacity();
+    }
+    [[nodiscard]] bool needs_opacity() const { return !opacity_.empty(); }
     [[nodiscard]] bool needs_ground() const { return !ground_hits_.empty(); }
     [[nodiscard]] bool needs_counts() const { return !counts_.empty(); }
 
@@ -55,6 +59,8 @@ public:
     void add(int x, int y, const PrimaryHit& hit) noexcept;
     /// The same of a ray that meets the ground, where that is needed.
     void add_ground(int x, int y, const GroundLight& light) noexcept;
+    /// The same of any ray, where that is needed: what surfaces take away of the light, in [0, 1].
+    void add_opacity(int x, int y, float opacity) noexcept;
     /// States that `count` samples of pixel (x, y) in the region are in the image; likewise.
     void count_samples(int x, int y, std::int64_t count) noexcept;
 
@@ -62,8 +68,8 @@ public:
     void merge(const AovFilm& other);
     /// The layers that were asked for, by the names that denoisers and compositors expect: albedo
     /// (RGB), normal (XYZ), depth (Z), position (XYZ), sampleCount (Y), variance (RGB), shadow (A),
-    /// and A in the main layer. `film` is that of the same samples; throws `Error` (usage) when its
-    /// region is another.
+    /// opacity (A), and A in the main layer. `film` is that of the same samples; throws `Error`
+    /// (usage) when its region is another.
     [[nodiscard]] std::vector<Layer> develop(const Film& film) const;
 
     // For files, as those of `Film`: "albedo.R", ..., "hits" and "counts" of every pixel.
@@ -101,6 +107,7 @@ private:
     std::vector<ExactSum> depth_;
     std::vector<std::uint64_t> hits_;
     std::vector<std::uint64_t> counts_;
+    std::vector<ExactSum> opacity_;
     std::vector<ExactSum> unshadowed_;
     std::vector<ExactSum> shadowed_;
     std::vector<std::uint64_t> ground_hits_;

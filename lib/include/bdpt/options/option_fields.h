@@ -76,8 +76,9 @@ inline constexpr std::array enumerators<Aov>{
     Enumerator{Aov::albedo, "albedo"},        Enumerator{Aov::normal, "normal"},
     Enumerator{Aov::depth, "depth"},          Enumerator{Aov::position, "position"},
     Enumerator{Aov::sample_count, "samples"}, Enumerator{Aov::variance, "variance"},
-    Enumerator{Aov::alpha, "alpha"},          Enumerator{Aov::object, "object"},
-    Enumerator{Aov::material, "material"},    Enumerator{Aov::shadow, "shadow"},
+    Enumerator{Aov::alpha, "alpha"},          Enumerator{Aov::opacity, "opacity"},
+    Enumerator{Aov::object, "object"},        Enumerator{Aov::material, "material"},
+    Enumerator{Aov::shadow, "shadow"},
 };
 
 /// Fields of `Strategy`, with names.
@@ -117,7 +118,8 @@ inline constexpr auto fields<FilmOptions> = all_fields(
                 &FilmOptions::aovs,
                 {.value = "LIST",
                  .help = "Extra .exr layers (AOVs), comma-separated: albedo, normal, depth, "
-                         "position, samples, variance, alpha; object, material: Cryptomatte",
+                         "position, samples, variance, alpha, opacity; object, material: "
+                         "Cryptomatte",
                  .otherwise = "none"}},
     OptionField{"ground_height",
                 &FilmOptions::ground_height,

@@ -62,9 +62,9 @@ FilmLayout read_layout(const JsonValue& json)
     return layout;
 }
 
-constexpr std::array all_aovs{Aov::albedo,       Aov::normal,   Aov::depth, Aov::position,
-                              Aov::sample_count, Aov::variance, Aov::alpha, Aov::shadow,
-                              Aov::object,       Aov::material};
+constexpr std::array all_aovs{Aov::albedo,       Aov::normal,   Aov::depth,  Aov::position,
+                              Aov::sample_count, Aov::variance, Aov::alpha,  Aov::shadow,
+                              Aov::object,       Aov::material, Aov::opacity};
 
 ordered_json to_json(const AovSet& aovs)
 {

@@ -148,6 +148,7 @@ int run_render(const RenderArguments& typed, const std::vector<std::string>& wor
         open_denoiser(asked.denoise, asked.outputs, asked.options.system.threads);
     std::optional<double> time = asked.scene.time;
     std::optional<Viewpoint> first;
+    std::optional<Scene> still;  // before its environment was turned
     for (const SequenceView& view : views) {
         if (interrupt.signal()) {
             break;
@@ -173,6 +174,7 @@ int run_render(const RenderArguments& typed, const std::vector<std::string>& wor
         if (!stage || time != image.scene.time) {
             stage.reset();  // first, or there would be two in memory
             first.reset();
+            still.reset();
             stage = load(image, console);
             time = image.scene.time;
         }
@@ -183,6 +185,12 @@ int run_render(const RenderArguments& typed, const std::vector<std::string>& wor
             first = Viewpoint{.camera = stage->camera, .size = stage->size};
         }
         Viewpoint seen = sequence_viewpoint(*stage, *first, image);
+        if (view.turn && image.sequence->motion == TurntableMotion::object) {
+            if (!still) {
+                still.emplace(std::move(stage->scene));
+            }
+            stage->scene = with_turned_environment(*still, *view.turn);
+        }
         stage->camera = std::move(seen.camera);
         stage->size = seen.size;
         render_view(image, *stage, keeper,

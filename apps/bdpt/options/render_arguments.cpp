@@ -5,11 +5,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "options/command_parser.h"
+#include "options/groups/camera_arguments.h"
 #include "options/groups/render_fields.h"
 #include "options/groups/scene_arguments.h"
 #include "options/values/output_files.h"
@@ -23,21 +22,6 @@ namespace {
 constexpr OptionUses of_render{.plan_render = true, .python_render = true};
 constexpr OptionUses of_load{.plan_render = true, .python_load = true};
 constexpr OptionUses of_save{.plan_merge = true, .python_save = true};
-
-/// Degrees as radians.
-ValueType<float> angle()
-{
-    const auto parse = [](const std::string& text) -> std::optional<float> {
-        const std::optional<double> degrees = decimal_number(text);
-        if (!degrees || !(*degrees > 0.0 && *degrees < 180.0)) {
-            return std::nullopt;
-        }
-        return static_cast<float>(*degrees * std::numbers::pi / 180.0);
-    };
-    return {.parse = parse,
-            .expected = "degrees between 0 and 180",
-            .info = {.json = JsonType::number, .range = {.low = 0, .low_is_excluded = true}}};
-}
 
 void add_how(OptionList& options, RenderRequest& request)
 {
@@ -191,7 +175,7 @@ SampleRange samples_of(const RenderRequest& request, const Goal& goal)
     return samples;
 }
 
-void check_combinations(const OptionList& options)
+void check_combinations(const OptionList& options, const std::optional<std::string>& camera)
 {
     static constexpr std::array conflicts{
         Conflict{"--samples", "--spp"},
@@ -201,6 +185,7 @@ void check_combinations(const OptionList& options)
     check(conflicts, options);
     check(needs, options);
     check_lens_options(options);
+    check_camera_options(options, camera);
     check_medium_options(options);
 }
 
@@ -239,9 +224,9 @@ const char* const render_short_footer = R"(Examples:
 
 std::vector<std::string_view> render_essentials()
 {
-    return {"file",         "others",   "--output", "--spp",      "--time",   "--noise",
-            "--size",       "--camera", "--from",   "--look-at",  "--fov",    "--env",
-            "--background", "--ground", "--orbit",  "--exposure", "--denoise"};
+    return {"file",   "others",       "--output", "--spp",   "--time",     "--noise",
+            "--size", "--camera",     "--view",   "--from",  "--look-at",  "--fov",
+            "--env",  "--background", "--ground", "--orbit", "--exposure", "--denoise"};
 }
 
 void add_scene_file(OptionList& options, RenderRequest& request)
@@ -269,14 +254,7 @@ void add_view_options(OptionList& options, RenderRequest& request)
     RenderArguments& arguments = request.arguments;
     options.section("What to render", of_load);
     add_scene_options(options, arguments.scene, request.max_memory);
-    options.add("--camera", "NAME|INDEX|auto",
-                "Camera of the scene, or auto to frame all of it. Default: the first",
-                arguments.camera, any_text());
-    options.add("--from", "X,Y,Z", "Move the camera here [m]", arguments.view.from, point());
-    options.add("--look-at", "X,Y,Z", "Turn the camera to this point [m]", arguments.view.look_at,
-                point());
-    options.add("--fov", "DEG", "Vertical field of view [degrees]", arguments.view.vertical_fov,
-                angle());
+    add_camera_options(options, arguments.camera, arguments.view);
     options
         .add("--env", "FILE|none|default",
              "Environment map: an equirectangular .exr, .hdr, .tif, .png or .jpg, none, or default "
@@ -329,7 +307,7 @@ RenderArguments checked(const RenderRequest& request, const OptionList& options)
     RenderArguments result = request.arguments;
     result.part = checked(request.part, options);
     result.sequence = checked(request.sequence, options);
-    check_combinations(options);
+    check_combinations(options, result.camera);
     result.goal = goal_of(request);
     result.samples = samples_of(request, result.goal);
     if (request.adaptive || request.rates.file) {

@@ -17,7 +17,7 @@ constexpr std::array<std::string_view, 6> engine_file_names{
 
 constexpr std::string_view part_start = "task-";
 constexpr std::string_view frame_place = ".####";
-constexpr std::string_view camera_place = ".{camera}";
+constexpr std::string_view camera_suffix = ".{camera}";
 constexpr std::string_view part_end = ".part.exr";
 
 /// Takes `start` from the front of `text`, if it is there.
@@ -34,7 +34,7 @@ std::string part_name(const PlanImage& image, std::size_t task, std::size_t coun
 {
     const std::size_t digits = std::to_string(count - 1).size();
     return fmt::format("{}{:0{}}{}{}{}", part_start, task, digits, image.frame ? frame_place : "",
-                       image.camera ? camera_place : "", part_end);
+                       image.camera ? camera_suffix : "", part_end);
 }
 
 bool is_part_of_task(std::string_view name)
@@ -45,7 +45,7 @@ bool is_part_of_task(std::string_view name)
     const std::size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
     name.remove_prefix(digits);
     take(name, frame_place);
-    take(name, camera_place);
+    take(name, camera_suffix);
     return digits > 0 && name == part_end;
 }
 

@@ -102,14 +102,9 @@ LitScene add_environment(SceneDesc desc, const RenderArguments& arguments)
     return lit;
 }
 
-struct BuiltScene {
-    Scene scene;
-    std::optional<FramedView> framed;  ///< if it was needed to build the scene
-};
-
 /// Builds the scene; a second time, with a lamp, when only the default sky lights a closed room.
-BuiltScene build(LitScene& lit, const RenderArguments& arguments, float aspect,
-                 const std::function<void(const SceneDesc&)>& look)
+Scene build(LitScene& lit, const RenderArguments& arguments, float aspect,
+            const std::function<void(const SceneDesc&)>& look)
 {
     const auto show = [&] {
         if (look) {
@@ -118,13 +113,13 @@ BuiltScene build(LitScene& lit, const RenderArguments& arguments, float aspect,
     };
     if (lit.sky != Sky::fallback) {
         show();
-        return {Scene(std::move(lit.desc), arguments.isa), std::nullopt};
+        return Scene(std::move(lit.desc), arguments.isa);
     }
     Scene scene(lit.desc, arguments.isa);
     const FramedView framed = frame_scene(scene, aspect);
     if (!framed.enclosed) {
         show();
-        return {std::move(scene), framed};
+        return scene;
     }
     lit.notes.push_back(fmt::format(
         "{}: a closed room without light: a lamp was added at {:.3g},{:.3g},{:.3g} (--env none "
@@ -134,23 +129,23 @@ BuiltScene build(LitScene& lit, const RenderArguments& arguments, float aspect,
     lit.desc.lights.emplace_back(default_lamp(framed));
     ++lit.added;
     show();
-    return {Scene(std::move(lit.desc), arguments.isa), framed};
+    return Scene(std::move(lit.desc), arguments.isa);
 }
 
-CameraDesc named_auto(CameraDesc camera)
+/// The camera that shows all of the scene, in the way that was asked for.
+CameraDesc framed(const Scene& scene, float aspect, const RenderArguments& arguments)
 {
+    const ViewOverrides& view = arguments.view;
+    FrameOptions options{.direction = view.direction,
+                         .margin = view.margin,
+                         .projection = view.projection,
+                         .whole_turn = arguments.sequence && arguments.sequence->orbit > 0};
+    if (!view.from && !view.look_at) {
+        options.vertical_fov = view.vertical_fov;
+    }
+    CameraDesc camera = frame_scene(scene, aspect, options).camera;
     camera.name = "auto";
     return camera;
-}
-
-CameraDesc framed(const Scene& scene, float aspect)
-{
-    return named_auto(frame_scene(scene, aspect).camera);
-}
-
-CameraDesc frame(const BuiltScene& built, float aspect)
-{
-    return built.framed ? named_auto(built.framed->camera) : framed(built.scene, aspect);
 }
 
 Vec3 center(const Bounds& bounds)
@@ -163,7 +158,7 @@ std::optional<CameraDesc> camera_in_file(const std::vector<CameraDesc>& cameras,
                                          const RenderArguments& arguments)
 {
     const bool chosen = arguments.camera.has_value();
-    if (arguments.camera == "auto" || (!chosen && cameras.empty())) {
+    if (arguments.camera == "auto" || arguments.view.frames() || (!chosen && cameras.empty())) {
         return std::nullopt;
     }
     const std::string choice = arguments.camera.value_or("0");
@@ -228,27 +223,27 @@ PreparedScene prepare_scene(const RenderArguments& asked,
     spend_building(*arguments.scene.memory, lit.desc,
                    lit.sky == Sky::fallback ? Copies::two : Copies::one);
     const auto loading_end = std::chrono::steady_clock::now();
-    BuiltScene built = build(lit, arguments, aspect, look);
+    Scene scene = build(lit, arguments, aspect, look);
     const auto building_end = std::chrono::steady_clock::now();
-    for (const std::string& warning : built.scene.warnings()) {
+    for (const std::string& warning : scene.warnings()) {
         warnings.push_back(fmt::format("{}: {}", file, warning));
     }
     warnings.insert(warnings.end(), lit.warnings.begin(), lit.warnings.end());
-    if (!from_file && !arguments.camera && !arguments.view.from) {
+    if (!from_file && !arguments.camera && !arguments.view.from && !arguments.view.frames()) {
         lit.notes.push_back(
-            fmt::format("{}: no camera: the whole scene is framed (--from, --look-at and --fov "
-                        "choose another view)",
+            fmt::format("{}: no camera: the whole scene is framed (--view, or --from and "
+                        "--look-at, choose another view)",
                         file));
     }
     CameraDesc camera =
         from_file ? apply(arguments.view, *from_file, std::nullopt)
-                  : apply(arguments.view, frame(built, aspect), center(built.scene.bounds()));
-    camera = with_lens(arguments.lens, std::move(camera), built.scene);
+                  : apply(arguments.view, framed(scene, aspect, arguments), center(scene.bounds()));
+    camera = with_lens(arguments.lens, std::move(camera), scene);
     const auto seconds = [](std::chrono::steady_clock::duration time) {
         return std::chrono::duration<double>(time).count();
     };
-    const std::size_t lights = built.scene.counts().lights - lit.added;
-    return {std::move(built.scene),
+    const std::size_t lights = scene.counts().lights - lit.added;
+    return {std::move(scene),
             std::move(camera),
             lit.environment_name,
             size,
@@ -259,6 +254,7 @@ PreparedScene prepare_scene(const RenderArguments& asked,
             std::move(loaded.facts.xmp),
             lights,
             only_emitters,
+            !from_file.has_value(),
             std::move(loaded.cameras),
             std::move(loaded.files),
             *arguments.scene.memory};
@@ -279,7 +275,7 @@ Viewpoint viewpoint(const PreparedScene& stage, const RenderArguments& arguments
         arguments.size.value_or(default_size(from_file ? from_file->aspect_ratio : std::nullopt));
     const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
     CameraDesc camera = from_file ? apply(arguments.view, *from_file, std::nullopt)
-                                  : apply(arguments.view, framed(stage.scene, aspect),
+                                  : apply(arguments.view, framed(stage.scene, aspect, arguments),
                                           center(stage.scene.bounds()));
     return {.camera = with_lens(arguments.lens, std::move(camera), stage.scene), .size = size};
 }

@@ -28,6 +28,7 @@ struct PreparedScene {
     std::size_t lights = 0;  ///< of the file and by --env, without what is added where all is dark
     /// The only lights are surfaces of the file that emit.
     bool only_emitters = false;
+    bool is_framed = false;                      ///< the camera is none of the file
     std::vector<CameraDesc> cameras{};           ///< those of the scene
     std::vector<std::filesystem::path> files{};  ///< that the scene names
     io::MemoryBudget memory;                     ///< of which the scene has taken its part

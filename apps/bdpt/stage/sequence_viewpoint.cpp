@@ -3,6 +3,7 @@
 #include <bdpt/framing.h>
 
 #include <utility>
+#include <variant>
 
 #include "options/values/orbit.h"
 
@@ -18,11 +19,25 @@ Viewpoint sequence_viewpoint(const PreparedScene& stage, const Viewpoint& first,
     Viewpoint result = view.camera ? viewpoint(stage, *view.camera, image) : first;
     if (view.turn) {
         const Bounds& bounds = stage.scene.bounds();
+        const Vec3 middle = 0.5f * (bounds.min + bounds.max);
+        // A framed view has room for the whole turn around the middle.
+        const bool is_framed =
+            !view.camera && !image.view.from && !image.view.look_at && stage.is_framed;
         const Vec3 center =
-            orbit_center(result.camera, image.view.look_at, 0.5f * (bounds.min + bounds.max));
+            is_framed ? middle : orbit_center(result.camera, image.view.look_at, middle);
         result.camera = orbited(std::move(result.camera), center, static_cast<float>(*view.turn));
     }
     return result;
+}
+
+Scene with_turned_environment(const Scene& still, double angle)
+{
+    for (const LightDesc& light : still.description().lights) {
+        if (const auto* environment = std::get_if<EnvironmentLightDesc>(&light)) {
+            return still.with_environment(turned(*environment, static_cast<float>(angle)));
+        }
+    }
+    return still.edited(still.description());
 }
 
 }  // namespace bdpt::app

@@ -10,4 +10,8 @@ namespace bdpt::app {
 [[nodiscard]] Viewpoint sequence_viewpoint(const PreparedScene& stage, const Viewpoint& first,
                                            const RenderArguments& image);
 
+/// `still` as a view of a turntable shows it, that has gone by `angle` [rad] around the object,
+/// when the environment goes with the camera.
+[[nodiscard]] Scene with_turned_environment(const Scene& still, double angle);
+
 }  // namespace bdpt::app

@@ -9,4 +9,7 @@ namespace bdpt {
 /// is f-number times the lens' diameter.
 [[nodiscard]] BDPT_EXPORT double lens_radius_of(double f_number, double vertical_fov);
 
+/// Vertical field of view [rad] of a lens with this focal length [m] > 0 before such a sensor.
+[[nodiscard]] BDPT_EXPORT double vertical_fov_of(double focal_length);
+
 }  // namespace bdpt

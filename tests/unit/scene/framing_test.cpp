@@ -5,7 +5,12 @@
 #include "scene/world.h"
 #include "scene_builder.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
 
 namespace bdpt::framing_test {
 namespace {
@@ -22,26 +27,156 @@ Vec3 forward(const FramedView& view)
     return -Vec3(view.camera.world_from_camera[2]);
 }
 
+/// The part of the image, from 0 to 1 in both directions, that the vertices of a scene take.
+struct Extent {
+    Vec2 min{1e9f};
+    Vec2 max{-1e9f};
+    [[nodiscard]] Vec2 size() const { return max - min; }
+};
+
+Extent extent_of(const SceneDesc& desc, const CameraDesc& view, float aspect)
+{
+    const Vec2 film(1000.0f * aspect, 1000.0f);
+    const Camera camera(view, static_cast<int>(film.x), static_cast<int>(film.y),
+                        {.min = Vec2(-1e6f), .max = Vec2(1e6f)});
+    Extent extent;
+    for (const InstanceDesc& instance : desc.instances) {
+        for (const Vec3 p : desc.meshes.at(static_cast<std::size_t>(instance.mesh)).positions) {
+            const Vec3 world(instance.world_from_object * Vec4(p, 1.0f));
+            const auto seen = camera.sample_lens(world, Vec2(0.5f));
+            REQUIRE(seen);
+            extent.min = min(extent.min, seen->raster / film);
+            extent.max = max(extent.max, seen->raster / film);
+        }
+    }
+    return extent;
+}
+
+/// A flat board that stands askew, 4 m wide and 1 m high, far from the origin, and a ball.
+SceneDesc board_and_ball()
+{
+    SceneBuilder builder;
+    const MaterialDesc grey = test::lambertian(Rgb(0.5f));
+    const Vec3 at(30.0f, 5.0f, -8.0f);
+    builder.quad(at, at + Vec3(3.5f, 0.0f, 2.0f), at + Vec3(3.5f, 1.0f, 2.0f),
+                 at + Vec3(0.0f, 1.0f, 0.0f), grey);
+    builder.sphere(at + Vec3(1.0f, 0.5f, 1.0f), 0.4f, grey);
+    return std::move(builder.desc);
+}
+
 }  // namespace
+
+TEST_CASE("an object fills the image but for the margin, from all sides", "[framing]")
+{
+    const SceneDesc desc = board_and_ball();
+    const Scene scene(desc);
+    constexpr float quarter = 1.5707964f;
+    const ViewDirection direction = GENERATE(
+        three_quarter_view, ViewDirection{0.0f, 0.0f}, ViewDirection{quarter, 0.0f},
+        ViewDirection{0.0f, quarter}, ViewDirection{0.4f, -quarter}, ViewDirection{-2.0f, 0.7f});
+    const float aspect = GENERATE(0.5f, 1.0f, 2.0f);
+    const float margin = GENERATE(0.0f, 0.1f, 0.3f);
+    const Projection projection = GENERATE(Projection::perspective, Projection::orthographic);
+    CAPTURE(direction.azimuth, direction.elevation, aspect, margin);
+    const FramedView view = frame_scene(
+        scene, aspect, {.direction = direction, .margin = margin, .projection = projection});
+    CHECK_FALSE(view.enclosed);
+    const Extent extent = extent_of(desc, view.camera, aspect);
+    const float used = 1.0f - 2.0f * margin;
+    CHECK(std::max(extent.size().x, extent.size().y) == Approx(used).margin(2e-4));
+    for (int axis = 0; axis < 2; ++axis) {
+        CHECK(extent.min[axis] >= margin - 2e-4f);
+        CHECK(extent.max[axis] <= 1.0f - margin + 2e-4f);
+        CHECK(extent.min[axis] + extent.max[axis] == Approx(1.0f).margin(4e-3));  // in the middle
+    }
+}
+
+TEST_CASE("a view by angles stands where they say, upright", "[framing]")
+{
+    const Scene scene(board_and_ball());
+    constexpr float quarter = 1.5707964f;
+    const auto axes = [&](float azimuth, float elevation) {
+        return frame_scene(scene, 1.0f, {.direction = ViewDirection{azimuth, elevation}})
+            .camera.world_from_camera;
+    };
+    const auto near = [](const Vec4& a, Vec3 b) { return glm::distance(Vec3(a), b) < 1e-5f; };
+    CHECK(near(axes(0.0f, 0.0f)[2], {0.0f, 0.0f, 1.0f}));
+    CHECK(near(axes(0.0f, 0.0f)[0], {1.0f, 0.0f, 0.0f}));
+    CHECK(near(axes(quarter, 0.0f)[2], {1.0f, 0.0f, 0.0f}));
+    CHECK(near(axes(quarter, 0.0f)[1], {0.0f, 1.0f, 0.0f}));
+    // From above the front is below, from below it is above.
+    CHECK(near(axes(0.0f, quarter)[2], {0.0f, 1.0f, 0.0f}));
+    CHECK(near(axes(0.0f, quarter)[1], {0.0f, 0.0f, -1.0f}));
+    CHECK(near(axes(0.0f, -quarter)[1], {0.0f, 0.0f, 1.0f}));
+}
+
+TEST_CASE("another field of view changes the distance, not the size in the image", "[framing]")
+{
+    const SceneDesc desc = board_and_ball();
+    const Scene scene(desc);
+    const CameraDesc wide = frame_scene(scene, 1.5f, {.vertical_fov = 1.5f}).camera;
+    const CameraDesc narrow = frame_scene(scene, 1.5f, {.vertical_fov = 0.1f}).camera;
+    CHECK(wide.vertical_fov == 1.5f);
+    for (const CameraDesc& camera : {wide, narrow}) {
+        const Vec2 size = extent_of(desc, camera, 1.5f).size();
+        CHECK(std::max(size.x, size.y) == Approx(0.8f).margin(2e-4));
+    }
+    const Vec3 middle = 0.5f * (scene.bounds().min + scene.bounds().max);
+    CHECK(glm::distance(Vec3(narrow.world_from_camera[3]), middle) >
+          10.0f * glm::distance(Vec3(wide.world_from_camera[3]), middle));
+}
+
+TEST_CASE("a turntable keeps its margin in all views, and comes up to it in one", "[framing]")
+{
+    const SceneDesc desc = board_and_ball();
+    const Scene scene(desc);
+    const Bounds bounds = scene.bounds();
+    const Projection projection = GENERATE(Projection::perspective, Projection::orthographic);
+    const CameraDesc first =
+        frame_scene(scene, 1.5f, {.projection = projection, .whole_turn = true}).camera;
+    float widest = 0.0f;
+    for (int i = 0; i < 360; ++i) {
+        const CameraDesc camera =
+            orbited(first, 0.5f * (bounds.min + bounds.max), static_cast<float>(i) * 0.017453292f);
+        const Extent extent = extent_of(desc, camera, 1.5f);
+        for (int axis = 0; axis < 2; ++axis) {
+            CHECK(extent.min[axis] >= 0.1f - 2e-4f);
+            CHECK(extent.max[axis] <= 0.9f + 2e-4f);
+        }
+        widest = std::max({widest, 0.5f - extent.min.x, extent.max.x - 0.5f, 0.5f - extent.min.y,
+                           extent.max.y - 0.5f});
+    }
+    CHECK(widest == Approx(0.4f).margin(1e-3));
+}
+
+TEST_CASE("what moves while the shutter is open is framed on all of its way", "[framing]")
+{
+    SceneDesc desc = board_and_ball();
+    Mat4 later(1.0f);
+    later[3] = {0.0f, 3.0f, 0.0f, 1.0f};
+    desc.instances.front().motion = {later};
+    const FramedView view = frame_scene(Scene(desc), 1.0f, {.direction = ViewDirection{}});
+    desc.instances.front().motion.clear();
+    SceneDesc end = desc;
+    end.instances.front().world_from_object = later;
+    const float top = extent_of(end, view.camera, 1.0f).min.y;
+    const float bottom = extent_of(desc, view.camera, 1.0f).max.y;
+    CHECK(bottom - top == Approx(0.8f).margin(2e-4));
+}
 
 TEST_CASE("an object is framed whole, from the front, slightly above", "[framing]")
 {
     for (const float size : {1e-3f, 1.0f, 1e4f}) {
         SceneBuilder builder;
         builder.sphere(Vec3(5.0f, 1.0f, -2.0f) * size, size, test::lambertian(Rgb(0.5f)));
-        const Scene scene(std::move(builder.desc));
+        const Scene scene(builder.desc);
         for (const float aspect : {0.5f, 1.0f, 16.0f / 9.0f}) {
             const FramedView view = frame_scene(scene, aspect);
             CHECK_FALSE(view.enclosed);
-            const Bounds bounds = scene.bounds();
-            const Camera camera(view.camera, static_cast<int>(1000.0f * aspect), 1000);
-            for (int corner = 0; corner < 8; ++corner) {
-                CHECK(camera
-                          .sample_lens({(corner & 1) != 0 ? bounds.max.x : bounds.min.x,
-                                        (corner & 2) != 0 ? bounds.max.y : bounds.min.y,
-                                        (corner & 4) != 0 ? bounds.max.z : bounds.min.z},
-                                       Vec2(0.5f))
-                          .has_value());
+            const Extent extent = extent_of(builder.desc, view.camera, aspect);
+            for (int axis = 0; axis < 2; ++axis) {
+                CHECK(extent.min[axis] >= 0.1f - 2e-4f);
+                CHECK(extent.max[axis] <= 0.9f + 2e-4f);
             }
             CHECK(forward(view).z < -0.5f);
             CHECK(forward(view).y < -0.1f);

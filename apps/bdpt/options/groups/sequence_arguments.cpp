@@ -88,6 +88,13 @@ void add_sequence_options(OptionList& options, Sequence& sequence)
                 "Turntable: N views, numbered from 1, by a camera that goes once around the "
                 "vertical axis through --look-at or, without it, what it looks at",
                 sequence.orbit, whole_number(1, most_frames));
+    const Choices<TurntableMotion> motions{
+        {{"camera", TurntableMotion::camera}, {"object", TurntableMotion::object}}};
+    options.add("--turn", choice_text(motions.words()),
+                "What turns with --orbit: the camera, around an object whose light stays with it "
+                "(default), or the object, before a camera and an environment that stand still; "
+                "lamps of the file turn with it",
+                sequence.motion, motions.type());
     const Choices<SequenceCameras> cameras{{{"all", SequenceCameras::all}}};
     options.add("--cameras", "all",
                 "Render what each camera of the scene sees; {camera} in names of files becomes its "
@@ -105,6 +112,7 @@ std::optional<Sequence> checked(Sequence sequence, const OptionList& options)
 {
     static constexpr std::array needs{
         Need{"--same-noise", "--frames|--orbit"}, Need{"--fps", "--frames|--orbit"},
+        Need{"--turn", "--orbit"},
         Need{"--frames", "--fps|--orbit", "a glTF file has no frame rate"}};
     static constexpr std::array conflicts{Conflict{"--cameras", "--camera"},
                                           Conflict{"--cameras", "--from"},

@@ -35,11 +35,19 @@ enum class SequenceNoise : std::uint8_t {
 /// Which cameras of the file are rendered.
 enum class SequenceCameras : std::uint8_t { one, all };
 
+/// What turns between the views of a turntable: lights of the file always
+/// stay with the object.
+enum class TurntableMotion : std::uint8_t {
+    camera,  ///< goes around the object, in an environment that stays with the object
+    object,  ///< turns before the camera, in an environment that stays with the camera
+};
+
 /// Several images that one command makes.
 struct Sequence {
     std::optional<FrameRange> frames{};  ///< of the animation, or of the turn
     double fps = 0.0;                    ///< frames a second; 0: there is none
     int orbit = 0;                       ///< views of a whole turn; 0: the camera stays
+    TurntableMotion motion = TurntableMotion::camera;
     SequenceCameras cameras = SequenceCameras::one;
     SequenceNoise noise = SequenceNoise::fresh;
 };
@@ -56,7 +64,7 @@ struct SequenceView {
     double fps = 0.0;                   ///< frames a second; 0: there is none
 };
 
-/// Adds --frames, --fps, --orbit, --cameras and --same-noise, in a section of their own.
+/// Adds --frames, --fps, --orbit, --turn, --cameras and --same-noise, in a section of their own.
 void add_sequence_options(OptionList& options, Sequence& sequence);
 
 /// `sequence` where several images are asked for; none for a single one. Throws `OptionError`.

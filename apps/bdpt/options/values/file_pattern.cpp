@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "options/arguments.h"
+#include "options/option_list.h"
 
 namespace bdpt::app {
 namespace {

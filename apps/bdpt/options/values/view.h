@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bdpt/framing.h>
 #include <bdpt/scene.h>
 #include <bdpt/scene_desc.h>
 
@@ -22,7 +23,17 @@ struct ViewOverrides {
     std::optional<Vec3> from{};           ///< [m]
     std::optional<Vec3> look_at{};        ///< [m]
     std::optional<float> vertical_fov{};  ///< [rad]
-    [[nodiscard]] bool any() const { return from || look_at || vertical_fov; }
+    // Of a view that frames the whole scene.
+    std::optional<ViewDirection> direction{};
+    std::optional<float> margin{};
+    Projection projection = Projection::perspective;
+
+    [[nodiscard]] bool any() const { return from || look_at || vertical_fov || frames(); }
+    /// Is the whole scene to be framed, whatever cameras it has?
+    [[nodiscard]] bool frames() const
+    {
+        return direction || margin || projection == Projection::orthographic;
+    }
 };
 
 /// `camera` with `overrides`. A camera that is moved without a word on where to look keeps its

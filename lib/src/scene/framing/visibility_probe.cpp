@@ -1,4 +1,4 @@
-#include "scene/visibility_probe.h"
+#include "scene/framing/visibility_probe.h"
 
 #include "math/elementary.h"
 #include "scene/world.h"

@@ -1,7 +1,8 @@
 #include <bdpt/framing.h>
 
 #include "math/elementary.h"
-#include "scene/visibility_probe.h"
+#include "scene/framing/frame_fit.h"
+#include "scene/framing/visibility_probe.h"
 #include "scene/world.h"
 
 #include <glm/common.hpp>
@@ -14,15 +15,16 @@
 #include <iterator>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace bdpt {
 namespace {
 
-constexpr float outside_fov = 0.6981317f;        // 40 degrees: little perspective for objects
-constexpr float inside_fov = 1.0471976f;         // 60 degrees: rooms are small
-constexpr float outside_azimuth = 0.6108652f;    // 35 degrees from +z, the front of glTF, to +x
-constexpr float outside_elevation = 0.3490659f;  // 20 degrees
+constexpr float outside_fov = 0.6981317f;  // 40 degrees: little perspective for objects
+constexpr float inside_fov = 1.0471976f;   // 60 degrees: rooms are small
+constexpr float object_margin = 0.1f;
+constexpr float box_margin = 0.037f;  // of rooms without a wall: their frame is no object
 
 // Thresholds that tell rooms from objects, found by trying both kinds.
 constexpr float closed_front = 0.93f;   // share of directions in which a closed room shows a front
@@ -49,29 +51,29 @@ CameraDesc look_at(Vec3 from, Vec3 to, float vertical_fov)
     return camera;
 }
 
-/// Looks at the bounds along -`towards_eye` from as near as shows all of them.
-CameraDesc frame_from_outside(const Bounds& bounds, Vec3 towards_eye, float aspect)
+/// Axes (right, up, back) of a camera that stands in that direction, upright.
+Mat3 axes_towards(const ViewDirection& direction)
 {
-    const Vec3 center = 0.5f * (bounds.min + bounds.max);
-    const Mat4 axes = look_at(center + towards_eye, center, outside_fov).world_from_camera;
-    const SinCos half = sin_cos(0.5f * outside_fov);
-    constexpr float margin = 1.08f;
-    const float slope_y = half.sin / half.cos / margin;
-    const float slope_x = slope_y * aspect;
-    float distance = 0.0f;
-    for (int corner = 0; corner < 8; ++corner) {
-        const Vec3 p((corner & 1) != 0 ? bounds.max.x : bounds.min.x,
-                     (corner & 2) != 0 ? bounds.max.y : bounds.min.y,
-                     (corner & 4) != 0 ? bounds.max.z : bounds.min.z);
-        const Vec3 local(dot(p - center, Vec3(axes[0])), dot(p - center, Vec3(axes[1])),
-                         dot(p - center, Vec3(axes[2])));
-        const float needed =
-            local.z + std::max(std::abs(local.x) / slope_x, std::abs(local.y) / slope_y);
-        distance = std::max(distance, needed);
-    }
-    const float size = glm::length(bounds.max - bounds.min);
-    const float least = size > 0.0f ? 0.01f * size : 1.0f;
-    return look_at(center + std::max(distance, least) * towards_eye, center, outside_fov);
+    const SinCos azimuth = sin_cos(direction.azimuth);
+    const SinCos elevation = sin_cos(direction.elevation);
+    const Vec3 right(azimuth.cos, 0.0f, -azimuth.sin);
+    const Vec3 back(elevation.cos * azimuth.sin, elevation.sin, elevation.cos * azimuth.cos);
+    return Mat3(right, cross(back, right), back);
+}
+
+/// Frames the scene from outside along the negative last of `axes`.
+CameraDesc frame_from_outside(const World& world, const Mat3& axes, float aspect, float margin,
+                              const FrameOptions& options)
+{
+    CameraDesc camera;
+    camera.name = "auto";
+    camera.projection = options.projection;
+    camera.vertical_fov = options.vertical_fov.value_or(outside_fov);
+    return fitted_camera(world.geometry(), axes,
+                         {.aspect = aspect,
+                          .margin = options.margin.value_or(margin),
+                          .camera = std::move(camera),
+                          .whole_turn = options.whole_turn});
 }
 
 /// Points of a grid in the bounds, with what is seen from each.
@@ -122,21 +124,21 @@ std::optional<Vec3> missing_wall(const std::vector<VisibilityProbe>& room)
 
 /// The view among the places of a room that sees farthest without anything right before the lens.
 CameraDesc frame_from_inside(const World& world, const std::vector<VisibilityProbe>& room,
-                             float aspect)
+                             float aspect, float fov)
 {
     constexpr int azimuths = 16;
     constexpr float pitch = -0.12f;  // slightly downwards
     const Bounds& bounds = world.bounds();
     const float eye_height = bounds.min.y + 0.55f * (bounds.max.y - bounds.min.y);
     const float height = std::max(bounds.max.y - bounds.min.y, 1e-6f);
-    CameraDesc best = look_at(room.front().p, room.front().p + Vec3(0.0f, 0.0f, -1.0f), inside_fov);
+    CameraDesc best = look_at(room.front().p, room.front().p + Vec3(0.0f, 0.0f, -1.0f), fov);
     float best_score = -1.0f;
     for (const VisibilityProbe& place : room) {
         for (int i = 0; i < azimuths; ++i) {
             const SinCos azimuth = sin_cos(2.0f * pi * static_cast<float>(i) / azimuths);
             const SinCos tilt = sin_cos(pitch);
             const Vec3 forward(tilt.cos * azimuth.sin, tilt.sin, -tilt.cos * azimuth.cos);
-            const CameraDesc camera = look_at(place.p, place.p + forward, inside_fov);
+            const CameraDesc camera = look_at(place.p, place.p + forward, fov);
             const float off_height = std::abs(place.p.y - eye_height) / height;
             const float score = view_depth(world, camera, aspect) * (1.0f - 0.5f * off_height);
             if (score > best_score) {
@@ -180,30 +182,32 @@ glm::dmat3 turn_about_y(float angle)
 
 }  // namespace
 
-FramedView frame_scene(const Scene& scene, float aspect)
+FramedView frame_scene(const Scene& scene, float aspect, const FrameOptions& options)
 {
     const World& world = scene.world();
-    const Bounds& bounds = world.bounds();
     FramedView view;
-    const SinCos azimuth = sin_cos(outside_azimuth);
-    const SinCos elevation = sin_cos(outside_elevation);
-    const Vec3 three_quarters(elevation.cos * azimuth.sin, elevation.sin,
-                              elevation.cos * azimuth.cos);
-    view.camera = frame_from_outside(bounds, three_quarters, aspect);
+    view.camera =
+        frame_from_outside(world, axes_towards(options.direction.value_or(three_quarter_view)),
+                           aspect, object_margin, options);
     view.lamp_position = Vec3(view.camera.world_from_camera[3]);
+    if (options.direction || options.projection == Projection::orthographic) {
+        return view;
+    }
 
     const std::vector<VisibilityProbe> places = survey(world);
     const auto box = places_with(places, box_front, box_shell, 1.0f);
     if (box.size() >= box_places) {
         if (const auto towards_eye = missing_wall(box)) {
-            view.camera = frame_from_outside(bounds, *towards_eye, aspect);
+            const Mat3 axes(look_at(*towards_eye, Vec3(0.0f), outside_fov).world_from_camera);
+            view.camera = frame_from_outside(world, axes, aspect, box_margin, options);
             view.lamp_position = lamp_in(world, box);
             return view;
         }
     }
     const auto closed = places_with(places, closed_front, closed_shell, closed_escape);
     if (closed.size() >= closed_places) {
-        view.camera = frame_from_inside(world, closed, aspect);
+        view.camera =
+            frame_from_inside(world, closed, aspect, options.vertical_fov.value_or(inside_fov));
         view.lamp_position = lamp_in(world, closed);
         view.enclosed = probe_visibility(world, Vec3(view.camera.world_from_camera[3])).escaped <
                         enclosed_escape;

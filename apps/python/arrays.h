@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -47,6 +48,23 @@ template <typename Value>
     const auto width = static_cast<std::size_t>(layer.width);
     const std::size_t channels = layer.channels.size();
     return to_array(std::move(layer.values), {height, width, channels});
+}
+
+/// A copy, as an array (height, width, channels) of uint8, uint16 or float32.
+[[nodiscard]] inline nb::object to_array(const TexelImage& texels)
+{
+    const nb::dlpack::dtype type = texels.type == TexelType::unorm8    ? nb::dtype<std::uint8_t>()
+                                   : texels.type == TexelType::unorm16 ? nb::dtype<std::uint16_t>()
+                                                                       : nb::dtype<float>();
+    auto* bytes = new std::vector<std::uint8_t>(texels.bytes);
+    const nb::capsule owner(bytes, [](void* pointer) noexcept {
+        delete static_cast<std::vector<std::uint8_t>*>(pointer);
+    });
+    return nb::cast(nb::ndarray<nb::numpy>(
+        bytes->data(),
+        {static_cast<std::size_t>(texels.height), static_cast<std::size_t>(texels.width),
+         static_cast<std::size_t>(texels.channels)},
+        owner, {}, type));
 }
 
 /// `count` pixels as a side of an image. Throws `Error` (usage) for more than an `int` counts.

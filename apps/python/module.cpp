@@ -49,6 +49,7 @@ NB_MODULE(_bdpt, module)
     nb::module_::import_("atexit").attr("register")(nb::cpp_function(&wait_for_renders));
     bdpt::python::bind_scene(module);
     bdpt::python::bind_parts_of_scenes(module);
+    bdpt::python::bind_edits(module);
     bdpt::python::bind_render(module);
     bdpt::python::bind_compare(module);
 }

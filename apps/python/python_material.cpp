@@ -1,11 +1,18 @@
 #include "array_material.h"
 
 #include <bdpt/error.h>
+#include <fmt/core.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <limits>
 #include <optional>
+#include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "arrays.h"
@@ -17,41 +24,99 @@ namespace {
 
 namespace nb = nanobind;
 
-template <typename T>
-void def_value(nb::class_<ArrayMaterial>& type, const char* name, T MaterialDesc::*member,
-               const char* text)
+using TexelArray = nb::ndarray<nb::ro, nb::c_contig, nb::device::cpu>;
+
+// Attributes are the fields of `MaterialDesc` and of its layers, from their lists.
+
+/// How Python names a field: "sheen colour texture" is sheen_color_texture.
+std::string attribute_name(std::string_view field)
 {
-    type.def_prop_rw(
-        name, [member](const ArrayMaterial& material) { return material.desc.*member; },
-        [member](ArrayMaterial& material, T value) { material.desc.*member = value; }, text);
+    std::string name(field);
+    const auto replace = [&name](std::string_view what, std::string_view with) {
+        for (std::size_t at = name.find(what); at != std::string::npos; at = name.find(what)) {
+            name.replace(at, what.size(), with);
+        }
+    };
+    replace("colour", "color");
+    replace("index of refraction", "ior");
+    replace("-", "_");
+    replace(" ", "_");
+    return name;
 }
 
-void def_color(nb::class_<ArrayMaterial>& type, const char* name, Rgb MaterialDesc::*member,
-               const char* text)
+/// What the list of fields does not say of an attribute.
+std::string_view note_on(std::string_view attribute)
 {
-    type.def_prop_rw(
-        name,
-        [member](const ArrayMaterial& material) {
-            const Rgb& color = material.desc.*member;
-            return Three{color.r, color.g, color.b};
-        },
-        [member](ArrayMaterial& material, const Three& value) {
-            material.desc.*member = to_vec(value);
-        },
-        text);
+    static constexpr std::array<std::pair<std::string_view, std::string_view>, 14> notes{{
+        {"name", "For layers of ids"},
+        {"base_color", "Linear RGB or RGBA"},
+        {"alpha_mode", "'opaque', 'mask' or 'blend'"},
+        {"unlit", "Shines with its base colour [nit]"},
+        {"roughness", "Perceptual: its square is GGX alpha"},
+        {"emission", "Radiance [nit]"},
+        {"double_sided", "Emits from both sides"},
+        {"thickness", "Above 0: the mesh bounds a solid body; 0: a thin sheet"},
+        {"attenuation_distance", "[m]"},
+        {"attenuation_color", "What is left of white after attenuation_distance"},
+        {"dispersion", "20 / Abbe number"},
+        {"anisotropy_rotation", "[rad] from the tangent to the bitangent"},
+        {"iridescence_thickness_minimum", "[nm] where the texture is 0"},
+        {"iridescence_thickness_maximum", "[nm] where the texture is 1, or without it"},
+    }};
+    const auto* const note = std::find_if(
+        notes.begin(), notes.end(), [attribute](const auto& of) { return of.first == attribute; });
+    return note == notes.end() ? std::string_view() : note->second;
 }
 
-TexelImage to_texels(const nb::ndarray<nb::ro, nb::c_contig, nb::device::cpu>& array)
+std::string limits_text(const Limits& limits)
 {
+    constexpr float largest = std::numeric_limits<float>::max();
+    if (limits.high < largest) {
+        return fmt::format("{} to {}", limits.low, limits.high);
+    }
+    if (limits.low <= -largest) {
+        return "any number";
+    }
+    return fmt::format("{} {}", limits.low_is_excluded ? "above" : "at least", limits.low);
+}
+
+/// Calls `visit(field, access)` for each field of materials and of their layers; `access(desc)` is
+/// the field of a `MaterialDesc`.
+template <typename Visit>
+void for_each_attribute(const Visit& visit)
+{
+    const MaterialDesc any;
+    for_each_field(any, [&visit](const auto& field, const auto& value) {
+        const auto member = field.member;
+        if constexpr (HasFields<decltype(value)>) {
+            for_each_field(value, [&visit, member](const auto& inner, const auto& /*value*/) {
+                visit(
+                    inner, [ member, last = inner.member ](auto& desc) -> auto& {
+                        return (desc.*member).*last;
+                    });
+            });
+        } else {
+            visit(
+                field, [member](auto& desc) -> auto& { return desc.*member; });
+        }
+    });
+}
+
+template <typename Member>
+inline constexpr bool is_texture = std::is_same_v<Member, std::optional<TextureRef>>;
+
+TexelImage to_texels(const nb::object& value)
+{
+    const auto array = nb::cast<TexelArray>(nb::module_::import_("numpy").attr("asarray")(value));
     const auto type = array.dtype() == nb::dtype<std::uint8_t>()    ? TexelType::unorm8
                       : array.dtype() == nb::dtype<std::uint16_t>() ? TexelType::unorm16
                                                                     : TexelType::float32;
     if (type == TexelType::float32 && array.dtype() != nb::dtype<float>()) {
         throw Error(ErrorCode::usage, "a texture is an array of uint8, uint16 or float32");
     }
-    constexpr std::size_t most_channels = 4;
+    constexpr std::size_t max_channels = 4;
     if (array.ndim() < 2 || array.ndim() > 3 ||
-        (array.ndim() == 3 && array.shape(2) > most_channels)) {
+        (array.ndim() == 3 && array.shape(2) > max_channels)) {
         throw Error(ErrorCode::usage,
                     "a texture has the shape (height, width, channels), with 1 to 4 "
                     "channels, or (height, width)");
@@ -64,76 +129,163 @@ TexelImage to_texels(const nb::ndarray<nb::ro, nb::c_contig, nb::device::cpu>& a
             .type = type};
 }
 
-using TextureSlot = std::optional<TextureRef> MaterialDesc::*;
-constexpr std::pair<const char*, TextureSlot> texture_slots[]{
-    {"base_color_texture", &MaterialDesc::base_color_texture},
-    {"metallic_roughness_texture", &MaterialDesc::metallic_roughness_texture},
-    {"normal_texture", &MaterialDesc::normal_texture},
-    {"emission_texture", &MaterialDesc::emission_texture},
-    {"transmission_texture", &MaterialDesc::transmission_texture},
-};
+void def_texture(nb::class_<ArrayMaterial>& type, const std::string& name)
+{
+    const std::string getter = "def " + name + "(self) -> numpy.ndarray | None";
+    const std::string setter =
+        "def " + name + "(self, value: numpy.typing.ArrayLike | None, /) -> None";
+    type.def_prop_rw(
+        name.c_str(),
+        [name](const ArrayMaterial& material) -> nb::object {
+            const auto found = material.textures.find(name);
+            return found == material.textures.end() ? nb::none() : to_array(found->second);
+        },
+        [name](ArrayMaterial& material, const nb::object& value) {
+            if (value.is_none()) {
+                material.textures.erase(name);
+            } else {
+                material.textures[name] = to_texels(value);
+            }
+        },
+        nb::for_getter(nb::sig(getter.c_str())), nb::for_setter(nb::sig(setter.c_str())),
+        nb::for_setter(nb::arg("value").none()),
+        "An array (height, width, channels) of uint8, uint16 or float32, or what NumPy makes one "
+        "of, such as an image of PIL; None: no texture.");
+}
+
+template <typename Access>
+void def_alpha_mode(nb::class_<ArrayMaterial>& type, const char* name, const Access& access,
+                    const char* text)
+{
+    static constexpr std::array<std::pair<const char*, AlphaMode>, 3> modes{
+        {{"opaque", AlphaMode::opaque}, {"mask", AlphaMode::mask}, {"blend", AlphaMode::blend}}};
+    type.def_prop_rw(
+        name,
+        [access](const ArrayMaterial& material) {
+            return modes.at(static_cast<std::size_t>(access(material.desc))).first;
+        },
+        [access](ArrayMaterial& material, const std::string& word) {
+            for (const auto& [mode_name, mode] : modes) {
+                if (word == mode_name) {
+                    access(material.desc) = mode;
+                    return;
+                }
+            }
+            throw Error(ErrorCode::usage,
+                        fmt::format("alpha_mode \"{}\": expected opaque, mask or blend", word));
+        },
+        text);
+}
+
+template <typename Access>
+void def_rgba(nb::class_<ArrayMaterial>& type, const char* name, const Access& access,
+              const char* text)
+{
+    type.def_prop_rw(
+        name,
+        [access](const ArrayMaterial& material) {
+            const Vec4& color = access(material.desc);
+            return Four{color.r, color.g, color.b, color.a};
+        },
+        [access, name = std::string(name)](ArrayMaterial& material,
+                                           const std::vector<float>& color) {
+            if (color.size() != 3 && color.size() != 4) {
+                throw Error(ErrorCode::usage, name + ": expected three or four numbers");
+            }
+            access(material.desc) = {color[0], color[1], color[2],
+                                     color.size() == 4 ? color[3] : 1.0f};
+        },
+        text);
+}
+
+template <typename Access>
+void def_rgb(nb::class_<ArrayMaterial>& type, const char* name, const Access& access,
+             const char* text)
+{
+    type.def_prop_rw(
+        name,
+        [access](const ArrayMaterial& material) {
+            const Rgb& color = access(material.desc);
+            return Three{color.r, color.g, color.b};
+        },
+        [access](ArrayMaterial& material, const Three& color) {
+            access(material.desc) = to_vec(color);
+        },
+        text);
+}
+
+template <typename Member, typename Access>
+void def_attribute(nb::class_<ArrayMaterial>& type, const std::string& name, const Access& access,
+                   const std::string& text)
+{
+    if constexpr (is_texture<Member>) {
+        def_texture(type, name);
+    } else if constexpr (std::is_same_v<Member, AlphaMode>) {
+        def_alpha_mode(type, name.c_str(), access, text.c_str());
+    } else if constexpr (std::is_same_v<Member, Vec4>) {
+        def_rgba(type, name.c_str(), access, text.c_str());
+    } else if constexpr (std::is_same_v<Member, Rgb>) {
+        def_rgb(type, name.c_str(), access, text.c_str());
+    } else {
+        static_assert(std::is_same_v<Member, float> || std::is_same_v<Member, bool> ||
+                      std::is_same_v<Member, std::string>);
+        type.def_prop_rw(
+            name.c_str(),
+            [access](const ArrayMaterial& material) -> Member { return access(material.desc); },
+            [access](ArrayMaterial& material, Member value) {
+                access(material.desc) = std::move(value);
+            },
+            text.c_str());
+    }
+}
+
+/// "Radiance [nit]; at least 0; default 0."
+template <typename Field, typename Member>
+std::string description(const Field& field, const Member& otherwise)
+{
+    std::string text(note_on(attribute_name(field.name)));
+    const auto append = [&text](const std::string& more) {
+        text += (text.empty() ? "" : "; ") + more;
+    };
+    if constexpr (requires { field.limits; }) {
+        append(limits_text(field.limits));
+    }
+    if constexpr (std::is_same_v<Member, float>) {
+        append(fmt::format("default {}", otherwise));
+    }
+    return text.empty() ? text : text + ".";
+}
 
 }  // namespace
 
 MaterialDesc with_textures(const ArrayMaterial& material, SceneDesc& scene)
 {
     MaterialDesc desc = material.desc;
-    for (const auto& [name, slot] : texture_slots) {
-        const auto found = material.textures.find(name);
-        if (found != material.textures.end()) {
-            desc.*slot =
-                TextureRef{.image = ImageId{static_cast<std::uint32_t>(scene.images.size())}};
-            scene.images.push_back(found->second);
+    for_each_attribute([&](const auto& field, const auto& access) {
+        if constexpr (is_texture<std::remove_cvref_t<decltype(access(desc))>>) {
+            const auto found = material.textures.find(attribute_name(field.name));
+            if (found != material.textures.end()) {
+                access(desc) =
+                    TextureRef{.image = ImageId{static_cast<std::uint32_t>(scene.images.size())}};
+                scene.images.push_back(found->second);
+            }
         }
-    }
+    });
     return desc;
 }
 
 void bind_material(nb::module_& module)
 {
     nb::class_<ArrayMaterial> type(module, "Material",
-                                   "A material as in glTF 2.0, with its names, units and defaults. "
-                                   "Keyword arguments are attributes.");
+                                   "A material as in glTF 2.0 and its KHR extensions, with their "
+                                   "names, units and defaults. Keyword arguments are attributes.");
     type.def("__init__", &construct<ArrayMaterial>, nb::arg("attributes"));
-    def_value(type, "name", &MaterialDesc::name, "For layers of ids.");
-    type.def_prop_rw(
-        "base_color",
-        [](const ArrayMaterial& material) {
-            const Vec4& color = material.desc.base_color;
-            return Four{color.r, color.g, color.b, color.a};
-        },
-        [](ArrayMaterial& material, const std::vector<float>& color) {
-            if (color.size() != 3 && color.size() != 4) {
-                throw Error(ErrorCode::usage, "base_color: expected three or four numbers");
-            }
-            material.desc.base_color = {color[0], color[1], color[2],
-                                        color.size() == 4 ? color[3] : 1.0f};
-        },
-        "Linear RGB or RGBA, [0, 1].");
-    def_value(type, "metallic", &MaterialDesc::metallic, "[0, 1]; default 1.");
-    def_value(type, "roughness", &MaterialDesc::roughness, "[0, 1]; default 1.");
-    def_color(type, "emission", &MaterialDesc::emission, "Radiance [nit].");
-    def_value(type, "double_sided", &MaterialDesc::double_sided, "Emits from both sides.");
-    def_value(type, "unlit", &MaterialDesc::unlit, "Shines with its base colour [nit].");
-    def_value(type, "ior", &MaterialDesc::ior, "Index of refraction; default 1.5.");
-    def_value(type, "specular", &MaterialDesc::specular, "[0, 1]; default 1.");
-    def_value(type, "transmission", &MaterialDesc::transmission, "[0, 1].");
-    def_value(type, "thickness", &MaterialDesc::thickness,
-              "Above 0: the mesh bounds a solid body; 0: a thin sheet.");
-    def_value(type, "attenuation_distance", &MaterialDesc::attenuation_distance, "[m]");
-    def_color(type, "attenuation_color", &MaterialDesc::attenuation_color,
-              "What is left of white after attenuation_distance.");
-    def_value(type, "dispersion", &MaterialDesc::dispersion, "20 / Abbe number.");
-    for (const auto& [name, slot] : texture_slots) {
-        type.def_prop_rw(
-            name, [](const ArrayMaterial&) { return nb::none(); },
-            [name = std::string(name)](
-                ArrayMaterial& material,
-                const nb::ndarray<nb::ro, nb::c_contig, nb::device::cpu>& array) {
-                material.textures[name] = to_texels(array);
-            },
-            "An array (height, width, channels) of uint8, uint16 or float32; write only.");
-    }
+    const MaterialDesc otherwise;
+    for_each_attribute([&](const auto& field, const auto& access) {
+        using Member = std::remove_cvref_t<decltype(access(otherwise))>;
+        def_attribute<Member>(type, attribute_name(field.name), access,
+                              description(field, access(otherwise)));
+    });
 }
 
 }  // namespace bdpt::python

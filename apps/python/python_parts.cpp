@@ -15,6 +15,7 @@
 #include <optional>
 #include <utility>
 
+#include "array_light.h"
 #include "array_material.h"
 #include "arrays.h"
 #include "attributes.h"
@@ -26,9 +27,6 @@ namespace bdpt::python {
 namespace {
 
 namespace nb = nanobind;
-
-using ArrayLight =
-    std::variant<PointLightDesc, SpotLightDesc, DirectionalLightDesc, EnvironmentLightDesc>;
 
 /// A mesh with its material and where it stands.
 struct ArrayMesh {
@@ -143,9 +141,7 @@ SceneDesc describe(const std::vector<ArrayMesh>& meshes, const std::vector<Array
                                        .world_from_object = transform});
         }
     }
-    for (const ArrayLight& light : lights) {
-        std::visit([&scene](const auto& desc) { scene.lights.emplace_back(desc); }, light);
-    }
+    scene.lights = to_lights(lights);
     return scene;
 }
 

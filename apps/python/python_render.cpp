@@ -10,9 +10,13 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -20,13 +24,14 @@
 #include "interpreter_lock.h"
 #include "options/part_arguments.h"
 #include "options/values/output_files.h"
-#include "python_scene.h"
+#include "python_render.h"
 #include "report/image/denoised.h"
 #include "report/image/image_files.h"
 #include "report/part/merged_files.h"
 #include "report/render_settings.h"
 #include "stage/input_files.h"
 #include "stage/render_preparation.h"
+#include "terminal/console.h"
 #include "terminal/memory_limit.h"
 
 namespace bdpt::python {
@@ -34,23 +39,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a render brought so far.
-struct Render {
-    RenderPart part;
-    io::PartNotes notes;
-    std::optional<app::Backdrop> backdrop{};
-    double seconds = 0.0;
-    std::vector<fs::path> inputs{};  ///< files that nothing is saved to
-};
+/// Between passes: Ctrl-C, and whoever wants to know how far it is.
+void tell(const Progress& progress, const nb::object& listener)
+{
+    const Locked lock;
+    if (PyErr_CheckSignals() != 0) {
+        throw nb::python_error();
+    }
+    if (!listener.is_none()) {
+        sleep_when_python_ends(
+            [&] { listener(progress.samples_done, progress.samples_total, progress.seconds); });
+    }
+}
 
-/// What one call renders.
-struct Task {
-    app::RenderArguments arguments;
-    CameraDesc camera;
-    io::ImageMetadata metadata;
-};
+}  // namespace
 
-/// The scene stays as it was: another size is that of one call.
 Task prepare(PythonScene& scene, const nb::kwargs& options)
 {
     Words words = scene.words;
@@ -72,39 +75,43 @@ Task prepare(PythonScene& scene, const nb::kwargs& options)
     arguments.options.sampling.samples = arguments.samples;
     const app::Size own_size = std::exchange(scene.stage.size, size);
     CameraDesc own_camera = std::exchange(scene.stage.camera, task.camera);
+    if (arguments.rates) {  // by a pilot or from a file, as the command finds them
+        const Unlocked unlocked;
+        app::Console silent(arguments.printed.format, app::Verbosity::quiet);
+        arguments = with_choice(std::move(arguments), scene.stage, silent);
+    }
     task.metadata = metadata_of(arguments, scene.stage, settings_of(arguments, scene.stage));
     scene.stage.size = own_size;
     scene.stage.camera = std::move(own_camera);
     return task;
 }
 
-/// Between passes: Ctrl-C, and whoever wants to know how far it is.
-void tell(const Progress& progress, const nb::object& listener)
+Render empty_render(const PythonScene& scene, const Task& task)
 {
-    const Locked lock;
-    if (PyErr_CheckSignals() != 0) {
-        throw nb::python_error();
-    }
-    if (!listener.is_none()) {
-        sleep_when_python_ends(
-            [&] { listener(progress.samples_done, progress.samples_total, progress.seconds); });
-    }
+    return {.part = {},
+            .notes = {.goal = SampleSet(task.arguments.samples), .metadata = task.metadata},
+            .backdrop = task.arguments.display.backdrop,
+            .inputs = app::input_files(task.arguments, scene.stage)};
 }
+
+RenderControl control_of(const nb::object& progress)
+{
+    RenderControl control;
+    control.stop = Workers::all().stop();
+    control.on_progress = [&progress](const Progress& done) { tell(done, progress); };
+    return control;
+}
+
+namespace {
 
 Render render_scene(PythonScene& scene, const nb::object& progress, const nb::kwargs& options)
 {
-    Task task = prepare(scene, options);
+    const Task task = prepare(scene, options);
     const app::RenderArguments& arguments = task.arguments;
-    Render result{
-        .part = {},
-        .notes = {.goal = SampleSet(arguments.samples), .metadata = std::move(task.metadata)},
-        .backdrop = arguments.display.backdrop,
-        .inputs = app::input_files(arguments, scene.stage)};
-    RenderControl control;
-    control.stop = Workers::all().stop();
+    Render result = empty_render(scene, task);
+    RenderControl control = control_of(progress);
     control.time_limit = arguments.goal.seconds;
     control.noise_goal = arguments.goal.noise.value_or(0.0);
-    control.on_progress = [&progress](const Progress& done) { tell(done, progress); };
     const Unlocked unlocked;
     PartResult done = render_part(scene.stage.scene, task.camera, arguments.options, {}, control);
     result.part = std::move(done.part);
@@ -139,19 +146,15 @@ std::map<std::string, FloatArray> layers_of(const Render& render)
     return arrays;
 }
 
-void save(const Render& render, const fs::path& file, const nb::kwargs& options)
+/// Calls `write` with how images of `render` are written to `files`.
+template <typename Write>
+void with_file_options(const Render& render, SaveArguments asked, std::span<const fs::path> files,
+                       const Write& write)
 {
-    SaveArguments asked = understand_save(words_of(options, Call::save));
-    io::PartNotes notes = render.notes;
-    notes.metadata.samples_per_pixel = render.part.samples.count();
-    notes.metadata.render_seconds = render.seconds;
-    notes.metadata.created = std::chrono::system_clock::now();
-    const std::vector<fs::path> files{file};
-    app::check_outputs(files, render.inputs);
-    if (app::is_part_name(file)) {
-        io::write_part(file, render.part, notes, io::OldPart::replace);
-        return;
-    }
+    io::ImageMetadata metadata = render.notes.metadata;
+    metadata.samples_per_pixel = render.part.samples.count();
+    metadata.render_seconds = render.seconds;
+    metadata.created = std::chrono::system_clock::now();
     if (!asked.display.backdrop) {
         asked.display.backdrop = render.backdrop;
     } else if (!render.backdrop) {
@@ -160,23 +163,32 @@ void save(const Render& render, const fs::path& file, const nb::kwargs& options)
     app::check_transparency(asked.display, files);
     const FilmLayout& layout = render.part.film.layout();
     const auto denoiser = app::open_denoiser(asked.denoise, files, 0);
-    app::Attempts attempts;
-    app::write_image_files(
-        files, render.part.film.develop(),
-        {.exr = {.type = asked.exr.channel_type,
-                 .metadata = notes.metadata,
-                 .storage = asked.exr.storage,
-                 .placement = io::ExrPlacement{.x = layout.region.x0,
-                                               .y = layout.region.y0,
-                                               .full_width = layout.width,
-                                               .full_height = layout.height},
-                 .manifests = render.part.ids.manifests()},
-         .layers = all_layers(render.part),
-         .display = asked.display,
-         .denoiser = denoiser ? &*denoiser : nullptr,
-         .denoised_as = asked.denoise ? asked.denoise->as : app::DenoisedAs::image},
-        attempts);
-    attempts.finish();
+    write(app::ImageFileOptions{
+        .exr = {.type = asked.exr.channel_type,
+                .metadata = std::move(metadata),
+                .storage = asked.exr.storage,
+                .placement = io::ExrPlacement{.x = layout.region.x0,
+                                              .y = layout.region.y0,
+                                              .full_width = layout.width,
+                                              .full_height = layout.height},
+                .manifests = render.part.ids.manifests()},
+        .layers = all_layers(render.part),
+        .display = asked.display,
+        .denoiser = denoiser ? &*denoiser : nullptr,
+        .denoised_as = asked.denoise ? asked.denoise->as : app::DenoisedAs::image});
+}
+
+/// What save() writes into a PNG file, as an array.
+nb::object to_srgb(const Render& render, const nb::kwargs& options)
+{
+    const std::vector<fs::path> file{"image.png"};  // which is not written
+    nb::object array;
+    with_file_options(
+        render, understand_save(words_of(options, Call::save)), file,
+        [&](app::ImageFileOptions how) {
+            array = to_array(app::screen_image(render.part.film.develop(), std::move(how)));
+        });
+    return array;
 }
 
 Render read_part(const fs::path& file)
@@ -191,6 +203,38 @@ Render read_part(const fs::path& file)
 
 }  // namespace
 
+void save(const Render& render, const fs::path& file, const nb::kwargs& options)
+{
+    const SaveArguments asked = understand_save(words_of(options, Call::save));
+    const std::vector<fs::path> files{file};
+    app::check_outputs(files, render.inputs);
+    if (app::is_part_name(file)) {
+        io::PartNotes notes = render.notes;
+        notes.metadata.samples_per_pixel = render.part.samples.count();
+        notes.metadata.render_seconds = render.seconds;
+        notes.metadata.created = std::chrono::system_clock::now();
+        io::write_part(file, render.part, notes, io::OldPart::replace);
+        return;
+    }
+    with_file_options(render, asked, files, [&](app::ImageFileOptions how) {
+        app::Attempts attempts;
+        app::write_image_files(files, render.part.film.develop(), std::move(how), attempts);
+        attempts.finish();
+    });
+}
+
+nb::bytes to_png(const Render& render)
+{
+    const nb::object folder =
+        nb::module_::import_("tempfile").attr("TemporaryDirectory")(nb::arg("prefix") = "bdpt-");
+    const fs::path file = fs::path(nb::cast<std::string>(folder.attr("name"))) / "image.png";
+    save(render, file, nb::kwargs());
+    std::ifstream stream(file, std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+    folder.attr("cleanup")();
+    return nb::bytes(bytes.data(), bytes.size());
+}
+
 void bind_render(nb::module_& module)
 {
     const std::string saving =
@@ -199,6 +243,12 @@ void bind_render(nb::module_& module)
         "Writes an image, .exr (linear radiance and layers), .hdr (linear radiance), .png, .jpg or "
         ".webp (tone-mapped), or a part, "
         ".part.exr, that bdpt merge and bdpt render --part understand.",
+        Call::save);
+    const std::string showing =
+        declaration("def to_srgb(self, *", Call::save, "numpy.typing.NDArray[numpy.uint8]");
+    const std::string text_of_showing = documentation(
+        "What save() writes into a PNG file, as an array of uint8, or uint16 with png_bits=16, "
+        "(height, width, 3), or 4 with a transparent background.",
         Call::save);
     nb::class_<Render>(module, "Render",
                        "What a render brought: sums of samples, which add up exactly.")
@@ -237,6 +287,18 @@ void bind_render(nb::module_& module)
             "Adds other samples of the same render, to the bit as if one render had made all.")
         .def("save", &save, nb::arg("file"), nb::arg("options"), nb::sig(saving.c_str()),
              text_of_saving.c_str())
+        .def("to_srgb", &to_srgb, nb::arg("options"), nb::sig(showing.c_str()),
+             text_of_showing.c_str())
+        .def("_repr_png_", &to_png, "For notebooks.")
+        .def(
+            "__array__",
+            [](const Render& render, const nb::object& dtype, const nb::object& copy) {
+                static_cast<void>(copy);  // it is always one
+                const nb::object image = nb::cast(to_array(render.part.film.develop()));
+                return dtype.is_none() ? image : image.attr("astype")(dtype);
+            },
+            nb::arg("dtype").none() = nb::none(), nb::arg("copy").none() = nb::none(),
+            "numpy.asarray(render) is render.image.")
         .def("__repr__", [](const Render& render) {
             const FilmLayout& layout = render.part.film.layout();
             return nb::str("<bdpt.Render {}x{}, samples {}>")
@@ -254,6 +316,7 @@ void bind_render(nb::module_& module)
     module.def("render", &render_scene, nb::arg("scene"), nb::kw_only(),
                nb::arg("progress").none() = nb::none(), nb::arg("options"),
                nb::sig(rendering.c_str()), text_of_rendering.c_str());
+    bind_renderer(module);
     module.def("read_part", &read_part, nb::arg("file"),
                "Reads a part: what save('x.part.exr') or bdpt render --part wrote.");
 }

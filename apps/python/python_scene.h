@@ -28,6 +28,9 @@ void bind_lights(nanobind::module_& module);
 /// These, meshes, cameras, and the `Scene` of them.
 void bind_parts_of_scenes(nanobind::module_& module);
 
+/// What makes other scenes of a `Scene`: its materials and lights.
+void bind_edits(nanobind::module_& module);
+
 /// render(), `Render` and what belongs to it.
 void bind_render(nanobind::module_& module);
 

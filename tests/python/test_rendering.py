@@ -225,3 +225,60 @@ def test_layers_of_ids_have_names(tmp_path):
     render.save(tmp_path / "a.part.exr")
     part = bdpt.read_part(tmp_path / "a.part.exr")
     assert part.ids == render.ids and np.array_equal(part.layers["CryptoObject00"], render.layers["CryptoObject00"])
+
+
+def test_a_renderer_grows_to_the_bits_of_one_render(cornell_box, tmp_path):
+    options = {"size": (24, 18), "integrator": "bdpt", "spp": 12}
+    renderer = bdpt.Renderer(cornell_box, **options)
+    assert renderer.spp == 0 and renderer.noise == float("inf") and not renderer.image.any()
+    renderer.render(4)
+    noise = renderer.noise
+    first = renderer.image.copy()
+    assert renderer.spp == 4 and first.any()
+    png = renderer._repr_png_()
+    renderer.save(tmp_path / "so-far.exr")
+    assert (bdpt.Renderer(cornell_box, **options).image == 0).all()
+    renderer.finish()
+    whole = bdpt.render(cornell_box, **options)
+    assert renderer.spp == 12 and (renderer.image == whole.image).all() and renderer.noise < noise
+    assert png.startswith(b"\x89PNG") and (tmp_path / "so-far.exr").stat().st_size > 0
+    taken = renderer.take()
+    assert (taken.image == whole.image).all() and renderer.spp == 0
+    renderer += taken
+    assert renderer.spp == 12
+    with pytest.raises(bdpt.Error, match="samples"):
+        renderer += taken
+
+
+def test_a_renderer_keeps_what_it_has_when_progress_raises(cornell_box):
+    renderer = bdpt.Renderer(cornell_box, size=(16, 16), integrator="mis")
+    renderer.render(2)
+
+    def stop(*_):
+        raise KeyError("enough")
+
+    with pytest.raises(KeyError):
+        renderer.render(1000, progress=stop)
+    assert renderer.spp >= 2
+
+
+def test_pictures_in_notebooks_are_those_of_save(cornell_box, tmp_path):
+    render = bdpt.render(cornell_box, spp=4, size=(20, 10), integrator="mis")
+    render.save(tmp_path / "a.png")
+    png = render._repr_png_()
+    assert png.startswith(b"\x89PNG\r\n") and len(png) > 100
+    srgb = render.to_srgb(exposure=1, tone_map="agx")
+    assert srgb.dtype == np.uint8 and srgb.shape == (10, 20, 3)
+    assert render.to_srgb(exposure=2).mean() > render.to_srgb(exposure=0).mean()
+    assert render.to_srgb(png_bits=16).dtype == np.uint16
+    assert (np.asarray(render) == render.image).all() and np.asarray(render, dtype=np.float64).dtype == np.float64
+
+
+def test_adaptive_renders_have_the_bits_of_the_command(command, tmp_path):
+    scene = SCENES / "cornell-box.gltf"
+    command("render", scene, "-o", tmp_path / "a.exr", "--part", tmp_path / "a.part.exr", "--spp", 16, "--size", "32x32",
+            "--integrator", "mis", "--adaptive", "--quiet")
+    render = bdpt.render(bdpt.load(scene), spp=16, size=(32, 32), integrator="mis", adaptive=True)
+    assert (render.image == bdpt.read_part(tmp_path / "a.part.exr").image).all()
+    plain = bdpt.render(bdpt.load(scene), spp=16, size=(32, 32), integrator="mis")
+    assert (render.image != plain.image).any()

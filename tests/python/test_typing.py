@@ -41,6 +41,18 @@ render.save("out.exr", denoise="layer", half=True)
 render.save("out.exr", denoise="yes")  # refused: denoise
 render.image.mean()
 render.immage  # refused: immage
+render.to_srgb(exposure=1, tone_map="agx").mean()
+render.to_srgb(exposed=1)  # refused: exposed
+renderer = bdpt.Renderer(scene, spp=64, size=(640, 480))
+renderer.render(16)
+renderer += renderer.take()
+bdpt.Renderer(scene, sppp=3)  # refused: sppp
+paint = bdpt.Material(base_color=(1, 0, 0))
+paint.sheen_color = (1, 0.5, 0.25)
+paint.clearcoat_texture = np.zeros((2, 2), np.uint8)
+paint.clearcoat_texture = None
+paint.clearcoat = "much"  # refused: .
+scene = scene.with_material("paint", paint).with_environment(None)
 code: int = bdpt.Error("").code
 camera = bdpt.Camera(from_=(0, 0, 0), look_at=(0, 0, 1), fov=40)
 camera = bdpt.Camera(from_=(0, 0, 0))  # refused: Camera
@@ -48,11 +60,18 @@ camera = bdpt.Camera(from_=(0, 0, 0))  # refused: Camera
 
 
 def keywords_of_stub():
-    """By function."""
+    """By function; those of classes are "Render.to_srgb" and the like."""
     found = {}
-    for node in ast.walk(ast.parse((PACKAGE / "_bdpt.pyi").read_text(encoding="utf-8"))):
-        if isinstance(node, ast.FunctionDef) and node.name in FUNCTIONS:
-            found[node.name] = {argument.arg for argument in node.args.kwonlyargs} - {"progress"}
+
+    def look(body, prefix):
+        for node in body:
+            if isinstance(node, ast.ClassDef):
+                look(node.body, node.name + ".")
+            elif isinstance(node, ast.FunctionDef) and node.args.kwonlyargs:
+                found[prefix + node.name] = {argument.arg for argument in node.args.kwonlyargs} - {"progress"}
+
+    look(ast.parse((PACKAGE / "_bdpt.pyi").read_text(encoding="utf-8")).body, "")
+    found["save"] = found.pop("Render.save")
     return found
 
 
@@ -66,6 +85,12 @@ def test_stubs_have_each_option_of_the_command():
     in_stubs = set().union(*keywords_of_stub().values())
     assert in_stubs - NOT_IN_JOBS == options - OF_THE_COMMAND
     assert OF_THE_COMMAND < options and NOT_IN_JOBS < in_stubs
+
+
+def test_other_functions_have_the_keywords_of_these():
+    found = keywords_of_stub()
+    assert found["Renderer.__init__"] == found["render"]
+    assert found["Render.to_srgb"] == found["Renderer.save"] == found["save"]
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)

@@ -7,13 +7,15 @@
     render.save("out.exr")
 """
 
-from ._bdpt import (Camera, DirectionalLight, EnvironmentLight, Error, Material, Mesh, PointLight, Render, Scene,
-                    SpotLight, __version__, compare, load, read_part, render)
+from ._bdpt import (Camera, DirectionalLight, EnvironmentLight, Error, Material, Mesh, PointLight, Render,
+                    Renderer, Scene, SpotLight, __version__, compare, load, read_part, render)
 from ._signatures import with_signature
 
-__all__ = ["Camera", "DirectionalLight", "EnvironmentLight", "Error", "Material", "Mesh", "PointLight", "Render", "Scene",
-           "SpotLight", "compare", "load", "read_part", "render"]
+__all__ = ["Camera", "DirectionalLight", "EnvironmentLight", "Error", "Material", "Mesh", "PointLight", "Render",
+           "Renderer", "Scene", "SpotLight", "compare", "load", "read_part", "render"]
 
 load = with_signature(load)
 render = with_signature(render)
 Render.save = with_signature(Render.save)  # type: ignore[method-assign]
+Render.to_srgb = with_signature(Render.to_srgb)  # type: ignore[method-assign]
+Renderer.save = with_signature(Renderer.save)  # type: ignore[method-assign]

@@ -79,8 +79,8 @@ struct DiffuseTransmissionDesc {
     std::optional<TextureRef> color_texture;  ///< sRGB
 };
 
-/// Scattering within a body whose attenuation says how dense it is [KHR_materials_volume_scatter and
-/// KHR_materials_scatter, drafts].
+/// Scattering within a body whose attenuation says how dense it is [KHR_materials_volume_scatter
+/// and KHR_materials_scatter, drafts].
 struct VolumeScatterDesc {
     Rgb color{0.0f};          ///< [0, 1], multi-scatter albedo: about what a dense body looks like
     float anisotropy = 0.0f;  ///< g of Henyey and Greenstein, in (-1, 1): > 0 forwards
@@ -165,8 +165,10 @@ template <>
 inline constexpr auto fields<IridescenceDesc> = all_fields(
     Number{"iridescence", &IridescenceDesc::factor, Limits::unit()},
     Number{"iridescence index of refraction", &IridescenceDesc::ior, Limits::at_least(1.0f)},
-    Number{"iridescence thickness", &IridescenceDesc::thickness_minimum, Limits::at_least(0.0f)},
-    Number{"iridescence thickness", &IridescenceDesc::thickness_maximum, Limits::at_least(0.0f)},
+    Number{"iridescence thickness minimum", &IridescenceDesc::thickness_minimum,
+           Limits::at_least(0.0f)},
+    Number{"iridescence thickness maximum", &IridescenceDesc::thickness_maximum,
+           Limits::at_least(0.0f)},
     Field{"iridescence texture", &IridescenceDesc::texture},
     Field{"iridescence thickness texture", &IridescenceDesc::thickness_texture});
 /// Fields of `DiffuseTransmissionDesc`, with names and limits.

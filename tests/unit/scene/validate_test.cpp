@@ -130,7 +130,7 @@ TEST_CASE("materials: ranges and textures", "[validate]")
                   [](SceneDesc& d) { d.materials[0].anisotropy.strength = -1.0f; });
     check_refused("material 0: iridescence index of refraction is 0.9",
                   [](SceneDesc& d) { d.materials[0].iridescence.ior = 0.9f; });
-    check_refused("material 0: iridescence thickness is -5",
+    check_refused("material 0: iridescence thickness minimum is -5",
                   [](SceneDesc& d) { d.materials[0].iridescence.thickness_minimum = -5.0f; });
     check_refused("material 0: diffuse transmission is 2",
                   [](SceneDesc& d) { d.materials[0].diffuse_transmission.factor = 2.0f; });

@@ -26,21 +26,28 @@ struct Picture {
     Matte matte;
 };
 
-/// Writes `picture` into a file of that type.
-void write_picture(const fs::path& file, ImageType type, const Picture& picture, float exposure,
-                   const ImageFileOptions& options)
+/// The pixels of files of that type.
+TexelImage texels_of(const Picture& picture, ImageType type, float exposure,
+                     const DisplayArguments& display)
 {
-    const DisplayArguments& display = options.display;
     const bool has_backdrop = display.backdrop.has_value();
-    const io::PngOptions file_options{
-        .exposure = exposure, .metadata = options.exr.metadata, .curve = display.curve};
-    const TexelImage texels = io::to_display(
+    return io::to_display(
         picture.image, has_backdrop ? std::span(picture.matte.alpha) : std::span<const float>(),
         {.exposure = exposure,
          .curve = display.curve,
          .type = type == ImageType::png ? display.type : TexelType::unorm8,
          .background = has_backdrop ? display.backdrop->color : std::nullopt,
          .shadow = has_backdrop ? std::span(picture.matte.shadow) : std::span<const float>()});
+}
+
+/// Writes `picture` into a file of that type.
+void write_picture(const fs::path& file, ImageType type, const Picture& picture, float exposure,
+                   const ImageFileOptions& options)
+{
+    const DisplayArguments& display = options.display;
+    const io::PngOptions file_options{
+        .exposure = exposure, .metadata = options.exr.metadata, .curve = display.curve};
+    const TexelImage texels = texels_of(picture, type, exposure, display);
     if (type == ImageType::png) {
         io::write_png(file, texels, file_options);
     } else if (type == ImageType::jpeg) {
@@ -48,6 +55,12 @@ void write_picture(const fs::path& file, ImageType type, const Picture& picture,
     } else {
         io::write_webp(file, texels);
     }
+}
+
+/// [EV]
+float exposure_of(const Picture& picture, const DisplayArguments& display)
+{
+    return display.exposure.value_or(io::automatic_exposure(picture.image));
 }
 
 WrittenImages write_as_they_are(std::span<const fs::path> outputs, const Image& linear_image,
@@ -63,8 +76,7 @@ WrittenImages write_as_they_are(std::span<const fs::path> outputs, const Image& 
             io::write_hdr(file, linear_image, options.exr.metadata);
         } else {
             if (!report.exposure) {
-                report.exposure =
-                    options.display.exposure.value_or(io::automatic_exposure(picture.image));
+                report.exposure = exposure_of(picture, options.display);
             }
             write_picture(file, type, picture, *report.exposure, options);
         }
@@ -75,6 +87,17 @@ WrittenImages write_as_they_are(std::span<const fs::path> outputs, const Image& 
         }
     }
     return report;
+}
+
+/// Without noise; the options have a denoiser.
+Image clean_image(const Image& image, const Matte& noisy, const ImageFileOptions& options)
+{
+    // Without a backdrop what no surface covers is the sky.
+    return options.display.backdrop && !noisy.alpha.empty()
+               ? denoised(
+                     *options.denoiser, image, options.layers,
+                     {.noisy = coverage_of(noisy), .clean = clean_coverage(noisy, options.layers)})
+               : denoised(*options.denoiser, image, options.layers);
 }
 
 }  // namespace
@@ -94,12 +117,7 @@ WrittenImages write_image_files(std::span<const fs::path> outputs, const Image& 
     if (options.denoiser == nullptr || outputs.empty()) {
         return write_as_they_are(outputs, image, {image, noisy}, options, attempts);
     }
-    // Without a backdrop what no surface covers is the sky.
-    const Image clean = options.display.backdrop && !noisy.alpha.empty()
-                            ? denoised(*options.denoiser, image, options.layers,
-                                       {.noisy = coverage_of(noisy),
-                                        .clean = clean_coverage(noisy, options.layers)})
-                            : denoised(*options.denoiser, image, options.layers);
+    const Image clean = clean_image(image, noisy, options);
     const Matte clean_matte = denoised(*options.denoiser, noisy, options.layers);
     const bool clean_first = options.denoised_as == DenoisedAs::image;
     if (clean_first) {
@@ -112,6 +130,19 @@ WrittenImages write_image_files(std::span<const fs::path> outputs, const Image& 
     }
     return write_as_they_are(outputs, clean_first ? clean : image, {clean, clean_matte}, options,
                              attempts);
+}
+
+TexelImage screen_image(const Image& image, const ImageFileOptions& options)
+{
+    const Matte noisy = matte_of(options.layers);
+    const DisplayArguments& display = options.display;
+    const auto texels = [&display](const Picture& picture) {
+        return texels_of(picture, ImageType::png, exposure_of(picture, display), display);
+    };
+    return options.denoiser == nullptr
+               ? texels({image, noisy})
+               : texels({clean_image(image, noisy, options),
+                         denoised(*options.denoiser, noisy, options.layers)});
 }
 
 }  // namespace bdpt::app

@@ -42,4 +42,7 @@ struct WrittenImages {
 WrittenImages write_image_files(std::span<const std::filesystem::path> outputs, const Image& image,
                                 ImageFileOptions options, Attempts& attempts);
 
+/// The pixels of the PNG file that `write_image_files` would write.
+[[nodiscard]] TexelImage screen_image(const Image& image, const ImageFileOptions& options);
+
 }  // namespace bdpt::app

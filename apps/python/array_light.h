@@ -1,0 +1,23 @@
+#pragma once
+
+#include <bdpt/light_desc.h>
+
+#include <variant>
+#include <vector>
+
+namespace bdpt::python {
+
+using ArrayLight =
+    std::variant<PointLightDesc, SpotLightDesc, DirectionalLightDesc, EnvironmentLightDesc>;
+
+/// The same for scenes, which know lights of files, too.
+[[nodiscard]] inline std::vector<LightDesc> to_lights(const std::vector<ArrayLight>& lights)
+{
+    std::vector<LightDesc> result;
+    for (const ArrayLight& light : lights) {
+        std::visit([&result](const auto& desc) { result.emplace_back(desc); }, light);
+    }
+    return result;
+}
+
+}  // namespace bdpt::python

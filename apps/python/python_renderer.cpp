@@ -1,0 +1,154 @@
+#include <bdpt/renderer.h>
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/string.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "arrays.h"
+#include "interpreter_lock.h"
+#include "python_render.h"
+
+namespace bdpt::python {
+namespace {
+
+/// A `bdpt::Renderer`, and what a `Render` of its samples needs.
+class PythonRenderer {
+public:
+    PythonRenderer(PythonScene& scene, Task task)
+        : result_(empty_render(scene, task)),
+          seconds_(task.arguments.goal.seconds),
+          noise_(task.arguments.goal.noise.value_or(0.0))
+    {
+        const Unlocked unlocked;
+        renderer_.emplace(scene.stage.scene, task.camera, task.arguments.options);
+    }
+
+    void render(std::int64_t samples, const nb::object& progress)
+    {
+        const RenderControl control = control_of(progress);
+        const Unlocked unlocked;
+        renderer_->render(samples, control);
+    }
+
+    void finish(const nb::object& progress)
+    {
+        RenderControl control = control_of(progress);
+        control.time_limit = seconds_;
+        control.noise_goal = noise_;
+        const Unlocked unlocked;
+        renderer_->finish(control);
+    }
+
+    void add(const Render& other)
+    {
+        const Unlocked unlocked;
+        *renderer_ += other.part;
+    }
+
+    [[nodiscard]] const bdpt::Renderer& renderer() const { return *renderer_; }
+
+    /// Gives all samples away.
+    [[nodiscard]] Render take()
+    {
+        result_.seconds = renderer_->seconds();
+        return {.part = renderer_->take(),
+                .notes = result_.notes,
+                .backdrop = result_.backdrop,
+                .seconds = result_.seconds,
+                .inputs = result_.inputs};
+    }
+
+    /// What `look` makes of all samples, which come back.
+    template <typename Look>
+    auto look_at_result(const Look& look)
+    {
+        const Render render = take();
+        const struct Return {
+            PythonRenderer& self;
+            const Render& render;
+            ~Return() { self.add(render); }
+        } at_the_end{*this, render};
+        return look(render);
+    }
+
+private:
+    Render result_;  // without samples
+    double seconds_;
+    double noise_;
+    std::optional<bdpt::Renderer> renderer_;
+};
+
+}  // namespace
+
+void bind_renderer(nb::module_& module)
+{
+    const std::string making =
+        declaration("def __init__(self, scene: Scene, *", Call::render, "None");
+    const std::string text_of_making =
+        documentation("Options are those of render(), which is what finish() makes.", Call::render);
+    const std::string saving =
+        declaration("def save(self, file: str | os.PathLike[str], *", Call::save, "None");
+    const std::string text_of_saving =
+        documentation("As Render.save(), of the samples so far.", Call::save);
+    nb::class_<PythonRenderer>(
+        module, "Renderer",
+        "A render that one holds: it chooses an integrator once, renders on, and shows its image "
+        "in between. All samples together have the bits of one render() of them.")
+        .def(
+            "__init__",
+            [](PythonRenderer* self, PythonScene& scene, const nb::kwargs& options) {
+                new (self) PythonRenderer(scene, prepare(scene, options));
+            },
+            nb::arg("scene"), nb::arg("options"), nb::keep_alive<1, 2>(), nb::sig(making.c_str()),
+            text_of_making.c_str())
+        .def("render", &PythonRenderer::render, nb::arg("samples"),
+             nb::arg("progress").none() = nb::none(),
+             "Adds that many samples to each pixel. progress is that of render(); what was "
+             "rendered before it raised, or before Ctrl-C, stays.")
+        .def("finish", &PythonRenderer::finish, nb::arg("progress").none() = nb::none(),
+             "Renders what is missing of spp, up to the limits of time and noise.")
+        .def(
+            "__iadd__",
+            [](PythonRenderer& self, const Render& other) -> PythonRenderer& {
+                self.add(other);
+                return self;
+            },
+            nb::arg("other"), nb::rv_policy::reference,
+            "Adds samples of the same render that were made elsewhere.")
+        .def_prop_ro(
+            "image", [](const PythonRenderer& self) { return to_array(self.renderer().image()); },
+            nb::rv_policy::reference, "As Render.image, of the samples so far.")
+        .def_prop_ro(
+            "noise", [](const PythonRenderer& self) { return self.renderer().noise(); },
+            "As Render.noise; infinite before there are two samples.")
+        .def_prop_ro(
+            "spp", [](const PythonRenderer& self) { return self.renderer().samples(); },
+            "How many samples of each pixel it has.")
+        .def_prop_ro(
+            "seconds", [](const PythonRenderer& self) { return self.renderer().seconds(); },
+            "How long it has rendered.")
+        .def("take", &PythonRenderer::take,
+             "All samples as a Render; this then has none, and += gives them back.")
+        .def(
+            "save",
+            [](PythonRenderer& self, const std::filesystem::path& file, const nb::kwargs& options) {
+                self.look_at_result([&](const Render& render) { save(render, file, options); });
+            },
+            nb::arg("file"), nb::arg("options"), nb::sig(saving.c_str()), text_of_saving.c_str())
+        .def(
+            "_repr_png_",
+            [](PythonRenderer& self) {
+                return self.look_at_result([](const Render& render) { return to_png(render); });
+            },
+            "For notebooks.")
+        .def("__repr__", [](const PythonRenderer& self) {
+            return nb::str("<bdpt.Renderer, {} samples per pixel>")
+                .format(self.renderer().samples());
+        });
+}
+
+}  // namespace bdpt::python

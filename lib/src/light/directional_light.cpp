@@ -33,7 +33,7 @@ EmissionSample DirectionalLight::sample_emission(Vec2 u_position, Vec2 /*u_direc
             .pdf_direction = {}};
 }
 
-IncidentSample DirectionalLight::sample_incident(Vec3 /*receiver*/, Vec2 /*u*/,
+IncidentSample DirectionalLight::sample_incident(const LightSampleContext& /*receiver*/, Vec2 /*u*/,
                                                  EnvironmentSampling /*sampling*/, float time) const
 {
     return {.end = {},

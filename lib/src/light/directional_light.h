@@ -18,7 +18,7 @@ public:
 
     [[nodiscard]] EmissionSample sample_emission(Vec2 u_position, Vec2 u_direction,
                                                  float time) const;
-    [[nodiscard]] IncidentSample sample_incident(Vec3 receiver, Vec2 u,
+    [[nodiscard]] IncidentSample sample_incident(const LightSampleContext& receiver, Vec2 u,
                                                  EnvironmentSampling sampling, float time) const;
     /// Luminous flux through the scene's disk [lm].
     [[nodiscard]] Rgb power() const;

@@ -79,13 +79,13 @@ EnvironmentLight::EnvironmentLight(const EnvironmentLightDesc& desc, const Bound
     : image_(desc.radiance),
       world_from_environment_(desc.world_from_environment),
       bounds_(bounds),
-      row_cosines_(row_cosines(desc.radiance.height)),
-      plain_(sampling_weights(desc.radiance, row_cosines_), desc.radiance.width,
-             desc.radiance.height),
-      compensated_(compensated(sampling_weights(desc.radiance, row_cosines_), desc.radiance.width,
-                               row_cosines_),
-                   desc.radiance.width, desc.radiance.height)
-{}
+      row_cosines_(row_cosines(image_.height))
+{
+    const std::vector<float> weights = sampling_weights(image_, row_cosines_);
+    plain_ = std::make_unique<const EnvironmentTiles>(weights, image_.width, image_.height);
+    compensated_ = std::make_unique<const EnvironmentTiles>(
+        compensated(weights, image_.width, row_cosines_), image_.width, image_.height);
+}
 
 /// Row 0 is around +y; the centre column is at -z and columns to the right turn towards +x.
 Vec2 EnvironmentLight::uv_of(Vec3 to_light) const
@@ -119,12 +119,6 @@ Rgb EnvironmentLight::radiance(Vec3 to_light) const
     return lookup(uv_of(to_light));
 }
 
-int EnvironmentLight::row_of(float v) const
-{
-    return std::clamp(static_cast<int>(v * static_cast<float>(image_.height)), 0,
-                      image_.height - 1);
-}
-
 /// From the unit square, where all texels are equal, to directions: uniform in each texel.
 SolidAnglePdf EnvironmentLight::to_solid_angle(float pdf_square, int row) const
 {
@@ -134,51 +128,58 @@ SolidAnglePdf EnvironmentLight::to_solid_angle(float pdf_square, int row) const
     return {pdf_square / (2.0f * pi * height)};
 }
 
-const Distribution2D& EnvironmentLight::distribution(EnvironmentSampling sampling) const
+std::optional<Vec3> EnvironmentLight::in_image(const std::optional<Vec3>& normal) const
 {
-    return sampling == EnvironmentSampling::plain ? plain_ : compensated_;
+    return normal ? std::optional(transpose(world_from_environment_) * *normal) : std::nullopt;
 }
 
-SolidAnglePdf EnvironmentLight::pdf_incident(Vec3 to_light, EnvironmentSampling sampling) const
+SolidAnglePdf EnvironmentLight::pdf_direction_to(Vec3 to_light, const std::optional<Vec3>& normal,
+                                                 EnvironmentSampling sampling) const
 {
+    const auto index = [](float at, int size) {
+        return std::clamp(static_cast<int>(at * static_cast<float>(size)), 0, size - 1);
+    };
     const Vec2 uv = uv_of(to_light);
-    return to_solid_angle(distribution(sampling).pdf(uv), row_of(uv.y));
+    const int row = index(uv.y, image_.height);
+    const EnvironmentTiles& tiles = this->tiles(sampling);
+    return to_solid_angle(tiles.pdf(index(uv.x, tiles.columns()), row, in_image(normal)), row);
 }
 
-AreaPdf EnvironmentLight::pdf_incident(Vec3 /*receiver*/, const LightPoint& x0,
+AreaPdf EnvironmentLight::pdf_incident(const LightSampleContext& receiver, const LightPoint& x0,
                                        EnvironmentSampling sampling) const
 {
-    return {pdf_incident(x0.p, sampling).value};
+    return {pdf_direction_to(x0.p, receiver.normal, sampling).value};
 }
 
 AreaPdf EnvironmentLight::pdf_position(const LightPoint& x0) const
 {
-    return {pdf_incident(x0.p, EnvironmentSampling::plain).value};
+    return {pdf_direction_to(x0.p, std::nullopt, EnvironmentSampling::plain).value};
 }
 
 std::optional<EnvironmentLight::Direction> EnvironmentLight::sample_direction(
-    Vec2 u, EnvironmentSampling sampling) const
+    Vec2 u, const std::optional<Vec3>& normal, EnvironmentSampling sampling) const
 {
-    const auto [point, pdf] = distribution(sampling).sample(u);
-    if (!(pdf > 0.0f)) {
+    const EnvironmentTiles& tiles = this->tiles(sampling);
+    const auto cell = tiles.sample(u, in_image(normal));
+    if (!cell) {
         return std::nullopt;
     }
-    const int row = row_of(point.y);
-    const auto y = static_cast<std::size_t>(row);
-    const float offset = point.y * static_cast<float>(image_.height) - static_cast<float>(row);
-    const float cosine = row_cosines_[y] + offset * (row_cosines_[y + 1] - row_cosines_[y]);
+    const auto y = static_cast<std::size_t>(cell->row);
+    const float cosine = row_cosines_[y] + cell->offset.y * (row_cosines_[y + 1] - row_cosines_[y]);
     const float sine = std::sqrt(std::max(0.0f, 1.0f - cosine * cosine));
-    const SinCos phi = sin_cos(2.0f * pi * (point.x - 0.5f));
+    const float across =
+        (static_cast<float>(cell->column) + cell->offset.x) / static_cast<float>(tiles.columns());
+    const SinCos phi = sin_cos(2.0f * pi * (across - 0.5f));
     const Vec3 local(sine * phi.sin, cosine, -sine * phi.cos);
     return Direction{.to_light = normalize(world_from_environment_ * local),
-                     .radiance = lookup({point.x, acos_exact(cosine) * inv_pi}),
-                     .pdf = to_solid_angle(pdf, row)};
+                     .radiance = lookup({across, acos_exact(cosine) * inv_pi}),
+                     .pdf = to_solid_angle(cell->pdf, cell->row)};
 }
 
 std::optional<EmissionSample> EnvironmentLight::sample_emission(Vec2 u_position, Vec2 u_direction,
                                                                 float /*time*/) const
 {
-    const auto from = sample_direction(u_direction, EnvironmentSampling::plain);
+    const auto from = sample_direction(u_direction, std::nullopt, EnvironmentSampling::plain);
     if (!from) {
         return std::nullopt;
     }
@@ -189,11 +190,12 @@ std::optional<EmissionSample> EnvironmentLight::sample_emission(Vec2 u_position,
                           .pdf_direction = {}};
 }
 
-std::optional<IncidentSample> EnvironmentLight::sample_incident(Vec3 /*receiver*/, Vec2 u,
+std::optional<IncidentSample> EnvironmentLight::sample_incident(const LightSampleContext& receiver,
+                                                                Vec2 u,
                                                                 EnvironmentSampling sampling,
                                                                 float /*time*/) const
 {
-    const auto from = sample_direction(u, sampling);
+    const auto from = sample_direction(u, receiver.normal, sampling);
     if (!from) {
         return std::nullopt;
     }

@@ -31,7 +31,7 @@ std::optional<EmissionSample> Light::sample_emission(Vec2 u_position, Vec2 u_dir
     return sampled;
 }
 
-std::optional<IncidentSample> Light::sample_incident(Vec3 receiver, Vec2 u,
+std::optional<IncidentSample> Light::sample_incident(const LightSampleContext& receiver, Vec2 u,
                                                      EnvironmentSampling sampling, float time) const
 {
     if (const auto* common = std::get_if<TriangleLight>(&model_)) [[likely]] {
@@ -53,7 +53,8 @@ AreaPdf Light::pdf_position(const LightPoint& x0) const
     return std::visit([&x0](const auto& light) { return light.pdf_position(x0); }, model_);
 }
 
-AreaPdf Light::pdf_incident(Vec3 receiver, const LightPoint& x0, EnvironmentSampling sampling) const
+AreaPdf Light::pdf_incident(const LightSampleContext& receiver, const LightPoint& x0,
+                            EnvironmentSampling sampling) const
 {
     return std::visit([&](const auto& light) { return light.pdf_incident(receiver, x0, sampling); },
                       model_);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "light/light_models.h"
+#include "light/light_sample_context.h"
 #include "light/light_samples.h"
 #include "light/tree/light_bounds.h"
 
@@ -20,7 +21,8 @@ public:
     [[nodiscard]] std::optional<EmissionSample> sample_emission(Vec2 u_position, Vec2 u_direction,
                                                                 float time) const;
     /// `sampling` counts for environments.
-    [[nodiscard]] std::optional<IncidentSample> sample_incident(Vec3 receiver, Vec2 u,
+    [[nodiscard]] std::optional<IncidentSample> sample_incident(const LightSampleContext& receiver,
+                                                                Vec2 u,
                                                                 EnvironmentSampling sampling,
                                                                 float time) const;
 
@@ -29,7 +31,7 @@ public:
     [[nodiscard]] AreaPdf pdf_position(const LightPoint& x0) const;
     /// Of x_0 by `sample_incident` from `receiver`, in the same measure.
     [[nodiscard]] AreaPdf pdf_incident(
-        Vec3 receiver, const LightPoint& x0,
+        const LightSampleContext& receiver, const LightPoint& x0,
         EnvironmentSampling sampling = EnvironmentSampling::plain) const;
     /// Of the direction of a light path that leaves a finite light at a point with the normal `ng`,
     /// zero if none. `SphereLight` says which factor of the joint density this is.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "light/light_sample_context.h"
 #include "light/light_samples.h"
 #include "light/tree/light_bounds.h"
 
@@ -15,15 +16,16 @@ namespace bdpt {
 // clang-format off
 template <typename T>
 concept LightModel = requires(const T& light, Vec2 u, Vec3 v, const LightPoint& x0,
-                              EnvironmentSampling sampling, float time)
+                              const LightSampleContext& receiver, EnvironmentSampling sampling,
+                              float time)
 {
     { T::is_delta } -> std::convertible_to<bool>;
     { T::is_infinite } -> std::convertible_to<bool>;
     { light.sample_emission(u, u, time) } -> std::convertible_to<std::optional<EmissionSample>>;
-    { light.sample_incident(v, u, sampling, time) }
+    { light.sample_incident(receiver, u, sampling, time) }
         -> std::convertible_to<std::optional<IncidentSample>>;
     { light.pdf_position(x0) } -> std::same_as<AreaPdf>;
-    { light.pdf_incident(v, x0, sampling) } -> std::same_as<AreaPdf>;
+    { light.pdf_incident(receiver, x0, sampling) } -> std::same_as<AreaPdf>;
     { light.pdf_direction(v, v, time) } -> std::same_as<SolidAnglePdf>;
     { light.power() } -> std::same_as<Rgb>;
     { light.bounds() } -> std::convertible_to<std::optional<LightBounds>>;
@@ -35,7 +37,8 @@ struct DeltaLight {
     static constexpr bool is_delta = true;
 
     [[nodiscard]] static AreaPdf pdf_position(const LightPoint& /*x0*/) { return {1.0f}; }
-    [[nodiscard]] static AreaPdf pdf_incident(Vec3 /*receiver*/, const LightPoint& /*x0*/,
+    [[nodiscard]] static AreaPdf pdf_incident(const LightSampleContext& /*receiver*/,
+                                              const LightPoint& /*x0*/,
                                               EnvironmentSampling /*sampling*/)
     {
         return {1.0f};

@@ -6,8 +6,8 @@
 
 namespace bdpt {
 
-/// A point that next-event estimation chooses a light for. Whoever evaluates the choice for a
-/// certain light has to state the same receiver as whoever makes it.
+/// A point that next-event estimation chooses a light for, and a point of that. Whoever evaluates
+/// the density of a certain point has to state the same receiver as whoever samples it.
 struct LightSampleContext {
     Vec3 p{0.0f};
     /// Unit; light from below it brings nothing. None: light from all around does.

@@ -36,11 +36,12 @@ std::optional<EmissionSample> ProfileLight::sample_emission(Vec2 /*u_position*/,
                           .pdf_direction = from->pdf};
 }
 
-std::optional<IncidentSample> ProfileLight::sample_incident(Vec3 receiver, Vec2 /*u*/,
+std::optional<IncidentSample> ProfileLight::sample_incident(const LightSampleContext& receiver,
+                                                            Vec2 /*u*/,
                                                             EnvironmentSampling /*sampling*/,
                                                             float time) const
 {
-    return incident_from_point(at_time(position_, motion_, time), receiver, scale_,
+    return incident_from_point(at_time(position_, motion_, time), receiver.p, scale_,
                                [this](Vec3 from) { return profile_->intensity(to_local(from)); });
 }
 

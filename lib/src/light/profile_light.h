@@ -24,7 +24,8 @@ public:
     /// Directions are drawn by their intensity; none from a profile that is black.
     [[nodiscard]] std::optional<EmissionSample> sample_emission(Vec2 u_position, Vec2 u_direction,
                                                                 float time) const;
-    [[nodiscard]] std::optional<IncidentSample> sample_incident(Vec3 receiver, Vec2 u,
+    [[nodiscard]] std::optional<IncidentSample> sample_incident(const LightSampleContext& receiver,
+                                                                Vec2 u,
                                                                 EnvironmentSampling sampling,
                                                                 float time) const;
     [[nodiscard]] SolidAnglePdf pdf_direction(Vec3 ng, Vec3 direction, float time) const;

@@ -42,11 +42,12 @@ EmissionSample PunctualLight::sample_emission(Vec2 /*u_position*/, Vec2 u_direct
             .pdf_direction = {1.0f / omega}};
 }
 
-std::optional<IncidentSample> PunctualLight::sample_incident(Vec3 receiver, Vec2 /*u*/,
+std::optional<IncidentSample> PunctualLight::sample_incident(const LightSampleContext& receiver,
+                                                             Vec2 /*u*/,
                                                              EnvironmentSampling /*sampling*/,
                                                              float time) const
 {
-    return incident_from_point(position(time), receiver, intensity_,
+    return incident_from_point(position(time), receiver.p, intensity_,
                                [&](Vec3 from) { return cone(time).falloff(from); });
 }
 

@@ -114,16 +114,16 @@ std::optional<EmissionSample> SphereLight::sample_emission(Vec2 u_position, Vec2
                           .pdf_direction = {4.0f * on_disk.z / cone.solid_angle()}};
 }
 
-std::optional<IncidentSample> SphereLight::sample_incident(Vec3 receiver, Vec2 u,
-                                                           EnvironmentSampling /*sampling*/,
+std::optional<IncidentSample> SphereLight::sample_incident(const LightSampleContext& receiver,
+                                                           Vec2 u, EnvironmentSampling /*sampling*/,
                                                            float time) const
 {
-    const auto view = view_from(receiver, sphere_.at(time));
+    const auto view = view_from(receiver.p, sphere_.at(time));
     if (!view) {
         return std::nullopt;
     }
     const SegmentEnd end = surface(sample_visible_normal(*view, u), time);
-    const Vec3 to_light = end.p - receiver;
+    const Vec3 to_light = end.p - receiver.p;
     const float distance_squared = dot(to_light, to_light);
     const float distance = std::sqrt(distance_squared);
     const Vec3 wi = to_light / distance;
@@ -145,11 +145,11 @@ AreaPdf SphereLight::pdf_position(const LightPoint& /*x0*/) const
     return {0.25f * inv_pi / (sphere_.radius * sphere_.radius)};
 }
 
-AreaPdf SphereLight::pdf_incident(Vec3 receiver, const LightPoint& x0,
+AreaPdf SphereLight::pdf_incident(const LightSampleContext& receiver, const LightPoint& x0,
                                   EnvironmentSampling /*sampling*/) const
 {
-    const auto view = view_from(receiver, sphere_.at(x0.time));
-    const Vec3 to_light = x0.p - receiver;
+    const auto view = view_from(receiver.p, sphere_.at(x0.time));
+    const Vec3 to_light = x0.p - receiver.p;
     const float distance_squared = dot(to_light, to_light);
     const float cosine = -dot(x0.ng, to_light / std::sqrt(distance_squared));
     if (!view || !(cosine > 0.0f)) {

@@ -35,7 +35,8 @@ public:
     [[nodiscard]] std::optional<EmissionSample> sample_emission(Vec2 u_position, Vec2 u_direction,
                                                                 float time) const;
     /// Directions are uniform in the cone that the sphere fills; none from inside of it.
-    [[nodiscard]] std::optional<IncidentSample> sample_incident(Vec3 receiver, Vec2 u,
+    [[nodiscard]] std::optional<IncidentSample> sample_incident(const LightSampleContext& receiver,
+                                                                Vec2 u,
                                                                 EnvironmentSampling sampling,
                                                                 float time) const;
 
@@ -43,7 +44,7 @@ public:
     /// product with `pdf_direction` is that of both, and nothing else is ever used.
     [[nodiscard]] AreaPdf pdf_position(const LightPoint& x0 = {}) const;
     [[nodiscard]] AreaPdf pdf_incident(
-        Vec3 receiver, const LightPoint& x0,
+        const LightSampleContext& receiver, const LightPoint& x0,
         EnvironmentSampling sampling = EnvironmentSampling::plain) const;
     [[nodiscard]] SolidAnglePdf pdf_direction(Vec3 ng, Vec3 direction, float time) const;
     /// Luminous flux [lm].

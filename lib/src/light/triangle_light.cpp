@@ -103,7 +103,8 @@ std::optional<EmissionSample> TriangleLight::sample_emission(Vec2 u_position, Ve
                           .pdf_direction = pdf_direction(side * local.z)};
 }
 
-std::optional<IncidentSample> TriangleLight::sample_incident(Vec3 receiver, Vec2 u,
+std::optional<IncidentSample> TriangleLight::sample_incident(const LightSampleContext& receiver,
+                                                             Vec2 u,
                                                              EnvironmentSampling /*sampling*/,
                                                              float time) const
 {
@@ -113,7 +114,7 @@ std::optional<IncidentSample> TriangleLight::sample_incident(Vec3 receiver, Vec2
         return sampled;
     }
     const Point from = point(u, facing, time);
-    const Vec3 to_light = from.end.p - receiver;
+    const Vec3 to_light = from.end.p - receiver.p;
     const float distance_squared = dot(to_light, to_light);
     const float distance = std::sqrt(distance_squared);
     const float inverse_distance = 1.0f / distance;

@@ -24,14 +24,15 @@ public:
 
     [[nodiscard]] std::optional<EmissionSample> sample_emission(Vec2 u_position, Vec2 u_direction,
                                                                 float time) const;
-    [[nodiscard]] std::optional<IncidentSample> sample_incident(Vec3 receiver, Vec2 u,
+    [[nodiscard]] std::optional<IncidentSample> sample_incident(const LightSampleContext& receiver,
+                                                                Vec2 u,
                                                                 EnvironmentSampling sampling,
                                                                 float time) const;
 
     [[nodiscard]] AreaPdf pdf_position(const LightPoint& x0) const;
     /// The same points are sampled for every receiver.
     [[nodiscard]] AreaPdf pdf_incident(
-        Vec3 /*receiver*/, const LightPoint& x0,
+        const LightSampleContext& /*receiver*/, const LightPoint& x0,
         EnvironmentSampling /*sampling*/ = EnvironmentSampling::plain) const
     {
         return pdf_position(x0);

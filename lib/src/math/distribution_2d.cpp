@@ -72,16 +72,25 @@ float Distribution2D::cell_pdf(int x, int y) const
            (cell_cdf_[cell + 1] - cell_cdf_[cell]) * static_cast<float>(width_);
 }
 
-Distribution2D::Sample Distribution2D::sample(Vec2 u) const
+Distribution2D::Cell Distribution2D::sample_cell(Vec2 u) const
 {
     const auto columns = static_cast<std::size_t>(width_) + 1;
     const Inverted row = invert(row_cdf_, u.y);
     const Inverted column = invert(
         std::span(cell_cdf_).subspan(static_cast<std::size_t>(row.cell) * columns, columns), u.x);
+    return {.column = column.cell,
+            .row = row.cell,
+            .offset = {column.offset, row.offset},
+            .pdf = cell_pdf(column.cell, row.cell)};
+}
+
+Distribution2D::Sample Distribution2D::sample(Vec2 u) const
+{
+    const Cell cell = sample_cell(u);
     return {
-        .point = {(static_cast<float>(column.cell) + column.offset) / static_cast<float>(width_),
-                  (static_cast<float>(row.cell) + row.offset) / static_cast<float>(height_)},
-        .pdf = cell_pdf(column.cell, row.cell)};
+        .point = {(static_cast<float>(cell.column) + cell.offset.x) / static_cast<float>(width_),
+                  (static_cast<float>(cell.row) + cell.offset.y) / static_cast<float>(height_)},
+        .pdf = cell.pdf};
 }
 
 float Distribution2D::pdf(Vec2 point) const

@@ -16,15 +16,24 @@ public:
         float pdf = 0.0f;
     };
 
+    /// A cell, and a point in it.
+    struct Cell {
+        int column = 0;
+        int row = 0;
+        Vec2 offset{0.0f};  ///< from the cell's corner, in [0, 1)^2 of its size
+        float pdf = 0.0f;
+    };
+
     /// `weights`: width * height values >= 0, row-major; all zero gives the uniform density.
     Distribution2D(std::span<const float> weights, int width, int height);
 
     [[nodiscard]] Sample sample(Vec2 u) const;
     [[nodiscard]] float pdf(Vec2 point) const;
-
-private:
+    /// The same by cells, which rounding cannot confuse.
+    [[nodiscard]] Cell sample_cell(Vec2 u) const;
     [[nodiscard]] float cell_pdf(int x, int y) const;
 
+private:
     int width_;
     int height_;
     std::vector<float> row_cdf_;   // height + 1

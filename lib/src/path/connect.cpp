@@ -153,36 +153,31 @@ std::optional<Contribution> connect_to_light(SampleContext& sample,
     if (!scatters(z.kind) || !z.connectible) {
         return std::nullopt;
     }
-    const NextEventSampling sampling = weigher.next_event_sampling();
-    const auto choice = sample.world.lights().choose_for_context(
-        [&z] { return light_sample_context(z); }, u,
-        [&sample] { return sample.sampler.next_fine(); }, sampling.lights);
-    if (!choice) {
+    const auto found = sample.world.lights().sample_next_event(
+        light_sample_context(z), u, [&sample] { return sample.sampler.next_fine(); },
+        weigher.next_event_sampling(), sample.time);
+    if (!found.incident) {
         return std::nullopt;
     }
-    const auto incident = sample.world.lights()[choice->id].sample_incident(
-        z.end.p, choice->u, sampling.environments, sample.time);
-    if (!incident) {
-        return std::nullopt;
-    }
-    const BsdfEval f = z.bsdf->eval(incident->wi, TransportMode::radiance);
-    const Rgb value = z.beta * f.f_cos * incident->weight / choice->probability;
+    const IncidentSample& incident = *found.incident;
+    const BsdfEval f = z.bsdf->eval(incident.wi, TransportMode::radiance);
+    const Rgb value = z.beta * f.f_cos * incident.weight / found.probability;
     if (is_black(value)) {
         return std::nullopt;
     }
-    PathVertex x0 = light_vertex(sample.world, choice->id, *incident);
+    PathVertex x0 = light_vertex(sample.world, found.light, incident);
     return join(sample, std::span(&x0, 1), camera, value, weigher, [&] {
         const LightDensities densities = light_densities(sample, x0, z.end);
         x0.pdf_fwd = densities.emit;
         return JoinDensities{
             .light_at_camera_end = densities.to_next,
             .light_at_camera_neighbor = at_neighbor(f.pdf_rev, camera),
-            .camera_at_light_end = x0.kind == VertexKind::infinite
-                                       ? AreaPdf{f.pdf_fwd.value}
-                                       : at_end(f.pdf_fwd, x0.end, incident->wi,
-                                                incident->distance * incident->distance),
+            .camera_at_light_end =
+                x0.kind == VertexKind::infinite
+                    ? AreaPdf{f.pdf_fwd.value}
+                    : at_end(f.pdf_fwd, x0.end, incident.wi, incident.distance * incident.distance),
             .camera_at_light_neighbor = {},
-            .next_event = incident->pdf * choice->probability};
+            .next_event = found.pdf()};
     });
 }
 
@@ -193,24 +188,20 @@ std::optional<Contribution> connect_light_to_lens(SampleContext& sample, PathWei
     const Vec3 receiver = sample.camera.generate_ray(Vec2(0.0f), u_lens).lens.p;
     const Vec2 u = first_light_sample(sample, 1);
     const LightSet& lights = sample.world.lights();
-    const auto choice = lights.choose_for_context(
-        LightSampleContext{.p = receiver}, u, [&sample] { return sample.sampler.next_fine(); },
-        weigher.next_event_sampling().lights);
-    if (!choice || !can_be_seen_directly(lights[choice->id], sample.camera)) {
+    const auto sampled = lights.sample_next_event(
+        {.p = receiver}, u, [&sample] { return sample.sampler.next_fine(); },
+        weigher.next_event_sampling(), sample.time);
+    if (!sampled.incident || !can_be_seen_directly(lights[sampled.light], sample.camera)) {
         return std::nullopt;
     }
-    const auto incident = lights[choice->id].sample_incident(
-        receiver, choice->u, EnvironmentSampling::plain, sample.time);
-    if (!incident) {
-        return std::nullopt;
-    }
-    const auto to_lens = sample.camera.sample_lens(incident->end.p, u_lens);
+    const IncidentSample& incident = *sampled.incident;
+    const auto to_lens = sample.camera.sample_lens(incident.end.p, u_lens);
     if (!to_lens) {
         return std::nullopt;
     }
-    PathVertex x0 = light_vertex(sample.world, choice->id, *incident);
+    PathVertex x0 = light_vertex(sample.world, sampled.light, incident);
     const PathVertex lens = lens_vertex(*to_lens);
-    const Rgb value = incident->weight * (to_lens->pdf_direction.value / choice->probability);
+    const Rgb value = incident.weight * (to_lens->pdf_direction.value / sampled.probability);
     auto found = join(sample, std::span(&x0, 1), std::span(&lens, 1), value, weigher, [&] {
         const LightDensities densities = light_densities(sample, x0, lens.end);
         x0.pdf_fwd = densities.emit;
@@ -218,9 +209,9 @@ std::optional<Contribution> connect_light_to_lens(SampleContext& sample, PathWei
             .light_at_camera_end = densities.to_next,
             .light_at_camera_neighbor = {},
             .camera_at_light_end = at_end(to_lens->pdf_direction, x0.end, to_lens->wi,
-                                          incident->distance * incident->distance),
+                                          incident.distance * incident.distance),
             .camera_at_light_neighbor = {},
-            .next_event = incident->pdf * choice->probability};
+            .next_event = sampled.pdf()};
     });
     if (found) {
         found->raster = to_lens->raster;

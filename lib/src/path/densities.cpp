@@ -27,11 +27,8 @@ LightSampleContext light_sample_context(const PathVertex& x1)
 AreaPdf next_event_density(const SampleContext& sample, const PathVertex& x0, const PathVertex& x1,
                            NextEventSampling sampling)
 {
-    const LightPoint point = light_point(x0, sample.time);
-    const auto receiver = [&x1] { return light_sample_context(x1); };
-    const LightSet& lights = sample.world.lights();
-    return lights[*x0.light].pdf_incident(x1.end.p, point, sampling.environments) *
-           lights.context_probability(*x0.light, receiver, sampling.lights);
+    return sample.world.lights().next_event_pdf(*x0.light, light_point(x0, sample.time),
+                                                light_sample_context(x1), sampling);
 }
 
 LightDensities light_densities(const SampleContext& sample, const PathVertex& x0,

@@ -100,21 +100,16 @@ GroundLight GroundShadow::sampled_light(const Point& point, int number) const
     Sampler& sampler = point.sampler;
     sampler.start(SampleUse::ground, static_cast<std::uint32_t>(2 * number));
     const Vec2 u = sampler.next_2d();
-    const auto choice = lights.choose_for_context(
-        [&] { return point.receiver(); }, u, [&] { return sampler.next_fine(); }, sampling_.lights);
-    if (!choice) {
+    const auto found = lights.sample_next_event(
+        point.receiver(), u, [&] { return sampler.next_fine(); }, sampling_, point.moment.time);
+    if (!found.incident || !(found.incident->wi.y > 0.0f)) {
         return {};
     }
-    const Light& light = lights[choice->id];
-    const auto incident =
-        light.sample_incident(point.end.p, choice->u, sampling_.environments, point.moment.time);
-    if (!incident || !(incident->wi.y > 0.0f)) {
-        return {};
-    }
-    const float cosine = incident->wi.y;
-    Rgb estimate = cosine / choice->probability * incident->weight;
-    if (choice->id == lights.environment()) {
-        const float pdf = incident->pdf_solid_angle.value * choice->probability;
+    const IncidentSample& incident = *found.incident;
+    const float cosine = incident.wi.y;
+    Rgb estimate = cosine / found.probability * incident.weight;
+    if (found.light == lights.environment()) {
+        const float pdf = found.pdf().value;
         estimate *= pdf / (pdf + cosine_hemisphere_pdf(cosine).value);
     }
     if (is_useless(estimate)) {
@@ -122,10 +117,10 @@ GroundLight GroundShadow::sampled_light(const Point& point, int number) const
     }
     ++point.rays.aov;
     const SegmentKey segment = point.segment(2 * number);
-    const Rgb open = light.is_infinite()
-                         ? world_.transmittance_to_infinity(point.end, incident->wi, segment)
-                         : world_.transmittance(point.end, incident->end, segment);
-    if (is_black(open) && hides_itself(point, choice->id, *incident, segment)) {
+    const Rgb open = lights[found.light].is_infinite()
+                         ? world_.transmittance_to_infinity(point.end, incident.wi, segment)
+                         : world_.transmittance(point.end, incident.end, segment);
+    if (is_black(open) && hides_itself(point, found.light, incident, segment)) {
         return {};
     }
     return light_of(estimate, open);
@@ -140,9 +135,8 @@ GroundLight GroundShadow::sampled_sky(const Point& point, int number) const
     const Vec3 local = square_to_cosine_hemisphere(point.sampler.next_2d());
     const float cosine = local.z;
     const Vec3 direction(local.x, cosine, local.y);
-    const float competing = lights.context_probability(
-                                id, [&] { return point.receiver(); }, sampling_.lights) *
-                            sky.pdf_incident(direction, sampling_.environments).value;
+    const float competing =
+        lights.next_event_pdf(id, {.p = direction}, point.receiver(), sampling_).value;
     const float pdf = cosine_hemisphere_pdf(cosine).value;
     const Rgb estimate = cosine / (pdf + competing) * sky.radiance(direction);
     if (!(cosine > 0.0f) || is_useless(estimate)) {

@@ -9,7 +9,6 @@
 
 #include <optional>
 #include <span>
-#include <type_traits>
 #include <vector>
 
 namespace bdpt {
@@ -71,35 +70,68 @@ public:
     }
     [[nodiscard]] float emission_probability(LightId id) const;
 
-    /// For next-event estimation; nothing where no light can shine. `receiver` or what it returns
-    /// is the receiver, which the choice by power does not ask for.
-    template <typename Receiver>
-    [[nodiscard]] std::optional<Choice> choose_for_context(const Receiver& receiver, Vec2 u,
-                                                           LightSampling sampling) const
+    /// A point of a light, as next-event estimation samples it.
+    struct NextEvent {
+        LightId light{};
+        float probability = 0.0f;  ///< of this light
+        /// Densities and weight are for the light given. Nothing where no light is found that can
+        /// shine at the receiver.
+        std::optional<IncidentSample> incident;
+
+        /// What `next_event_pdf` tells of the point, if there is one.
+        [[nodiscard]] AreaPdf pdf() const { return incident->pdf * probability; }
+    };
+    /// `draw_fine()` as for emission.
+    template <typename DrawFine>
+    [[nodiscard]] NextEvent sample_next_event(const LightSampleContext& receiver, Vec2 u,
+                                              const DrawFine& draw_fine,
+                                              const NextEventSampling& sampling, float time) const
     {
-        return uses_tree(sampling) ? next_event_.choose(stated(receiver), fine_uniform(u))
+        const auto choice = choose_for_context(receiver, u, draw_fine, sampling.lights);
+        if (!choice) {
+            return {};
+        }
+        // Made in its place: a copy would take longer than the choice.
+        return {.light = choice->id,
+                .probability = choice->probability,
+                .incident = (*this)[choice->id].sample_incident(receiver, choice->u,
+                                                                sampling.environments, time)};
+    }
+    /// The density of next-event estimation at the receiver taking the point `x0` of light `id`; in
+    /// the measure of `IncidentSample::pdf`.
+    [[nodiscard]] AreaPdf next_event_pdf(LightId id, const LightPoint& x0,
+                                         const LightSampleContext& receiver,
+                                         const NextEventSampling& sampling) const
+    {
+        return (*this)[id].pdf_incident(receiver, x0, sampling.environments) *
+               context_probability(id, receiver, sampling.lights);
+    }
+
+    /// The first half of it: a light for the receiver.
+    [[nodiscard]] std::optional<Choice> choose_for_context(const LightSampleContext& receiver,
+                                                           Vec2 u, LightSampling sampling) const
+    {
+        return uses_tree(sampling) ? next_event_.choose(receiver, fine_uniform(u))
                                    : choose_for_emission(u);
     }
     /// The same, with numbers as for emission.
-    template <typename Receiver, typename DrawFine>
-    [[nodiscard]] std::optional<ChoiceAndNumbers> choose_for_context(const Receiver& receiver,
-                                                                     Vec2 u,
-                                                                     const DrawFine& draw_fine,
-                                                                     LightSampling sampling) const
+    template <typename DrawFine>
+    [[nodiscard]] std::optional<ChoiceAndNumbers> choose_for_context(
+        const LightSampleContext& receiver, Vec2 u, const DrawFine& draw_fine,
+        LightSampling sampling) const
     {
         if (!uses_tree(sampling)) {
             return choose_for_emission(u, draw_fine);
         }
-        const auto choice = next_event_.choose(stated(receiver), fine_uniform(draw_fine()));
+        const auto choice = next_event_.choose(receiver, fine_uniform(draw_fine()));
         return choice ? std::optional(ChoiceAndNumbers{choice->id, choice->probability, u})
                       : std::nullopt;
     }
     /// Of choosing light `id` so; positive if it can shine at the receiver.
-    template <typename Receiver>
-    [[nodiscard]] float context_probability(LightId id, const Receiver& receiver,
+    [[nodiscard]] float context_probability(LightId id, const LightSampleContext& receiver,
                                             LightSampling sampling) const
     {
-        return uses_tree(sampling) ? next_event_.probability(id, stated(receiver))
+        return uses_tree(sampling) ? next_event_.probability(id, receiver)
                                    : emission_probability(id);
     }
     /// Is `automatic` the tree?
@@ -118,16 +150,6 @@ public:
     [[nodiscard]] LightId of_sphere(std::uint32_t sphere) const { return spheres_[sphere]; }
 
 private:
-    template <typename Receiver>
-    [[nodiscard]] static LightSampleContext stated(const Receiver& receiver)
-    {
-        if constexpr (std::is_invocable_v<const Receiver&>) {
-            return receiver();
-        } else {
-            return receiver;
-        }
-    }
-
     /// With so many a float has more than enough digits for a choice and a point.
     static constexpr std::size_t few_lights = 64;
 

@@ -32,12 +32,28 @@ NextEventLights::NextEventLights(std::span<const Light> lights) : slots_(lights.
         }
     }
     tree_ = LightTree(bounds);
-    by_power_ = AliasTable(powers);
-    if (by_power_.empty() || tree_.empty()) {
-        placed_share_ = tree_.empty() ? 0.0 : 1.0;
-        return;
+    share_out(powers, tree_.empty() ? 0.0 : placed_power);
+}
+
+void NextEventLights::share_out(std::span<const float> infinite_powers, double placed_power)
+{
+    const double groups =
+        static_cast<double>(infinite_powers.size()) + (placed_power > 0.0 ? 1.0 : 0.0);
+    double total = placed_power;
+    for (const float power : infinite_powers) {
+        total += static_cast<double>(power);
     }
-    placed_share_ = 0.25 + 0.5 * placed_power / (placed_power + by_power_.total());
+    const auto share = [&](double power) { return 0.5 * power / total + 0.5 / groups; };
+    std::vector<float> shares;
+    for (const float power : infinite_powers) {
+        shares.push_back(static_cast<float>(share(static_cast<double>(power))));
+    }
+    infinite_table_ = AliasTable(shares);
+    if (shares.empty()) {
+        placed_share_ = placed_power > 0.0 ? 1.0 : 0.0;
+    } else {
+        placed_share_ = placed_power > 0.0 ? share(placed_power) : 0.0;
+    }
 }
 
 std::optional<NextEventLights::Choice> NextEventLights::choose(const LightSampleContext& receiver,
@@ -52,11 +68,11 @@ std::optional<NextEventLights::Choice> NextEventLights::choose(const LightSample
         return Choice{.id = placed_[choice->light],
                       .probability = choice->probability * static_cast<float>(placed_share_)};
     }
-    if (by_power_.empty()) {
+    if (infinite_table_.empty()) {
         return std::nullopt;
     }
     const double rest = 1.0 - placed_share_;
-    const auto choice = by_power_.sample(std::min((u - placed_share_) / rest, below_one));
+    const auto choice = infinite_table_.sample(std::min((u - placed_share_) / rest, below_one));
     return Choice{.id = infinite_[choice.index],
                   .probability = choice.probability * static_cast<float>(rest)};
 }
@@ -68,7 +84,8 @@ float NextEventLights::probability(LightId id, const LightSampleContext& receive
         case Slot::Group::placed:
             return tree_.probability(slot.number, receiver) * static_cast<float>(placed_share_);
         case Slot::Group::infinite:
-            return by_power_.probability(slot.number) * static_cast<float>(1.0 - placed_share_);
+            return infinite_table_.probability(slot.number) *
+                   static_cast<float>(1.0 - placed_share_);
         case Slot::Group::none:
             break;
     }

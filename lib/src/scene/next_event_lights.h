@@ -12,9 +12,9 @@
 
 namespace bdpt {
 
-/// One of all lights, for a receiver: those at a place by a tree, and beside it those at infinity,
-/// by power. Between the two half of the choice is by power and half is even, for neither can be
-/// told to be hidden from the receiver.
+/// One of all lights, for a receiver: those at a place by a tree, and beside it each one at
+/// infinity. Between these, half of the choice is by power and half is even, for none of them can
+/// be told to be hidden from the receiver.
 class NextEventLights {
 public:
     struct Choice {
@@ -46,11 +46,14 @@ private:
         std::uint32_t number = 0;
     };
 
+    /// Sets the probabilities of the tree and of each light at infinity.
+    void share_out(std::span<const float> infinite_powers, double placed_power);
+
     std::vector<Slot> slots_;  ///< of each light
     LightTree tree_;
     std::vector<LightId> placed_;    ///< of the tree's numbers
     std::vector<LightId> infinite_;  ///< of the table's numbers
-    AliasTable by_power_;            ///< of infinite lights
+    AliasTable infinite_table_;      ///< one of those, if it is not the tree
     double placed_share_ = 0.0;      ///< probability of the tree
 };
 

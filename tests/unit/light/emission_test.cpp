@@ -155,7 +155,8 @@ TEST_CASE("environment: light comes by luminance, and enters evenly on the disk"
             const double r = std::sqrt(1.0 - y * y);
             const Vec3 w(r * std::cos(phi), y, r * std::sin(phi));
             const double part =
-                static_cast<double>(light.pdf_incident(w, EnvironmentSampling::plain).value) *
+                static_cast<double>(
+                    light.pdf_incident({}, {.p = w}, EnvironmentSampling::plain).value) *
                 (12.566370614359172 / (fine * fine));
             expected[bin_of_direction(w)] += part;
             sum += part;
@@ -171,9 +172,11 @@ TEST_CASE("environment: light comes by luminance, and enters evenly on the disk"
     for (int i = 0; i < samples; ++i) {
         const auto emitted = light.sample_emission(random.next_2d(), random.next_2d(), 0.0f);
         REQUIRE(emitted.has_value());
-        REQUIRE(emitted->pdf_position.value ==
-                Approx(light.pdf_incident(-emitted->direction, EnvironmentSampling::plain).value)
-                    .epsilon(2e-3));
+        REQUIRE(
+            emitted->pdf_position.value ==
+            Approx(light.pdf_incident({}, {.p = -emitted->direction}, EnvironmentSampling::plain)
+                       .value)
+                .epsilon(2e-3));
         directions[bin_of_direction(-emitted->direction)] += 1.0;
         places[bin_of(place_on_disk(world.bounding_sphere(), *emitted), steps)] += 1.0;
     }

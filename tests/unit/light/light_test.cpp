@@ -101,7 +101,7 @@ TEST_CASE("environment: the density integrates to one and is that of the samples
     test::Moments radiance;
     for (int i = 0; i < 400000; ++i) {
         const Vec3 w = random.direction();
-        const float pdf = light.pdf_incident(w, sampling).value;
+        const float pdf = light.pdf_incident({}, {.p = w}, sampling).value;
         density.add(static_cast<double>(4.0f * pi * pdf));
         // What is never sampled is left to others.
         const float sampled = pdf > 0.0f ? luminance(light.radiance(w)) : 0.0f;
@@ -114,7 +114,7 @@ TEST_CASE("environment: the density integrates to one and is that of the samples
     for (int i = 0; i < 20000; ++i) {
         const auto incident = light.sample_incident({}, random.next_2d(), sampling, 0.0f);
         REQUIRE(incident.has_value());
-        REQUIRE(light.pdf_incident(incident->wi, sampling).value ==
+        REQUIRE(light.pdf_incident({}, {.p = incident->wi}, sampling).value ==
                 Approx(incident->pdf_solid_angle.value).epsilon(2e-3));
         sampled.add(static_cast<double>(luminance(incident->weight)));
     }
@@ -130,7 +130,7 @@ TEST_CASE("environment: light wherever it is bright can be sampled", "[light]")
     for (int i = 0; i < 10000; ++i) {
         const Vec3 w = random.direction();
         if (luminance(light.radiance(w)) > 0.0f) {
-            REQUIRE(light.pdf_incident(w, EnvironmentSampling::plain).value > 0.0f);
+            REQUIRE(light.pdf_incident({}, {.p = w}, EnvironmentSampling::plain).value > 0.0f);
             REQUIRE(light.pdf_position({.p = w}).value > 0.0f);
         }
     }
@@ -153,12 +153,12 @@ TEST_CASE("environment: compensated sampling leaves out half of the mean", "[lig
     const auto share = [](float level, float mean) {
         return Approx(0.25f * inv_pi * level / mean).epsilon(0.02);
     };
-    CHECK(light.pdf_incident(up, compensated).value == share(3.375f, 1.78125f));
-    CHECK(light.pdf_incident(right, compensated).value == share(0.375f, 1.78125f));
-    CHECK(light.pdf_incident(left, compensated).value == 0.0f);
+    CHECK(light.pdf_incident({}, {.p = up}, compensated).value == share(3.375f, 1.78125f));
+    CHECK(light.pdf_incident({}, {.p = right}, compensated).value == share(0.375f, 1.78125f));
+    CHECK(light.pdf_incident({}, {.p = left}, compensated).value == 0.0f);
     for (const auto& [direction, level] : {std::pair{up, 5.0f}, {left, 1.0f}, {right, 2.0f}}) {
         CHECK(light.pdf_position({.p = direction}).value == share(level, 3.25f));
-        CHECK(light.pdf_incident(direction, EnvironmentSampling::plain).value ==
+        CHECK(light.pdf_incident({}, {.p = direction}, EnvironmentSampling::plain).value ==
               share(level, 3.25f));
     }
 
@@ -169,8 +169,8 @@ TEST_CASE("environment: compensated sampling leaves out half of the mean", "[lig
                          .pixels = std::vector<Rgb>(3 * static_cast<std::size_t>(columns),
                                                     Rgb(0.1f, 0.7f, 0.3f))};
         const EnvironmentLight constant({.radiance = grey}, {});
-        CHECK(constant.pdf_incident(up, compensated).value == Approx(0.25f * inv_pi));
-        CHECK(constant.pdf_incident(left, compensated).value == Approx(0.25f * inv_pi));
+        CHECK(constant.pdf_incident({}, {.p = up}, compensated).value == Approx(0.25f * inv_pi));
+        CHECK(constant.pdf_incident({}, {.p = left}, compensated).value == Approx(0.25f * inv_pi));
     }
 }
 
@@ -289,7 +289,7 @@ TEST_CASE("light paths bring to a surface what next-event estimation finds there
             const float r = radius * std::sqrt(random.next());
             const SinCos phi = sin_cos(2.0f * pi * random.next());
             const auto incident =
-                light.sample_incident({r * phi.cos, 0.0f, r * phi.sin}, random.next_2d(),
+                light.sample_incident({.p = {r * phi.cos, 0.0f, r * phi.sin}}, random.next_2d(),
                                       EnvironmentSampling::plain, 0.0f);
             const bool above = incident && incident->wi.y > 0.0f;
             by_light_samples.add(
@@ -312,7 +312,7 @@ TEST_CASE("a spot is dark outside of its cone and full inside of the inner one",
                                            .outer_cone_angle = 0.6f});
     const auto intensity = [&](float angle) {
         const auto incident =
-            spot.sample_incident({2.0f * std::sin(angle), -2.0f * std::cos(angle), 0.0f}, {},
+            spot.sample_incident({.p = {2.0f * std::sin(angle), -2.0f * std::cos(angle), 0.0f}}, {},
                                  EnvironmentSampling::plain, 0.0f);
         return incident ? 4.0f * incident->weight.r : 0.0f;
     };

@@ -74,15 +74,15 @@ TEST_CASE("densities of lights that move are those of their time", "[motion][lig
             CAPTURE(i, k);
             const float time = random.next();
             const Vec3 receiver = 2.0f * random.direction();
-            const auto incident =
-                light.sample_incident(receiver, random.next_2d(), EnvironmentSampling::plain, time);
+            const auto incident = light.sample_incident({.p = receiver}, random.next_2d(),
+                                                        EnvironmentSampling::plain, time);
             if (incident) {
                 ++incident_samples;
                 const LightPoint x0{.p = incident->end.p,
                                     .ng = incident->end.ng,
                                     .barycentrics = incident->barycentrics,
                                     .time = time};
-                REQUIRE(light.pdf_incident(receiver, x0).value ==
+                REQUIRE(light.pdf_incident({.p = receiver}, x0).value ==
                         Approx(incident->pdf.value).epsilon(2e-3));
             }
             const auto emitted = light.sample_emission(random.next_2d(), random.next_2d(), time);
@@ -124,7 +124,7 @@ TEST_CASE("lights that move shine from where they are, by both ways of sampling"
             const auto emitted = light.sample_emission(random.next_2d(), random.next_2d(), time);
             REQUIRE(emitted.has_value());
             const auto incident =
-                light.sample_incident(emitted->end.p + 0.3f * emitted->direction, Vec2(0.5f),
+                light.sample_incident({.p = emitted->end.p + 0.3f * emitted->direction}, Vec2(0.5f),
                                       EnvironmentSampling::plain, time);
             REQUIRE(incident.has_value());
             CHECK(dot(incident->wi, emitted->direction) == Approx(-1.0f));
@@ -147,7 +147,7 @@ TEST_CASE("the tree of lights loses none of those that move, at any time", "[mot
                 lights.context_probability(LightId{i}, receiver, LightSampling::tree);
             const float time = random.next();
             const auto incident = lights[LightId{i}].sample_incident(
-                p, random.next_2d(), EnvironmentSampling::plain, time);
+                receiver, random.next_2d(), EnvironmentSampling::plain, time);
             if (incident && !is_black(incident->weight) &&
                 dot(*receiver.normal, incident->wi) > 0.0f) {
                 ++contributions;

@@ -96,8 +96,10 @@ TEST_CASE("profile light: the same in all directions it is a point light", "[lig
     test::Random random(51);
     for (int i = 0; i < 2000; ++i) {
         const Vec3 receiver = position + random.direction() * (0.1f + 5.0f * random.next());
-        const auto incident = light.sample_incident(receiver, {}, EnvironmentSampling::plain, 0.0f);
-        const auto expected = point.sample_incident(receiver, {}, EnvironmentSampling::plain, 0.0f);
+        const auto incident =
+            light.sample_incident({.p = receiver}, {}, EnvironmentSampling::plain, 0.0f);
+        const auto expected =
+            point.sample_incident({.p = receiver}, {}, EnvironmentSampling::plain, 0.0f);
         REQUIRE(incident.has_value());
         REQUIRE(same(incident->weight, expected->weight));
         REQUIRE(incident->wi == expected->wi);
@@ -267,12 +269,12 @@ TEST_CASE("profile light: the node turns it, and mirrors it", "[light]")
         Mat3 turned = some_rotation();
         turned[1] *= mirror;
         const ProfileLight light({.position = Vec3(1.0f), .world_from_light = turned}, profile);
-        const auto lit = light.sample_incident(Vec3(1.0f) + 2.0f * (turned * bright), {},
+        const auto lit = light.sample_incident({.p = Vec3(1.0f) + 2.0f * (turned * bright)}, {},
                                                EnvironmentSampling::plain, 0.0f);
         REQUIRE(lit.has_value());
         CHECK(lit->weight.r == Approx(2.0f).epsilon(2e-3));
         CHECK_FALSE(light
-                        .sample_incident(Vec3(1.0f) - 2.0f * (turned * bright), {},
+                        .sample_incident({.p = Vec3(1.0f) - 2.0f * (turned * bright)}, {},
                                          EnvironmentSampling::plain, 0.0f)
                         .has_value());
         CHECK(light.pdf_direction({}, turned * bright, 0.0f).value > 0.0f);

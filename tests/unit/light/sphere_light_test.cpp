@@ -56,8 +56,8 @@ TEST_CASE("sphere: next-event directions are uniform in the cone that the sphere
         const double height = sine_squared / (1.0 + std::sqrt(1.0 - sine_squared));
         std::vector<double> counts(64);
         for (int i = 0; i < 200000; ++i) {
-            const auto incident =
-                light.sample_incident(receiver, random.next_2d(), EnvironmentSampling::plain, 0.0f);
+            const auto incident = light.sample_incident({.p = receiver}, random.next_2d(),
+                                                        EnvironmentSampling::plain, 0.0f);
             REQUIRE(incident.has_value());
             const glm::dvec3 w = normalize(glm::dvec3(incident->end.p) - glm::dvec3(receiver));
             const glm::dvec3 across = w - dot(w, towards) * towards;
@@ -69,8 +69,9 @@ TEST_CASE("sphere: next-event directions are uniform in the cone that the sphere
             REQUIRE(static_cast<double>(incident->pdf_solid_angle.value) ==
                     Approx(1.0 / (2.0 * 3.14159265358979 * height)).epsilon(1e-5));
             // A strategy that finds the point by chance computes the same density.
-            REQUIRE(light.pdf_incident(receiver, {.p = incident->end.p, .ng = incident->end.ng})
-                        .value == Approx(incident->pdf.value).epsilon(1e-4));
+            REQUIRE(
+                light.pdf_incident({.p = receiver}, {.p = incident->end.p, .ng = incident->end.ng})
+                    .value == Approx(incident->pdf.value).epsilon(1e-4));
         }
         INFO("distance " << distance);
         check_uniform(counts);
@@ -86,9 +87,9 @@ TEST_CASE("sphere: the density of next-event points integrates to one", "[light]
         test::Moments integral;
         for (int i = 0; i < 2000000; ++i) {
             const SegmentEnd at = light.surface(random.direction(), 0.0f);
-            integral.add(
-                static_cast<double>(light.pdf_incident(receiver, {.p = at.p, .ng = at.ng}).value /
-                                    light.pdf_position().value));
+            integral.add(static_cast<double>(
+                light.pdf_incident({.p = receiver}, {.p = at.p, .ng = at.ng}).value /
+                light.pdf_position().value));
         }
         INFO("distance " << distance);
         CHECK(std::abs(integral.mean() - 1.0) < 4.0 * integral.standard_error());
@@ -102,12 +103,13 @@ TEST_CASE("sphere: there is no light inside of the sphere", "[light]")
     const SegmentEnd top = light.surface({0.0f, 1.0f, 0.0f}, 0.0f);
     const Vec3 center = bulb(0.0f).position;
     for (const Vec3 receiver : {center, center + Vec3(0.2f, 0.0f, 0.0f)}) {
-        CHECK_FALSE(light.sample_incident(receiver, {0.3f, 0.6f}, EnvironmentSampling::plain, 0.0f)
-                        .has_value());
-        CHECK(light.pdf_incident(receiver, {.p = top.p, .ng = top.ng}).value == 0.0f);
+        CHECK_FALSE(
+            light.sample_incident({.p = receiver}, {0.3f, 0.6f}, EnvironmentSampling::plain, 0.0f)
+                .has_value());
+        CHECK(light.pdf_incident({.p = receiver}, {.p = top.p, .ng = top.ng}).value == 0.0f);
     }
     // Nor on the far side.
-    CHECK(light.pdf_incident({0.3f, -4.0f, 0.5f}, {.p = top.p, .ng = top.ng}).value == 0.0f);
+    CHECK(light.pdf_incident({.p = {0.3f, -4.0f, 0.5f}}, {.p = top.p, .ng = top.ng}).value == 0.0f);
 }
 
 TEST_CASE("sphere: light that leaves has the density that is claimed", "[light]")
@@ -173,9 +175,10 @@ TEST_CASE("sphere: from afar it is the point or spot light", "[light]")
     int lit = 0;
     for (int i = 0; i < 1000; ++i) {
         const Vec3 receiver = lamp(0.0f).position + 3.0f * random.direction();
-        const auto expected = point.sample_incident(receiver, {}, EnvironmentSampling::plain, 0.0f);
-        const auto found =
-            ball.sample_incident(receiver, random.next_2d(), EnvironmentSampling::plain, 0.0f);
+        const auto expected =
+            point.sample_incident({.p = receiver}, {}, EnvironmentSampling::plain, 0.0f);
+        const auto found = ball.sample_incident({.p = receiver}, random.next_2d(),
+                                                EnvironmentSampling::plain, 0.0f);
         if (expected && expected->weight.r > 1e-3f) {
             ++lit;
             REQUIRE(found.has_value());
@@ -240,7 +243,7 @@ TEST_CASE("a sphere never hides its own sampled points, from wherever it is lit"
             for (int i = 0; i < 3000; ++i) {
                 const float distance = radius * (1.001f + 1000.0f * random.next());
                 const Vec3 receiver = desc.position + distance * random.direction();
-                const auto incident = light.sample_incident(receiver, random.next_2d(),
+                const auto incident = light.sample_incident({.p = receiver}, random.next_2d(),
                                                             EnvironmentSampling::plain, 0.0f);
                 if (incident) {
                     REQUIRE(world.transmittance({.p = receiver}, incident->end, {}) == Rgb(1.0f));
@@ -268,7 +271,7 @@ TEST_CASE("a sphere never hides its own outline from far away", "[world]")
         const Vec3 receiver = (10.0f + 1000.0f * random.next()) * random.direction();
         // The square's border is that of the cone.
         const float near_border = 1.0f - 1e-4f * random.next();
-        const auto incident = light.sample_incident(receiver, {near_border, random.next()},
+        const auto incident = light.sample_incident({.p = receiver}, {near_border, random.next()},
                                                     EnvironmentSampling::plain, 0.0f);
         if (incident) {
             ++seen;

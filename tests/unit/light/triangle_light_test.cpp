@@ -94,7 +94,7 @@ TEST_CASE("textured emitter: points have the density that is claimed", "[light]"
         };
         for (int i = 0; i < 200000; ++i) {
             const auto emitted = light.sample_emission(random.next_2d(), random.next_2d(), 0.0f);
-            const auto incident = light.sample_incident({0.1f, 3.0f, 0.2f}, random.next_2d(),
+            const auto incident = light.sample_incident({.p = {0.1f, 3.0f, 0.2f}}, random.next_2d(),
                                                         EnvironmentSampling::plain, 0.0f);
             REQUIRE(emitted.has_value());
             REQUIRE(incident.has_value());

@@ -166,13 +166,17 @@ TEST_CASE("next-event estimation has the density that others are weighed against
     paper.diffuse_transmission.factor = 0.5f;
     builder.quad({-0.5f, 0.0f, -0.3f}, {0.5f, 0.0f, -0.3f}, {0.5f, 0.6f, 0.1f}, {-0.5f, 0.6f, 0.1f},
                  paper);
-    builder.light(EnvironmentLightDesc{.radiance = {.width = 1, .height = 1, .pixels = {Rgb(1)}}});
+    Image sky{.width = 32, .height = 16, .pixels = std::vector<Rgb>(512, Rgb(0.5f))};
+    sky.pixels[70] = Rgb(50.0f);
+    builder.light(EnvironmentLightDesc{.radiance = std::move(sky)});
     const World world(std::move(builder.desc));
     const Camera camera(test::room_camera(), 16, 16);
-    const NextEventSampling sampling{.lights = LightSampling::tree};
+    const NextEventSampling sampling{.environments = EnvironmentSampling::compensated,
+                                     .lights = LightSampling::tree};
     Subpath path(5);
     RayCounts rays;
     int compared = 0;
+    int from_sky = 0;
     int through = 0;
     for (int i = 0; i < 4000; ++i) {
         SampleContext sample = test::sample_of(
@@ -185,34 +189,38 @@ TEST_CASE("next-event estimation has the density that others are weighed against
             if (!scatters(x1.kind) || !x1.connectible) {
                 continue;
             }
-            const auto choice = world.lights().choose_for_context(
-                light_sample_context(x1), sampler.next_fine(), sampling.lights);
-            if (!choice) {
+            const LightSampleContext receiver = light_sample_context(x1);
+            const auto found = world.lights().sample_next_event(
+                receiver, sampler.next_2d(), [&sampler] { return sampler.next_fine(); }, sampling,
+                0.0f);
+            if (!found.incident ||
+                x1.bsdf->eval(found.incident->wi, TransportMode::radiance).f_cos.g <= 0) {
                 continue;
             }
-            const Light& light = world.lights()[choice->id];
-            const auto incident = light.sample_incident(x1.end.p, sampler.next_2d(),
-                                                        EnvironmentSampling::plain, 0.0f);
-            if (!incident || x1.bsdf->eval(incident->wi, TransportMode::radiance).f_cos.g <= 0.0f) {
-                continue;
-            }
+            const Light& light = world.lights()[found.light];
+            const IncidentSample& incident = *found.incident;
             PathVertex x0;
             x0.kind = light.is_infinite() ? VertexKind::infinite : VertexKind::light;
-            x0.light = choice->id;
-            x0.end = incident->end;
-            x0.end.p = light.is_infinite() ? incident->wi : incident->end.p;
-            x0.barycentrics = incident->barycentrics;
+            x0.light = found.light;
+            x0.end = incident.end;
+            x0.end.p = light.is_infinite() ? incident.wi : incident.end.p;
+            x0.barycentrics = incident.barycentrics;
+            const float density = next_event_density(sample, x0, x1, sampling).value;
             // The density of the point is that of the light's own tests, but for rounding.
             const LightPoint point{.p = x0.end.p, .ng = x0.end.ng, .barycentrics = x0.barycentrics};
-            const float of_point = light.pdf_incident(x1.end.p, point).value;
-            REQUIRE(next_event_density(sample, x0, x1, sampling).value ==
-                    Approx(of_point * choice->probability).epsilon(1e-5));
+            const float of_point = light.pdf_incident(receiver, point, sampling.environments).value;
+            REQUIRE(density == Approx(of_point * found.probability).epsilon(1e-5));
+            if (light.is_infinite()) {
+                REQUIRE(density == Approx(found.pdf().value).epsilon(1e-5));
+                ++from_sky;
+            }
             ++compared;
             const Vec3 to_previous = path[t - 2].end.p - x1.end.p;
-            through += dot(incident->wi, x1.end.ng) * dot(to_previous, x1.end.ng) < 0.0f ? 1 : 0;
+            through += dot(incident.wi, x1.end.ng) * dot(to_previous, x1.end.ng) < 0.0f ? 1 : 0;
         }
     }
     CHECK(compared > 2000);
+    CHECK(from_sky > 200);
     CHECK(through > 50);  // glass and paper
 }
 

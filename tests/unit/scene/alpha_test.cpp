@@ -292,7 +292,7 @@ TEST_CASE("what is sampled of a light counts by its opacity", "[alpha]")
         for (int i = 0; i < grid * grid; ++i) {
             const Vec2 u = (Vec2(i % grid, i / grid) + 0.5f) / static_cast<float>(grid);
             if (const auto sample =
-                    light.sample_incident(receiver, u, EnvironmentSampling::plain, 0.0f)) {
+                    light.sample_incident({.p = receiver}, u, EnvironmentSampling::plain, 0.0f)) {
                 sampled += static_cast<double>(sample->weight.g) / cells;
             }
             if (const auto sample = light.sample_emission(u, {0.3f, 0.6f}, 0.0f)) {

@@ -38,6 +38,27 @@ struct PathIntegrator::LightConnection {
     float bsdf_pdf = 0.0f;   ///< of a BSDF sample hitting the point, in `mis`
 };
 
+namespace {
+
+/// As next-event estimation chooses light for it.
+LightSampleContext receiver_at(const SurfacePoint& point)
+{
+    return {.p = point.end.p, .normal = point.bsdf.opaque_normal()};
+}
+
+/// Is there a light that no ray hits?
+bool has_delta_light(const LightSet& lights)
+{
+    for (std::uint32_t i = 0; i < lights.size(); ++i) {
+        if (lights[LightId{i}].is_delta()) {
+            return true;
+        }
+    }
+    return false;
+}
+
+}  // namespace
+
 PathIntegrator::PathIntegrator(const World& world, const MovingCamera& camera,
                                const RenderOptions& options)
     : world_(world),
@@ -51,7 +72,8 @@ PathIntegrator::PathIntegrator(const World& world, const MovingCamera& camera,
                                                : EnvironmentSampling::plain,
                            .lights = options.sampling.lights,
                            .samples = options.sampling.light_samples},
-      light_samples_(static_cast<float>(options.sampling.light_samples))
+      light_samples_(static_cast<float>(options.sampling.light_samples)),
+      samples_lights_(options.integrator != IntegratorKind::pt || has_delta_light(world.lights()))
 {
     if (options.integrator != IntegratorKind::pt && world.media().fog() != MediumId::clear) {
         fog_sampling_.emplace(world, options.sampling.lights);
@@ -162,7 +184,8 @@ void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, Contribution
         }
         dispersed = dispersed || point.disperses;
         const auto vertex = static_cast<std::uint32_t>(depth + 1);
-        if (point.bsdf.connectible() && depth + 1 >= options_.transport.min_depth) {
+        if (samples_lights_ && point.bsdf.connectible() &&
+            depth + 1 >= options_.transport.min_depth) {
             const PhaseScope scope(sample.clock, Phase::connect);
             add({.s = 1, .t = depth + 1}, beta * sample_lights(sample, point, arrival, depth));
         }
@@ -179,8 +202,8 @@ void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, Contribution
         ray.direction = scattered->wi;
         ray.pdf = scattered->pdf_fwd;
         ray.competes = !scattered->delta && options_.integrator != IntegratorKind::pt;
-        if (ray.competes && world_.lights().uses_tree(next_event_sampling_.lights)) {
-            ray.receiver = {.p = point.end.p, .normal = point.bsdf.opaque_normal()};
+        if (ray.competes) {
+            ray.receiver = receiver_at(point);
         }
         // Of what the first surface leaves: where that is dark, the pixel is.
         full = depth == 1 ? max_component(beta) : full;
@@ -211,12 +234,15 @@ Rgb PathIntegrator::emission(const Ray& ray, LightId light, const LightPoint& hi
         return radiance;
     }
     const LightSet& lights = world_.lights();
-    const float probability =
-        lights.context_probability(light, ray.receiver, next_event_sampling_.lights);
-    const float pdf =
-        lights[light].pdf_incident(ray.origin.p, hit, next_event_sampling_.environments).value;
-    const float by_light = pdf * (probability * light_samples_);
-    const float by_fog = pdf * fog_odds(ray.arrival, light);
+    const float by_light =
+        lights.next_event_pdf(light, hit, ray.receiver, next_event_sampling_).value *
+        light_samples_;
+    const float by_fog =
+        ray.arrival ? lights[light]
+                              .pdf_incident(ray.receiver, hit, next_event_sampling_.environments)
+                              .value *
+                          fog_odds(ray.arrival, light)
+                    : 0.0f;
     if (options_.integrator == IntegratorKind::nee) {
         return by_light + by_fog > 0.0f ? Rgb(0.0f) : radiance;
     }
@@ -246,22 +272,21 @@ Rgb PathIntegrator::sample_light(SampleContext& sample, const SurfacePoint& poin
                                  const std::optional<FogArrival>& arrival, int depth, Vec2 u) const
 {
     Sampler& sampler = sample.sampler;
-    const auto receiver = [&point] {
-        return LightSampleContext{.p = point.end.p, .normal = point.bsdf.opaque_normal()};
-    };
-    const auto choice = world_.lights().choose_for_context(
-        receiver, u, [&sampler] { return sampler.next_fine(); }, next_event_sampling_.lights);
-    if (!choice) {
+    const LightSet& lights = world_.lights();
+    const auto sampled = lights.sample_next_event(
+        receiver_at(point), u, [&sampler] { return sampler.next_fine(); }, next_event_sampling_,
+        sample.time);
+    if (!sampled.incident) {
         return Rgb(0.0f);
     }
-    const auto found = connect(sample, point, choice->id, choice->u, depth);
+    const auto found = connect(sample, point, lights[sampled.light], *sampled.incident, depth);
     if (!found) {
         return Rgb(0.0f);
     }
-    const TechniqueDensities densities{found->light_pdf * (choice->probability * light_samples_),
+    const TechniqueDensities densities{found->light_pdf * (sampled.probability * light_samples_),
                                        found->bsdf_pdf,
-                                       found->light_pdf * fog_odds(arrival, choice->id)};
-    return found->value / choice->probability * weight(densities, LightTechnique::light_sample);
+                                       found->light_pdf * fog_odds(arrival, sampled.light)};
+    return found->value / sampled.probability * weight(densities, LightTechnique::light_sample);
 }
 
 Rgb PathIntegrator::sample_fog(SampleContext& sample, const Ray& ray, const FogSegment& fog,
@@ -282,7 +307,14 @@ Rgb PathIntegrator::sample_fog(SampleContext& sample, const Ray& ray, const FogS
     }
     const SurfacePoint point = world_.medium_point(
         ray.origin, ray.direction, {.distance = chosen->distance, .medium = world_.media().fog()});
-    const auto found = connect(sample, point, chosen->light, chosen->u, depth);
+    const Light& light = world_.lights()[chosen->light];
+    const LightSampleContext receiver = receiver_at(point);
+    const auto incident =
+        light.sample_incident(receiver, chosen->u, next_event_sampling_.environments, sample.time);
+    if (!incident) {
+        return Rgb(0.0f);
+    }
+    const auto found = connect(sample, point, light, *incident, depth);
     if (!found) {
         return Rgb(0.0f);
     }
@@ -290,8 +322,8 @@ Rgb PathIntegrator::sample_fog(SampleContext& sample, const Ray& ray, const FogS
         world_.media().flight(ray.origin, point.end, ray.direction, chosen->distance);
     const Rgb through = world_.volumes().transmittance(ray.origin.p, ray.direction,
                                                        chosen->distance, sample.segment(0, depth));
-    const float probability = world_.lights().context_probability(
-        chosen->light, LightSampleContext{.p = point.end.p}, next_event_sampling_.lights);
+    const float probability =
+        world_.lights().context_probability(chosen->light, receiver, next_event_sampling_.lights);
     const TechniqueDensities densities{
         flight.stop * found->light_pdf * (probability * light_samples_),
         flight.stop * found->bsdf_pdf, samples * chosen->pdf * found->light_pdf};
@@ -299,36 +331,29 @@ Rgb PathIntegrator::sample_fog(SampleContext& sample, const Ray& ray, const FogS
            (weight(densities, LightTechnique::fog_sample) / (samples * chosen->pdf));
 }
 
-std::optional<PathIntegrator::LightConnection> PathIntegrator::connect(SampleContext& sample,
-                                                                       const SurfacePoint& point,
-                                                                       LightId id, Vec2 u,
-                                                                       int depth) const
+std::optional<PathIntegrator::LightConnection> PathIntegrator::connect(
+    SampleContext& sample, const SurfacePoint& point, const Light& light,
+    const IncidentSample& incident, int depth) const
 {
-    const Light& light = world_.lights()[id];
     if (options_.integrator == IntegratorKind::pt && !light.is_delta()) {
         return std::nullopt;
     }
-    const auto incident =
-        light.sample_incident(point.end.p, u, next_event_sampling_.environments, sample.time);
-    if (!incident) {
-        return std::nullopt;
-    }
-    const BsdfEval f = point.bsdf.eval(incident->wi, TransportMode::radiance);
-    const Rgb value = f.f_cos * incident->weight;
+    const BsdfEval f = point.bsdf.eval(incident.wi, TransportMode::radiance);
+    const Rgb value = f.f_cos * incident.weight;
     if (is_black(value)) {
         return std::nullopt;
     }
     ++sample.rays.shadow;
     const SegmentKey segment = sample.segment(1, depth + 1);
     const auto flight = light.is_infinite()
-                            ? world_.flight_to_infinity(point.end, incident->wi, segment)
-                            : world_.flight(point.end, incident->end, segment);
+                            ? world_.flight_to_infinity(point.end, incident.wi, segment)
+                            : world_.flight(point.end, incident.end, segment);
     if (!flight) {
         return std::nullopt;
     }
     const bool can_be_hit = options_.integrator == IntegratorKind::mis && !light.is_delta();
     return LightConnection{.value = value * flight->transmittance,
-                           .light_pdf = incident->pdf_solid_angle.value,
+                           .light_pdf = incident.pdf_solid_angle.value,
                            .bsdf_pdf = can_be_hit ? f.pdf_fwd.value * flight->pass : 0.0f};
 }
 

@@ -42,10 +42,12 @@ private:
     /// Next-event estimation at a point of the fog on the ray, chosen for the light.
     [[nodiscard]] Rgb sample_fog(SampleContext& sample, const Ray& ray, const FogSegment& fog,
                                  int depth) const;
-    /// Light from a point of the light, chosen by `u`; nothing if none arrives.
+    /// Light that arrives from a sampled point of the light; nothing if none does.
     [[nodiscard]] std::optional<LightConnection> connect(SampleContext& sample,
-                                                         const SurfacePoint& point, LightId light,
-                                                         Vec2 u, int depth) const;
+                                                         const SurfacePoint& point,
+                                                         const Light& light,
+                                                         const IncidentSample& incident,
+                                                         int depth) const;
     /// How much more often `FogSampling` finds the light at the point of fog than a walk comes
     /// there.
     [[nodiscard]] float fog_odds(const std::optional<FogArrival>& arrival, LightId light) const;
@@ -61,6 +63,7 @@ private:
     PixelFilter filter_;
     NextEventSampling next_event_sampling_;
     float light_samples_;  // of these
+    bool samples_lights_;  // at all
     std::optional<FogSampling> fog_sampling_;
 };
 

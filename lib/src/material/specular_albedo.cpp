@@ -9,7 +9,7 @@ namespace bdpt {
 
 using Split = SpecularAlbedo::Split;
 
-SpecularAlbedo::SpecularAlbedo(float ior)
+SpecularAlbedo::SpecularAlbedo(float ior, Below below)
     : ior_(std::clamp(ior, 1.0f, 1e6f)),
       r0_((ior_ - 1.0f) / (ior_ + 1.0f) * ((ior_ - 1.0f) / (ior_ + 1.0f))),
       inv_range_(0.25f * (ior_ + 1.0f) * ((ior_ + 1.0f) / ior_))
@@ -22,6 +22,9 @@ SpecularAlbedo::SpecularAlbedo(float ior)
                 integrate(x * x, roughness);
         }
         average_[static_cast<std::size_t>(row)] = average_of_row(row);
+    }
+    if (below == Below::transparent_body) {
+        loss_ = std::make_unique<const RefractionLoss>(*this);
     }
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 
 #include "material/lobes/fresnel.h"
+#include "material/refraction_loss.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 
 namespace bdpt {
 
@@ -19,8 +21,12 @@ public:
         float f90 = 0.0f;
     };
 
-    /// Integrates the tables, which takes some milliseconds. `ior` is clamped to [1, 1e6].
-    explicit SpecularAlbedo(float ior);
+    /// What lies below the boundary.
+    enum class Below { base, transparent_body };
+
+    /// Integrates the tables, which takes some milliseconds, and more for transparent bodies. `ior`
+    /// is clamped to [1, 1e6].
+    explicit SpecularAlbedo(float ior, Below below = Below::base);
 
     [[nodiscard]] float ior() const noexcept { return ior_; }
     /// Reflectance at normal incidence, ((ior - 1) / (ior + 1))^2.
@@ -33,9 +39,15 @@ public:
         return std::clamp((fresnel_dielectric(cos_outer, ior_) - r0_) * inv_range_, 0.0f, 1.0f);
     }
 
+    /// Null where no transparent body is below.
+    [[nodiscard]] const RefractionLoss* refraction_loss() const noexcept { return loss_.get(); }
+
     /// Where a roughness lies in the tables.
     struct Roughness {
         float row = 0.0f;
+
+        /// Perceptual, in [0, 1].
+        [[nodiscard]] float value() const { return row / (roughness_nodes - 1); }
     };
 
     /// Of a perceptual roughness in [0, 1].
@@ -97,6 +109,7 @@ private:
     /// Rows of even roughness, in them nodes of even sqrt(cosine).
     std::array<Split, roughness_nodes * cosine_nodes> table_;
     std::array<Split, roughness_nodes> average_;
+    std::unique_ptr<const RefractionLoss> loss_;
 };
 
 }  // namespace bdpt

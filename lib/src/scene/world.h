@@ -24,6 +24,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace bdpt {
@@ -163,7 +164,8 @@ private:
     };
 
     SharedSceneDesc desc_;
-    std::map<float, std::shared_ptr<const SpecularAlbedo>> albedos_;  // by index of refraction
+    using AlbedoKey = std::pair<float, SpecularAlbedo::Below>;  ///< the first: index of refraction
+    std::map<AlbedoKey, std::shared_ptr<const SpecularAlbedo>> albedos_;
     std::shared_ptr<const LayerTables> layer_tables_;                 // if any material needs them
     MipMaps mip_maps_;                                                // if textures have any
     Media media_;

@@ -148,18 +148,21 @@ Material WorldBuilder::make_material(const MaterialDesc& desc, const ChannelAlbe
 ChannelAlbedos WorldBuilder::albedos_of(const MaterialDesc& desc, const Exterior& exterior)
 {
     const auto [red, green, blue] = boundary_indices(desc, exterior).greater_by_less;
-    return {albedo_of(red), albedo_of(green), albedo_of(blue)};
+    const bool is_transparent = desc.transmission > 0.0f && desc.thickness > 0.0f;
+    const auto below =
+        is_transparent ? SpecularAlbedo::Below::transparent_body : SpecularAlbedo::Below::base;
+    return {albedo_of({red, below}), albedo_of({green, below}), albedo_of({blue, below})};
 }
 
-const SpecularAlbedo& WorldBuilder::albedo_of(float ior)
+const SpecularAlbedo& WorldBuilder::albedo_of(const World::AlbedoKey& key)
 {
-    auto& albedo = world_.albedos_[ior];
+    auto& albedo = world_.albedos_[key];
     if (!albedo && like_ != nullptr) {
-        const auto known = like_->albedos_.find(ior);
+        const auto known = like_->albedos_.find(key);
         albedo = known != like_->albedos_.end() ? known->second : nullptr;
     }
     if (!albedo) {
-        albedo = std::make_shared<const SpecularAlbedo>(ior);
+        albedo = std::make_shared<const SpecularAlbedo>(key.first, key.second);
     }
     return *albedo;
 }

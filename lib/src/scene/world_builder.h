@@ -34,7 +34,7 @@ private:
     [[nodiscard]] Material make_material(const MaterialDesc& desc, const ChannelAlbedos& albedos,
                                          const Exterior& exterior, MediumId within);
     [[nodiscard]] ChannelAlbedos albedos_of(const MaterialDesc& desc, const Exterior& exterior);
-    [[nodiscard]] const SpecularAlbedo& albedo_of(float ior);
+    [[nodiscard]] const SpecularAlbedo& albedo_of(const World::AlbedoKey& key);
 
     void add_lights();
     [[nodiscard]] bool emission_stays() const;

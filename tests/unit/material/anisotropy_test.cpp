@@ -1,9 +1,11 @@
 #include "material/lobes/ggx.h"
+#include "material/lobes/interreflection.h"
 #include "material/models/layered_bsdf.h"
 
 #include "catch.hpp"
 #include "layered_cases.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace bdpt::test::anisotropy_test {
@@ -60,7 +62,24 @@ TEST_CASE("brushed metal has the values of the extension's formula")
         return std::sqrt(std::pow(at * d(w.x), 2) + std::pow(ab * d(w.y), 2) + std::pow(d(w.z), 2));
     };
     const double visibility = 0.5 / (d(wi.z) * length(wo) + d(wo.z) * length(wi));
-    const double expected = distribution * visibility * d(wi.z);
+    // And what is reflected often, as by the roughness that reflects more at once.
+    const SpecularAlbedo albedo(1.5f);
+    const auto white = [&](const auto& look_up) {
+        const auto of = [&](float roughness) {
+            const SpecularAlbedo::Split split = look_up(SpecularAlbedo::at_roughness(roughness));
+            return split.f0 + split.f90;
+        };
+        return std::max(of(0.5f), of(std::sqrt(0.52f)));
+    };
+    const auto unreflected = [&](Vec3 w) {
+        return 1.0f - white([&](auto row) { return albedo.directional(w.z, row); });
+    };
+    const Interreflection repeated(Rgb{1.0f}, white([&](auto row) { return albedo.average(row); }),
+                                   1.0f);
+    const double expected =
+        distribution * visibility * d(wi.z) + d(repeated.lobe(unreflected(wo), unreflected(wi))
+                                                    .eval(wo, wi, TransportMode::radiance)
+                                                    .f_cos.g);
     CHECK(d(bsdf.eval(wo, wi, TransportMode::radiance).f_cos.g) == Approx(expected).epsilon(1e-3));
     // The blur is along x.
     const Vec3 up{0.0f, 0.0f, 1.0f};

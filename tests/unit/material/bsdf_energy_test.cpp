@@ -1,5 +1,6 @@
 #include "bsdf_cases.h"
 #include "catch.hpp"
+#include "material/lobes/interreflection.h"
 #include "math/rgb.h"
 #include "statistics.h"
 
@@ -81,6 +82,40 @@ TEST_CASE("a white surface without loss is invisible in a white furnace")
     }
 }
 
+TEST_CASE("rough white metal and clear glass are invisible in a white furnace, too")
+{
+    constexpr Body solid = Body::solid;
+    const Rgb white{1.0f};
+    const std::vector<test::BsdfCase> cases{
+        {"metal 0.1", {white, 1, 0.1f}},
+        {"metal 0.3", {white, 1, 0.3f}},
+        {"metal 0.5", {white, 1, 0.5f}},
+        {"metal 0.8", {white, 1, 0.8f}},
+        {"metal 1", {white, 1, 1}},
+        {"half metal 0.6", {white, 0.5f, 0.6f}},
+        {"glass 0.1", {white, 0, 0.1f, 1, white, 1, solid}},
+        {"glass 0.3", {white, 0, 0.3f, 1, white, 1, solid}},
+        {"glass 0.5 ior 2.4", {white, 0, 0.5f, 1, white, 1, solid}, 2.4f},
+        {"glass 0.6 ior 1.33", {white, 0, 0.6f, 1, white, 1, solid}, 1.33f},
+        {"glass 0.8", {white, 0, 0.8f, 1, white, 1, solid}},
+        {"glass 1", {white, 0, 1, 1, white, 1, solid}},
+        {"glass 0.7 half specular", {white, 0, 0.7f, 0.5f, white, 1, solid}},
+        {"thin glass 0.4", {white, 0, 0.4f, 1, white, 1}},
+        {"thin glass 1", {white, 0, 1, 1, white, 1}},
+        {"thin half transmission 0.7", {white, 0, 0.7f, 1, white, 0.5f}},
+    };
+    for (const test::BsdfCase& bsdf_case : cases) {
+        const test::TestedBsdf bsdf(bsdf_case);
+        for (const Vec3 wo : test::bsdf_directions()) {
+            CAPTURE(bsdf_case.name, wo.z);
+            const test::Moments sum = albedo_of(bsdf, wo, 200000)[0];
+            CHECK(sum.standard_error() < 0.0015);
+            // Tables of roughness and cosine are good to 0.2 %.
+            CHECK(std::abs(sum.mean() - 1.0) < 0.002 + 3.0 * sum.standard_error());
+        }
+    }
+}
+
 TEST_CASE("layers take from what lies below no more than they give, and not much")
 {
     const Rgb white{1.0f};
@@ -106,18 +141,50 @@ TEST_CASE("layers take from what lies below no more than they give, and not much
     }
 }
 
-TEST_CASE("rough metal loses what single scattering must lose")
+TEST_CASE("rough metal reflects once what it must, and the rest after more reflections")
 {
     const Vec3 up{0.0f, 0.0f, 1.0f};
     // Seen straight, alpha = 1: D = 1 / pi and the integral of z / (1 + z) is 1 - log 2.
-    const auto white_metal = [](float roughness) {
-        return test::TestedBsdf({"metal", {Rgb{1.0f}, 1, roughness}});
-    };
-    const test::Moments rough = albedo_of(white_metal(1.0f), up, 100000)[0];
-    CHECK(rough.standard_error() < 0.002);
-    CHECK(std::abs(rough.mean() - (1.0 - std::log(2.0))) < 4.0 * rough.standard_error());
-    // Nearly smooth metal loses nearly nothing.
-    CHECK(albedo_of(white_metal(0.2f), up, 100000)[0].mean() > 0.995);
+    const double once = 1.0 - std::log(2.0);
+    const test::TestedBsdf white({"metal", {Rgb{1.0f}, 1, 1}});
+    // Upwards alone, in the direction where single scattering is known: f cos = 1 / (4 pi).
+    const Vec3 wi{0.0f, 0.0f, 1.0f};
+    const float f_cos = white.eval(up, wi, TransportMode::importance).f_cos.r;
+    const float interreflected = f_cos - 0.25f * inv_pi;
+    CHECK(interreflected > 0.0f);
+    // Its lobe is cosine-distributed but for what is missing at wi, 0.69 there.
+    const test::Moments all = albedo_of(white, up, 100000)[0];
+    CHECK(std::abs(all.mean() - 1.0) < 0.002 + 4.0 * all.standard_error());
+    // Darker metal reflects less of what is reflected often: a black one has single scattering
+    // by Schlick's rest alone, and a grey one less than half of a white one.
+    const test::Moments grey =
+        albedo_of(test::TestedBsdf({"metal", {Rgb{0.5f}, 1, 1}}), up, 100000)[0];
+    CHECK(grey.mean() < 0.5);
+    CHECK(grey.mean() > 0.5 * once);
+}
+
+TEST_CASE("interreflection is the sum of all reflections after the first")
+{
+    // Of what comes back, `average` leaves and the rest is reflected again.
+    const float average = GENERATE(0.3f, 0.9f);
+    const Rgb f0{0.0f, 0.5f, 1.0f};
+    const Interreflection lobe(f0, average, 1.0f);
+    for (int channel = 0; channel < 3; ++channel) {
+        const double r = static_cast<double>(f0[channel] + (1.0f - f0[channel]) / 21.0f);
+        double sum = 0.0;
+        double left = r;  // reflected once, and masked
+        for (int k = 0; k < 400; ++k) {
+            sum += left * r * static_cast<double>(average);
+            left *= r * static_cast<double>(1.0f - average);
+        }
+        const Rgb f_cos =
+            lobe.lobe(1.0f, 1.0f)
+                .eval({0.0f, 0.0f, 1.0f}, {0.0f, 0.0f, 1.0f}, TransportMode::importance)
+                .f_cos;
+        const double scale = static_cast<double>(1.0f - average) / static_cast<double>(inv_pi);
+        CHECK(static_cast<double>(f_cos[channel]) * scale == Approx(sum).epsilon(1e-4));
+    }
+    CHECK(lobe.weight() == Approx(1.0f));
 }
 
 }  // namespace bdpt::test::bsdf_energy_test

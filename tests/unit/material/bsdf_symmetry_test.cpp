@@ -1,5 +1,6 @@
 #include "bsdf_cases.h"
 #include "catch.hpp"
+#include "material/lobes/interreflection.h"
 #include "math/rgb.h"
 #include "statistics.h"
 
@@ -148,13 +149,24 @@ TEST_CASE("BSDFs have the values worked out by hand")
         CHECK(value.pdf_rev.value == Approx(inv_pi));
         CHECK(bsdf.eval(up, down, TransportMode::radiance).pdf_fwd.value == 0.0f);
     }
-    SECTION("metal of alpha 1, seen straight: base D G / 4 = base / (4 pi)")
+    SECTION("metal of alpha 1, seen straight: base D G / 4 = base / (4 pi), and interreflection")
     {
         const MetallicRoughness bsdf({base, 1, 1}, albedo);
-        check_close(bsdf.eval(up, up, TransportMode::radiance).f_cos, base * (0.25f * inv_pi),
-                    1e-5f);
+        const auto row = SpecularAlbedo::at_roughness(1.0f);
+        const SpecularAlbedo::Split average = albedo.average(row);
+        const SpecularAlbedo::Split straight = albedo.directional(1.0f, row);
+        const float unreflected = 1.0f - straight.f0 - straight.f90;
+        CHECK(unreflected == Approx(std::log(2.0f)).epsilon(5e-3));
+        const Rgb repeated = Interreflection(base, average.f0 + average.f90, 1.0f)
+                                 .lobe(unreflected, unreflected)
+                                 .eval(up, up, TransportMode::radiance)
+                                 .f_cos;
+        check_close(bsdf.eval(up, up, TransportMode::radiance).f_cos,
+                    base * (0.25f * inv_pi) + repeated, 1e-5f);
     }
-    SECTION("glass of alpha 1, straight through: (1 - F) D / (n - 1)^2, times n^2 for importance")
+    SECTION(
+        "glass of alpha 1, straight through at one microfacet: (1 - F) D / (n - 1)^2, times n^2 "
+        "for importance")
     {
         const MetallicRoughness bsdf({Rgb{1.0f}, 0, 1, 1, Rgb{1.0f}, 1, Body::solid}, albedo);
         const float radiance = 0.96f * inv_pi / 0.25f;

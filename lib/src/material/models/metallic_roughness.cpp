@@ -58,11 +58,18 @@ BasicMetallicRoughness<Film, Roughness, Base>::BasicMetallicRoughness(
 template <typename Film, typename Roughness, typename Base>
 auto BasicMetallicRoughness<Film, Roughness, Base>::side(float z) const noexcept -> Side
 {
-    if (base_weight_ == 0.0f || boundary_.is_inside(z)) {
-        return {boundary_.exists ? 1.0f : 0.0f, 0.0f};
+    const bool inside = boundary_.is_inside(z);
+    const bool repeats = refracts_repeatedly();
+    if (!repeats && (inside || (base_weight_ == 0.0f && !interreflects()))) {
+        return {.boundary_choice = boundary_.exists ? 1.0f : 0.0f};
     }
     if (!boundary_.exists) {
-        return {0.0f, 1.0f};
+        return {.base_transmitted = 1.0f};
+    }
+    const float lost_share = repeats ? lost(z) : 0.0f;
+    const float again = boundary_.transmission * lost_share;
+    if (inside) {
+        return {.boundary_choice = 1.0f - again, .refraction_choice = again};
     }
     const float cosine = std::abs(z);
     const float bare = roughness_.directional([&](SpecularAlbedo::Roughness row) {
@@ -70,11 +77,86 @@ auto BasicMetallicRoughness<Film, Roughness, Base>::side(float z) const noexcept
     });
     const float reflected = boundary_.film.greatest_over(bare, cosine, boundary_.f0);
     const float rest = std::max(0.0f, 1.0f - reflected);
-    const float specular =
-        (1.0f - boundary_.metallic) * reflected + transmission_weight_ * rest + metal_weight_;
+    const float missing = interreflects() ? unreflected(z) : 0.0f;
+    const float interreflected = interreflects() ? interreflection().weight() * missing : 0.0f;
+    const float specular = (1.0f - boundary_.metallic) * reflected +
+                           transmission_weight_ * std::max(0.0f, rest - lost_share) +
+                           metal_weight_ * (1.0f - missing);
     const float diffuse = base_weight_ * rest;
-    const float sum = specular + diffuse;
-    return {sum > 0.0f ? specular / sum : 0.0f, rest};
+    const float sum = specular + diffuse + interreflected + again;
+    return {.boundary_choice = sum > 0.0f ? specular / sum : 0.0f,
+            .base_transmitted = base_weight_ > 0.0f ? rest : 0.0f,
+            .interreflection_choice = sum > 0.0f ? interreflected / sum : 0.0f,
+            .refraction_choice = sum > 0.0f ? again / sum : 0.0f};
+}
+
+template <typename Film, typename Roughness, typename Base>
+float BasicMetallicRoughness<Film, Roughness, Base>::unreflected(float z) const noexcept
+{
+    if (boundary_.is_inside(z)) {
+        return 0.0f;
+    }
+    const float reflected = roughness_.directional([&](SpecularAlbedo::Roughness row) {
+        const SpecularAlbedo::Split split = boundary_.albedo->directional(std::abs(z), row);
+        return split.f0 + split.f90;
+    });
+    return std::max(0.0f, 1.0f - reflected);
+}
+
+template <typename Film, typename Roughness, typename Base>
+float BasicMetallicRoughness<Film, Roughness, Base>::lost(float z) const noexcept
+{
+    const float cosine = std::abs(z);
+    const float f0 = max_component(boundary_.f0);
+    const auto side =
+        boundary_.is_inside(z) ? RefractionLoss::Side::inner : RefractionLoss::Side::outer;
+    const float scattered = roughness_.directional([&](SpecularAlbedo::Roughness row) {
+        if (boundary_.is_solid) {
+            return 1.0f - boundary_.albedo->refraction_loss()->directional(
+                              side, cosine, row.value(), f0, boundary_.f90);
+        }
+        // What passes a thin wall has the geometry of what is reflected.
+        const SpecularAlbedo::Split split = boundary_.albedo->directional(cosine, row);
+        return split.f0 + split.f90;
+    });
+    return std::max(0.0f, 1.0f - scattered);
+}
+
+template <typename Film, typename Roughness, typename Base>
+RepeatedRefraction BasicMetallicRoughness<Film, Roughness, Base>::repeated_refraction()
+    const noexcept
+{
+    const auto loss = [this](RefractionLoss::Side side) {
+        return 1.0f - roughness_.average([&](SpecularAlbedo::Roughness row) {
+            if (boundary_.is_solid) {
+                return 1.0f - boundary_.albedo->refraction_loss()->average(
+                                  side, row.value(), max_component(boundary_.f0), boundary_.f90);
+            }
+            const SpecularAlbedo::Split split = boundary_.albedo->average(row);
+            return split.f0 + split.f90;
+        });
+    };
+    return {{.index = boundary_.index_at(1.0f), .loss = loss(RefractionLoss::Side::outer)},
+            {.index = boundary_.index_at(-1.0f), .loss = loss(RefractionLoss::Side::inner)},
+            boundary_.transmission,
+            boundary_.base_color};
+}
+
+template <typename Film, typename Roughness, typename Base>
+Interreflection BasicMetallicRoughness<Film, Roughness, Base>::interreflection() const noexcept
+{
+    const float average = roughness_.average([&](SpecularAlbedo::Roughness row) {
+        const SpecularAlbedo::Split split = boundary_.albedo->average(row);
+        return split.f0 + split.f90;
+    });
+    return {boundary_.base_color, average, boundary_.metallic};
+}
+
+/// The probability of the base.
+template <typename Side>
+float base_choice(const Side& side)
+{
+    return 1.0f - side.boundary_choice - side.interreflection_choice - side.refraction_choice;
 }
 
 template <typename Film, typename Roughness, typename Base>
@@ -87,9 +169,18 @@ BsdfEval BasicMetallicRoughness<Film, Roughness, Base>::eval_lobes(
         sum = chosen(GgxBoundary(boundary_, roughness_.alpha()).eval(wo, wi, mode),
                      from.boundary_choice, to.boundary_choice);
     }
+    if (interreflects()) {
+        add(sum,
+            chosen(interreflection().lobe(unreflected(wo.z), unreflected(wi.z)).eval(wo, wi, mode),
+                   from.interreflection_choice, to.interreflection_choice));
+    }
+    if (refracts_repeatedly()) {
+        add(sum, chosen(repeated_refraction().eval(wo, wi, lost(wo.z), lost(wi.z), mode),
+                        from.refraction_choice, to.refraction_choice));
+    }
     if (base_weight_ > 0.0f) {
         base_.add_to(sum, boundary_.base_color, from.base_transmitted * to.base_transmitted,
-                     1.0f - from.boundary_choice, 1.0f - to.boundary_choice, wo, wi, mode);
+                     base_choice(from), base_choice(to), wo, wi, mode);
     }
     return sum;
 }
@@ -109,9 +200,14 @@ std::optional<BsdfSample> BasicMetallicRoughness<Film, Roughness, Base>::sample(
         return std::nullopt;
     }
     const float choice = from.boundary_choice;
+    const float u_again = u_lobe - choice - from.interreflection_choice;
     std::optional<BsdfSample> sampled;
-    if (u_lobe >= choice) {
-        sampled = base_.sample(wo, (u_lobe - choice) / (1.0f - choice), u, mode);
+    if (u_lobe >= choice && u_again < 0.0f) {
+        sampled = DiffuseReflection(Rgb(0.0f)).sample(wo, 0.0f, u, mode);
+    } else if (u_lobe >= choice && u_again < from.refraction_choice) {
+        sampled = repeated_refraction().sample(u_again / from.refraction_choice, u);
+    } else if (u_lobe >= choice) {
+        sampled = base_.sample(wo, (u_again - from.refraction_choice) / base_choice(from), u, mode);
     } else if (roughness_.is_rough()) {
         sampled = GgxBoundary(boundary_, roughness_.alpha()).sample(wo, u_lobe / choice, u, mode);
     } else {

@@ -3,6 +3,8 @@
 #include "material/lobes/boundary.h"
 #include "material/lobes/diffuse_reflection.h"
 #include "material/lobes/diffuse_transmission.h"
+#include "material/lobes/interreflection.h"
+#include "material/lobes/repeated_refraction.h"
 #include "material/lobes/roughness.h"
 #include "material/lobes/thin_film.h"
 #include "material/models/scattering_model.h"
@@ -128,10 +130,12 @@ private:
 /// The boundary is that of a dielectric, or metal, or a mix; it reflects and transmits at the same
 /// microfacets. The base gets what the boundary lets through in both directions, so that it is
 /// reciprocal and no energy is lost or made [Kelemen and Szirmay-Kalos 2001, "A Microfacet Based
-/// Coupled Specular-Matte BRDF Model"]. All but solid transmitters scatter alike from both sides.
-/// From inside a solid transmitter there is no base: the pigment lies below the boundary for light
-/// from outside only, and a base seen from within would add to the light that is already reflected
-/// in full.
+/// Coupled Specular-Matte BRDF Model"]. Light that the microfacets of a metal mask is reflected
+/// among them and comes out after all [Kulla and Conty 2017, "Revisiting Physically Based Shading
+/// at Imageworks"]: a white metal reflects all light, however rough, and clear glass scatters all.
+/// All but solid transmitters scatter alike from both sides. From inside a solid transmitter there
+/// is no base: the pigment lies below the boundary for light from outside only, and a base seen
+/// from within would add to the light that is already reflected in full.
 template <typename Film, typename Roughness, typename Base>
 class BasicMetallicRoughness {
 public:
@@ -145,8 +149,10 @@ public:
 
     /// What follows from one direction alone.
     struct Side {
-        float boundary_choice = 0.0f;   ///< probability of the lobes of the boundary
-        float base_transmitted = 0.0f;  ///< share of light that reaches the base, 1 - E
+        float boundary_choice = 0.0f;         ///< probability of the lobes of the boundary
+        float base_transmitted = 0.0f;        ///< share of light that reaches the base, 1 - E
+        float interreflection_choice = 0.0f;  ///< probability of the lobe of interreflection
+        float refraction_choice = 0.0f;       ///< probability of the lobe of repeated refraction
     };
     /// `z` is that of the direction.
     [[nodiscard]] Side side(float z) const noexcept;
@@ -174,6 +180,25 @@ public:
     [[nodiscard]] Rgb base_color() const noexcept { return boundary_.base_color; }
 
 private:
+    /// Do its microfacets reflect light more than once? Those of a dielectric do so too, but what
+    /// they do not reflect at once reaches the base.
+    [[nodiscard]] bool interreflects() const noexcept
+    {
+        return boundary_.metallic > 0.0f && roughness_.is_rough();
+    }
+    [[nodiscard]] Interreflection interreflection() const noexcept;
+    /// Does light pass its microfacets after having been scattered by several of them?
+    [[nodiscard]] bool refracts_repeatedly() const noexcept
+    {
+        return boundary_.transmits() && roughness_.is_rough() &&
+               (!boundary_.is_solid || boundary_.albedo->refraction_loss() != nullptr);
+    }
+    [[nodiscard]] RepeatedRefraction repeated_refraction() const noexcept;
+    // Shares of light from a direction with this z.
+    /// That white microfacets do not reflect at once.
+    [[nodiscard]] float unreflected(float z) const noexcept;
+    /// That transparent microfacets do not scatter out at once.
+    [[nodiscard]] float lost(float z) const noexcept;
     [[nodiscard]] BsdfEval eval_lobes(const Side& from, Vec3 wo, Vec3 wi,
                                       TransportMode mode) const noexcept;
 

@@ -37,7 +37,6 @@ PythonScene with_scene(const PythonScene& original, Scene scene, std::string env
                       .notes = stage.notes,
                       .xmp = stage.xmp,
                       .lights = lights,
-                      .only_emitters = false,
                       .is_framed = stage.is_framed,
                       .cameras = stage.cameras,
                       .files = stage.files,

@@ -27,6 +27,7 @@
 #include "python_render.h"
 #include "report/image/denoised.h"
 #include "report/image/image_files.h"
+#include "report/image/shown_exposure.h"
 #include "report/part/merged_files.h"
 #include "report/render_settings.h"
 #include "stage/input_files.h"
@@ -73,6 +74,10 @@ Task prepare(PythonScene& scene, const nb::kwargs& options)
     io::MemoryBudget memory = scene.stage.memory;
     spend_film(memory, arguments.options, size);
     arguments.options.sampling.samples = arguments.samples;
+    if (app::meters_light(arguments)) {
+        arguments.light_exposure =
+            app::metered_exposure(scene.stage, {.camera = task.camera, .size = size});
+    }
     const app::Size own_size = std::exchange(scene.stage.size, size);
     CameraDesc own_camera = std::exchange(scene.stage.camera, task.camera);
     if (arguments.rates) {  // by a pilot or from a file, as the command finds them
@@ -161,6 +166,7 @@ void with_file_options(const Render& render, SaveArguments asked, std::span<cons
         throw Error(ErrorCode::usage, "background: render() needs it, too");
     }
     app::check_transparency(asked.display, files);
+    app::check_metered(asked.display.exposure, render.notes.metadata, "the render");
     const FilmLayout& layout = render.part.film.layout();
     const auto denoiser = app::open_denoiser(asked.denoise, files, 0);
     write(app::ImageFileOptions{

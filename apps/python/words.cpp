@@ -156,6 +156,9 @@ std::string type_of(const app::Option& option)
     if (info.json == app::JsonType::number) {
         return real;
     }
+    if (info.may_be_number) {
+        return fmt::format("str | {}", real);
+    }
     return fmt::format("str | {} | collections.abc.Iterable[{}{}]", real,
                        info.separator != '\0' ? "" : "str | ", real);
 }

@@ -28,8 +28,8 @@ public:
 
     Outcome render(const Words& more, const std::string& output = "out.exr") const
     {
-        Words words{"render", scene_, "-o",     (folder_ / output).string(),
-                    "--spp",  "4",    "--size", "32x16"};
+        Words words{"render", scene_,  "-o",  (folder_ / output).string(), "--spp", "4", "--size",
+                    "32x16",  "--env", "none"};
         words.insert(words.end(), more.begin(), more.end());
         return run(words);
     }

@@ -109,7 +109,7 @@ TEST_CASE("info --json tells programs the same")
     CHECK(info["extensions"][0]["name"] == "ACME_shiny");
     CHECK(info["extensions"][0]["status"] == "unknown");
     CHECK(info["extensions"][0]["required"] == false);
-    CHECK(info["defaults"].empty());
+    CHECK(info["defaults"] == nlohmann::json::array({"sky"}));
 }
 
 TEST_CASE("info takes a scene without anything to see")

@@ -27,10 +27,10 @@ public:
 
     Outcome render(const Words& more) const
     {
-        Words words{"render",      scene_, "-o",      (folder_ / "out.exr").string(),
-                    "--spp",       "16",   "--size",  "64x32",
-                    "--max-depth", "1",    "--quiet", "--integrator",
-                    "pt"};
+        Words words{"render",      scene_,  "-o",      (folder_ / "out.exr").string(),
+                    "--spp",       "16",    "--size",  "64x32",
+                    "--max-depth", "1",     "--quiet", "--integrator",
+                    "pt",          "--env", "none"};
         words.insert(words.end(), more.begin(), more.end());
         return run(words);
     }

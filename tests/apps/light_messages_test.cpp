@@ -71,22 +71,34 @@ std::filesystem::path token_emitter(const ScratchFolder& folder)
     return scene;
 }
 
-TEST_CASE("an image without light but for a token emitter is warned of, with what to try")
+const std::string glows = "no light but what glows: lit by the default environment";
+
+TEST_CASE("a scene without light but for a token emitter is lit by the sky, and it is said")
 {
     const ScratchFolder folder;
     const std::filesystem::path scene = token_emitter(folder);
-    const std::string warning = said(folder, scene);
-    CAPTURE(warning);
-    CHECK(contains(warning, "warning: " + scene.string() + ": nearly black"));
-    CHECK(contains(warning, "--env default"));
-    CHECK(contains(said(folder, scene, {"--json"}), "nearly black"));
-    CHECK_FALSE(contains(said(folder, scene, {"--env", "default"}), "nearly black"));
-    CHECK_FALSE(contains(said(folder, scene, {"--env", "none"}), "nearly black"));
-    // The sky behind it is as black, but what is to be seen is bright.
-    const std::filesystem::path bright =
-        write_cube(folder, "bright", {.material = emissive_material, .cameras = two_cameras});
-    CHECK_FALSE(contains(said(folder, bright), "nearly black"));
-    CHECK_FALSE(contains(said(folder, write_cube(folder, "lamp", one_lamp)), "nearly black"));
+    const std::string note = said(folder, scene);
+    CAPTURE(note);
+    CHECK(contains(note, "bdpt: " + scene.string() + ": " + glows));
+    CHECK(contains(note, "--env none"));
+    CHECK_FALSE(contains(note, "warning"));
+    CHECK_FALSE(contains(said(folder, scene, {"--json"}), "warning"));
+    CHECK(contains(said(folder, scene, {"--json"}), R"("environment":"default")"));
+    for (const char* environment : {"default", "none"}) {
+        CHECK_FALSE(contains(said(folder, scene, {"--env", environment}), "no light"));
+    }
+    CHECK_FALSE(contains(said(folder, write_cube(folder, "lamp", one_lamp)), "no light"));
+}
+
+TEST_CASE("a closed room that its emitters light gets no lamp and no sky")
+{
+    const ScratchFolder folder;
+    const std::filesystem::path room = write_cube(folder, "room", shining_room());
+    const std::string words = said(folder, room, {"--json", "--env-rotation", "90"});
+    CAPTURE(words);
+    CHECK(contains(words, R"("environment":"none")"));
+    CHECK(contains(words, "no environment: --env-rotation and --env-intensity do nothing"));
+    CHECK_FALSE(contains(words, "lamp was added"));
 }
 
 }  // namespace

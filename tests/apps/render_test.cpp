@@ -119,7 +119,7 @@ TEST_CASE("a scene with light and camera is rendered as it is, without warnings"
         write_cube(folder, "cube", {.material = emissive_material, .cameras = two_cameras})
             .string();
     const std::string out = (folder / "out.exr").string();
-    const Outcome outcome = run({"render", scene, "-o", out, "--spp", "2"});
+    const Outcome outcome = run({"render", scene, "-o", out, "--spp", "2", "--env", "none"});
     CAPTURE(outcome.err);
     REQUIRE(outcome.exit_code == 0);
     CHECK(outcome.err.find("warning") == std::string::npos);
@@ -137,7 +137,7 @@ TEST_CASE("cameras are chosen and changed")
     const std::string scene =
         write_cube(folder, "cube", {.material = emissive_material, .cameras = two_cameras})
             .string();
-    const Words quick{"--spp", "1", "--size", "16x16"};
+    const Words quick{"--spp", "1", "--size", "16x16", "--env", "none"};
     const auto view = [&](Words more) {
         more.insert(more.end(), quick.begin(), quick.end());
         return render(folder, scene, more);
@@ -192,7 +192,8 @@ TEST_CASE("option --env chooses the light from all around")
         more.insert(more.end(), quick.begin(), quick.end());
         return render(folder, scene, more).image.at(0, 0).g;
     };
-    CHECK(corner({}) == 0.0f);
+    CHECK(corner({"--env", "none"}) == 0.0f);
+    CHECK(corner({}) == corner({"--env", "default"}));  // the cube glows, but lights nothing
     CHECK(corner({"--env", "default"}) > 0.4f);
 
     // The image of a file: its own output, which is a uniform 1 nit when the cube fills it.

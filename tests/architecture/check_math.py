@@ -18,6 +18,7 @@ ALLOWED = {
     "direction_sheet.cpp": "a picture for people",
     "camera_matrices.cpp": "matrices among the metadata of files",
     "display.cpp": "the image for a screen",
+    "light_meter.cpp": "the exposure for a screen",
     "tone_curve.cpp": "the image for a screen",
     "tone_map.cpp": "the image for a screen",
 }

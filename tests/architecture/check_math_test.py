@@ -11,6 +11,7 @@ SOUND = {
     "lib/a/camera_matrices.cpp.o": "                 U tanf\n",
     "apps/a/direction_sheet.cpp.o": "                 U cos\n",
     "lib/a/display.cpp.o": "                 U exp2\n",
+    "lib/a/light_meter.cpp.o": "                 U log2\n",
     "lib/a/tone_curve.cpp.o": "                 U log2f\n",
     "lib/a/tone_map.cpp.o": "                 U powf\n                 U exp2\n",
     "lib/b/film.cpp.o": "                 U ldexp@GLIBC_2.2.5\n                 U sqrtf\n                 U floor\n"

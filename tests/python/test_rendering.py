@@ -282,3 +282,11 @@ def test_adaptive_renders_have_the_bits_of_the_command(command, tmp_path):
     assert (render.image == bdpt.read_part(tmp_path / "a.part.exr").image).all()
     plain = bdpt.render(bdpt.load(scene), spp=16, size=(32, 32), integrator="mis")
     assert (render.image != plain.image).any()
+
+
+def test_an_exposure_by_light_needs_a_render_that_metered_it(cornell_box, tmp_path):
+    metered = bdpt.render(cornell_box, spp=1, exposure="light", **SMALL)
+    metered.save(tmp_path / "a.png", exposure="light-0.5")
+    with pytest.raises(bdpt.Error, match="was not metered"):
+        bdpt.render(cornell_box, spp=1, **SMALL).save(tmp_path / "b.png", exposure="light")
+    assert not (tmp_path / "b.png").exists()

@@ -15,6 +15,7 @@
 #include "report/image/denoised.h"
 #include "report/image/image_files.h"
 #include "report/image/layered_image.h"
+#include "report/image/shown_exposure.h"
 #include "terminal/console.h"
 #include "terminal/interrupt.h"
 
@@ -48,6 +49,7 @@ DisplayArguments display_of(DisplayArguments display, const LayeredImage& image,
     if (!display.backdrop) {
         display.backdrop = image.backdrop;
     }
+    check_metered(display.exposure, image.metadata, file.string());
     return display;
 }
 
@@ -91,7 +93,8 @@ int run_develop(const DevelopArguments& arguments)
         write_image_files(outputs, image.image, std::move(options), attempts);
     ordered_json names = ordered_json::array();
     for (const fs::path& output : written.files) {
-        console.note(fmt::format("wrote {}", output.string()));
+        console.note(fmt::format("wrote {}, exposure {:.2f} EV", output.string(),
+                                 written.exposure.value_or(0.0f)));
         names.push_back(output.string());
     }
     attempts.finish();

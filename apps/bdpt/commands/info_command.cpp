@@ -23,7 +23,6 @@ namespace {
 /// Adds what only a built scene knows, or why there is none.
 void complete(SceneReport& report, SceneDesc desc)
 {
-    const bool dark = !has_light(desc);
     const bool empty = !has_surface(desc);
     try {
         const Scene scene(std::move(desc));
@@ -38,7 +37,9 @@ void complete(SceneReport& report, SceneDesc desc)
         }
         report.bounds = scene.bounds();
         constexpr float aspect = 16.0f / 9.0f;
-        report.defaults.lamp = dark && frame_scene(scene, aspect).enclosed;
+        const DefaultLights missing = missing_lights(scene, frame_scene(scene, aspect), aspect);
+        report.defaults.sky = missing != DefaultLights::none;
+        report.defaults.lamp = missing == DefaultLights::sky_and_lamp;
     } catch (const Error& error) {
         if (error.code() != ErrorCode::invalid_input) {
             throw;

@@ -172,7 +172,7 @@ Plan plan_of(const PlanArguments& arguments, const fs::path& folder, const Rende
     Plan plan{.scene = planned_path(asked.file, folder),
               .render_options = arguments.render_options,
               .merge_options = arguments.merge_options};
-    if (asked.environment && *asked.environment != "none" && *asked.environment != "default") {
+    if (asked.environment && is_file_of_environment(*asked.environment)) {
         plan.environment = planned_path(*asked.environment, folder);
     }
     if (asked.volume) {
@@ -292,7 +292,7 @@ int run_plan(const PlanArguments& arguments)
     Console console(asked.printed.format, asked.printed.verbosity);
     const fs::path folder =
         fs::weakly_canonical(fs::absolute(arguments.folder / "plan.json")).parent_path();
-    if (const std::optional<std::string> warning = warning_of_flicker(asked)) {
+    if (const std::optional<std::string> warning = warning_of_flicker(asked, FramesBy::tasks)) {
         console.warning(*warning);
     }
     const PreparedScene stage = load_first_image(asked, console);

@@ -114,7 +114,8 @@ int run_render(const RenderArguments& typed, const std::vector<std::string>& wor
     Interrupt interrupt({}, [&console] {
         console.note("stopping after the pass in flight; interrupt again to end at once");
     });
-    if (const std::optional<std::string> warning = warning_of_flicker(asked)) {
+    if (const std::optional<std::string> warning =
+            warning_of_flicker(asked, FramesBy::one_process)) {
         console.warning(*warning);
     }
     std::optional<PreparedScene> stage;
@@ -149,6 +150,7 @@ int run_render(const RenderArguments& typed, const std::vector<std::string>& wor
     std::optional<double> time = asked.scene.time;
     std::optional<Viewpoint> first;
     std::optional<Scene> still;  // before its environment was turned
+    std::optional<float> exposure;  // by the light of the first frame, for all
     for (const SequenceView& view : views) {
         if (interrupt.signal()) {
             break;
@@ -184,6 +186,10 @@ int run_render(const RenderArguments& typed, const std::vector<std::string>& wor
         if (!first) {
             first = Viewpoint{.camera = stage->camera, .size = stage->size};
         }
+        if (meters_light(asked) && !exposure) {
+            exposure = metered_exposure(*stage, *first);
+        }
+        image.light_exposure = exposure;
         Viewpoint seen = sequence_viewpoint(*stage, *first, image);
         if (view.turn && image.sequence->motion == TurntableMotion::object) {
             if (!still) {

@@ -1,7 +1,6 @@
 #include "commands/render_view.h"
 
 #include <bdpt/error.h>
-#include <bdpt/io/tone_map.h>
 #include <bdpt/noise.h>
 #include <bdpt/render.h>
 #include <bdpt/version.h>
@@ -17,15 +16,16 @@
 #include <utility>
 
 #include "options/groups/transport_arguments.h"
+#include "options/values/output_files.h"
 #include "report/film_report.h"
 #include "report/image/image_files.h"
+#include "report/image/shown_exposure.h"
 #include "report/part/part_command.h"
 #include "report/rates_report.h"
 #include "report/render_files.h"
 #include "report/render_settings.h"
 #include "report/stats_file.h"
 #include "report/strategy_files.h"
-#include "stage/darkness.h"
 #include "stage/render_preparation.h"
 #include "terminal/text.h"
 
@@ -199,15 +199,26 @@ void note_noise(Console& console, const RenderArguments& arguments, double noise
     }
 }
 
+/// ", exposure 1.25 EV" for a file that has one.
+std::string exposure_text(const std::filesystem::path& file, const std::optional<float>& exposure)
+{
+    const std::optional<ImageType> type = type_of(file);
+    return exposure && type && is_for_screens(*type)
+               ? fmt::format(", exposure {:.2f} EV", *exposure)
+               : "";
+}
+
 /// What was written: a line for each file or, if there are several images, one for all.
 void note_done(Console& console, const RenderArguments& arguments, const RenderResult& result,
-               std::vector<std::filesystem::path> files)
+               const WrittenImages& images)
 {
+    std::vector<std::filesystem::path> files = images.files;
     const std::string work =
         fmt::format("{} spp in {:.1f} s", result.film.sample_count(), result.seconds);
     if (!is_one_of_many(arguments)) {
         for (const std::filesystem::path& file : files) {
-            console.note(fmt::format("wrote {}: {}", file.string(), work));
+            console.note(fmt::format("wrote {}: {}{}", file.string(), work,
+                                     exposure_text(file, images.exposure)));
         }
         return;
     }
@@ -216,7 +227,7 @@ void note_done(Console& console, const RenderArguments& arguments, const RenderR
     }
     std::string names;
     for (const std::filesystem::path& file : files) {
-        names += (names.empty() ? "" : ", ") + file.string();
+        names += (names.empty() ? "" : ", ") + file.string() + exposure_text(file, images.exposure);
     }
     console.note(fmt::format("{}: {}: wrote {}", label_text(label_of(arguments)), work, names));
 }
@@ -287,9 +298,6 @@ void render_view(const RenderArguments& asked, const PreparedScene& stage,
             "(--max-depth)",
             100.0 * light_beyond, arguments.options.transport.max_depth));
     }
-    if (const std::optional<std::string> warning = warning_of_darkness(arguments, stage)) {
-        console.warning(*warning);
-    }
     const io::ImageMetadata metadata = metadata_of(arguments, stage, settings);
     if (arguments.rates && arguments.rates->saved) {
         save_rates(*arguments.rates->saved, *arguments.options.sampling.rates, metadata);
@@ -319,7 +327,7 @@ void render_view(const RenderArguments& asked, const PreparedScene& stage,
         const bool written = attempts.run([&] {
             write_strategy_files(
                 *arguments.strategies, image, result.strategies, options.exr,
-                arguments.display.exposure.value_or(io::automatic_exposure(image)));
+                shown_exposure(arguments.display.exposure, options.exr.metadata, image));
         });
         if (written) {
             const std::vector<std::filesystem::path> both = arguments.strategies->both();
@@ -355,7 +363,7 @@ void render_view(const RenderArguments& asked, const PreparedScene& stage,
         console.note(fmt::format("stopped by {} after {} samples per pixel", signal_name(*signal),
                                  result.film.sample_count()));
     }
-    note_done(console, arguments, result, images.files);
+    note_done(console, arguments, result, images);
     attempts.finish();
     report_done(console, arguments, result, images, signal);
 }

@@ -150,7 +150,7 @@ ordered_json json_of(const Option& option, const std::string& text, const fs::pa
             return number;
         }
     }
-    if (option.info.json == JsonType::number) {
+    if (option.info.json == JsonType::number || option.info.may_be_number) {
         double number = 0.0;
         const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
         if (error == std::errc{} && std::isfinite(number)) {
@@ -184,6 +184,8 @@ ordered_json schema_of(const Option& option)
                 schema["enum"].push_back(std::stoi(word));  // which may be a number, too
             }
         }
+    } else if (info.may_be_number) {
+        schema["type"] = {"number", "string"};
     } else if (info.separator != '\0') {
         schema["type"] = {"string", "number", "array"};
         schema["items"] = {{"type", "number"}};

@@ -38,6 +38,7 @@ struct ValueInfo {
     Range range{};                     ///< of numbers
     std::vector<std::string> words{};  ///< that it may be, if there are no others
     bool is_path = false;              ///< of a file or folder, where it is none of `words`
+    bool may_be_number = false;        ///< of texts: JSON has a number where the text is one
     char separator = '\0';  ///< of several numbers, which may be an array in JSON; 0: there is one
 };
 

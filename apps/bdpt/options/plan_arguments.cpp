@@ -34,11 +34,6 @@ std::vector<std::string> kept_words(const OptionList& options, bool OptionUses::
     return words;
 }
 
-bool names_no_file(const std::optional<std::string>& environment)
-{
-    return environment == "none" || environment == "default";
-}
-
 void check_parts(const PlanArguments& arguments, const OptionList& options)
 {
     if (arguments.parts.has_value() == options.given("--minutes")) {
@@ -146,7 +141,7 @@ PlanArguments checked(const PlanRequest& request, const OptionList& options)
             "loaded");
     }
     result.render_options = kept_words(options, &OptionUses::plan_render);
-    if (names_no_file(render.environment)) {
+    if (render.environment && !is_file_of_environment(*render.environment)) {
         result.render_options.push_back("--env=" + *render.environment);
     }
     result.merge_options = kept_words(options, &OptionUses::plan_merge);

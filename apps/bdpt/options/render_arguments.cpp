@@ -256,11 +256,11 @@ void add_view_options(OptionList& options, RenderRequest& request)
     add_scene_options(options, arguments.scene, request.max_memory);
     add_camera_options(options, arguments.camera, arguments.view);
     options
-        .add("--env", "FILE|none|default",
-             "Environment map: an equirectangular .exr, .hdr, .tif, .png or .jpg, none, or default "
-             "(the sky "
-             "that scenes without light get). Replaces that of the file",
-             arguments.environment, file_path({"none", "default", "-"}))
+        .add("--env", "FILE|none|default|studio",
+             "Environment map: an equirectangular .exr, .hdr, .tif, .png or .jpg, none, default "
+             "(the sky that scenes without light get), or studio (soft boxes, for products). "
+             "Replaces that of the file",
+             arguments.environment, file_path({"none", "default", "studio", "-"}))
         .uses.plan_render = false;  // a plan has a place of its own for files
     add_environment_options(options, arguments.environment_change);
     add_fog_options(options, request.fog);
@@ -354,6 +354,11 @@ RenderArguments render_arguments(const std::vector<std::string>& words)
     add_render_options(options, request);
     parse(options, words);
     return checked(request, options);
+}
+
+bool is_file_of_environment(const std::string& environment)
+{
+    return environment != "none" && environment != "default" && environment != "studio";
 }
 
 }  // namespace bdpt::app

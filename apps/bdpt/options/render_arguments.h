@@ -57,12 +57,13 @@ struct RenderArguments {
     Isa isa = Isa::native;
     io::GltfOptions scene{};                   ///< what of the file is rendered
     io::MemoryLimit memory{};                  ///< for scene and film
-    std::optional<std::string> environment{};  ///< file, "none" or "default"
+    std::optional<std::string> environment{};  ///< a file, or "none", "default" or "studio"
     TextureFilter texture_filter = TextureFilter::bilinear;
     EnvironmentChange environment_change{};  ///< of whichever environment it is
     std::optional<MediumDesc> fog{};         ///< around all bodies, if any
     std::optional<VolumeChoice> volume{};    ///< in the scene, if any
     DisplayArguments display{};
+    std::optional<float> light_exposure{};      ///< [EV] of a white card, if the light was metered
     std::optional<DenoiseArguments> denoise{};  ///< if images are to be denoised
     ExrFormat exr{};
     std::optional<std::filesystem::path> stats{};  ///< where numbers about the render go
@@ -130,5 +131,8 @@ void add_scene_file(OptionList& options, RenderRequest& request);
 
 /// What `words` say behind `bdpt render`. Throws `OptionError`.
 [[nodiscard]] RenderArguments render_arguments(const std::vector<std::string>& words);
+
+/// Is --env `environment` the path of a file? Else it is a word.
+[[nodiscard]] bool is_file_of_environment(const std::string& environment);
 
 }  // namespace bdpt::app

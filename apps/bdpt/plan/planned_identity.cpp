@@ -82,7 +82,7 @@ Identity identity_of_files(const RenderArguments& asked)
         result.components.push_back(file_component(file.name, file.hash));
     }
     const std::string environment = asked.environment.value_or("none");
-    if (environment != "none" && environment != "default") {
+    if (is_file_of_environment(environment)) {
         const std::filesystem::path file = environment;
         result.components.push_back(
             file_component("--env " + file.filename().string(), io::hash_of_file(file)));

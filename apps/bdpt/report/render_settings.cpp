@@ -101,6 +101,9 @@ ordered_json settings_of(const RenderArguments& arguments, const PreparedScene& 
     if (arguments.display.backdrop) {
         settings["background"] = backdrop_text(*arguments.display.backdrop);
     }
+    if (arguments.light_exposure) {
+        settings["light_exposure"] = *arguments.light_exposure;
+    }
     if (options.film.aovs.contains(Aov::shadow)) {
         settings["ground"] = "shadow";
         settings["ground_height"] = options.film.ground_height.value_or(stage.scene.bounds().min.y);

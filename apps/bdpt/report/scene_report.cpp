@@ -162,7 +162,8 @@ std::vector<std::string> default_lines(const Defaults& defaults)
         lines.emplace_back("no camera: a render frames the whole scene");
     }
     if (defaults.sky) {
-        lines.emplace_back("no light: a render adds a soft sky");
+        lines.emplace_back(defaults.glows ? "no light but what glows: a render adds a soft sky"
+                                          : "no light: a render adds a soft sky");
     }
     if (defaults.lamp) {
         lines.emplace_back("a closed room without light: a render adds a lamp");
@@ -305,6 +306,7 @@ SceneReport make_report(const std::string& file, const io::LoadedScene& loaded)
     }
     report.defaults.camera = loaded.cameras.empty();
     report.defaults.sky = !has_light(loaded.scene);
+    report.defaults.glows = loaded.scene.lights.empty() && !report.defaults.sky;
     return report;
 }
 

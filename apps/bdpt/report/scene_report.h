@@ -25,7 +25,8 @@ struct EmissiveMaterial {
 struct Defaults {
     bool camera = false;  ///< that frames the scene
     bool sky = false;
-    bool lamp = false;  ///< in a closed room
+    bool lamp = false;   ///< in a closed room
+    bool glows = false;  ///< the only light of the file are materials that emit
 };
 
 /// Why a render would fail.

@@ -10,7 +10,7 @@ std::vector<fs::path> input_files(const RenderArguments& arguments)
 {
     std::vector<fs::path> files{arguments.file};
     const std::string environment = arguments.environment.value_or("none");
-    if (environment != "none" && environment != "default") {
+    if (is_file_of_environment(environment)) {
         files.emplace_back(environment);
     }
     if (arguments.volume) {

@@ -5,6 +5,7 @@
 #include <bdpt/framing.h>
 #include <bdpt/io/environment.h>
 #include <bdpt/io/volume.h>
+#include <bdpt/light/studio_environment.h>
 #include <bdpt/thread_limit.h>
 #include <fmt/core.h>
 
@@ -23,8 +24,13 @@
 namespace bdpt::app {
 namespace {
 
-/// Where light from infinity comes from, once all is decided.
-enum class Sky { none, fallback, chosen };
+/// Where light from infinity comes from.
+enum class Sky {
+    none,
+    chosen,     ///< the file's, or that of --env
+    standard,   ///< the default one, with a lamp where it does not get in
+    if_wanted,  ///< the same, unless emitters are light enough
+};
 
 struct LitScene {
     SceneDesc desc;
@@ -59,24 +65,30 @@ void change_environment(LitScene& lit, const RenderArguments& arguments)
     }
 }
 
-/// Adds the environment that was asked for or, where all is dark, the default one. What is asked
-/// for takes the place of the file's own.
-LitScene add_environment(SceneDesc desc, const RenderArguments& arguments)
+/// Adds the environment that was asked for, in the place of the file's own. Whether the default one
+/// is wanted is seen when the scene is built.
+LitScene choose_environment(SceneDesc desc, const RenderArguments& arguments)
 {
     LitScene lit{.desc = std::move(desc)};
-    const std::string file = arguments.file.string();
     const std::string choice = arguments.environment.value_or("");
     if (!choice.empty()) {
         std::erase_if(lit.desc.lights, is_environment);
     }
     if (choice == "none") {
         if (!has_light(lit.desc)) {
-            lit.warnings.push_back(fmt::format("{}: no light: the image will be black", file));
+            lit.warnings.push_back(
+                fmt::format("{}: no light: the image will be black", arguments.file.string()));
         }
+    } else if (choice == "default" && lit.desc.lights.empty()) {
+        lit.sky = Sky::standard;
     } else if (choice == "default") {
-        lit.sky = has_light(lit.desc) ? Sky::chosen : Sky::fallback;
+        lit.sky = Sky::chosen;
         lit.environment_name = choice;
-        lit.desc.lights.push_back(default_environment());
+        lit.desc.lights.emplace_back(default_environment());
+    } else if (choice == "studio") {
+        lit.sky = Sky::chosen;
+        lit.environment_name = choice;
+        lit.desc.lights.emplace_back(studio_environment());
     } else if (!choice.empty()) {
         io::LoadedEnvironment loaded =
             io::load_environment(choice, arguments.scene.limits, arguments.scene.memory.get());
@@ -89,20 +101,50 @@ LitScene add_environment(SceneDesc desc, const RenderArguments& arguments)
     } else if (std::any_of(lit.desc.lights.begin(), lit.desc.lights.end(), is_environment)) {
         lit.sky = Sky::chosen;
         lit.environment_name = "scene";
-    } else if (!has_light(lit.desc)) {
-        lit.notes.push_back(fmt::format(
-            "{}: no light: lit by the default environment, a soft sky (--env chooses another)",
-            file));
-        lit.sky = Sky::fallback;
-        lit.environment_name = "default";
-        lit.desc.lights.push_back(default_environment());
-        lit.added = 1;
+    } else if (lit.desc.lights.empty()) {
+        lit.sky = Sky::if_wanted;
     }
-    change_environment(lit, arguments);
     return lit;
 }
 
-/// Builds the scene; a second time, with a lamp, when only the default sky lights a closed room.
+/// May `build` add lights, for which it builds the scene first?
+bool is_undecided(const LitScene& lit)
+{
+    return lit.sky == Sky::standard || lit.sky == Sky::if_wanted;
+}
+
+/// Adds the default lights that are missing.
+void add_lights(LitScene& lit, DefaultLights missing, const FramedView& framed,
+                const std::string& file)
+{
+    if (lit.sky == Sky::if_wanted && missing == DefaultLights::none) {
+        lit.sky = Sky::none;
+        return;
+    }
+    if (lit.sky == Sky::if_wanted) {
+        lit.notes.push_back(
+            has_light(lit.desc)
+                ? fmt::format("{}: no light but what glows: lit by the default environment, a soft "
+                              "sky (--env none leaves it out)",
+                              file)
+                : fmt::format("{}: no light: lit by the default environment, a soft sky (--env "
+                              "chooses another)",
+                              file));
+        ++lit.added;
+    }
+    lit.environment_name = "default";
+    lit.desc.lights.emplace_back(default_environment());
+    if (missing == DefaultLights::sky_and_lamp) {
+        lit.notes.push_back(fmt::format(
+            "{}: a closed room without light: a lamp was added at {:.3g},{:.3g},{:.3g} (--env none "
+            "takes it away)",
+            file, framed.lamp_position.x, framed.lamp_position.y, framed.lamp_position.z));
+        lit.desc.lights.emplace_back(default_lamp(framed));
+        ++lit.added;
+    }
+}
+
+/// Builds the scene, with the default lights that it turns out to want.
 Scene build(LitScene& lit, const RenderArguments& arguments, float aspect,
             const std::function<void(const SceneDesc&)>& look)
 {
@@ -111,25 +153,18 @@ Scene build(LitScene& lit, const RenderArguments& arguments, float aspect,
             look(lit.desc);
         }
     };
-    if (lit.sky != Sky::fallback) {
+    if (!is_undecided(lit)) {
+        change_environment(lit, arguments);
         show();
         return Scene(std::move(lit.desc), arguments.isa);
     }
     Scene scene(lit.desc, arguments.isa);
     const FramedView framed = frame_scene(scene, aspect);
-    if (!framed.enclosed) {
-        show();
-        return scene;
-    }
-    lit.notes.push_back(fmt::format(
-        "{}: a closed room without light: a lamp was added at {:.3g},{:.3g},{:.3g} (--env none "
-        "takes it away)",
-        arguments.file.string(), framed.lamp_position.x, framed.lamp_position.y,
-        framed.lamp_position.z));
-    lit.desc.lights.emplace_back(default_lamp(framed));
-    ++lit.added;
+    add_lights(lit, missing_lights(scene, framed, aspect), framed, arguments.file.string());
+    change_environment(lit, arguments);
     show();
-    return Scene(std::move(lit.desc), arguments.isa);
+    const bool is_lit = !lit.desc.lights.empty();
+    return is_lit ? scene.with_lights(std::move(lit.desc.lights)) : std::move(scene);
 }
 
 /// The camera that shows all of the scene, in the way that was asked for.
@@ -218,10 +253,9 @@ PreparedScene prepare_scene(const RenderArguments& asked,
     loaded.scene.texture_filter = arguments.texture_filter;
     loaded.scene.fog = arguments.fog;
     loaded.scene.volumes = std::move(volumes);
-    LitScene lit = add_environment(std::move(loaded.scene), arguments);
-    const bool only_emitters = lit.desc.lights.empty() && has_light(lit.desc);
+    LitScene lit = choose_environment(std::move(loaded.scene), arguments);
     spend_building(*arguments.scene.memory, lit.desc,
-                   lit.sky == Sky::fallback ? Copies::two : Copies::one);
+                   is_undecided(lit) ? Copies::two : Copies::one);
     const auto loading_end = std::chrono::steady_clock::now();
     Scene scene = build(lit, arguments, aspect, look);
     const auto building_end = std::chrono::steady_clock::now();
@@ -253,7 +287,6 @@ PreparedScene prepare_scene(const RenderArguments& asked,
             seconds(building_end - loading_end),
             std::move(loaded.facts.xmp),
             lights,
-            only_emitters,
             !from_file.has_value(),
             std::move(loaded.cameras),
             std::move(loaded.files),

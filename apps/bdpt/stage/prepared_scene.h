@@ -18,7 +18,7 @@ namespace bdpt::app {
 struct PreparedScene {
     Scene scene;
     CameraDesc camera;             ///< named by its name or index, or "auto"
-    std::string environment_name;  ///< for people: its file, "scene", "default" or "none"
+    std::string environment_name;  ///< for people: its file, "scene", "default", "studio" or "none"
     Size size;
     std::vector<std::string> warnings;  ///< one line each
     std::vector<std::string> notes{};   ///< the same: what was added to a file that lacks it
@@ -26,9 +26,7 @@ struct PreparedScene {
     double build_seconds = 0.0;         ///< for making the scene ready
     std::string xmp{};                  ///< what the file says about itself
     std::size_t lights = 0;  ///< of the file and by --env, without what is added where all is dark
-    /// The only lights are surfaces of the file that emit.
-    bool only_emitters = false;
-    bool is_framed = false;                      ///< the camera is none of the file
+    bool is_framed = false;  ///< the camera is none of the file
     std::vector<CameraDesc> cameras{};           ///< those of the scene
     std::vector<std::filesystem::path> files{};  ///< that the scene names
     io::MemoryBudget memory;                     ///< of which the scene has taken its part

@@ -2,6 +2,7 @@
 
 #include <bdpt/error.h>
 #include <bdpt/io/rates_file.h>
+#include <bdpt/light/light_meter.h>
 #include <bdpt/part/sample_rates.h>
 #include <bdpt/render.h>
 #include <fmt/core.h>
@@ -147,6 +148,19 @@ RenderArguments with_choice(RenderArguments arguments, const PreparedScene& stag
         arguments.options.sampling.rates = rates_of(arguments, stage, console);
     }
     return arguments;
+}
+
+bool meters_light(const RenderArguments& arguments)
+{
+    const std::optional<Exposure>& exposure = arguments.display.exposure;
+    return (exposure && exposure->base == ExposureBase::light) || arguments.display.backdrop ||
+           (arguments.sequence && arguments.sequence->frames);
+}
+
+std::optional<float> metered_exposure(const PreparedScene& stage, const Viewpoint& seen)
+{
+    const float aspect = static_cast<float>(seen.size.width) / static_cast<float>(seen.size.height);
+    return light_exposure(light_level(white_cards(stage.scene, seen.camera, {.aspect = aspect})));
 }
 
 double light_beyond_max_depth(const RenderArguments& arguments, const PreparedScene& stage)

@@ -3,6 +3,7 @@
 #include <bdpt/render_options.h>
 
 #include <cstdint>
+#include <optional>
 
 #include "options/render_arguments.h"
 #include "stage/prepared_scene.h"
@@ -35,6 +36,14 @@ void spend_film(io::MemoryBudget& memory, const RenderOptions& options, const Si
 /// light is asked for. By a short render.
 [[nodiscard]] double light_beyond_max_depth(const RenderArguments& arguments,
                                             const PreparedScene& stage);
+
+/// Is the light metered, for the exposure of images?
+[[nodiscard]] bool meters_light(const RenderArguments& arguments);
+
+/// The exposure [EV] that makes a white card white which lies on what `seen` shows of the scene;
+/// none where no light falls on it.
+[[nodiscard]] std::optional<float> metered_exposure(const PreparedScene& stage,
+                                                    const Viewpoint& seen);
 
 /// `arguments` with all their options: size, samples and limits of memory filled in, and what is
 /// left open chosen by a pilot; and with rates of samples, unless they have them already, from a

@@ -2,6 +2,7 @@
 
 #include <bdpt/export.h>
 #include <bdpt/framing.h>
+#include <bdpt/scene.h>
 #include <bdpt/scene_desc.h>
 
 namespace bdpt {
@@ -22,15 +23,23 @@ namespace bdpt {
 /// white diffuse surface that faces it has 1 nit.
 [[nodiscard]] BDPT_EXPORT PointLightDesc default_lamp(const FramedView& view);
 
-/// What `add_default_lights` has done.
+/// Lights by default.
 enum class DefaultLights {
-    none,          ///< something shines
-    sky,           ///< `default_environment` was added
+    none,          ///< the scene has light
+    sky,           ///< `default_environment`
     sky_and_lamp,  ///< and `default_lamp`, as the view is in a closed room
 };
 
-/// Adds light to a scene that has none. Builds it once to see whether it is a closed room; throws
-/// what `Scene` throws. `aspect`: of the view, as for `frame_scene`.
+/// The default lights that `scene`, which has been built without them, wants; `framed` is what
+/// `frame_scene` gives for it and `aspect`. None if it has a light of its own, or if its materials
+/// that emit do light it. In an open scene they do if half of what is framed gets at least 3 % of
+/// the light of the default sky, in a closed room if the mean of `white_cards` is at least 0.1 % of
+/// what the lamp would give. What glows and lights nothing is no light.
+[[nodiscard]] BDPT_EXPORT DefaultLights missing_lights(const Scene& scene, const FramedView& framed,
+                                                       float aspect = 1.0f);
+
+/// Adds `missing_lights` to a scene, which is built once to find them; throws what `Scene` throws.
+/// `aspect`: of the view, as for `frame_scene`.
 BDPT_EXPORT DefaultLights add_default_lights(SceneDesc& desc, float aspect = 1.0f);
 
 }  // namespace bdpt

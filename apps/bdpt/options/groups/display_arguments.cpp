@@ -91,10 +91,20 @@ void check_transparency(const DisplayArguments& display,
 
 void add_display_options(OptionList& options, DisplayArguments& display)
 {
-    // 2^100 is far beyond any ratio of a scene to a screen.
-    options.add("--exposure", "EV",
-                "Exposure of .png, .jpg and .webp: pixels times 2^EV. Default: automatic",
-                display.exposure, number(-100.0, 100.0, "EV from -100 to 100"));
+    Option& exposure = options.add(
+        "--exposure", "EV|auto|light",
+        "Exposure of .png, .jpg and .webp: pixels times 2^EV, by how bright the image is (auto), "
+        "or "
+        "by the light that falls in, so that a white card comes out white (light); auto+1 or "
+        "light-0.5 is that and more or less, +1 alone is 1 EV. Default: light with --background, "
+        "--orbit and --frames, else auto",
+        display.exposure,
+        parsed_by(parse_exposure,
+                  "EV from -100 to 100, auto or light, or one of these with EV behind it like "
+                  "light-0.5"));
+    exposure.info.may_be_number = true;
+    exposure.uses.plan_render = true;    // the light is metered where the scene is
+    exposure.uses.python_render = true;  // likewise
     const auto curves = choices_of(io::all_tone_curves, io::tone_curve_name);
     options.add("--tone-map", choice_text(curves.words()),
                 "Tone mapping of .png, .jpg and .webp: filmic (default), pbr-neutral (keeps base "

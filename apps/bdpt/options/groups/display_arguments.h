@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "options/option_list.h"
+#include "options/values/exposure.h"
 
 namespace bdpt::app {
 
@@ -20,7 +21,8 @@ struct Backdrop {
 
 /// How images look on a screen.
 struct DisplayArguments {
-    std::optional<float> exposure{};  ///< [EV] none: automatic
+    /// None: by light with a backdrop and for frames, else automatic.
+    std::optional<Exposure> exposure{};
     io::ToneCurve curve = io::ToneCurve::filmic;
     TexelType type = TexelType::unorm8;  ///< of .png
     std::optional<Backdrop> backdrop{};  ///< none: the environment is seen

@@ -73,8 +73,12 @@ void add_sequence_options(OptionList& options, Sequence& sequence);
 /// Throws `OptionError` when the names of files have no place for what tells the images apart.
 void check_patterns(const RenderArguments& arguments);
 
-/// For frames of which each .png file would have an exposure of its own.
-[[nodiscard]] std::optional<std::string> warning_of_flicker(const RenderArguments& arguments);
+/// Who renders the frames of a sequence.
+enum class FramesBy : std::uint8_t { one_process, tasks };
+
+/// For frames of which .png files may have several exposures.
+[[nodiscard]] std::optional<std::string> warning_of_flicker(const RenderArguments& arguments,
+                                                            FramesBy by);
 
 /// All images that `arguments` ask for; those of a frame next to each other. `cameras` are the
 /// names of those that the scene has; needed for all of them only. Throws `Error` (invalid_input)

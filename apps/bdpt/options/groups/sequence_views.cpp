@@ -88,19 +88,27 @@ void check_patterns(const RenderArguments& arguments)
     }
 }
 
-std::optional<std::string> warning_of_flicker(const RenderArguments& arguments)
+std::optional<std::string> warning_of_flicker(const RenderArguments& arguments, FramesBy by)
 {
     const bool writes_pictures =
         std::any_of(arguments.outputs.begin(), arguments.outputs.end(), [](const fs::path& output) {
             const std::optional<ImageType> type = type_of(output);
             return type && is_for_screens(*type);
         });
-    if (!arguments.sequence || !arguments.sequence->frames || arguments.display.exposure ||
-        !writes_pictures) {
+    if (!arguments.sequence || !arguments.sequence->frames || !writes_pictures) {
         return std::nullopt;
     }
-    return "each .png file has an exposure of its own, so that frames may flicker; --exposure EV "
-           "gives all the same";
+    const ExposureBase base =
+        arguments.display.exposure ? arguments.display.exposure->base : ExposureBase::light;
+    if (base == ExposureBase::automatic) {
+        return "each .png file has an exposure of its own, so that frames may flicker; --exposure "
+               "EV gives all the same";
+    }
+    if (base == ExposureBase::light && by == FramesBy::tasks && arguments.sequence->orbit == 0) {
+        return "each task meters the light of its first frame, so that frames may flicker; "
+               "--exposure EV gives all the same";
+    }
+    return std::nullopt;
 }
 
 std::vector<SequenceView> views_of(const RenderArguments& arguments,

@@ -3,7 +3,6 @@
 #include <bdpt/io/display.h>
 #include <bdpt/io/picture.h>
 #include <bdpt/io/png.h>
-#include <bdpt/io/tone_map.h>
 
 #include <algorithm>
 #include <iterator>
@@ -13,6 +12,7 @@
 #include "options/values/pipes.h"
 #include "report/image/denoised.h"
 #include "report/image/matte.h"
+#include "report/image/shown_exposure.h"
 
 namespace bdpt::app {
 
@@ -57,12 +57,6 @@ void write_picture(const fs::path& file, ImageType type, const Picture& picture,
     }
 }
 
-/// [EV]
-float exposure_of(const Picture& picture, const DisplayArguments& display)
-{
-    return display.exposure.value_or(io::automatic_exposure(picture.image));
-}
-
 WrittenImages write_as_they_are(std::span<const fs::path> outputs, const Image& linear_image,
                                 const Picture& picture, const ImageFileOptions& options,
                                 Attempts& attempts)
@@ -76,7 +70,8 @@ WrittenImages write_as_they_are(std::span<const fs::path> outputs, const Image& 
             io::write_hdr(file, linear_image, options.exr.metadata);
         } else {
             if (!report.exposure) {
-                report.exposure = exposure_of(picture, options.display);
+                report.exposure =
+                    shown_exposure(options.display.exposure, options.exr.metadata, picture.image);
             }
             write_picture(file, type, picture, *report.exposure, options);
         }
@@ -135,9 +130,10 @@ WrittenImages write_image_files(std::span<const fs::path> outputs, const Image& 
 TexelImage screen_image(const Image& image, const ImageFileOptions& options)
 {
     const Matte noisy = matte_of(options.layers);
-    const DisplayArguments& display = options.display;
-    const auto texels = [&display](const Picture& picture) {
-        return texels_of(picture, ImageType::png, exposure_of(picture, display), display);
+    const auto texels = [&options](const Picture& picture) {
+        const float exposure =
+            shown_exposure(options.display.exposure, options.exr.metadata, picture.image);
+        return texels_of(picture, ImageType::png, exposure, options.display);
     };
     return options.denoiser == nullptr
                ? texels({image, noisy})

@@ -2,7 +2,6 @@
 
 #include <bdpt/error.h>
 #include <bdpt/io/json_value.h>
-#include <bdpt/io/tone_map.h>
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -19,6 +18,7 @@
 #include "options/groups/strategy_arguments.h"
 #include "options/values/output_files.h"
 #include "report/image/image_files.h"
+#include "report/image/shown_exposure.h"
 #include "report/strategy_files.h"
 
 namespace bdpt::app {
@@ -78,6 +78,7 @@ DisplayArguments display_of_parts(const io::ImageMetadata& metadata, DisplayArgu
                                 backdrop_text(*display.backdrop)));
     }
     display.backdrop = display.backdrop ? display.backdrop : own;
+    check_metered(display.exposure, metadata, "the parts");
     return display;
 }
 
@@ -168,7 +169,7 @@ void write_merged_files(const MergeArguments& arguments, const DisplayArguments&
         attempts.run([&] {
             write_strategy_files(StrategyFiles::named(*arguments.strategies), image,
                                  part.strategies, options.exr,
-                                 display.exposure.value_or(io::automatic_exposure(image)));
+                                 shown_exposure(display.exposure, options.exr.metadata, image));
         });
     }
     attempts.finish();

@@ -89,4 +89,34 @@ TEST_CASE("a scene without light gets a sky, and a closed room a lamp, too", "[d
     }
 }
 
+TEST_CASE("emitters that light an open scene are its light, those that glow are none",
+          "[default_lights]")
+{
+    test::SceneBuilder lit;
+    lit.walls(wall, wall).ceiling(wall).lamp(0.98f, 0.3f, Rgb(5.0f));
+    CHECK(add_default_lights(lit.desc) == DefaultLights::none);
+    CHECK(lit.desc.lights.empty());
+
+    test::SceneBuilder glows;
+    glows.sphere({0, 0, 0}, 1.0f, wall).sphere({0, 1.1f, 0}, 0.1f, test::emitter(Rgb(1.0f)));
+    CHECK(add_default_lights(glows.desc) == DefaultLights::sky);
+    CHECK(glows.desc.lights.size() == 1);
+}
+
+TEST_CASE("emitters of a closed room are its light, unless they light next to nothing",
+          "[default_lights]")
+{
+    const auto room = [](float radiance) {
+        test::SceneBuilder closed;
+        closed.walls(wall, wall).ceiling(wall).front(wall).lamp(0.98f, 0.1f, Rgb(radiance));
+        return closed.desc;
+    };
+    SceneDesc dim = room(1.0f);
+    CHECK(add_default_lights(dim) == DefaultLights::none);
+    CHECK(dim.lights.empty());
+    SceneDesc dark = room(1e-3f);
+    CHECK(add_default_lights(dark) == DefaultLights::sky_and_lamp);
+    CHECK(dark.lights.size() == 2);
+}
+
 }  // namespace bdpt::default_lights_test

@@ -1,14 +1,42 @@
 #include <bdpt/default_lights.h>
 
+#include <bdpt/light/light_meter.h>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <numbers>
+#include <numeric>
 #include <utility>
 #include <variant>
+#include <vector>
 
 namespace bdpt {
+namespace {
+
+/// Do surfaces that emit light what is framed, when nothing else does?
+bool is_lit_by_emitters(const Scene& scene, const FramedView& framed, float aspect)
+{
+    // Of the 1 nit that the default sky or lamp would give white cards [nit]. Scenes that were made
+    // for their emitters are well above, models that glow here and there well below: found by
+    // trying both kinds (docs/decisions/0059-light-of-scenes-without-lights.md).
+    constexpr double least_outside = 0.03;
+    constexpr double least_inside = 0.001;
+    std::vector<double> cards = white_cards(scene, framed.camera, {.aspect = aspect});
+    if (cards.empty()) {
+        return false;
+    }
+    if (!framed.enclosed) {
+        const auto middle = cards.begin() + static_cast<std::ptrdiff_t>(cards.size() / 2);
+        std::nth_element(cards.begin(), middle, cards.end());
+        return *middle >= least_outside;
+    }
+    // The mean, as a room may be dark but for a beam of light.
+    const double sum = std::accumulate(cards.begin(), cards.end(), 0.0);
+    return sum >= least_inside * static_cast<double>(cards.size());
+}
+
+}  // namespace
 
 bool has_light(const SceneDesc& desc)
 {
@@ -82,18 +110,30 @@ PointLightDesc default_lamp(const FramedView& view)
     return result;
 }
 
-DefaultLights add_default_lights(SceneDesc& desc, float aspect)
+DefaultLights missing_lights(const Scene& scene, const FramedView& framed, float aspect)
 {
-    if (has_light(desc)) {
+    if (!scene.description().lights.empty() ||
+        (scene.counts().emissive_triangles > 0 && is_lit_by_emitters(scene, framed, aspect))) {
         return DefaultLights::none;
     }
-    desc.lights.emplace_back(default_environment());
-    const FramedView view = frame_scene(Scene(desc), aspect);
-    if (!view.enclosed) {
-        return DefaultLights::sky;
+    return framed.enclosed ? DefaultLights::sky_and_lamp : DefaultLights::sky;
+}
+
+DefaultLights add_default_lights(SceneDesc& desc, float aspect)
+{
+    if (!desc.lights.empty()) {
+        return DefaultLights::none;
     }
-    desc.lights.emplace_back(default_lamp(view));
-    return DefaultLights::sky_and_lamp;
+    const Scene scene(desc);
+    const FramedView framed = frame_scene(scene, aspect);
+    const DefaultLights missing = missing_lights(scene, framed, aspect);
+    if (missing != DefaultLights::none) {
+        desc.lights.emplace_back(default_environment());
+    }
+    if (missing == DefaultLights::sky_and_lamp) {
+        desc.lights.emplace_back(default_lamp(framed));
+    }
+    return missing;
 }
 
 }  // namespace bdpt

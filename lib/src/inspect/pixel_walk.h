@@ -3,7 +3,7 @@
 #include "camera/moving_camera.h"
 #include "film/pixel_filter.h"
 #include "integrator/sample_start.h"
-#include "light/environment_visibility.h"
+#include "light/environment/environment_visibility.h"
 #include "path/random_walk.h"
 #include "path/sample_context.h"
 

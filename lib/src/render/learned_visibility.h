@@ -1,6 +1,6 @@
 #pragma once
 
-#include "light/environment_visibility.h"
+#include "light/environment/environment_visibility.h"
 
 #include <bdpt/render_options.h>
 #include <bdpt/scene_desc.h>

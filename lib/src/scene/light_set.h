@@ -1,6 +1,6 @@
 #pragma once
 
-#include "light/environment_visibility.h"
+#include "light/environment/environment_visibility.h"
 #include "light/intensity_profile.h"
 #include "light/light.h"
 #include "math/alias_table.h"

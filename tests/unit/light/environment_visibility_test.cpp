@@ -1,4 +1,4 @@
-#include "light/environment_visibility.h"
+#include "light/environment/environment_visibility.h"
 
 #include "catch.hpp"
 #include "chi_square.h"

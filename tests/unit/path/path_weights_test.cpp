@@ -1,6 +1,6 @@
 #include "camera/camera.h"
 #include "catch.hpp"
-#include "light/environment_visibility.h"
+#include "light/environment/environment_visibility.h"
 #include "many_lights.h"
 #include "path/connect.h"
 #include "path/densities.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "light/environment_tiles.h"
+#include "light/environment/environment_tiles.h"
 
 #include <bdpt/types.h>
 

@@ -44,7 +44,6 @@ struct Fixture {
     {
         return {.name = "floor",
                 .file = "floor.gltf",
-                .content = content_hash(desc),
                 .scene = scene,
                 .camera = test::floor_camera(),
                 .width = 12,

@@ -133,16 +133,13 @@ public:
 
     [[nodiscard]] std::optional<eval::SceneResult> run(const BenchSubject& subject)
     {
-        std::uint64_t content = 0;
-        const PreparedScene stage = prepare_scene(
-            subject.render, [&](const SceneDesc& desc) { content = eval::content_hash(desc); });
+        const PreparedScene stage = prepare_scene(subject.render);
         check_not_read(all_files(arguments_), input_files(subject.render, stage));
         tell_findings(console_, stage);
         const Size size = arguments_.size.value_or(bench_size(stage.size, arguments_.pixels));
         const eval::BenchScene scene{.name = subject.name,
                                      .file = subject.render.file.string(),
                                      .environment = stage.environment_name,
-                                     .content = content,
                                      .scene = stage.scene,
                                      .camera = stage.camera,
                                      .width = size.width,

@@ -67,6 +67,9 @@ enum class EnvironmentSampling : std::uint8_t {
     /// Compensation"): what is not, BSDF sampling finds well enough. Integrators that cannot rely
     /// on that for the rest take `plain`: nee, and bdpt when such strategies are left out.
     compensated,
+    /// As `compensated`, and by how much of the environment is visible from a place, which a short
+    /// pilot learns from a fixed number of paths (docs/decisions/0068-learned-visibility.md).
+    learned,
 };
 
 /// How next-event estimation chooses one of many lights.
@@ -110,7 +113,7 @@ struct SamplingOptions {
     SampleRange samples{};  ///< per pixel; in the mean, if there are rates
     std::uint64_t seed = 0;
     SamplerKind sampler = SamplerKind::sobol;
-    EnvironmentSampling environment = EnvironmentSampling::compensated;
+    EnvironmentSampling environment = EnvironmentSampling::learned;
     LightSampling lights = LightSampling::automatic;
     /// Light samples of next-event estimation at each camera vertex, which all share its weight.
     int light_samples = 1;

@@ -2,6 +2,7 @@
 
 #include "path/light_path_counts.h"
 #include "path/strategy_set.h"
+#include "render/learned_visibility.h"
 #include "render/open_camera.h"
 
 #include <bdpt/error.h>
@@ -13,14 +14,15 @@
 namespace bdpt {
 namespace {
 
-NextEventSampling sampling_of(const RenderOptions& options)
+NextEventSampling sampling_of(const RenderOptions& options, const EnvironmentVisibility* visibility)
 {
     if (info(options.integrator).has_strategies) {
-        return StrategySet(options).next_event_sampling();
+        return StrategySet(options, visibility).next_event_sampling();
     }
-    return {.environments = options.integrator == IntegratorKind::mis ? options.sampling.environment
-                                                                      : EnvironmentSampling::plain,
-            .lights = options.sampling.lights};
+    const bool weighs = options.integrator == IntegratorKind::mis;
+    return {.environments = weighs ? options.sampling.environment : EnvironmentSampling::plain,
+            .lights = options.sampling.lights,
+            .visibility = weighs ? visibility : nullptr};
 }
 
 WalkLimits limits_of(const RenderOptions& options, int max_vertices)
@@ -73,7 +75,8 @@ PixelWalk::PixelWalk(const Scene& scene, const CameraDesc& camera, const RenderO
               .wavelength = start_.moment.wavelength,
               .rays = rays_,
               .clock = nullptr},
-      next_event_sampling_(sampling_of(options)),
+      visibility_(learned_visibility(scene.world(), camera, options)),
+      next_event_sampling_(sampling_of(options, visibility_.get())),
       camera_path_(options.transport.max_depth + 1)
 {
     trace_camera_subpath(sample_, start_.raster, limits_of(options_, camera_path_.capacity()),

@@ -3,10 +3,13 @@
 #include "camera/moving_camera.h"
 #include "film/pixel_filter.h"
 #include "integrator/sample_start.h"
+#include "light/environment/environment_visibility.h"
 #include "path/random_walk.h"
 #include "path/sample_context.h"
 
 #include <bdpt/inspect.h>
+
+#include <memory>
 
 namespace bdpt {
 
@@ -38,6 +41,7 @@ private:
     TimedCamera timed_;
     RayCounts rays_;
     SampleContext sample_;
+    std::unique_ptr<const EnvironmentVisibility> visibility_;
     NextEventSampling next_event_sampling_;
     Subpath camera_path_;
 };

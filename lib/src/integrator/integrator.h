@@ -13,6 +13,7 @@
 
 namespace bdpt {
 
+class EnvironmentVisibility;
 class MovingCamera;
 class World;
 struct TimeSheet;
@@ -64,9 +65,10 @@ public:
                                                   const Films& films) const = 0;
 };
 
-/// `options` have been checked. The world and the camera must outlive the integrator.
-[[nodiscard]] std::unique_ptr<Integrator> make_integrator(const World& world,
-                                                          const MovingCamera& camera,
-                                                          const RenderOptions& options);
+/// `options` have been checked. The world, the camera and what is known of the visibility of its
+/// environment (null: nothing) must outlive the integrator.
+[[nodiscard]] std::unique_ptr<Integrator> make_integrator(
+    const World& world, const MovingCamera& camera, const RenderOptions& options,
+    const EnvironmentVisibility* visibility = nullptr);
 
 }  // namespace bdpt

@@ -12,13 +12,14 @@ namespace bdpt {
 namespace {
 
 using Factory = std::unique_ptr<Integrator> (*)(const World&, const MovingCamera&,
-                                                const RenderOptions&);
+                                                const RenderOptions&, const EnvironmentVisibility*);
 
 template <typename T>
 std::unique_ptr<Integrator> make(const World& world, const MovingCamera& camera,
-                                 const RenderOptions& options)
+                                 const RenderOptions& options,
+                                 const EnvironmentVisibility* visibility)
 {
-    return std::make_unique<T>(world, camera, options);
+    return std::make_unique<T>(world, camera, options, visibility);
 }
 
 /// What users see of an integrator, and how it is made.
@@ -102,9 +103,10 @@ const IntegratorInfo& info(IntegratorKind kind)
 }
 
 std::unique_ptr<Integrator> make_integrator(const World& world, const MovingCamera& camera,
-                                            const RenderOptions& options)
+                                            const RenderOptions& options,
+                                            const EnvironmentVisibility* visibility)
 {
-    return row_of(options.integrator).make(world, camera, options);
+    return row_of(options.integrator).make(world, camera, options, visibility);
 }
 
 }  // namespace bdpt

@@ -133,34 +133,46 @@ std::optional<Vec3> EnvironmentLight::in_image(const std::optional<Vec3>& normal
     return normal ? std::optional(transpose(world_from_environment_) * *normal) : std::nullopt;
 }
 
-SolidAnglePdf EnvironmentLight::pdf_direction_to(Vec3 to_light, const std::optional<Vec3>& normal,
-                                                 EnvironmentSampling sampling) const
+EnvironmentLight::Cell EnvironmentLight::cell_to(Vec3 to_light) const
 {
     const auto index = [](float at, int size) {
         return std::clamp(static_cast<int>(at * static_cast<float>(size)), 0, size - 1);
     };
     const Vec2 uv = uv_of(to_light);
-    const int row = index(uv.y, image_.height);
-    const EnvironmentTiles& tiles = this->tiles(sampling);
-    return to_solid_angle(tiles.pdf(index(uv.x, tiles.columns()), row, in_image(normal)), row);
+    return {.column = index(uv.x, plain_->columns()), .row = index(uv.y, image_.height)};
+}
+
+std::size_t EnvironmentLight::tile_to(Vec3 to_light) const
+{
+    const Cell cell = cell_to(to_light);
+    return plain_->tile_of(cell.column, cell.row);
+}
+
+SolidAnglePdf EnvironmentLight::pdf_direction_to(Vec3 to_light, const LightSampleContext& receiver,
+                                                 EnvironmentSampling sampling) const
+{
+    const Cell cell = cell_to(to_light);
+    return to_solid_angle(
+        tiles(sampling).pdf(cell.column, cell.row, in_image(receiver.normal), receiver.visibility),
+        cell.row);
 }
 
 AreaPdf EnvironmentLight::pdf_incident(const LightSampleContext& receiver, const LightPoint& x0,
                                        EnvironmentSampling sampling) const
 {
-    return {pdf_direction_to(x0.p, receiver.normal, sampling).value};
+    return {pdf_direction_to(x0.p, receiver, sampling).value};
 }
 
 AreaPdf EnvironmentLight::pdf_position(const LightPoint& x0) const
 {
-    return {pdf_direction_to(x0.p, std::nullopt, EnvironmentSampling::plain).value};
+    return {pdf_direction_to(x0.p, {}, EnvironmentSampling::plain).value};
 }
 
 std::optional<EnvironmentLight::Direction> EnvironmentLight::sample_direction(
-    Vec2 u, const std::optional<Vec3>& normal, EnvironmentSampling sampling) const
+    Vec2 u, const LightSampleContext& receiver, EnvironmentSampling sampling) const
 {
     const EnvironmentTiles& tiles = this->tiles(sampling);
-    const auto cell = tiles.sample(u, in_image(normal));
+    const auto cell = tiles.sample(u, in_image(receiver.normal), receiver.visibility);
     if (!cell) {
         return std::nullopt;
     }
@@ -179,7 +191,7 @@ std::optional<EnvironmentLight::Direction> EnvironmentLight::sample_direction(
 std::optional<EmissionSample> EnvironmentLight::sample_emission(Vec2 u_position, Vec2 u_direction,
                                                                 float /*time*/) const
 {
-    const auto from = sample_direction(u_direction, std::nullopt, EnvironmentSampling::plain);
+    const auto from = sample_direction(u_direction, {}, EnvironmentSampling::plain);
     if (!from) {
         return std::nullopt;
     }
@@ -195,7 +207,7 @@ std::optional<IncidentSample> EnvironmentLight::sample_incident(const LightSampl
                                                                 EnvironmentSampling sampling,
                                                                 float /*time*/) const
 {
-    const auto from = sample_direction(u, receiver.normal, sampling);
+    const auto from = sample_direction(u, receiver, sampling);
     if (!from) {
         return std::nullopt;
     }

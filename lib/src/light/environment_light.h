@@ -1,7 +1,7 @@
 #pragma once
 
 #include "light/bounding_sphere.h"
-#include "light/environment_tiles.h"
+#include "light/environment/environment_tiles.h"
 #include "light/light_model.h"
 #include "light/light_sample_context.h"
 #include "light/light_samples.h"
@@ -9,6 +9,7 @@
 #include <bdpt/render_options.h>
 #include <bdpt/scene_desc.h>
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -40,6 +41,8 @@ public:
                                                                 Vec2 u,
                                                                 EnvironmentSampling sampling,
                                                                 float time) const;
+    /// The tile of `EnvironmentTiles` that the direction is in.
+    [[nodiscard]] std::size_t tile_to(Vec3 to_light) const;
     /// Luminous flux into the scene's bounding sphere [lm].
     [[nodiscard]] Rgb power() const;
 
@@ -53,12 +56,18 @@ private:
     {
         return sampling == EnvironmentSampling::plain ? *plain_ : *compensated_;
     }
-    /// `normal`: of the receiver, in the world; none for light paths.
+    /// A texel, or a part of it where images are narrow.
+    struct Cell {
+        int column;
+        int row;
+    };
+    /// `receiver`: one without normal for light paths.
     [[nodiscard]] std::optional<Direction> sample_direction(Vec2 u,
-                                                            const std::optional<Vec3>& normal,
+                                                            const LightSampleContext& receiver,
                                                             EnvironmentSampling sampling) const;
-    [[nodiscard]] SolidAnglePdf pdf_direction_to(Vec3 to_light, const std::optional<Vec3>& normal,
+    [[nodiscard]] SolidAnglePdf pdf_direction_to(Vec3 to_light, const LightSampleContext& receiver,
                                                  EnvironmentSampling sampling) const;
+    [[nodiscard]] Cell cell_to(Vec3 to_light) const;
     [[nodiscard]] std::optional<Vec3> in_image(const std::optional<Vec3>& normal) const;
     [[nodiscard]] Vec2 uv_of(Vec3 to_light) const;
     [[nodiscard]] Rgb lookup(Vec2 uv) const;

@@ -10,6 +10,8 @@
 
 namespace bdpt {
 
+class EnvironmentVisibility;
+
 enum class LightId : std::uint32_t {};
 
 /// How next-event estimation samples lights. Whoever evaluates its density needs to know.
@@ -17,6 +19,8 @@ struct NextEventSampling {
     EnvironmentSampling environments = EnvironmentSampling::plain;
     LightSampling lights = LightSampling::automatic;
     int samples = 1;  ///< of each camera vertex
+    /// What is visible of the environment; null: that is not known.
+    const EnvironmentVisibility* visibility = nullptr;
 };
 
 /// A point of a light, whatever found it: all that its densities depend on.

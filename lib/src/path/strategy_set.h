@@ -13,7 +13,8 @@ namespace bdpt {
 class StrategySet {
 public:
     /// `options` have been checked. The integrator is bdpt, lt or vcm.
-    explicit StrategySet(const RenderOptions& options);
+    explicit StrategySet(const RenderOptions& options,
+                         const EnvironmentVisibility* visibility = nullptr);
 
     /// N_s of the strategy; 0 when it is not used.
     [[nodiscard]] float count(int s, int t) const

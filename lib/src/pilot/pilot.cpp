@@ -113,11 +113,12 @@ void add_sample(std::int64_t index, Heuristic heuristic, BidirectionalIntegrator
 
 }  // namespace
 
-PilotResult run_pilot(const World& world, const MovingCamera& camera, const RenderOptions& asked)
+PilotResult run_pilot(const World& world, const MovingCamera& camera, const RenderOptions& asked,
+                      const EnvironmentVisibility* visibility)
 {
     const PilotGrid grid(asked.film.width, asked.film.height);
     const RenderOptions options = pilot_options(asked, grid);
-    BidirectionalIntegrator integrator(world, camera, options);
+    BidirectionalIntegrator integrator(world, camera, options, visibility);
     PilotFinds finds{.grid = grid,
                      .light_paths = LightPathCounts(options).per_camera_path,
                      .rows = std::vector<PilotRow>(static_cast<std::size_t>(grid.rows())),

@@ -8,6 +8,7 @@
 
 namespace bdpt {
 
+class EnvironmentVisibility;
 class MovingCamera;
 class World;
 
@@ -24,9 +25,10 @@ struct PilotResult {
 /// Renders a few samples all over the whole image with light paths of their own, and predicts from
 /// them error and cost of every candidate. Its random numbers are its own. What it returns depends
 /// on scene, camera, size of the film and options of transport, but not on seed, samples, crop or
-/// threads. `camera` is that of the whole image.
+/// threads. `camera` is that of the whole image, `visibility` what was learned for it.
 [[nodiscard]] PilotResult run_pilot(const World& world, const MovingCamera& camera,
-                                    const RenderOptions& options);
+                                    const RenderOptions& options,
+                                    const EnvironmentVisibility* visibility = nullptr);
 
 /// `options` with the integrator and the numbers that have the least error at equal cost in
 /// `pilot`, of those that fit into `light_path_memory`.

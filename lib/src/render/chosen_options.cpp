@@ -1,6 +1,7 @@
 #include <bdpt/render.h>
 
 #include "pilot/pilot.h"
+#include "pilot/visibility_pilot.h"
 #include "render/check_options.h"
 #include "render/open_camera.h"
 #include "threads/threads.h"
@@ -47,7 +48,8 @@ IntegratorChoice choose_integrator(const Scene& scene, const CameraDesc& camera,
     Threads threads(options.system.threads);
     IntegratorChoice choice;
     threads.execute([&] {
-        const PilotResult pilot = run_pilot(scene.world(), opened, whole);
+        const auto visibility = learn_visibility(scene.world(), opened, whole);
+        const PilotResult pilot = run_pilot(scene.world(), opened, whole, visibility.get());
         choice = {.options = with_best(pilot, options), .unseen_light = pilot.merging_alone};
     });
     return choice;

@@ -4,6 +4,7 @@
 #include "math/split_mix.h"
 #include "rates/rate_map.h"
 #include "render/check_options.h"
+#include "render/learned_visibility.h"
 #include "render/open_camera.h"
 #include "render/pass.h"
 #include "threads/threads.h"
@@ -90,9 +91,9 @@ private:
 };
 
 void render_group(const Scene& scene, const MovingCamera& camera, const RenderOptions& options,
-                  int group, PilotSums& sums)
+                  const EnvironmentVisibility* visibility, int group, PilotSums& sums)
 {
-    const auto integrator = make_integrator(scene.world(), camera, options);
+    const auto integrator = make_integrator(scene.world(), camera, options, visibility);
     const AovPass no_aovs(scene.world(), camera, options);
     RenderPart part{.identity = {},
                     .samples = {},
@@ -121,12 +122,13 @@ SampleRates sample_rates(const Scene& scene, const CameraDesc& camera_desc,
     options = pilot_options(chosen_options(scene, camera_desc, options));
     check_takes_rates(options.integrator);
     const MovingCamera camera = open_camera(scene.world(), camera_desc, options);
+    const auto visibility = learned_visibility(scene.world(), camera_desc, options);
     Threads threads(options.system.threads);
     PilotSums sums(options);
     threads.execute([&] {
         for (int group = 0; group < groups; ++group) {
             options.sampling.seed = split_mix(pilot_seed + static_cast<std::uint64_t>(group));
-            render_group(scene, camera, options, group, sums);
+            render_group(scene, camera, options, visibility.get(), group, sums);
         }
     });
     return rates_for(sums.evidence());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "light/environment/environment_visibility.h"
 #include "light/intensity_profile.h"
 #include "light/light.h"
 #include "math/alias_table.h"
@@ -92,10 +93,11 @@ public:
             return {};
         }
         // Made in its place: a copy would take longer than the choice.
-        return {.light = choice->id,
-                .probability = choice->probability,
-                .incident = (*this)[choice->id].sample_incident(receiver, choice->u,
-                                                                sampling.environments, time)};
+        return {
+            .light = choice->id,
+            .probability = choice->probability,
+            .incident = (*this)[choice->id].sample_incident(
+                knowing(receiver, choice->id, sampling), choice->u, sampling.environments, time)};
     }
     /// The density of next-event estimation at the receiver taking the point `x0` of light `id`; in
     /// the measure of `IncidentSample::pdf`.
@@ -103,7 +105,8 @@ public:
                                          const LightSampleContext& receiver,
                                          const NextEventSampling& sampling) const
     {
-        return (*this)[id].pdf_incident(receiver, x0, sampling.environments) *
+        return (*this)[id].pdf_incident(knowing(receiver, id, sampling), x0,
+                                        sampling.environments) *
                context_probability(id, receiver, sampling.lights);
     }
 
@@ -152,6 +155,16 @@ public:
 private:
     /// With so many a float has more than enough digits for a choice and a point.
     static constexpr std::size_t few_lights = 64;
+
+    /// The receiver with what is visible from it of light `id`, if that is known.
+    [[nodiscard]] LightSampleContext knowing(LightSampleContext receiver, LightId id,
+                                             const NextEventSampling& sampling) const
+    {
+        if (sampling.visibility != nullptr && environment_ == id) {
+            receiver.visibility = &sampling.visibility->at(receiver.p);
+        }
+        return receiver;
+    }
 
     std::vector<Light> lights_;
     std::vector<std::optional<std::uint32_t>> first_of_instance_;

@@ -8,11 +8,13 @@
 #include <bdpt/options/integrators.h>
 #include <bdpt/options/option_fields.h>
 
+#include "bench/bench_files.h"
 #include "bench/trial.h"
 
 #include <cmath>
-#include <functional>
-#include <set>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "bench_scene.h"
@@ -38,91 +40,57 @@ TEST_CASE("integrators have names, and names integrators")
     CHECK_FALSE(enumerator_of<IntegratorKind>(""));
 }
 
-TEST_CASE("all that an image depends on is in the hash of a scene, names are not")
+TEST_CASE(
+    "settings of a reference: all that its image depends on, but integrator, seed and machine")
 {
-    const SceneDesc base = test::lit_floor();
-    const std::vector<std::function<void(SceneDesc&)>> changes{
-        [](SceneDesc& s) { s.meshes[0].positions[2].y += 1e-6f; },
-        [](SceneDesc& s) { std::swap(s.meshes[1].triangles[0].x, s.meshes[1].triangles[0].y); },
-        [](SceneDesc& s) { s.meshes[0].normals.resize(4, Vec3(0.0f, 1.0f, 0.0f)); },
-        [](SceneDesc& s) { s.meshes[0].uvs[0][0].x = 0.5f; },
-        [](SceneDesc& s) { s.meshes[0].uvs[1].resize(4, Vec2(0.0f)); },
-        [](SceneDesc& s) { s.materials[0].base_color.y += 0.01f; },
-        [](SceneDesc& s) { s.materials[0].roughness = 0.9f; },
-        [](SceneDesc& s) { s.materials[0].ior = 1.4f; },
-        [](SceneDesc& s) { s.materials[0].transmission = 0.1f; },
-        [](SceneDesc& s) { s.materials[0].dispersion = 0.1f; },
-        [](SceneDesc& s) { s.materials[0].clearcoat.factor = 0.1f; },
-        [](SceneDesc& s) { s.materials[0].clearcoat.roughness = 0.1f; },
-        [](SceneDesc& s) { s.materials[0].clearcoat.normal_scale = 0.5f; },
-        [](SceneDesc& s) { s.materials[0].sheen.color.g = 0.1f; },
-        [](SceneDesc& s) { s.materials[0].sheen.roughness = 0.1f; },
-        [](SceneDesc& s) { s.materials[0].anisotropy.strength = 0.1f; },
-        [](SceneDesc& s) { s.materials[0].anisotropy.rotation = 0.1f; },
-        [](SceneDesc& s) { s.materials[0].iridescence.factor = 0.1f; },
-        [](SceneDesc& s) { s.materials[0].iridescence.ior = 1.4f; },
-        [](SceneDesc& s) { s.materials[0].iridescence.thickness_minimum = 99.0f; },
-        [](SceneDesc& s) { s.materials[0].iridescence.thickness_maximum = 99.0f; },
-        [](SceneDesc& s) { s.materials[0].diffuse_transmission.factor = 0.1f; },
-        [](SceneDesc& s) { s.materials[0].diffuse_transmission.color.b = 0.1f; },
-        [](SceneDesc& s) { s.materials[0].sheen.color_texture = TextureRef{}; },
-        [](SceneDesc& s) { s.materials[0].glossiness_texture = TextureRef{}; },
-        [](SceneDesc& s) { s.materials[0].normal_texture = TextureRef{}; },
-        [](SceneDesc& s) { s.materials[0].emission_texture = TextureRef{}; },
-        [](SceneDesc& s) { s.materials[1].emission.b = 19.0f; },
-        [](SceneDesc& s) { s.materials[1].double_sided = true; },
-        [](SceneDesc& s) { s.instances[1].material = MaterialId{0}; },
-        [](SceneDesc& s) { s.instances[1].world_from_object[3].x = 0.1f; },
-        [](SceneDesc& s) { s.lights.emplace_back(PointLightDesc{}); },
-        [](SceneDesc& s) { s.lights.emplace_back(SpotLightDesc{}); },
-        [](SceneDesc& s) { s.lights.emplace_back(ProfileLightDesc{}); },
-        [](SceneDesc& s) { s.lights.emplace_back(ProfileLightDesc{.scale = Rgb(2.0f)}); },
-        [](SceneDesc& s) { s.lights.emplace_back(ProfileLightDesc{.motion = {Vec3(1.0f)}}); },
-        [](SceneDesc& s) { s.lights.emplace_back(PointLightDesc{.motion = {Vec3(1.0f)}}); },
-        [](SceneDesc& s) {
-            s.profiles.push_back({{0.0f, 1.0f}, {0.0f}, {1.0f, 2.0f}});
-        },
-        [](SceneDesc& s) {
-            s.profiles.push_back({{0.0f, 1.0f}, {0.0f}, {1.0f, 3.0f}});
-        },
-        [](SceneDesc& s) {
-            s.lights.emplace_back(EnvironmentLightDesc{.radiance = flat(2, 1, Rgb(1.0f))});
-        },
-        [](SceneDesc& s) {
-            s.lights.emplace_back(EnvironmentLightDesc{.radiance = flat(1, 2, Rgb(1.0f))});
-        },
-        [](SceneDesc& s) {
-            s.images.push_back({1, 1, {1, 2, 3, 4}});
-        },
-        [](SceneDesc& s) {
-            s.images.push_back({1, 1, {1, 2, 3, 5}});
-        },
-        [](SceneDesc& s) {
-            s.images.push_back({1, 1, {1, 2, 3, 4}, 2, TexelType::unorm16});
-        },
-        [](SceneDesc& s) {
-            s.images.push_back({1, 1, {1, 2, 3, 4}, 2, TexelType::half});
-        },
-        [](SceneDesc& s) { s.texture_filter = TextureFilter::mip_mapped; }};
-    std::set<std::uint64_t> hashes{content_hash(base)};
-    for (const auto& change : changes) {
-        SceneDesc changed = base;
-        change(changed);
-        hashes.insert(content_hash(changed));
+    const Scene scene(test::lit_floor());
+    const BenchScene subject{.name = "floor",
+                             .file = "floor.gltf",
+                             .scene = scene,
+                             .camera = test::floor_camera(),
+                             .width = 12,
+                             .height = 9};
+    const RenderOptions options;
+    const auto settings = render_settings(subject, options);
+    const std::string content = content_of(subject);
+    CHECK(content.size() == 32);
+    CHECK(settings.at("width") == "12");
+    CHECK(settings.contains("scene: meshes[0]"));
+    CHECK(settings.contains("build: version"));
+    for (const char* name : {"integrator", "seed", "build: Embree", "build: compiler"}) {
+        CHECK_FALSE(settings.contains(name));
     }
-    CHECK(hashes.size() == changes.size() + 1);
 
-    SceneDesc renamed = base;
-    renamed.meshes[0].name = "floor";
-    renamed.instances[1].name = "lamp";
-    CHECK(content_hash(renamed) == content_hash(base));
+    RenderOptions other = options;
+    other.integrator = IntegratorKind::lt;
+    other.sampling.seed = 7;
+    other.sampling.samples = {.begin = 3, .end = 9};
+    other.system.threads = 1;
+    CHECK(render_settings(subject, other) == settings);
+    other.transport.max_depth = 3;
+    CHECK(render_settings(subject, other) != settings);
 
-    CameraDesc camera = test::floor_camera();
-    const std::uint64_t seen = content_hash(camera);
-    camera.name = "other";
-    CHECK(content_hash(camera) == seen);
-    camera.lens_radius = 0.1f;
-    CHECK(content_hash(camera) != seen);
+    SceneDesc moved = test::lit_floor();
+    moved.meshes[0].positions[2].y += 1e-6f;
+    const Scene moved_scene(std::move(moved));
+    BenchScene changed{.name = "floor",
+                       .file = "floor.gltf",
+                       .scene = moved_scene,
+                       .camera = test::floor_camera(),
+                       .width = 12,
+                       .height = 9};
+    CHECK(render_settings(changed, options) != settings);
+    CHECK(content_of(changed) != content);
+    BenchScene seen{.name = "floor",
+                    .file = "floor.gltf",
+                    .scene = scene,
+                    .camera = test::floor_camera(),
+                    .width = 12,
+                    .height = 9};
+    seen.camera.name = "other";
+    CHECK(content_of(seen) == content);
+    seen.camera.lens_radius = 0.1f;
+    CHECK(content_of(seen) != content);
 }
 
 TEST_CASE("runs are looked at at powers of two and at their goals")

@@ -1,4 +1,4 @@
-#include "light/environment_tiles.h"
+#include "light/environment/environment_tiles.h"
 
 #include "catch.hpp"
 #include "chi_square.h"

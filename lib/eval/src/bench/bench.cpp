@@ -13,7 +13,6 @@
 #include <utility>
 
 #include "bench/bench_files.h"
-#include "bench/hasher.h"
 #include "bench/plan.h"
 #include "bench/progress_meter.h"
 #include "bench/reference_cache.h"
@@ -179,7 +178,7 @@ std::optional<SceneResult> run_scene(const BenchScene& scene, const BenchOptions
                        .file = scene.file,
                        .environment = scene.environment,
                        .camera = scene.camera.name,
-                       .content = hex_text(scene.content) + hex_text(content_hash(scene.camera)),
+                       .content = content_of(scene),
                        .width = scene.width,
                        .height = scene.height,
                        .light_scale = bench_scale(reference.image).epsilon / 0.01,

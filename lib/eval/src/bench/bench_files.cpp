@@ -3,7 +3,8 @@
 #include <bdpt/error.h>
 #include <bdpt/io/output_file.h>
 #include <bdpt/options/option_fields.h>
-#include <bdpt/version.h>
+#include <bdpt/part/content_hash.h>
+#include <bdpt/part/identity.h>
 
 #include <cmath>
 #include <fstream>
@@ -11,8 +12,6 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 #include <utility>
-
-#include "bench/hasher.h"
 
 namespace bdpt::eval {
 namespace {
@@ -23,15 +22,6 @@ using nlohmann::ordered_json;
 std::string run_name(IntegratorKind integrator, std::uint64_t seed)
 {
     return std::string(name_of(integrator)) + "-" + std::to_string(seed);
-}
-
-ordered_json strategies_json(const std::vector<Strategy>& strategies)
-{
-    ordered_json result = ordered_json::array();
-    for (const Strategy& strategy : strategies) {
-        result.push_back({strategy.s, strategy.t});
-    }
-    return result;
 }
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& what)
@@ -94,45 +84,42 @@ void BenchFiles::create() const
 
 ordered_json render_settings(const BenchScene& scene, const RenderOptions& options)
 {
-    // JSON has no infinity.
-    const ordered_json clamp =
-        std::isfinite(options.film.clamp) ? ordered_json(options.film.clamp) : ordered_json();
-    ordered_json settings{
-        {"version", BDPT_VERSION},
-        {"scene", hex_text(scene.content)},
-        {"camera", hex_text(content_hash(scene.camera))},
-        {"width", scene.width},
-        {"height", scene.height},
-        {"max_depth", options.transport.max_depth},
-        {"min_depth", options.transport.min_depth},
-        {"max_camera_depth", options.bidirectional.max_camera_depth},
-        {"max_light_depth", options.bidirectional.max_light_depth},
-        {"light_paths", options.bidirectional.light_paths},
-        {"disabled", strategies_json(options.bidirectional.disabled)},
-        {"rr_start", options.transport.rr_start},
-        {"heuristic", static_cast<int>(options.transport.heuristic)},
-        {"sampler", options.sampling.sampler == SamplerKind::sobol ? "sobol" : "independent"},
-        {"environment_sampling", static_cast<int>(options.sampling.environment)},
-        {"light_sampling", static_cast<int>(options.sampling.lights)},
-        {"light_samples", options.sampling.light_samples},
-        {"filter", static_cast<int>(options.film.filter.kind)},
-        {"filter_radius",
-         options.film.filter.radius.value_or(default_radius(options.film.filter.kind))},
-        {"clamp", clamp}};
-    // Without these, references keep their names.
-    if (options.transport.rr_survival > 0.0f) {
-        settings["rr_survival"] = options.transport.rr_survival;
+    RenderOptions common = options;
+    common.integrator = IntegratorKind::mis;  // the one that no pilot has to choose
+    common.film.width = scene.width;
+    common.film.height = scene.height;
+    common.sampling.seed = 0;
+    ordered_json settings;
+    constexpr std::string_view option = "option: ";
+    for (const auto& [name, value] : identity(scene.scene, scene.camera, common).components) {
+        if (name.starts_with(option)) {
+            settings[name.substr(option.size())] = value;
+        } else if (name == "build: version" || !name.starts_with("build: ")) {
+            settings[name] = value;
+        }
     }
-    if (options.bidirectional.connections) {
-        settings["connections"] = *options.bidirectional.connections;
-    }
-    const BidirectionalOptions standard;
-    if (options.bidirectional.merge_radius != standard.merge_radius ||
-        options.bidirectional.merge_alpha != standard.merge_alpha) {
-        settings["merge_radius"] = options.bidirectional.merge_radius;
-        settings["merge_alpha"] = options.bidirectional.merge_alpha;
-    }
+    settings.erase("integrator");
+    settings.erase("seed");
     return settings;
+}
+
+std::string content_of(const BenchScene& scene)
+{
+    const ordered_json settings = render_settings(scene, {});
+    ordered_json content;
+    for (const auto& [name, value] : settings.items()) {
+        if (name.starts_with("scene: ") || name.starts_with("camera: ")) {
+            content[name] = value;
+        }
+    }
+    return hash_of(content.dump());
+}
+
+std::string hash_of(std::string_view bytes)
+{
+    ContentHasher hasher;
+    hasher.add(bytes.data(), bytes.size());
+    return to_string(hasher.hash());
 }
 
 std::optional<ordered_json> read_json(const fs::path& file)

@@ -35,9 +35,14 @@ private:
     std::string scene_;
 };
 
-/// What images of a scene depend on, but for integrator, samples and seed.
+/// What images of a scene depend on, but for integrator, samples, seed and the machine: components
+/// of the render's identity, by name.
 [[nodiscard]] nlohmann::ordered_json render_settings(const BenchScene& scene,
                                                      const RenderOptions& options);
+/// A hash of what is rendered: scene and camera.
+[[nodiscard]] std::string content_of(const BenchScene& scene);
+/// 32 hexadecimal digits that tell contents apart.
+[[nodiscard]] std::string hash_of(std::string_view bytes);
 
 /// A whole JSON file; none if there is no such file. Throws `Error`: not_found when it cannot be
 /// read, invalid_input when it is no JSON.

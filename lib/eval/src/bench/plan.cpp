@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "bench/trial.h"
@@ -29,6 +30,12 @@ ordered_json plan_settings(const BenchScene& scene, const BenchOptions& options,
     return settings;
 }
 
+/// Texts without quotes.
+std::string shown(const ordered_json& value)
+{
+    return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
 /// Throws the `Error` for a folder that holds something else, with what differs.
 void check_same(const ordered_json& ours, const ordered_json& kept,
                 const std::filesystem::path& file)
@@ -38,7 +45,7 @@ void check_same(const ordered_json& ours, const ordered_json& kept,
             kept.is_object() ? kept.value(name, ordered_json()) : ordered_json();
         if (other != value) {
             throw Error(ErrorCode::usage, file.string() + ": holds runs with " + name + " " +
-                                              other.dump() + ", not " + value.dump() +
+                                              shown(other) + ", not " + shown(value) +
                                               "; choose another folder, or delete this one");
         }
     }

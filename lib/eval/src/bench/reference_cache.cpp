@@ -10,9 +10,9 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <utility>
 
-#include "bench/hasher.h"
 #include "bench/trial.h"
 #include "metrics/check_images.h"
 
@@ -54,9 +54,9 @@ KeyedReference given_reference(const BenchScene& scene, const fs::path& given)
     check_size(reference.image, scene.width, scene.height, file);
     check_image({.name = file.string(), .image = reference.image});
     reference.noise = noise_by_layer(file, reference.image);
-    Hasher hasher;
-    hasher.add_array(reference.image.pixels);
-    return {.reference = std::move(reference), .key = hex_text(hasher.hash()), .file = file};
+    const auto bytes = std::as_bytes(std::span(reference.image.pixels));
+    std::string key = hash_of({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    return {.reference = std::move(reference), .key = std::move(key), .file = file};
 }
 
 struct HalvedRender {
@@ -146,10 +146,9 @@ std::optional<KeyedReference> kept_reference(const std::string& key, const Bench
 
 std::string reference_key(const BenchScene& scene, const BenchOptions& options)
 {
-    Hasher hasher;
-    hasher.add(render_settings(scene, options.render).dump());
-    hasher.add(options.reference_seconds);
-    return hex_text(hasher.hash());
+    ordered_json settings = render_settings(scene, options.render);
+    settings["reference_seconds"] = options.reference_seconds;
+    return hash_of(settings.dump());
 }
 
 std::optional<KeyedReference> reference_for(const BenchScene& scene, const BenchOptions& options,

@@ -54,6 +54,7 @@ template <>
 inline constexpr std::array enumerators<EnvironmentSampling>{
     Enumerator{EnvironmentSampling::plain, "plain"},
     Enumerator{EnvironmentSampling::compensated, "compensated"},
+    Enumerator{EnvironmentSampling::learned, "learned"},
 };
 /// Names of the ways to choose a light.
 template <>

@@ -32,13 +32,14 @@ Sampler light_sampler(const RenderOptions& options, int x, int y, std::int64_t i
 }  // namespace
 
 BidirectionalIntegrator::BidirectionalIntegrator(const World& world, const MovingCamera& camera,
-                                                 const RenderOptions& options)
+                                                 const RenderOptions& options,
+                                                 const EnvironmentVisibility* visibility)
     : world_(world),
       camera_(camera),
       options_(options),
       schedule_(options_),
       filter_(options.film.filter),
-      strategies_(options),
+      strategies_(options, visibility),
       cache_(LightPathCounts(options), options)
 {}
 

@@ -20,7 +20,8 @@ class SampleTimer;
 class BidirectionalIntegrator final : public Integrator {
 public:
     BidirectionalIntegrator(const World& world, const MovingCamera& camera,
-                            const RenderOptions& options);
+                            const RenderOptions& options,
+                            const EnvironmentVisibility* visibility = nullptr);
     [[nodiscard]] std::int64_t most_samples_in_pass() const override;
     [[nodiscard]] std::int64_t begin_pass(SampleRange samples) override;
     [[nodiscard]] RenderStats do_part(std::int64_t part, SampleRange samples,

@@ -60,18 +60,20 @@ bool has_delta_light(const LightSet& lights)
 }  // namespace
 
 PathIntegrator::PathIntegrator(const World& world, const MovingCamera& camera,
-                               const RenderOptions& options)
+                               const RenderOptions& options,
+                               const EnvironmentVisibility* visibility)
     : world_(world),
       camera_(camera),
       options_(options),
       schedule_(options_),
       filter_(options.film.filter),
       // What light sampling leaves out is found by BSDF sampling in `mis` alone.
-      next_event_sampling_{.environments = options.integrator == IntegratorKind::mis
-                                               ? options.sampling.environment
-                                               : EnvironmentSampling::plain,
-                           .lights = options.sampling.lights,
-                           .samples = options.sampling.light_samples},
+      next_event_sampling_{
+          .environments = options.integrator == IntegratorKind::mis ? options.sampling.environment
+                                                                    : EnvironmentSampling::plain,
+          .lights = options.sampling.lights,
+          .samples = options.sampling.light_samples,
+          .visibility = options.integrator == IntegratorKind::mis ? visibility : nullptr},
       light_samples_(static_cast<float>(options.sampling.light_samples)),
       samples_lights_(options.integrator != IntegratorKind::pt || has_delta_light(world.lights()))
 {

@@ -16,7 +16,8 @@ namespace bdpt {
 /// both choose points for the lights, too (`FogSampling`).
 class PathIntegrator final : public Integrator {
 public:
-    PathIntegrator(const World& world, const MovingCamera& camera, const RenderOptions& options);
+    PathIntegrator(const World& world, const MovingCamera& camera, const RenderOptions& options,
+                   const EnvironmentVisibility* visibility = nullptr);
     [[nodiscard]] RenderStats render_tile(const Tile& tile, SampleRange samples,
                                           const Films& films) const override;
 

@@ -13,6 +13,9 @@
 
 namespace bdpt {
 
+/// A number of each tile of an environment.
+struct TileFactors;
+
 /// Density of the directions of an environment for a receiver: an equirectangular image in tiles,
 /// of which those come first that stand high above the receiver's surface, and those below never
 /// (docs/decisions/0060-environment-tiles.md). Normals are in the frame of the image.
@@ -27,22 +30,29 @@ public:
         float pdf = 0.0f;   ///< on the unit square that the image fills
     };
 
+    static constexpr std::size_t tile_count = 128;
+
     /// `weights` of texels, >= 0, row-major. Where all are zero there is nothing to sample.
     EnvironmentTiles(std::span<const float> weights, int width, int height);
 
     /// Of cells, in each row.
     [[nodiscard]] int columns() const noexcept { return static_cast<int>(width_); }
     /// Nothing where all that has weight is below the surface. Without a normal all weights count.
-    [[nodiscard]] std::optional<Sample> sample(Vec2 u,
-                                               const std::optional<Vec3>& normal) const noexcept;
+    /// `factors`, positive, multiply the weights of tiles; null: none.
+    [[nodiscard]] std::optional<Sample> sample(Vec2 u, const std::optional<Vec3>& normal,
+                                               const TileFactors* factors = nullptr) const noexcept;
     /// Of `sample` taking a point in this cell, on the unit square; zero if it never does.
-    [[nodiscard]] float pdf(int column, int row, const std::optional<Vec3>& normal) const noexcept;
+    [[nodiscard]] float pdf(int column, int row, const std::optional<Vec3>& normal,
+                            const TileFactors* factors = nullptr) const noexcept;
+    /// The tile that the cell is in, in [0, tile_count).
+    [[nodiscard]] std::size_t tile_of(int column, int row) const noexcept;
 
 private:
     static constexpr std::uint32_t tile_columns = 16;
     static constexpr std::uint32_t most_rows = 8;
     /// A number of each tile, one column of tiles after the other; zero where there are fewer.
-    using PerTile = std::array<float, tile_columns * most_rows>;
+    using PerTile = std::array<float, tile_count>;
+    static_assert(tile_columns * most_rows == tile_count);
     /// What tiles are worth to a receiver, in no unit.
     struct Worth {
         alignas(16) PerTile of;
@@ -61,7 +71,8 @@ private:
 
     void add_tile(std::size_t tile, Range columns, Range rows, std::span<const float> weights,
                   double total);
-    [[nodiscard]] Worth worth(Vec3 normal) const noexcept;
+    [[nodiscard]] Worth worth(const std::optional<Vec3>& normal,
+                              const TileFactors* factors) const noexcept;
     [[nodiscard]] std::optional<Sample> sample(Vec2 u, const Worth& worth) const noexcept;
     [[nodiscard]] float density(std::size_t tile, const Worth& worth,
                                 float cell_pdf) const noexcept;
@@ -80,6 +91,10 @@ private:
     alignas(16) PerTile reach_{};
     PerTile tiles_in_image_{};  // area of the image over that of the tile
     std::vector<Distribution2D> cells_;
+};
+
+struct TileFactors {
+    alignas(16) std::array<float, EnvironmentTiles::tile_count> of{};
 };
 
 }  // namespace bdpt

@@ -1,4 +1,4 @@
-#include "light/environment_tiles.h"
+#include "light/environment/environment_tiles.h"
 
 #include "math/elementary.h"
 
@@ -163,13 +163,23 @@ void EnvironmentTiles::Worth::sum_up() noexcept
     sum = (sums[0] + sums[2]) + (sums[1] + sums[3]);
 }
 
-EnvironmentTiles::Worth EnvironmentTiles::worth(Vec3 normal) const noexcept
+EnvironmentTiles::Worth EnvironmentTiles::worth(const std::optional<Vec3>& normal,
+                                                const TileFactors* factors) const noexcept
 {
     Worth result;
-    for (std::size_t tile = 0; tile < result.of.size(); ++tile) {
-        const float height = normal.x * axis_x_[tile] + normal.y * axis_y_[tile] +
-                             normal.z * axis_z_[tile] + reach_[tile];
-        result.of[tile] = (height > 0.0f ? height : 0.0f) * all_.of[tile];
+    if (normal) {
+        for (std::size_t tile = 0; tile < result.of.size(); ++tile) {
+            const float height = normal->x * axis_x_[tile] + normal->y * axis_y_[tile] +
+                                 normal->z * axis_z_[tile] + reach_[tile];
+            result.of[tile] = (height > 0.0f ? height : 0.0f) * all_.of[tile];
+        }
+    } else {
+        result.of = all_.of;
+    }
+    if (factors != nullptr) {
+        for (std::size_t tile = 0; tile < result.of.size(); ++tile) {
+            result.of[tile] *= factors->of[tile];
+        }
     }
     result.sum_up();
     return result;
@@ -203,12 +213,19 @@ std::optional<EnvironmentTiles::Sample> EnvironmentTiles::sample(Vec2 u,
 }
 
 std::optional<EnvironmentTiles::Sample> EnvironmentTiles::sample(
-    Vec2 u, const std::optional<Vec3>& normal) const noexcept
+    Vec2 u, const std::optional<Vec3>& normal, const TileFactors* factors) const noexcept
 {
-    return normal ? sample(u, worth(*normal)) : sample(u, all_);
+    return normal || factors != nullptr ? sample(u, worth(normal, factors)) : sample(u, all_);
 }
 
-float EnvironmentTiles::pdf(int column, int row, const std::optional<Vec3>& normal) const noexcept
+std::size_t EnvironmentTiles::tile_of(int column, int row) const noexcept
+{
+    return part_of(static_cast<std::uint32_t>(column), tile_columns, width_) * most_rows +
+           part_of(static_cast<std::uint32_t>(row), rows_, height_);
+}
+
+float EnvironmentTiles::pdf(int column, int row, const std::optional<Vec3>& normal,
+                            const TileFactors* factors) const noexcept
 {
     const auto x = static_cast<std::uint32_t>(column);
     const auto y = static_cast<std::uint32_t>(row);
@@ -220,10 +237,10 @@ float EnvironmentTiles::pdf(int column, int row, const std::optional<Vec3>& norm
     }
     const float cell_pdf = cells_[i * rows_ + j].cell_pdf(static_cast<int>(x - column_begins_[i]),
                                                           static_cast<int>(y - row_begins_[j]));
-    if (!normal || !(cell_pdf > 0.0f)) {
+    if ((!normal && factors == nullptr) || !(cell_pdf > 0.0f)) {
         return density(tile, all_, cell_pdf);
     }
-    const Worth seen = worth(*normal);
+    const Worth seen = worth(normal, factors);
     return seen.of[tile] > 0.0f ? density(tile, seen, cell_pdf) : 0.0f;
 }
 

@@ -1,0 +1,121 @@
+#!/usr/bin/env python3
+"""Holds ways to render real models against each other: real_scenes.py MODELS --way OPTIONS --way OPTIONS...
+
+MODELS is a folder with models of other people (HotelRoom_meshopt, Lamborghini, GodotLivingRoom, Garage, Jungle,
+ShaderBall_materialx, hdr/...), of which those that are there are rendered, each under the environments of the table
+below. A way is what `bdpt render` is told beside that, for example `--way "--integrator mis"`; the first one counts as 1.
+`PROGRAM: OPTIONS` takes another program than --bdpt. Prints for each scene and way: squared relative error without the
+worst 0.1 % of pixels, CPU time of one thread without loading, and their product, each over that of the first way. Errors
+come from the spread between seeds, relative to a reference that neither has part in: its noise would flatter the
+noisier one. Ways take turns. Needs numpy."""
+
+import argparse
+import math
+import pathlib
+import resource
+import shlex
+import statistics
+import subprocess
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "light_paths"))
+import numpy as np
+import seed_errors
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+# name, file, options
+LIVING_ROOM = "--from 2,1.4,8.5 --look-at -3,0.8,-1"
+SCENES = (
+    ("hotel, courtyard", "HotelRoom_meshopt/scene.glb", "--env {hdr}/courtyard.exr"),
+    ("hotel, studio", "HotelRoom_meshopt/scene.glb", "--env {hdr}/studio.exr"),
+    ("living room, courtyard", "GodotLivingRoom/living_room.glb", "--env {hdr}/courtyard.exr " + LIVING_ROOM),
+    ("garage, sunset", "Garage/garage.gltf", "--env {hdr}/sunset.exr"),
+    ("garage, courtyard", "Garage/garage.gltf", "--env {hdr}/courtyard.exr"),
+    ("car, studio", "Lamborghini/scene.glb", "--env {hdr}/studio.exr"),
+    ("car, sunset", "Lamborghini/scene.glb", "--env {hdr}/sunset.exr"),
+    ("jungle, sunset", "Jungle/scene.gltf", "--env {hdr}/sunset.exr"),
+    ("jungle, default sky", "Jungle/scene.gltf", ""),
+    ("shader ball, interior", "ShaderBall_materialx/shaderball.glb", "--env {hdr}/interior.exr"),
+    ("room-environment", "room-environment.gltf", ""),
+    ("room-environment, sunset", "room-environment.gltf", "--env {hdr}/sunset.exr"),
+)
+
+
+def child_seconds():
+    return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+
+
+def render(way, scene, image, arguments, *options):
+    """CPU seconds."""
+    program, sep, own = way.partition(":")
+    program, own = (program, own) if sep else (arguments.bdpt, way)
+    before = child_seconds()
+    subprocess.run([program, "render", scene[0], *shlex.split(scene[1]), "--size", arguments.size, "--max-depth",
+                    str(arguments.max_depth), "-o", image, "--quiet", "--threads", "1", *shlex.split(own), *options],
+                   check=True)
+    return child_seconds() - before
+
+
+def measure(scene, arguments):
+    """For each way: CPU seconds of each seed, without loading, and images."""
+    seconds, images = ([[] for _ in arguments.way] for _ in range(2))
+    with tempfile.TemporaryDirectory() as folder:
+        image = pathlib.Path(folder) / "image.exr"
+        render("--integrator mis --env-sampling compensated --seed 1000", scene, image, arguments, "--spp",
+               str(arguments.reference))
+        reference = seed_errors.pixels(image)
+        load = min(render("--integrator mis --env-sampling compensated", scene, image, arguments, "--spp", "1",
+                          "--crop", "0,0,1,1") for _ in range(2))
+        for seed in range(1, arguments.seeds + 1):
+            for k, way in enumerate(arguments.way):
+                time = render(way, scene, image, arguments, "--spp", str(arguments.spp), "--seed", str(seed))
+                seconds[k].append(max(time - load, 1e-6))
+                images[k].append(seed_errors.pixels(image))
+    return seconds, [np.stack(each) for each in images], reference
+
+
+def trimmed_error(images, reference):
+    """Mean of the variance between seeds over the square of the reference, without the worst 0.1 % of pixels."""
+    dark = 0.01 * reference.mean()
+    errors = np.sort((images.var(axis=0, ddof=1) / (reference + dark) ** 2).mean(axis=-1).ravel())
+    return errors[: math.ceil(0.999 * errors.size)].mean()
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("models", type=pathlib.Path, metavar="MODELS")
+    parser.add_argument("--bdpt", type=pathlib.Path, default=ROOT / "build/release/apps/bdpt")
+    parser.add_argument("--way", action="append", required=True, metavar="[PROGRAM:]OPTIONS")
+    parser.add_argument("--only", default="", help="scenes whose names have this in them")
+    parser.add_argument("--size", default="240x135")
+    parser.add_argument("--spp", type=int, default=16)
+    parser.add_argument("--seeds", type=int, default=4)
+    parser.add_argument("--max-depth", type=int, default=8)
+    parser.add_argument("--reference", type=int, default=256, metavar="SPP")
+    arguments = parser.parse_args()
+    print(f"{'scene':26}" + "".join(f"{'error':>8}{'time':>7}{'product':>9}" for _ in arguments.way[1:]) + "   mean")
+    products = [[] for _ in arguments.way[1:]]
+    for name, file, options in SCENES:
+        path = next((p for p in (arguments.models / file, ROOT / "scenes" / file) if p.exists()), None)
+        if path is None or arguments.only not in name:
+            continue
+        scene = (path, options.format(hdr=arguments.models / "hdr"))
+        seconds, images, reference = measure(scene, arguments)
+        errors = [trimmed_error(each, reference) for each in images]
+        times = [min(each) for each in seconds]
+        row = ""
+        for k in range(1, len(arguments.way)):
+            error, time = errors[k] / errors[0], times[k] / times[0]
+            products[k - 1].append(error * time)
+            row += f"{error:8.3f}{time:7.2f}{error * time:9.3f}"
+        means = " ".join(f"{each.mean() / reference.mean():.4f}" for each in images)
+        print(f"{name:26}{row}   {means}", flush=True)
+    print(f"{'geometric mean':26}" + "".join(
+        f"{'':15}{math.exp(statistics.fmean(math.log(p) for p in each)):9.3f}" for each in products if each))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

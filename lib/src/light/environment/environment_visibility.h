@@ -1,0 +1,61 @@
+#pragma once
+
+#include "light/environment/environment_tiles.h"
+
+#include <bdpt/types.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace bdpt {
+
+/// How much of each tile of an environment is visible from a place: cells of a kd-tree that are
+/// learned from rays, most of which were traced where most light paths of the image pass
+/// (docs/decisions/0068-learned-visibility.md). It guides next-event estimation and cannot bias it:
+/// no factor is zero.
+class EnvironmentVisibility {
+public:
+    /// A ray towards an environment.
+    struct Trial {
+        Vec3 p{0.0f};  ///< where it starts, in the world
+        std::uint32_t tile = 0;
+        bool visible = false;  ///< it met nothing
+    };
+
+    /// The order of `trials` does not matter. Without any, all is visible.
+    explicit EnvironmentVisibility(std::vector<Trial> trials);
+
+    /// By which the tiles' shares of the samples are multiplied at `p`, in [smallest_factor, 1].
+    [[nodiscard]] const TileFactors& at(Vec3 p) const noexcept
+    {
+        std::uint32_t node = 0;
+        while (nodes_[node].axis != leaf) {
+            node = nodes_[node].next + (p[nodes_[node].axis] < nodes_[node].split ? 0U : 1U);
+        }
+        return cells_[nodes_[node].next];
+    }
+    /// In how many cells space is divided.
+    [[nodiscard]] std::size_t cells() const noexcept { return cells_.size(); }
+
+    /// Of a tile that no ray found: light from there is still found, if rarely.
+    static constexpr float smallest_factor = 0.05f;
+
+private:
+    static constexpr int leaf = -1;
+    struct Node {
+        float split = 0.0f;
+        int axis = leaf;
+        std::uint32_t next = 0;  ///< its first child, the second follows; of a leaf: its cell
+    };
+    /// What rays found in a part of space: how probably each tile is visible.
+    using Probabilities = std::vector<float>;
+
+    void build(std::uint32_t node, std::vector<Trial>::iterator begin,
+               std::vector<Trial>::iterator end, const Probabilities& of_parent, int depth);
+
+    std::vector<Node> nodes_;
+    std::vector<TileFactors> cells_;
+};
+
+}  // namespace bdpt

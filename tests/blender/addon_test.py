@@ -54,7 +54,9 @@ def paint(thing, color):
     shader = material.node_tree.nodes["Principled BSDF"]
     shader.inputs["Base Color"].default_value = color
     shader.inputs["Roughness"].default_value = 1.0
-    shader.inputs["Specular IOR Level"].default_value = 0.0
+    # Blender 4.0 renamed it.
+    specular = "Specular IOR Level" if "Specular IOR Level" in shader.inputs else "Specular"
+    shader.inputs[specular].default_value = 0.0
     thing.data.materials.append(material)
 
 

@@ -3,12 +3,14 @@
 import bpy
 
 ENGINE = "BDPT"
-# Panels of EEVEE that show what any engine has: nodes of materials and worlds, and lamps.
+# Panels of EEVEE that show what any engine has.
 SHARED = ("EEVEE_MATERIAL_PT_context_material", "EEVEE_MATERIAL_PT_surface", "EEVEE_WORLD_PT_surface", "DATA_PT_EEVEE_light",
-          "DATA_PT_light", "DATA_PT_spot", "DATA_PT_EEVEE_spot", "MATERIAL_PT_preview")
-# Panels of Blender's own renderer for which the engine has nothing.
-EXCLUDED = ("VIEWLAYER_PT_filter", "VIEWLAYER_PT_layer_passes", "RENDER_PT_freestyle", "VIEWLAYER_PT_freestyle",
-            "MATERIAL_PT_preview", "WORLD_PT_preview", "TEXTURE_PT_preview", "LIGHT_PT_preview", "RENDER_PT_simplify")
+          "DATA_PT_camera_dof", "DATA_PT_camera_dof_aperture",
+          *(("EEVEE_NEXT_MATERIAL_PT_settings", "EEVEE_NEXT_MATERIAL_PT_settings_surface")
+            if (4, 2, 0) <= bpy.app.version < (5, 0, 0) else ("EEVEE_MATERIAL_PT_settings", "EEVEE_MATERIAL_PT_settings_surface")))
+# Panels for any engine that show what bdpt does not have, or what those above have.
+EXCLUDED = ("DATA_PT_light", "DATA_PT_area", "DATA_PT_preview", "TEXTURE_PT_preview", "DATA_PT_camera_stereoscopy",
+            "RENDER_PT_stereoscopy", "RENDER_PT_output_views")
 
 
 class Panel(bpy.types.Panel):
@@ -85,13 +87,12 @@ CLASSES = (BDPT_PT_sampling, BDPT_PT_light_paths, BDPT_PT_film, BDPT_PT_motion_b
 
 
 def shared_panels():
-    """Panels of Blender that work for any engine."""
+    """Panels of Blender that work for this engine."""
     for panel in bpy.types.Panel.__subclasses__():
-        engines = getattr(panel, "COMPAT_ENGINES", ())
-        name = panel.__name__
-        if name in SHARED or ("BLENDER_RENDER" in engines and name not in EXCLUDED):
-            if isinstance(engines, set):
-                yield panel
+        name, engines = panel.__name__, getattr(panel, "COMPAT_ENGINES", ())
+        of_any = "BLENDER_RENDER" in engines and name not in EXCLUDED and "freestyle" not in name
+        if isinstance(engines, set) and (of_any or name in SHARED):
+            yield panel
 
 
 def register():

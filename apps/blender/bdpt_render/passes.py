@@ -72,7 +72,11 @@ def put_color(result, color):
 
 def put(target, pixels):
     """Row 0 of `pixels` is on top, that of Blender at the bottom."""
-    target.rect.foreach_set(np.ascontiguousarray(pixels[::-1], np.float32).ravel())
+    values = np.ascontiguousarray(pixels[::-1], np.float32)
+    try:
+        target.rect.foreach_set(values.ravel())
+    except TypeError:  # Blender 3 counts pixels
+        target.rect.foreach_set(values.reshape(-1, values.shape[-1]))
 
 
 def stamp_mattes(result, layer, exr):

@@ -1,5 +1,6 @@
 """The command bdpt, at work in a process of its own."""
 
+import contextlib
 import json
 import queue
 import shutil
@@ -26,7 +27,6 @@ class Command:
         self.fraction, self.samples, self.noise = 0.0, 0, None
         self.warnings, self.error, self.done = [], None, None
         self._lines = queue.Queue()
-        self._closed = threading.Event()
         self._process, self._texts = None, tempfile.TemporaryFile("w+")
         if not path:
             self.error = "the command bdpt is not found; set its path in Preferences > Add-ons > bdpt"
@@ -37,17 +37,19 @@ class Command:
         except OSError as error:
             self.error = f"{path}: {error.strerror}; set the path of bdpt in Preferences > Add-ons > bdpt"
             return
-        threading.Thread(target=self._read, daemon=True).start()
+        self._reader = threading.Thread(target=self._read, daemon=True)
+        self._reader.start()
 
     def _read(self):
         for line in self._process.stdout:
             self._lines.put(line)
-        self._closed.set()
 
     def ended(self):
         if self._process is None:
             return True
-        ended = self._closed.is_set() and self._process.poll() is not None
+        ended = self._process.poll() is not None
+        if ended:
+            self._reader.join()
         while not self._lines.empty():
             self._take(self._lines.get())
         if ended and self._process.returncode not in STOPPED and not self.error:
@@ -74,8 +76,10 @@ class Command:
         return f"bdpt rendered {self.samples} samples per pixel in {self.done['seconds']:.1f} s{left}"
 
     def wait(self, seconds):
+        """At most so long, for its end."""
         if self._process is not None:
-            self._closed.wait(seconds)
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                self._process.wait(seconds)
 
     def stop(self):
         """The command writes its image after the pass in flight."""

@@ -4,6 +4,7 @@ import math
 import pathlib
 import shlex
 import tempfile
+import time
 
 import bpy
 
@@ -58,6 +59,7 @@ class BDPT_RenderEngine(bpy.types.RenderEngine):
         result = self._begin(depsgraph.view_layer_eval, exr.width, exr.height)
         passes.fill(result, scene, depsgraph.view_layer_eval, exr)
         self.end_result(result)
+        passes.stamp_mattes(self.get_result(), depsgraph.view_layer_eval, exr)
         if command.done:
             self.report({"INFO"}, command.sentence())
 
@@ -67,17 +69,20 @@ class BDPT_RenderEngine(bpy.types.RenderEngine):
         frame = scene.frame_current_final
         times = export.shutter_times(scene.render)
         exported = None
-        for time in times:
+        for moment in times:
             if len(times) > 1:
-                self._go_to(frame + time)
+                self._go_to(frame + moment)
             if exported is None:
-                exported = main_thread.call(lambda: export.Export(depsgraph, folder), self.test_break)
+                exported = main_thread.call(lambda: export.Export(depsgraph, folder), self._cancelled)
             else:
                 exported.place(depsgraph)
         if len(times) > 1:
             self._go_to(frame)
         exported.write()
         return exported
+
+    def _cancelled(self):
+        return self.test_break()
 
     def _go_to(self, frame):
         whole = math.floor(frame)
@@ -87,21 +92,21 @@ class BDPT_RenderEngine(bpy.types.RenderEngine):
         live = None if bpy.app.background else LiveImage()
         try:
             command = Command(program(settings.chosen_command()), words + (["--display", live.address] if live else []))
-            waited, stopped, told = 0.0, False, None
+            stopped, told = None, None
             while not command.ended():
                 command.wait(STEP)
                 if command.samples != told:
                     told = command.samples
                     self.update_progress(command.fraction)
                     self.update_stats("", f"bdpt: {told} samples per pixel")
-                if live and not stopped:
+                if live and stopped is None:
                     self._show(live, film, layer)
-                if self.test_break():
-                    if not stopped:
-                        command.stop()
-                    stopped, waited = True, waited + STEP
-                    if waited > PATIENCE:
-                        command.kill()
+                if stopped is None and self._cancelled():
+                    command.stop()
+                    stopped = time.monotonic()
+                if stopped is not None and time.monotonic() - stopped > PATIENCE:
+                    command.kill()
+                    raise main_thread.Cancelled
             return command
         finally:
             if live:

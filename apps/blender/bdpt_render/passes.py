@@ -52,7 +52,7 @@ def words(scene, layer):
 
 
 def fill(result, scene, layer, exr):
-    """Writes the layers of `exr` into the passes of `result`, and the names of mattes."""
+    """Writes the layers of `exr` into the passes of `result`."""
     for item in passes_of(scene, layer):
         target = result.layers[0].passes[item.name]
         pixels = exr.pixels(item.layer, item.fill)
@@ -61,7 +61,6 @@ def fill(result, scene, layer, exr):
         if item.name == "Depth":
             pixels = np.minimum(pixels, FAR)
         put(target, pixels)
-    stamp_mattes(result, layer, exr)
 
 
 def put_color(result, color):

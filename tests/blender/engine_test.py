@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The engine in Blender: engine_test.py BDPT. Needs Blender (exit code 77 without).
+"""The engine in Blender: engine_test.py BDPT ADDON.zip. Needs Blender (exit code 77 without).
 
 Images are those of the command to the bit; passes, cameras, regions, animations, cancelling and errors are checked against
 what Blender itself says of the scene.
@@ -17,12 +17,13 @@ import tempfile
 import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from in_blender import SIZE, bpy, lamp, new_scene, paint, rendered, run, sky
+from in_blender import ROOT, SIZE, bpy, lamp, new_scene, paint, rendered, run, sky
 
 if bpy:
     import bpy_extras.object_utils
     import mathutils
     import numpy as np
+    import bdpt_render
     from bdpt_render import engine, passes
     from bdpt_render.exr import Exr
     from bdpt_render.live_image import LiveImage
@@ -378,7 +379,6 @@ def test_half_files(folder):
 
 
 def test_registration(folder):
-    import bdpt_render
     panel = bpy.types.EEVEE_MATERIAL_PT_surface
     for name in ("EEVEE_MATERIAL_PT_surface", "EEVEE_WORLD_PT_surface", "DATA_PT_EEVEE_light", "DATA_PT_lens", "RENDER_PT_output"):
         assert "BDPT" in getattr(bpy.types, name).COMPAT_ENGINES, name
@@ -387,7 +387,40 @@ def test_registration(folder):
     bdpt_render.register()
 
 
-def main(program):
+def installed(archive):
+    """Installs and enables the add-on as users do; the name of its package."""
+    if bpy.app.version < (4, 2, 0):
+        bpy.ops.preferences.addon_install(filepath=archive)
+        bpy.ops.preferences.addon_enable(module="bdpt_render")
+        return "bdpt_render"
+    bpy.ops.extensions.package_install_files(repo="user_default", filepath=archive, enable_on_install=True)
+    return "bl_ext.user_default.bdpt_render"
+
+
+def test_installation(folder):
+    """The archive, installed, renders by the command that its preferences name. The last test: it takes the add-on's place."""
+    scene = new_scene()  # first, as it resets preferences
+    bdpt_render.unregister()
+    for name in [name for name in sys.modules if name.startswith("bdpt_render")]:
+        del sys.modules[name]
+    sys.path.remove(str(ROOT / "apps" / "blender"))
+    package = installed(archive)
+    scene.render.engine = "BDPT"
+    sky(scene)
+    path, os.environ["PATH"] = os.environ["PATH"], ""
+    try:
+        assert "not found" in error_of(scene)
+        bpy.context.preferences.addons[package].preferences.command = program
+        scene.bdpt.samples = 1
+        assert rendered(scene, folder / "image.exr")[..., 2].mean() > 0.1
+    finally:
+        os.environ["PATH"] = path
+    assert "/bdpt-blender-" in sys.modules[package].__file__, sys.modules[package].__file__
+
+
+def main(command, addon):
+    global program, archive
+    program, archive = command, addon
     os.chdir(pathlib.Path(__file__).resolve().parents[2])
     faults = 0
     for name, test in list(globals().items()):
@@ -397,7 +430,7 @@ def main(program):
                 try:
                     test(pathlib.Path(folder))
                     fault = ""
-                except (AssertionError, KeyError, RuntimeError) as error:
+                except (AssertionError, KeyError, RuntimeError, TypeError) as error:
                     fault = f": {type(error).__name__} in line {error.__traceback__.tb_next.tb_lineno}: {error}"
                     faults += 1
             print(f"{'FAILED' if fault else 'passed'} {name} ({time.monotonic() - start:.1f} s){fault}", flush=True)

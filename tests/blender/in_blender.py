@@ -6,6 +6,7 @@ import pathlib
 import shutil
 import subprocess
 import sys
+import tempfile
 import traceback
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -14,6 +15,13 @@ SIZE = (48, 32)
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "apps" / "blender"))
 
+# What tests install goes here, and the user's own add-ons stay out.
+if "BDPT_TEST_USER" not in os.environ:
+    os.environ["BDPT_TEST_USER"] = tempfile.mkdtemp(prefix="bdpt-blender-")
+    for kind in ("CONFIG", "SCRIPTS", "EXTENSIONS", "DATAFILES"):
+        os.environ[f"BLENDER_USER_{kind}"] = os.path.join(os.environ["BDPT_TEST_USER"], kind.lower())
+        os.makedirs(os.environ[f"BLENDER_USER_{kind}"])
+
 try:
     import bpy
 except ImportError:
@@ -21,23 +29,26 @@ except ImportError:
 
 
 def run(main):
-    """Ends the process by what main(BDPT) returns; BDPT is the one argument of the script."""
+    """Ends the process by what main(BDPT, ADDON) returns, the arguments of the script: the command and the archive."""
     if bpy is None:
         blender = shutil.which("blender")
         if blender is None:
             print("skipped: there is neither the Python module bpy nor the program blender")
             sys.exit(SKIPPED)
         script = [blender, "--background", "--factory-startup", "--python", sys.argv[0], "--", *sys.argv[1:]]
-        sys.exit(subprocess.run(script, check=False).returncode)
+        code = subprocess.run(script, check=False).returncode
+        shutil.rmtree(os.environ["BDPT_TEST_USER"], ignore_errors=True)
+        sys.exit(code)
     import bdpt_render
-    arguments = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else sys.argv[1:]
+    arguments = (sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else sys.argv[1:])
     os.environ["PATH"] = f"{pathlib.Path(arguments[0]).parent}{os.pathsep}{os.environ['PATH']}"
     try:
         bdpt_render.register()
-        code = main(arguments[0])
+        code = main(*arguments)
     except BaseException:
         traceback.print_exc()
         code = 1
+    shutil.rmtree(os.environ["BDPT_TEST_USER"], ignore_errors=True)
     sys.stdout.flush()
     os._exit(code)  # the module may crash when it is taken down after an operator that failed
 

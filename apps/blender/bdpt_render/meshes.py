@@ -33,6 +33,7 @@ class Meshes:
                         self._nodes[instance.key] = shown
             self.glb = exported(scene, folder) if self._nodes else Glb.empty()
         self._rename()
+        make_glass_solid(self.glb)
 
     def of_instances(self):
         """Indices of the GLB's meshes by keys of instances."""
@@ -81,6 +82,16 @@ class Meshes:
     def _rename(self):
         for material in self.glb.document.get("materials", ()):
             material["name"] = self._names.get(material.get("name"), material.get("name"))
+
+
+def make_glass_solid(glb):
+    """In Blender what transmits refracts, as the surface of a body; in glTF it does only with a thickness."""
+    for material in glb.document.get("materials", ()):
+        extensions = material.get("extensions", {})
+        if extensions.get("KHR_materials_transmission", {}).get("transmissionFactor", 0.0) > 0.0:
+            volume = extensions.setdefault("KHR_materials_volume", {})
+            volume["thicknessFactor"] = volume.get("thicknessFactor") or 1.0
+            glb.use("KHR_materials_volume")
 
 
 def take_values(source, target):

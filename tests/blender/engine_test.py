@@ -355,6 +355,33 @@ def test_errors(folder):
     assert "camera" in error_of(scene)
 
 
+def test_warnings(folder):
+    """What gets lost is said, once."""
+    scene = lit_scene(1)
+    said = []
+    report = engine.BDPT_RenderEngine.report_to_user
+    engine.BDPT_RenderEngine.report_to_user = lambda self, kind, text: said.append(text) if kind == "WARNING" else None
+    ball = bpy.data.objects["ball"]
+    ball.shape_key_add(name="Basis")
+    key = ball.shape_key_add(name="wide")
+    for point in key.data:
+        point.co.x *= 2
+    for frame, value in ((0, 0.0), (2, 1.0)):
+        key.value = value
+        key.keyframe_insert("value", frame=frame)
+    bpy.ops.object.volume_add()
+    bpy.context.object.name = "smoke"
+    lamp("SUN", 1, angle=0.5).name = "wide sun"
+    scene.render.use_motion_blur, scene.render.pixel_aspect_x = True, 2.0
+    scene.frame_set(1)
+    try:
+        rendered(scene, folder / "image.exr")
+    finally:
+        engine.BDPT_RenderEngine.report_to_user = report
+    for words in ('"ball": its motion', '"smoke"', "wide sun", "pixel aspect"):
+        assert len([text for text in said if words in text]) == 1, f"{words}: {said}"
+
+
 def test_live_image(folder):
     live = LiveImage()
     try:

@@ -35,9 +35,8 @@ class BDPT_RenderEngine(bpy.types.RenderEngine):
                 self._render(depsgraph, pathlib.Path(folder))
         except main_thread.Cancelled:
             pass
-        except RuntimeError as error:
-            # Operators of Blender prefix their messages.
-            self.report({"ERROR"}, str(error).strip().removeprefix("Error: "))
+        except (RuntimeError, OSError) as error:
+            self.report_to_user("ERROR", str(error))
 
     def _render(self, depsgraph, folder):
         scene = depsgraph.scene
@@ -45,12 +44,12 @@ class BDPT_RenderEngine(bpy.types.RenderEngine):
         self.update_stats("", "bdpt: exporting")
         exported = self._exported(depsgraph, folder)
         for warning in dict.fromkeys(exported.warnings):
-            self.report({"WARNING"}, warning)
+            self.report_to_user("WARNING", warning)
         image = folder / "image.exr"
         words = [*exported.words(), *words_of(scene), *passes.words(scene, depsgraph.view_layer_eval), "-o", str(image)]
         command = self._run(words, exported.film, depsgraph.view_layer_eval)
         for warning in command.warnings:
-            self.report({"WARNING"}, warning)
+            self.report_to_user("WARNING", warning)
         if command.error:
             raise RuntimeError(command.error)
         if not image.exists():
@@ -61,7 +60,7 @@ class BDPT_RenderEngine(bpy.types.RenderEngine):
         self.end_result(result)
         passes.stamp_mattes(self.get_result(), depsgraph.view_layer_eval, exr)
         if command.done:
-            self.report({"INFO"}, command.sentence())
+            self.report_to_user("INFO", command.sentence())
 
     def _exported(self, depsgraph, folder):
         """The scene at all moments of the shutter. The graph is back at its frame afterwards."""
@@ -80,6 +79,9 @@ class BDPT_RenderEngine(bpy.types.RenderEngine):
             self._go_to(frame)
         exported.write()
         return exported
+
+    def report_to_user(self, kind, text):
+        self.report({kind}, text)
 
     def _cancelled(self):
         return self.test_break()

@@ -40,11 +40,17 @@ class Export:
         self._environment, lost = world.environment_words(scene.world, folder)
         self.warnings += [*lost, *camera.warnings_of(scene, thing.data), *instances.warnings_of(depsgraph)]
         self.film = camera.film_of(scene, thing.data)
+        self._shapes = instances.shapes_of(depsgraph) if scene.render.use_motion_blur else {}
         self.place(depsgraph)
 
     def place(self, depsgraph):
-        """Where things are at one more moment."""
+        """Where things are at one more moment. Their shapes stay those of the first one."""
         self._moments.append(instances.matrices_of(depsgraph))
+        if len(self._moments) == 1:
+            return
+        for key, shape in instances.shapes_of(depsgraph).items():
+            if key in self._nodes and self._shapes.get(key) != shape:
+                self.warnings.append(f'object "{key[0]}": its motion is blurred, its deformation is not')
 
     def write(self):
         document = self._glb.document

@@ -3,6 +3,7 @@
 import dataclasses
 
 import mathutils
+import numpy as np
 
 MESHES = ("MESH", "CURVE", "SURFACE", "FONT", "META")
 NOT_SEEN = ("EMPTY", "ARMATURE", "LATTICE", "SPEAKER", "CAMERA", "LIGHT_PROBE", "GPENCIL", "GREASEPENCIL")
@@ -30,6 +31,17 @@ def matrices_of(depsgraph):
     matrices = {instance.key: instance.matrix for instance, _ in instances_of(depsgraph)}
     matrices[None] = depsgraph.scene.camera.evaluated_get(depsgraph).matrix_world.copy()
     return matrices
+
+
+def shapes_of(depsgraph):
+    """What tells whether a mesh deforms, by key."""
+    shapes = {}
+    for instance, thing in instances_of(depsgraph):
+        if thing.type == "MESH":
+            places = np.empty(3 * len(thing.data.vertices), np.float32)
+            thing.data.vertices.foreach_get("co", places)
+            shapes[instance.key] = hash(places.tobytes())
+    return shapes
 
 
 def warnings_of(depsgraph):

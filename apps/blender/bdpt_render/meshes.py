@@ -117,7 +117,11 @@ def exported(scene, folder):
     options = {name: value for name, value in OPTIONS.items() if name in known}
     with bpy.context.temp_override(scene=scene, view_layer=scene.view_layers[0], collection=scene.collection,
                                    active_object=None, object=None, selected_objects=[]):
-        bpy.ops.export_scene.gltf(filepath=str(file), **options)
+        try:
+            bpy.ops.export_scene.gltf(filepath=str(file), **options)
+        except RuntimeError as error:
+            lines = [line for line in str(error).splitlines() if line.strip() and not line.startswith("Location:")]
+            raise RuntimeError(f"Blender's exporter of glTF failed: {lines[-1].strip()}") from None
     glb = Glb(file)
     file.unlink()
     return glb

@@ -266,6 +266,29 @@ def test_what_is_shown(folder):
     assert after == before, f"{before} became {after}"
 
 
+def test_view_layers(folder):
+    """Each has its own image: the second one lacks the ball."""
+    scene = lit_scene()
+    collection = bpy.data.collections.new("of the ball")
+    scene.collection.children.link(collection)
+    scene.collection.objects.unlink(bpy.data.objects["ball"])
+    collection.objects.link(bpy.data.objects["ball"])
+    scene.view_layers.new("second").layer_collection.children["of the ball"].exclude = True
+    images, fill = {}, passes.fill
+
+    def record(result, scene, layer, exr):
+        fill(result, scene, layer, exr)
+        images[layer.name] = exr.pixels("RGB")
+
+    passes.fill = record
+    try:
+        rendered(scene, folder / "image.exr")
+    finally:
+        passes.fill = fill
+    is_red = {name: bool((image[..., 0] > 2 * image[..., 1]).any()) for name, image in images.items()}
+    assert is_red == {scene.view_layers[0].name: True, "second": False}, is_red
+
+
 def test_modifiers_of_renders(folder):
     scene = lit_scene()
     array = bpy.data.objects["ball"].modifiers.new("array", "ARRAY")
@@ -457,7 +480,7 @@ def main(command, addon):
                 try:
                     test(pathlib.Path(folder))
                     fault = ""
-                except (AssertionError, KeyError, RuntimeError, TypeError) as error:
+                except Exception as error:
                     fault = f": {type(error).__name__} in line {error.__traceback__.tb_next.tb_lineno}: {error}"
                     faults += 1
             print(f"{'FAILED' if fault else 'passed'} {name} ({time.monotonic() - start:.1f} s){fault}", flush=True)

@@ -395,13 +395,19 @@ def test_warnings(folder):
     bpy.ops.object.volume_add()
     bpy.context.object.name = "smoke"
     lamp("SUN", 1, angle=0.5).name = "wide sun"
+    nodes, links = scene.world.node_tree.nodes, scene.world.node_tree.links
+    texture, mapping = nodes.new("ShaderNodeTexEnvironment"), nodes.new("ShaderNodeMapping")
+    texture.image = bpy.data.images.new("sky", 4, 2, float_buffer=True)
+    mapping.inputs["Rotation"].default_value[0] = 0.5
+    links.new(mapping.outputs["Vector"], texture.inputs["Vector"])
+    links.new(texture.outputs["Color"], nodes["Background"].inputs["Color"])
     scene.render.use_motion_blur, scene.render.pixel_aspect_x = True, 2.0
     scene.frame_set(1)
     try:
         rendered(scene, folder / "image.exr")
     finally:
         engine.BDPT_RenderEngine.report_to_user = report
-    for words in ('"ball": its motion', '"smoke"', "wide sun", "pixel aspect"):
+    for words in ('"ball": its motion', '"smoke"', "wide sun", "pixel aspect", "turned about z only"):
         assert len([text for text in said if words in text]) == 1, f"{words}: {said}"
 
 

@@ -143,6 +143,23 @@ def test_multilayer_file(folder):
     assert re.search(f"{layer.name}[.]CryptoObject(?![0-9])".encode(), data), "the mattes have not the name of the layer"
 
 
+def test_cryptomatte_node(folder):
+    """Blender's own node finds an object by its name."""
+    scene = lit_scene()
+    if not (4, 0, 0) <= bpy.app.version < (5, 0, 0):
+        print("  not tested: compositors of other versions of Blender are set up in other ways")
+        return
+    bpy.context.view_layer.use_pass_cryptomatte_object = True
+    scene.use_nodes = True
+    nodes = scene.node_tree.nodes
+    nodes.clear()
+    matte, output = nodes.new("CompositorNodeCryptomatteV2"), nodes.new("CompositorNodeComposite")
+    matte.scene, matte.layer_name, matte.matte_id = scene, f"{bpy.context.view_layer.name}.CryptoObject", "ball"
+    scene.node_tree.links.new(matte.outputs["Matte"], output.inputs["Image"])
+    image = rendered(scene, folder / "matte.exr")
+    assert image[18, 24, 0] == 1 and image[28, 24, 0] == 0
+
+
 def test_denoising(folder):
     if engine.denoiser_of_blender() is None:
         print("  not tested: Blender has no Open Image Denoise 2")

@@ -36,7 +36,9 @@ def run(main):
             print("skipped: there is neither the Python module bpy nor the program blender")
             sys.exit(SKIPPED)
         script = [blender, "--background", "--factory-startup", "--python", sys.argv[0], "--", *sys.argv[1:]]
-        code = subprocess.run(script, check=False).returncode
+        # Debian's Blender takes the Python beside it, unless PATH has another one first.
+        path = f"{pathlib.Path(blender).parent}{os.pathsep}{os.environ['PATH']}"
+        code = subprocess.run(script, check=False, env={**os.environ, "PATH": path}).returncode
         shutil.rmtree(os.environ["BDPT_TEST_USER"], ignore_errors=True)
         sys.exit(code)
     import bdpt_render

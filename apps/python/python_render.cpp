@@ -3,6 +3,7 @@
 #include <bdpt/noise.h>
 #include <bdpt/part/render_part.h>
 #include <bdpt/render.h>
+#include <fmt/core.h>
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/map.h>
 #include <nanobind/stl/string.h>
@@ -22,6 +23,7 @@
 
 #include "arrays.h"
 #include "interpreter_lock.h"
+#include "options/groups/sequence_arguments.h"
 #include "options/part_arguments.h"
 #include "options/values/output_files.h"
 #include "python_render.h"
@@ -32,6 +34,7 @@
 #include "report/render_settings.h"
 #include "stage/input_files.h"
 #include "stage/render_preparation.h"
+#include "stage/sequence_viewpoint.h"
 #include "terminal/console.h"
 #include "terminal/memory_limit.h"
 
@@ -53,22 +56,60 @@ void tell(const Progress& progress, const nb::object& listener)
     }
 }
 
+/// What render() sees, before any turn: what load() saw, or what its own options say.
+app::Viewpoint first_viewpoint(const PythonScene& scene, app::RenderArguments arguments,
+                               bool is_other_view)
+{
+    const app::Size own = scene.stage.size;
+    const app::Size size = arguments.size.value_or(own);
+    const bool is_of_arrays = scene.file.empty();
+    const bool resized = size.width != own.width || size.height != own.height;
+    if (!is_other_view && !arguments.sequence && (!resized || is_of_arrays)) {
+        return {.camera = scene.stage.camera, .size = size, .is_framed = scene.stage.is_framed};
+    }
+    if (is_of_arrays) {
+        arguments.size = size;
+        arguments.file = "scene of arrays";
+    }
+    return viewpoint(scene.stage, arguments);
+}
+
+/// The view of a turntable that render() renders. Throws `Error` where there are several.
+app::SequenceView only_view(const app::RenderArguments& arguments)
+{
+    const std::vector<app::SequenceView> views = views_of(arguments, {});
+    if (views.size() != 1) {
+        throw Error(ErrorCode::usage,
+                    fmt::format("orbit: render() renders one of the {} views, which frames says, "
+                                "like frames=1; bdpt.orbit() renders all",
+                                views.size()));
+    }
+    return views.front();
+}
+
 }  // namespace
 
 Task prepare(PythonScene& scene, const nb::kwargs& options)
 {
-    Words words = scene.words;
-    const Words more = words_of(options, Call::render);
-    words.insert(words.end(), more.begin(), more.end());
-    Task task{.arguments = understand_render(words), .camera = scene.stage.camera, .metadata = {}};
+    const Words own = words_of(options, Call::render);
+    Task task{.arguments = understand_render(combined(scene.words, own)),
+              .camera = scene.stage.camera,
+              .metadata = {}};
     app::RenderArguments& arguments = task.arguments;
     arguments.file = scene.file;
-    const app::Size size = arguments.size.value_or(scene.stage.size);
-    const bool resized =
-        size.width != scene.stage.size.width || size.height != scene.stage.size.height;
-    if (resized && !scene.file.empty()) {
-        task.camera = viewpoint(scene.stage, arguments).camera;
+    const app::Viewpoint first = first_viewpoint(scene, arguments, change_view(own));
+    app::Viewpoint seen = first;
+    if (arguments.sequence) {
+        const app::SequenceView view = only_view(arguments);
+        arguments = arguments_of(arguments, view);
+        seen = sequence_viewpoint(scene.stage, first, arguments);
+        if (arguments.sequence->motion == app::TurntableMotion::object) {
+            const Unlocked unlocked;
+            task.turned = app::with_turned_environment(scene.stage.scene, *view.turn);
+        }
     }
+    const app::Size size = seen.size;
+    task.camera = std::move(seen.camera);
     arguments.options.film.width = size.width;
     arguments.options.film.height = size.height;
     io::MemoryBudget memory = scene.stage.memory;
@@ -76,7 +117,7 @@ Task prepare(PythonScene& scene, const nb::kwargs& options)
     arguments.options.sampling.samples = arguments.samples;
     if (app::meters_light(arguments)) {
         arguments.light_exposure =
-            app::metered_exposure(scene.stage, {.camera = task.camera, .size = size});
+            app::metered_exposure(scene.stage, first);  // all views of a turn have one
     }
     const app::Size own_size = std::exchange(scene.stage.size, size);
     CameraDesc own_camera = std::exchange(scene.stage.camera, task.camera);
@@ -118,7 +159,7 @@ Render render_scene(PythonScene& scene, const nb::object& progress, const nb::kw
     control.time_limit = arguments.goal.seconds;
     control.noise_goal = arguments.goal.noise.value_or(0.0);
     const Unlocked unlocked;
-    PartResult done = render_part(scene.stage.scene, task.camera, arguments.options, {}, control);
+    PartResult done = render_part(task.scene(scene), task.camera, arguments.options, {}, control);
     result.part = std::move(done.part);
     result.seconds = done.seconds;
     return result;

@@ -29,6 +29,12 @@ struct Task {
     app::RenderArguments arguments;
     CameraDesc camera;
     io::ImageMetadata metadata;
+    std::optional<Scene> turned{};  ///< in place of the scene: a turntable whose light stands still
+
+    [[nodiscard]] const Scene& scene(const PythonScene& given) const
+    {
+        return turned ? *turned : given.stage.scene;
+    }
 };
 
 /// The task of render() with these options. The scene stays as it was: another size is that of one

@@ -18,13 +18,14 @@ namespace {
 /// A `bdpt::Renderer`, and what a `Render` of its samples needs.
 class PythonRenderer {
 public:
-    PythonRenderer(PythonScene& scene, Task task)
-        : result_(empty_render(scene, task)),
-          seconds_(task.arguments.goal.seconds),
-          noise_(task.arguments.goal.noise.value_or(0.0))
+    PythonRenderer(PythonScene& scene, Task asked)
+        : task_(std::move(asked)),
+          result_(empty_render(scene, task_)),
+          seconds_(task_.arguments.goal.seconds),
+          noise_(task_.arguments.goal.noise.value_or(0.0))
     {
         const Unlocked unlocked;
-        renderer_.emplace(scene.stage.scene, task.camera, task.arguments.options);
+        renderer_.emplace(task_.scene(scene), task_.camera, task_.arguments.options);
     }
 
     void render(std::int64_t samples, const nb::object& progress)
@@ -76,6 +77,7 @@ public:
     }
 
 private:
+    Task task_;
     Render result_;  // without samples
     double seconds_;
     double noise_;

@@ -5,6 +5,7 @@
 #include <nanobind/stl/string.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <map>
 #include <sstream>
@@ -198,7 +199,65 @@ std::string wrapped(const std::string& text, std::size_t indent)
     return result + "\n";
 }
 
+/// Options of the view of which one excludes the other.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 13> exclusive{{
+    {"--view", "--camera"},
+    {"--view", "--from"},
+    {"--view", "--look-at"},
+    {"--margin", "--camera"},
+    {"--margin", "--from"},
+    {"--margin", "--look-at"},
+    {"--ortho", "--camera"},
+    {"--ortho", "--from"},
+    {"--ortho", "--look-at"},
+    {"--ortho", "--fov"},
+    {"--ortho", "--focal-length"},
+    {"--fov", "--focal-length"},
+    {"--lens-radius", "--f-stop"},
+}};
+
+/// "--fov" of "--fov=30".
+std::string_view name_of(std::string_view word)
+{
+    return word.substr(0, word.find('='));
+}
+
+bool exclude(std::string_view one, std::string_view other)
+{
+    return std::any_of(exclusive.begin(), exclusive.end(), [&](const auto& pair) {
+        return pair == std::pair(one, other) || pair == std::pair(other, one);
+    });
+}
+
 }  // namespace
+
+bool change_view(const Words& words)
+{
+    bool changed = false;
+    for_each_option_of(Call::load, [&](const app::Option& option) {
+        const bool is_of_view = option.uses.python_render && option.name() != "--size";
+        changed = changed ||
+                  (is_of_view && std::any_of(words.begin(), words.end(), [&](const auto& word) {
+                       return name_of(word) == option.name();
+                   }));
+    });
+    return changed;
+}
+
+Words combined(const Words& of_load, const Words& of_render)
+{
+    Words words;
+    for (const std::string& word : of_load) {
+        const bool replaced = std::any_of(
+            of_render.begin(), of_render.end(),
+            [&word](const std::string& other) { return exclude(name_of(word), name_of(other)); });
+        if (!replaced) {
+            words.push_back(word);
+        }
+    }
+    words.insert(words.end(), of_render.begin(), of_render.end());
+    return words;
+}
 
 Words words_of(const nb::kwargs& options, Call call)
 {
@@ -225,8 +284,8 @@ Words words_of(const nb::kwargs& options, Call call)
 app::RenderArguments understand_render(const Words& words)
 {
     Words all = words;
-    // Where files go is said later, to save(); layers are kept for it.
-    all.insert(all.end(), {"--output=image.exr", "scene"});
+    // Where files go is said later, to save(); layers are kept for it. Views have numbers.
+    all.insert(all.end(), {"--output=image.####.exr", "scene"});
     return app::render_arguments(all);
 }
 

@@ -24,6 +24,13 @@ enum class Call { load, render, save };
 /// where they belong.
 [[nodiscard]] Words words_of(const nanobind::kwargs& options, Call call);
 
+/// Does one of `words` choose a camera, or change its place or its lens?
+[[nodiscard]] bool change_view(const Words& words);
+
+/// The words of load() and those of render(), which take the place of those that they cannot be
+/// combined with: another view of the same scene.
+[[nodiscard]] Words combined(const Words& of_load, const Words& of_render);
+
 /// What `words` of load() and render() mean, by the parser of the command.
 [[nodiscard]] app::RenderArguments understand_render(const Words& words);
 

@@ -55,6 +55,96 @@ def test_the_size_of_one_render_is_not_that_of_the_next(cornell_box):
     assert cornell_box.size == (720, 720)
 
 
+@pytest.mark.parametrize("loaded, own, words", [
+    ({}, {"view": "back"}, ["--view", "back"]),
+    ({}, {"view": (170, 15), "margin": 5, "focal_length": 85}, ["--view", "170,15", "--margin", "5", "--focal-length", "85"]),
+    ({"view": "back"}, {"from_": (0.3, 0.3, -0.6), "look_at": (0.3, 0.2, 0)}, ["--from", "0.3,0.3,-0.6", "--look-at", "0.3,0.2,0"]),
+    ({"from_": (0.3, 0.3, -0.6)}, {"view": "back", "ortho": True}, ["--view", "back", "--ortho"]),
+    ({"fov": 20}, {"focal_length": 24}, ["--focal-length", "24"]),
+    ({"camera": "auto"}, {"camera": "camera", "fov": 30}, ["--camera", "camera", "--fov", "30"]),
+    ({"fov": 20}, {"lens_radius": 0.01}, ["--fov", "20", "--lens-radius", "0.01"]),
+])
+def test_a_render_has_a_view_of_its_own(command, tmp_path, loaded, own, words):
+    file = SCENES / "cornell-box.gltf"
+    scene = bdpt.load(file, **loaded)
+    before = bdpt.render(scene, spp=1, **SMALL).image.copy()
+    ours, its = tmp_path / "a.part.exr", tmp_path / "b.part.exr"
+    render = bdpt.render(scene, spp=1, **SMALL, **own)
+    render.save(ours)
+    command("render", file, "--size", "24x16", "--integrator", "bdpt", "--spp", "1", *words, "--part", its, "-q")
+    assert np.array_equal(bdpt.read_part(ours).image, bdpt.read_part(its).image)
+    assert render.image.any() and not np.array_equal(render.image, before)
+    assert np.array_equal(bdpt.render(scene, spp=1, **SMALL).image, before)  # the scene's own view stays
+    render += bdpt.render(scene, samples="1:2", **SMALL, **own)
+    with pytest.raises(bdpt.Error):
+        render += bdpt.render(scene, samples="2:3", **SMALL)  # of another view
+
+
+def test_the_size_of_a_view_is_that_of_the_command(command, tmp_path):
+    """Without size: that of the camera that is chosen."""
+    file, its = SCENES / "cornell-box.gltf", tmp_path / "its.part.exr"
+    command("render", file, "--view", "front", "--spp", "1", "--integrator", "pt", "--max-depth", "1", "--part", its, "-q")
+    ours = bdpt.render(bdpt.load(file), view="front", spp=1, integrator="pt", max_depth=1)
+    assert ours.image.shape == bdpt.read_part(its).image.shape
+
+
+@pytest.mark.parametrize("options, word", [
+    ({"view": "sideways"}, "view"), ({"camera": "main"}, "main"), ({"view": "front", "from_": (1, 2, 3)}, "combined"),
+    ({"orbit": 4}, "frames=1"), ({"orbit": 4, "frames": 5}, "views from 1 to 4"), ({"orbit": 0, "frames": 1}, "orbit"),
+    ({"frames": 1}, "orbit"), ({"turn": "object"}, "orbit")])
+def test_wrong_views_are_errors(cornell_box, options, word):
+    with pytest.raises(bdpt.Error, match=word):
+        bdpt.render(cornell_box, spp=1, **SMALL, **options)
+
+
+def test_scenes_of_arrays_have_other_views():
+    floor = bdpt.Mesh(np.array([[-1, 0, -1], [1, 0, -1], [1, 0, 1], [-1, 0, 1]], np.float32), np.array([[0, 2, 1], [0, 3, 2]]))
+    camera = bdpt.Camera(from_=(0, 2, 3), look_at=(0, 0, 0), fov=40)
+    scene = bdpt.Scene([floor], [bdpt.PointLight(position=(0, 2, 0), intensity=(10, 10, 10))], camera, size=(24, 16))
+    own, moved = bdpt.render(scene, spp=1), bdpt.render(scene, spp=1, from_=(0, 3, 1))
+    assert moved.image.shape == own.image.shape and not np.array_equal(moved.image, own.image)
+    again = bdpt.render(scene, spp=1, from_=(0, 2, 3), look_at=(0, 0, 0))
+    assert np.array_equal(again.image, own.image)
+    with pytest.raises(bdpt.Error, match="scene of arrays.*main"):
+        bdpt.render(scene, spp=1, camera="main")
+
+
+@pytest.mark.parametrize("load, own, words", [
+    ({}, {}, []), ({"camera": "auto", "env": "studio"}, {"turn": "object"}, ["--camera", "auto", "--env", "studio", "--turn", "object"]),
+    ({}, {"view": "back", "same_noise": True}, ["--view", "back", "--same-noise"])])
+def test_a_turntable_is_that_of_the_command(command, tmp_path, load, own, words):
+    file = SCENES / "cornell-spheres.gltf"
+    command("render", file, "--orbit", "3", "--size", "24x16", "--integrator", "bdpt", "--spp", "1", *words, "--part",
+            tmp_path / "#.part.exr", "-o", tmp_path / "#.png", "-q")
+    renders = list(bdpt.orbit(bdpt.load(file, **load), 3, spp=1, **SMALL, **own))
+    assert len(renders) == 3
+    for number, render in enumerate(renders, 1):
+        its = bdpt.read_part(tmp_path / f"{number}.part.exr")
+        assert np.array_equal(render.image, its.image), number
+        render.save(tmp_path / "ours.png", exposure="light")
+        assert pixels_of_png(tmp_path / "ours.png") == pixels_of_png(tmp_path / f"{number}.png")
+    assert not np.array_equal(renders[0].image, renders[1].image)
+
+
+def pixels_of_png(file):
+    """The bytes of its IDAT chunks: all but metadata."""
+    data, at, pixels = pathlib.Path(file).read_bytes(), 8, b""
+    while at < len(data):
+        size, kind = int.from_bytes(data[at:at + 4], "big"), data[at + 4:at + 8]
+        pixels += data[at + 8:at + 8 + size] if kind == b"IDAT" else b""
+        at += 12 + size
+    return pixels
+
+
+def test_a_renderer_has_a_view_of_its_own_too(cornell_box):
+    renderer = bdpt.Renderer(cornell_box, spp=2, view="back", **SMALL)
+    renderer.finish()
+    assert renderer.image.any() and np.array_equal(renderer.image, bdpt.render(cornell_box, spp=2, view="back", **SMALL).image)
+    turned = bdpt.Renderer(bdpt.load(SCENES / "cornell-spheres.gltf", env="studio"), spp=2, orbit=3, frames=2, turn="object", **SMALL)
+    turned.finish()
+    assert turned.image.mean() > 0
+
+
 @pytest.mark.parametrize("size", ["6x4", (6, 4), [6, 4], np.array([6, 4]), (np.int64(6), np.uint8(4)), range(6, 2, -2)])
 def test_values_are_texts_or_numbers_or_anything_that_has_them(cornell_box, size):
     assert bdpt.render(cornell_box, size=size, spp=np.int64(1), clamp=np.float32(0.5)).image.shape == (4, 6, 3)

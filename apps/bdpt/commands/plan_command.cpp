@@ -227,8 +227,8 @@ PreparedScene load_first_image(const RenderArguments& asked, Console& console)
     PreparedScene stage = prepare_with_progress(arguments_of(one, frame), console);
     console.end_progress();
     const SequenceView view = views_of(asked, camera_names(stage)).front();
-    Viewpoint seen =
-        sequence_viewpoint(stage, {stage.camera, stage.size}, arguments_of(asked, view));
+    Viewpoint seen = sequence_viewpoint(stage, {stage.camera, stage.size, stage.is_framed},
+                                        arguments_of(asked, view));
     stage.camera = std::move(seen.camera);
     stage.size = seen.size;
     return stage;

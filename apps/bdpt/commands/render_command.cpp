@@ -184,7 +184,8 @@ int run_render(const RenderArguments& typed, const std::vector<std::string>& wor
             check_all();  // now it is known which files the scene names
         }
         if (!first) {
-            first = Viewpoint{.camera = stage->camera, .size = stage->size};
+            first = Viewpoint{
+                .camera = stage->camera, .size = stage->size, .is_framed = stage->is_framed};
         }
         if (meters_light(asked) && !exposure) {
             exposure = metered_exposure(*stage, *first);

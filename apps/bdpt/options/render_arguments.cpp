@@ -21,6 +21,8 @@ namespace {
 
 constexpr OptionUses of_render{.plan_render = true, .python_render = true};
 constexpr OptionUses of_load{.plan_render = true, .python_load = true};
+/// load() says what render() sees unless that is told something else.
+constexpr OptionUses of_view{.plan_render = true, .python_load = true, .python_render = true};
 constexpr OptionUses of_save{.plan_merge = true, .python_save = true};
 
 void add_how(OptionList& options, RenderRequest& request)
@@ -254,7 +256,9 @@ void add_view_options(OptionList& options, RenderRequest& request)
     RenderArguments& arguments = request.arguments;
     options.section("What to render", of_load);
     add_scene_options(options, arguments.scene, request.max_memory);
+    options.section("What to render", of_view);
     add_camera_options(options, arguments.camera, arguments.view);
+    options.section("What to render", of_load);
     options
         .add("--env", "FILE|none|default|studio",
              "Environment map: an equirectangular .exr, .hdr, .tif, .png or .jpg, none, default "
@@ -271,6 +275,7 @@ void add_view_options(OptionList& options, RenderRequest& request)
                 "Texture filter: bilinear (default) or mip (mip maps: faster for large textures, "
                 "but blurs what mirrors and lenses magnify)",
                 arguments.texture_filter, filters.type());
+    options.section("What to render", of_view);
     add_lens_options(options, arguments.lens);
 }
 

@@ -310,7 +310,9 @@ Viewpoint viewpoint(const PreparedScene& stage, const RenderArguments& arguments
     CameraDesc camera = from_file ? apply(arguments.view, *from_file, std::nullopt)
                                   : apply(arguments.view, framed(stage.scene, aspect, arguments),
                                           center(stage.scene.bounds()));
-    return {.camera = with_lens(arguments.lens, std::move(camera), stage.scene), .size = size};
+    return {.camera = with_lens(arguments.lens, std::move(camera), stage.scene),
+            .size = size,
+            .is_framed = !from_file.has_value()};
 }
 
 std::vector<std::string> camera_names(const PreparedScene& stage)

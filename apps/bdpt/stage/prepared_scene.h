@@ -36,6 +36,7 @@ struct PreparedScene {
 struct Viewpoint {
     CameraDesc camera;  ///< named by its name or index
     Size size;
+    bool is_framed = false;  ///< the camera is none of the file
 };
 
 /// Loads the file, and fills in what it lacks by the rules that `bdpt render --help` states.

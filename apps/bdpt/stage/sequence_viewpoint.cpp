@@ -22,7 +22,7 @@ Viewpoint sequence_viewpoint(const PreparedScene& stage, const Viewpoint& first,
         const Vec3 middle = 0.5f * (bounds.min + bounds.max);
         // A framed view has room for the whole turn around the middle.
         const bool is_framed =
-            !view.camera && !image.view.from && !image.view.look_at && stage.is_framed;
+            !view.camera && !image.view.from && !image.view.look_at && first.is_framed;
         const Vec3 center =
             is_framed ? middle : orbit_center(result.camera, image.view.look_at, middle);
         result.camera = orbited(std::move(result.camera), center, static_cast<float>(*view.turn));

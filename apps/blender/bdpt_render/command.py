@@ -1,61 +1,92 @@
 """The command bdpt, at work in a process of its own."""
 
+import contextlib
 import json
 import queue
+import shutil
 import subprocess
+import sysconfig
+import tempfile
 import threading
+
+STOPPED = (0, 130, 143)  # exit codes of renders that have written their image
+
+
+def program(chosen):
+    """The command: the chosen one, else that of PATH, else that of the Python environment."""
+    if chosen:
+        return chosen
+    found = shutil.which("bdpt")
+    return found or shutil.which("bdpt", path=sysconfig.get_path("scripts"))
 
 
 class Command:
     """bdpt render with those words. `ended()` takes note of what it has said since."""
 
-    def __init__(self, program, words):
-        self.fraction, self.warnings, self.error, self.done = 0.0, [], None, None
+    def __init__(self, path, words):
+        self.fraction, self.samples, self.noise = 0.0, 0, None
+        self.warnings, self.error, self.done = [], None, None
         self._lines = queue.Queue()
-        self._closed = threading.Event()
-        try:
-            self._process = subprocess.Popen([program, "render", *words, "--json"], stdout=subprocess.PIPE,
-                                             stderr=subprocess.STDOUT, text=True)
-        except OSError as error:
-            self._process, self.error = None, f"{program}: {error.strerror}: see the preferences of the add-on"
+        self._process, self._texts = None, tempfile.TemporaryFile("w+")
+        if not path:
+            self.error = "the command bdpt is not found; set its path in Preferences > Add-ons > bdpt"
             return
-        threading.Thread(target=self._read, daemon=True).start()
+        try:
+            self._process = subprocess.Popen([path, "render", *words, "--json"], stdout=subprocess.PIPE,
+                                             stderr=self._texts, text=True)
+        except OSError as error:
+            self.error = f"{path}: {error.strerror}; set the path of bdpt in Preferences > Add-ons > bdpt"
+            return
+        self._reader = threading.Thread(target=self._read, daemon=True)
+        self._reader.start()
 
     def _read(self):
         for line in self._process.stdout:
             self._lines.put(line)
-        self._closed.set()
 
     def ended(self):
         if self._process is None:
             return True
-        ended = self._closed.is_set() and self._process.poll() is not None
+        ended = self._process.poll() is not None
+        if ended:
+            self._reader.join()
         while not self._lines.empty():
             self._take(self._lines.get())
-        if ended and self._process.returncode not in (0, 130, 143) and not self.error:
-            self.error = f"bdpt ended with exit code {self._process.returncode}"
+        if ended and self._process.returncode not in STOPPED and not self.error:
+            self._texts.seek(0)
+            said = self._texts.read().strip().rpartition("\n")[2]
+            self.error = said or f"bdpt ended with exit code {self._process.returncode}"
         return ended
 
     def _take(self, line):
-        try:
-            event = json.loads(line)
-        except ValueError:
-            self.warnings.append(line.strip())
-            return
-        if event["event"] == "progress" and event.get("samples_total"):
-            self.fraction = event["samples"] / event["samples_total"]
+        event = json.loads(line)
+        if event["event"] == "progress":
+            self.fraction, self.samples = event.get("fraction") or 0.0, event["samples"]
         elif event["event"] == "warning":
             self.warnings.append(event["message"])
         elif event["event"] == "error":
             self.error = event["message"]
         elif event["event"] == "done":
-            self.done = {"samples": event["samples"], "seconds": event["seconds"]}
+            self.samples, self.done = event["samples"], event
+
+    def sentence(self):
+        """What has been done, when it has ended well."""
+        noise = self.done.get("noise")
+        left = f", noise {100 * noise:.2g} %" if noise is not None else ""
+        return f"bdpt rendered {self.samples} samples per pixel in {self.done['seconds']:.1f} s{left}"
 
     def wait(self, seconds):
+        """At most so long, for its end."""
         if self._process is not None:
-            self._closed.wait(seconds)
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                self._process.wait(seconds)
 
     def stop(self):
-        """After the pass in flight."""
+        """The command writes its image after the pass in flight."""
         if self._process is not None:
             self._process.terminate()
+
+    def kill(self):
+        if self._process is not None and self._process.poll() is None:
+            self._process.kill()
+            self._process.wait()

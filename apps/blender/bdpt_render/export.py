@@ -1,104 +1,108 @@
-"""The scene as a GLB file, and the options of bdpt render that say the rest."""
+"""The scene of a render as a GLB file, and the words for `bdpt render` that say the rest."""
 
-import contextlib
 import math
 import pathlib
 
-import bpy
+import mathutils
+import numpy as np
 
-from . import world
+from . import camera, instances, lamps, meshes, world
 
-
-def export_scene(context, folder):
-    """Words for bdpt render, and what the image will lack. Writes into `folder`."""
-    scene = context.scene
-    if scene.camera is None:
-        raise RuntimeError("the scene has no camera")
-    file = pathlib.Path(folder, "scene.glb")
-    environment, warnings = world.environment_words(scene.world, folder)
-    with lamps_as_meshes(context):
-        bpy.ops.export_scene.gltf(
-            filepath=str(file), export_format="GLB", use_renderable=True, use_active_scene=True, export_cameras=True,
-            export_lights=True, export_apply=True, export_animations=False, export_yup=True,
-            # Radiometric, as emission and the world are: no factor of 683 lm/W on lamps alone.
-            export_import_convert_lighting_mode="COMPAT")
-    render = scene.render
-    scale = render.resolution_percentage / 100
-    size = f"{max(1, round(render.resolution_x * scale))}x{max(1, round(render.resolution_y * scale))}"
-    camera = scene.camera.data
-    words = [str(file), "--camera", scene.camera.name, "--size", size, *environment]
-    if camera.type == "PERSP":
-        words += ["--fov", f"{math.degrees(vertical_fov(camera, render)):.9g}"]
-        if camera.dof.use_dof:
-            # f-number and focal length [mm] to the radius of the lens [m].
-            words += ["--lens-radius", f"{camera.lens / camera.dof.aperture_fstop / 2000:.9g}",
-                      "--focus-distance", f"{focus_distance(scene.camera):.9g}"]
-    elif camera.type == "PANO":
-        raise RuntimeError("bdpt has no panoramic cameras")
-    return words, warnings
+# Blender's z is up, that of glTF is y.
+Y_UP = mathutils.Matrix(((1, 0, 0, 0), (0, 0, 1, 0), (0, -1, 0, 0), (0, 0, 0, 1)))
+SHUTTER_MOMENTS = 3
 
 
-def vertical_fov(camera, render):
-    """[rad] Sensors fit the longer side unless the camera says which."""
-    width, height = render.resolution_x * render.pixel_aspect_x, render.resolution_y * render.pixel_aspect_y
-    horizontal = camera.sensor_fit == "HORIZONTAL" or (camera.sensor_fit == "AUTO" and width >= height)
-    sensor = camera.sensor_height if camera.sensor_fit == "VERTICAL" else camera.sensor_width
-    side = sensor * (height / width if horizontal else 1.0)
-    return 2.0 * math.atan(side / 2.0 / camera.lens)
+class Export:
+    """A scene that is placed at one moment or, for motion blur, at several."""
+
+    def __init__(self, depsgraph, folder):
+        """At the first moment, in the main thread."""
+        self.file = pathlib.Path(folder, "scene.glb")
+        self.warnings = []
+        scene = depsgraph.scene
+        thing = scene.camera.evaluated_get(depsgraph)
+        made = meshes.Meshes(depsgraph, folder)
+        self._glb, of_instances = made.glb, made.of_instances()
+        self._nodes, self._moments = {}, []
+        self._y_up = of_instances.keys()  # whose vertices the exporter has turned
+        for instance, shown in instances.instances_of(depsgraph):
+            if shown.type == "LIGHT":
+                holds, lost = lamps.add_lamp(self._glb, shown.data, instance.name, instance.matrix.to_scale())
+                self.warnings += lost
+            elif instance.key in of_instances:
+                holds = {"mesh": of_instances[instance.key]}
+            else:
+                continue
+            self._nodes[instance.key] = {"name": instance.name, **holds}
+        index = self._glb.add("cameras", camera.gltf_camera(scene, thing.data, thing.matrix_world))
+        self._nodes[None] = {"name": scene.camera.name, "camera": index}
+        self._environment, lost = world.environment_words(scene.world, folder)
+        self.warnings += [*lost, *camera.warnings_of(scene, thing.data), *instances.warnings_of(depsgraph)]
+        self.film = camera.film_of(scene, thing.data)
+        self._shapes = instances.shapes_of(depsgraph) if scene.render.use_motion_blur else {}
+        self.place(depsgraph)
+
+    def place(self, depsgraph):
+        """Where things are at one more moment. Their shapes stay those of the first one."""
+        self._moments.append(instances.matrices_of(depsgraph))
+        if len(self._moments) == 1:
+            return
+        for key, shape in instances.shapes_of(depsgraph).items():
+            if key in self._nodes and self._shapes.get(key) != shape:
+                self.warnings.append(f'object "{key[0]}": its motion is blurred, its deformation is not')
+
+    def write(self):
+        document = self._glb.document
+        document["nodes"], channels, samplers = [], [], []
+        times = None
+        for key, node in self._nodes.items():
+            # What appears or disappears while the shutter is open stays where it is.
+            matrices = [self._in_gltf(key, moment.get(key, self._moments[0][key])) for moment in self._moments]
+            index = self._glb.add("nodes", node)
+            if all(matrix == matrices[0] for matrix in matrices):
+                node["matrix"] = [value for column in matrices[0].transposed() for value in column]
+                continue
+            if times is None:
+                times = self._glb.add_accessor(np.linspace(0, 1, len(matrices), dtype=np.float32))
+            for path, values in transforms(matrices).items():
+                node[path] = values[0].tolist()
+                samplers.append({"input": times, "output": self._glb.add_accessor(values)})
+                channels.append({"sampler": len(samplers) - 1, "target": {"node": index, "path": path}})
+        document["scenes"], document["scene"] = [{"nodes": list(range(len(document["nodes"])))}], 0
+        if channels:
+            document["animations"] = [{"channels": channels, "samplers": samplers}]
+        self._glb.write(self.file)
+
+    def _in_gltf(self, key, matrix):
+        """Lamps and cameras look along -z in Blender, too, and have no scale."""
+        if key in self._y_up:
+            return Y_UP @ matrix @ Y_UP.transposed()
+        place, turn, _ = matrix.decompose()
+        return Y_UP @ mathutils.Matrix.LocRotScale(place, turn, None)
+
+    def words(self):
+        words = [str(self.file), *self.film.words(), *self._environment]
+        moving = "animations" in self._glb.document
+        return words + (["--frame-time", "0", "--shutter", "1"] if moving else [])
 
 
-def focus_distance(camera):
-    target = camera.data.dof.focus_object
-    if target is None:
-        return camera.data.dof.focus_distance
-    to_target = camera.matrix_world.inverted() @ target.matrix_world.translation
-    return -to_target.z
+def transforms(matrices):
+    """Translations, rotations and scales as arrays; quaternions as (x, y, z, w), each near the one before."""
+    parts = [matrix.decompose() for matrix in matrices]
+    turns = [turn for _, turn, _ in parts]
+    for before, turn in zip(turns, turns[1:]):
+        turn.make_compatible(before)
+    return {"translation": np.array([place for place, _, _ in parts], np.float32),
+            "rotation": np.array([(turn.x, turn.y, turn.z, turn.w) for turn in turns], np.float32),
+            "scale": np.array([scale for _, _, scale in parts], np.float32)}
 
 
-@contextlib.contextmanager
-def lamps_as_meshes(context):
-    """glTF has no area lamps: while this lasts, each has a mesh that shines as it does."""
-    added = [shining_mesh(context, lamp) for lamp in context.scene.objects
-             if lamp.type == "LIGHT" and lamp.data.type == "AREA" and not lamp.hide_render]
-    try:
-        yield
-    finally:
-        for thing in added:
-            mesh, material = thing.data, thing.data.materials[0]
-            bpy.data.objects.remove(thing)
-            bpy.data.meshes.remove(mesh)
-            bpy.data.materials.remove(material)
-
-
-def shining_mesh(context, lamp):
-    light = lamp.data
-    width = light.size
-    height = light.size_y if light.shape in ("RECTANGLE", "ELLIPSE") else width
-    round_ = light.shape in ("DISK", "ELLIPSE")
-    count = 64 if round_ else 4
-    start = 0.0 if round_ else math.pi / 4.0
-    reach = 0.5 if round_ else math.sqrt(0.5)
-    # Clockwise as seen from +z: it shines along -z, as lamps do.
-    angles = [start - 2.0 * math.pi * i / count for i in range(count)]
-    points = [(reach * width * math.cos(a), reach * height * math.sin(a), 0.0) for a in angles]
-    mesh = bpy.data.meshes.new(lamp.name)
-    mesh.from_pydata(points, [], [list(range(count))])
-    area = width * height * (math.pi / 4.0 if round_ else 1.0)
-    mesh.materials.append(shining_material(lamp.name, light.color, light.energy / math.pi / area))
-    thing = bpy.data.objects.new(lamp.name, mesh)
-    thing.matrix_world = lamp.matrix_world
-    context.scene.collection.objects.link(thing)
-    return thing
-
-
-def shining_material(name, color, strength):
-    """Black, one-sided, of that radiance [W/(m^2 sr)]."""
-    material = bpy.data.materials.new(name)
-    material.use_nodes = True
-    material.use_backface_culling = True
-    shader = material.node_tree.nodes["Principled BSDF"]
-    shader.inputs["Base Color"].default_value = (0.0, 0.0, 0.0, 1.0)
-    shader.inputs["Specular IOR Level"].default_value = 0.0
-    shader.inputs["Emission Color"].default_value = (*color, 1.0)
-    shader.inputs["Emission Strength"].default_value = strength
-    return material
+def shutter_times(render):
+    """Moments [frames] at which the shutter is open, from the frame's own time; (0,) without motion blur."""
+    if not render.use_motion_blur:
+        return (0.0,)
+    open_for = render.motion_blur_shutter
+    position = getattr(render, "motion_blur_position", "CENTER")
+    start = {"START": 0.0, "CENTER": -open_for / 2.0, "END": -open_for}[position]
+    return tuple(start + open_for * i / (SHUTTER_MOMENTS - 1) for i in range(SHUTTER_MOMENTS))

@@ -31,16 +31,23 @@ def environment_words(world, folder):
     file = saved(texture.image, folder)
     # The middle of the image is seen along +x, that of ours along -z. A Mapping node turns the other way, as it turns what
     # is looked up.
-    turn = -90.0 - math.degrees(rotation_of(texture))
+    rotation, warnings = rotation_of(texture)
+    turn = -90.0 - math.degrees(rotation)
     intensity = strength.default_value * exposure_of(file)
-    return ["--env", str(file), "--env-intensity", f"{intensity:.9g}", "--env-rotation", f"{turn:.9g}"], []
+    return ["--env", str(file), "--env-intensity", f"{intensity:.9g}", "--env-rotation", f"{turn:.9g}"], warnings
 
 
 def rotation_of(texture):
-    """[rad] about the vertical axis, of a Mapping node before the texture."""
+    """[rad] about the vertical axis, of a Mapping node before the texture, and what is lost."""
     links = texture.inputs["Vector"].links
     mapping = links[0].from_node if links else None
-    return mapping.inputs["Rotation"].default_value[2] if mapping and mapping.type == "MAPPING" else 0.0
+    if mapping is None or mapping.type == "TEX_COORD":
+        return 0.0, []
+    if mapping.type != "MAPPING":
+        return 0.0, [f"the world is not turned: bdpt does not know the node {mapping.name} before its image"]
+    x, y, z = mapping.inputs["Rotation"].default_value
+    only_turned = x == y == 0.0 and tuple(mapping.inputs["Scale"].default_value) == (1.0, 1.0, 1.0)
+    return z, [] if only_turned else [f"the world is turned about z only (node {mapping.name})"]
 
 
 def exposure_of(file):
@@ -57,7 +64,7 @@ def saved(image, folder):
     if file.is_file() and file.suffix.lower() in (".exr", ".hdr"):
         return file
     file = pathlib.Path(folder, "world.exr")
-    copy = image.copy()
+    copy = image.original.copy()
     copy.file_format = "OPEN_EXR"
     copy.filepath_raw = str(file)
     copy.save()

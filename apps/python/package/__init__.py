@@ -7,15 +7,28 @@
     render.save("out.exr")
 """
 
+import operator
+from typing import Any, Iterator
+
 from ._bdpt import (Camera, DirectionalLight, EnvironmentLight, Error, Material, Mesh, PointLight, Render,
                     Renderer, Scene, SpotLight, __version__, compare, load, read_part, render)
 from ._signatures import with_signature
 
 __all__ = ["Camera", "DirectionalLight", "EnvironmentLight", "Error", "Material", "Mesh", "PointLight", "Render",
-           "Renderer", "Scene", "SpotLight", "compare", "load", "read_part", "render"]
+           "Renderer", "Scene", "SpotLight", "compare", "load", "orbit", "read_part", "render"]
 
 load = with_signature(load)
 render = with_signature(render)
 Render.save = with_signature(Render.save)  # type: ignore[method-assign]
 Render.to_srgb = with_signature(Render.to_srgb)  # type: ignore[method-assign]
 Renderer.save = with_signature(Renderer.save)  # type: ignore[method-assign]
+
+
+def orbit(scene: Scene, views: int, **options: Any) -> Iterator[Render]:
+    """A turntable: renders of the views 1 to `views`, one after the other, as bdpt render --orbit makes them.
+
+    Options are those of render(). One exposure for all views: save(file, exposure="light").
+    """
+    last = operator.index(views)
+    for view in range(1, max(1, last) + 1):  # a number of views that is none is an error of render()
+        yield render(scene, orbit=last, frames=view, **options)

@@ -73,28 +73,34 @@ void add_sequence_options(OptionList& options, Sequence& sequence)
 {
     options.section("Several images (their files have #### or {camera} in their names)",
                     {.plan_render = true});
-    options.add("--frames", "A:B[:S]",
-                "Render the frames A to B, B included, or every S-th of them: frame 12 with 24 "
-                "frames a second is at 0.5 s of the animation, or --frame-time after that; its "
-                "file is out.0012.exr for -o out.####.exr. With --orbit: these of its views",
-                sequence.frames,
-                parsed_by([](const std::string& text) { return parse_frames(text); },
-                          "whole numbers FIRST:LAST or FIRST:LAST:STEP, like 1:24, with FIRST not "
-                          "above LAST"));
+    options
+        .add("--frames", "A:B[:S]",
+             "Render the frames A to B, B included, or every S-th of them: frame 12 with 24 "
+             "frames a second is at 0.5 s of the animation, or --frame-time after that; its "
+             "file is out.0012.exr for -o out.####.exr. With --orbit: these of its views",
+             sequence.frames,
+             parsed_by([](const std::string& text) { return parse_frames(text); },
+                       "whole numbers FIRST:LAST or FIRST:LAST:STEP, like 1:24, with FIRST not "
+                       "above LAST"))
+        .uses.python_render = true;
     options.add("--fps", "F", "Frames a second for --frames, like 24 or 24000/1001", sequence.fps,
                 parsed_by([](const std::string& text) { return parse_rate(text); },
                           "frames a second, like 24 or 24000/1001"));
-    options.add("--orbit", "N",
-                "Turntable: N views, numbered from 1, by a camera that goes once around the "
-                "vertical axis through --look-at or, without it, what it looks at",
-                sequence.orbit, whole_number(1, most_frames));
+    options
+        .add("--orbit", "N",
+             "Turntable: N views, numbered from 1, by a camera that goes once around the "
+             "vertical axis through --look-at or, without it, what it looks at",
+             sequence.orbit, whole_number(1, most_frames))
+        .uses.python_render = true;
     const Choices<TurntableMotion> motions{
         {{"camera", TurntableMotion::camera}, {"object", TurntableMotion::object}}};
-    options.add("--turn", choice_text(motions.words()),
-                "What turns with --orbit: the camera, around an object whose light stays with it "
-                "(default), or the object, before a camera and an environment that stand still; "
-                "lamps of the file turn with it",
-                sequence.motion, motions.type());
+    options
+        .add("--turn", choice_text(motions.words()),
+             "What turns with --orbit: the camera, around an object whose light stays with it "
+             "(default), or the object, before a camera and an environment that stand still; "
+             "lamps of the file turn with it",
+             sequence.motion, motions.type())
+        .uses.python_render = true;
     const Choices<SequenceCameras> cameras{{{"all", SequenceCameras::all}}};
     options.add("--cameras", "all",
                 "Render what each camera of the scene sees; {camera} in names of files becomes its "
@@ -102,10 +108,12 @@ void add_sequence_options(OptionList& options, Sequence& sequence)
                 sequence.cameras, cameras.type());
     const Choices<SequenceNoise> noises{
         {{"true", SequenceNoise::same}, {"false", SequenceNoise::fresh}}};
-    options.add_flag("--same-noise",
-                     "Give all frames the same random numbers: noise stands still, like dirt on a "
-                     "window, and does not average out",
-                     sequence.noise, noises.type());
+    options
+        .add_flag("--same-noise",
+                  "Give all frames the same random numbers: noise stands still, like dirt on a "
+                  "window, and does not average out",
+                  sequence.noise, noises.type())
+        .uses.python_render = true;
 }
 
 std::optional<Sequence> checked(Sequence sequence, const OptionList& options)

@@ -1,0 +1,168 @@
+"""The render engine: exports a frame, runs the command, and takes its image."""
+
+import math
+import pathlib
+import shlex
+import tempfile
+import time
+
+import bpy
+
+from . import export, main_thread, passes, settings
+from .command import Command, program
+from .exr import Exr
+from .live_image import LiveImage
+
+STEP = 0.1  # [s] between looks at the command
+PATIENCE = 30.0  # [s] for a cancelled command to finish its pass
+
+
+class BDPT_RenderEngine(bpy.types.RenderEngine):
+    bl_idname = "BDPT"
+    bl_label = "bdpt"
+    bl_use_preview = False
+    bl_use_postprocess = True
+    bl_use_eevee_viewport = True
+    bl_use_shading_nodes_custom = False
+
+    def update_render_passes(self, scene=None, renderlayer=None):
+        passes.register(self, scene, renderlayer)
+
+    def render(self, depsgraph):
+        """Whatever goes wrong is a message to the user; it ends the render, and an animation too."""
+        try:
+            with tempfile.TemporaryDirectory(prefix="bdpt-") as folder:
+                self._render(depsgraph, pathlib.Path(folder))
+        except main_thread.Cancelled:
+            pass
+        except (RuntimeError, OSError) as error:
+            self.report_to_user("ERROR", str(error))
+
+    def _render(self, depsgraph, folder):
+        scene = depsgraph.scene
+        check(scene)
+        self.update_stats("", "bdpt: exporting")
+        exported = self._exported(depsgraph, folder)
+        for warning in dict.fromkeys(exported.warnings):
+            self.report_to_user("WARNING", warning)
+        image = folder / "image.exr"
+        words = [*exported.words(), *words_of(scene), *passes.words(scene, depsgraph.view_layer_eval), "-o", str(image)]
+        command = self._run(words, exported.film, depsgraph.view_layer_eval)
+        for warning in command.warnings:
+            self.report_to_user("WARNING", warning)
+        if command.error:
+            raise RuntimeError(command.error)
+        if not image.exists():
+            raise main_thread.Cancelled
+        exr = Exr(image)
+        result = self._begin(depsgraph.view_layer_eval, exr.width, exr.height)
+        passes.fill(result, scene, depsgraph.view_layer_eval, exr)
+        self.end_result(result)
+        passes.stamp_mattes(self.get_result(), depsgraph.view_layer_eval, exr)
+        if command.done:
+            self.report_to_user("INFO", command.sentence())
+
+    def _exported(self, depsgraph, folder):
+        """The scene at all moments of the shutter. The graph is back at its frame afterwards."""
+        scene = depsgraph.scene
+        frame = scene.frame_current_final
+        times = export.shutter_times(scene.render)
+        exported = None
+        for moment in times:
+            if len(times) > 1:
+                self._go_to(frame + moment)
+            if exported is None:
+                exported = main_thread.call(lambda: export.Export(depsgraph, folder), self._cancelled)
+            else:
+                exported.place(depsgraph)
+        if len(times) > 1:
+            self._go_to(frame)
+        exported.write()
+        return exported
+
+    def report_to_user(self, kind, text):
+        self.report({kind}, text)
+
+    def _cancelled(self):
+        return self.test_break()
+
+    def _go_to(self, frame):
+        whole = math.floor(frame)
+        self.frame_set(whole, frame - whole)
+
+    def _run(self, words, film, layer):
+        live = None if bpy.app.background else LiveImage()
+        try:
+            command = Command(program(settings.chosen_command()), words + (["--display", live.address] if live else []))
+            stopped, told = None, None
+            while not command.ended():
+                command.wait(STEP)
+                if command.samples != told:
+                    told = command.samples
+                    self.update_progress(command.fraction)
+                    self.update_stats("", f"bdpt: {told} samples per pixel")
+                if live and stopped is None:
+                    self._show(live, film, layer)
+                if stopped is None and self._cancelled():
+                    command.stop()
+                    stopped = time.monotonic()
+                if stopped is not None and time.monotonic() - stopped > PATIENCE:
+                    command.kill()
+                    raise main_thread.Cancelled
+            return command
+        finally:
+            if live:
+                live.close()
+
+    def _show(self, live, film, layer):
+        pixels = live.take()
+        if pixels is None:
+            return
+        x0, y0, x1, y1 = film.crop
+        result = self._begin(layer, x1 - x0, y1 - y0)
+        passes.put_color(result, pixels[y0:y1, x0:x1])
+        self.end_result(result)
+
+    def _begin(self, layer, width, height):
+        return self.begin_result(0, 0, width, height, layer=layer.name)
+
+
+def check(scene):
+    """Refuses what cannot be rendered."""
+    if scene.camera is None:
+        raise RuntimeError(f'scene "{scene.name}" has no camera')
+    if scene.camera.type != "CAMERA":
+        raise RuntimeError(f'scene "{scene.name}": its camera "{scene.camera.name}" is a {scene.camera.type.lower()}, no camera')
+    if scene.render.use_multiview:
+        raise RuntimeError(f'scene "{scene.name}": bdpt has no stereoscopy')
+
+
+def words_of(scene):
+    """How to render, by the settings of the scene."""
+    chosen = scene.bdpt
+    words = ["--spp", str(chosen.samples), "--integrator", chosen.integrator, "--max-depth", str(chosen.max_depth)]
+    words += ["--time", f"{chosen.time:g}s"] if chosen.time > 0.0 else []
+    words += ["--noise", f"{chosen.noise:g}%"] if chosen.noise > 0.0 else []
+    words += ["--background", "transparent"] if scene.render.film_transparent else []
+    if chosen.denoise:
+        library = denoiser_of_blender()
+        words += ["--denoise", *(["--denoiser-library", str(library)] if library else [])]
+    try:
+        return words + shlex.split(chosen.options)
+    except ValueError as error:
+        raise RuntimeError(f"Options: {error}: {chosen.options}") from None
+
+
+def denoiser_of_blender():
+    """The folder of Open Image Denoise that comes with Blender, or with its module; None where it uses the system's."""
+    version = bpy.utils.resource_path("LOCAL")  # a folder beside that of libraries
+    folder = pathlib.Path(version).parent / "lib"
+    return folder if version and any(folder.glob("libOpenImageDenoise.so.2*")) else None
+
+
+def register():
+    bpy.utils.register_class(BDPT_RenderEngine)
+
+
+def unregister():
+    bpy.utils.unregister_class(BDPT_RenderEngine)

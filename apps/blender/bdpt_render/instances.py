@@ -1,0 +1,52 @@
+"""What a dependency graph places in the scene: meshes, lamps and the camera, with names and matrices."""
+
+import dataclasses
+
+import mathutils
+import numpy as np
+
+MESHES = ("MESH", "CURVE", "SURFACE", "FONT", "META")
+NOT_SEEN = ("EMPTY", "ARMATURE", "LATTICE", "SPEAKER", "CAMERA", "LIGHT_PROBE", "GPENCIL", "GREASEPENCIL")
+
+
+@dataclasses.dataclass
+class Instance:
+    key: tuple  # the same at all times
+    name: str
+    matrix: mathutils.Matrix
+
+
+def instances_of(depsgraph):
+    """Pairs of Instance and its evaluated object, which is valid until the next pair."""
+    for item in depsgraph.object_instances:
+        thing = item.object
+        if not item.show_self or thing.type not in (*MESHES, "LIGHT"):
+            continue
+        key = (thing.name, item.parent.name if item.parent else "", tuple(item.persistent_id))
+        yield Instance(key, thing.name, item.matrix_world.copy()), thing
+
+
+def matrices_of(depsgraph):
+    """By key, and that of the camera by None."""
+    matrices = {instance.key: instance.matrix for instance, _ in instances_of(depsgraph)}
+    matrices[None] = depsgraph.scene.camera.evaluated_get(depsgraph).matrix_world.copy()
+    return matrices
+
+
+def shapes_of(depsgraph):
+    """What tells whether a mesh deforms, by key."""
+    shapes = {}
+    for instance, thing in instances_of(depsgraph):
+        if thing.type == "MESH":
+            places = np.empty(3 * len(thing.data.vertices), np.float32)
+            thing.data.vertices.foreach_get("co", places)
+            shapes[instance.key] = hash(places.tobytes())
+    return shapes
+
+
+def warnings_of(depsgraph):
+    for thing in depsgraph.objects:
+        if thing.type not in (*MESHES, *NOT_SEEN, "LIGHT"):
+            yield f'object "{thing.name}": bdpt renders no objects of the type {thing.type}'
+        if any(system.settings.type == "HAIR" and system.settings.render_type == "PATH" for system in thing.particle_systems):
+            yield f'object "{thing.name}": bdpt renders no hair'

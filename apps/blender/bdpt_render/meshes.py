@@ -1,0 +1,127 @@
+"""Meshes and materials as a GLB file, by Blender's own exporter."""
+
+import contextlib
+import pathlib
+
+import bpy
+
+from .glb import Glb
+from .instances import instances_of
+
+EXPORTER = "io_scene_gltf2"
+# What exporters of other versions do not know is left out.
+OPTIONS = {
+    "export_format": "GLB", "use_active_scene": True, "export_cameras": False, "export_lights": False,
+    "export_apply": False, "export_animations": False, "export_skins": False, "export_morph": False,
+    "export_yup": True, "export_extras": False, "will_save_settings": False}
+
+
+class Meshes:
+    """The meshes that a dependency graph shows, each once. In the main thread only: it makes data for a moment."""
+
+    def __init__(self, depsgraph, folder):
+        self._made, self._names = contextlib.ExitStack(), {}
+        self._meshes = {}  # temporary objects by what is shown
+        self._nodes = {}   # temporary objects' names by keys of instances
+        with self._made:
+            scene = bpy.data.scenes.new("bdpt export")
+            self._made.callback(bpy.data.scenes.remove, scene)
+            for instance, thing in instances_of(depsgraph):
+                if thing.type != "LIGHT":
+                    shown = self._shown(depsgraph, scene, thing)
+                    if shown:
+                        self._nodes[instance.key] = shown
+            self.glb = exported(scene, folder) if self._nodes else Glb.empty()
+        self._rename()
+        make_glass_solid(self.glb)
+
+    def of_instances(self):
+        """Indices of the GLB's meshes by keys of instances."""
+        nodes = {node["name"]: node["mesh"] for node in self.glb.document.get("nodes", ()) if "mesh" in node}
+        return {key: nodes[name] for key, name in self._nodes.items() if name in nodes}
+
+    def _shown(self, depsgraph, scene, thing):
+        """The name of a temporary object with the mesh of `thing`; None where it has no faces."""
+        materials = tuple(slot.material for slot in thing.material_slots)
+        key = (thing.data.as_pointer(), tuple(material and material.name_full for material in materials))
+        if key not in self._meshes:
+            self._meshes[key] = self._made_object(depsgraph, scene, thing, materials)
+        return self._meshes[key]
+
+    def _made_object(self, depsgraph, scene, thing, materials):
+        mesh = bpy.data.meshes.new_from_object(thing, preserve_all_data_layers=True, depsgraph=depsgraph)
+        if mesh is None:
+            return None
+        self._made.callback(bpy.data.meshes.remove, mesh)
+        if not mesh.polygons:
+            return None
+        mesh.materials.clear()
+        for material in materials:
+            mesh.materials.append(material and self._material(material))
+        made = bpy.data.objects.new("bdpt", mesh)
+        self._made.callback(bpy.data.objects.remove, made)
+        scene.collection.objects.link(made)
+        return made.name
+
+    def _material(self, material):
+        """The original, or a copy with the values of this frame where they are animated."""
+        original = material.original
+        tree = original.node_tree
+        if not (original.animation_data or (tree and tree.animation_data)):
+            return original
+        if original.name not in self._names.values():
+            copy = original.copy()
+            self._made.callback(bpy.data.materials.remove, copy)
+            for change in (copy, copy.node_tree):
+                if change is not None:
+                    change.animation_data_clear()
+            take_values(material, copy)
+            self._names[copy.name] = original.name
+        return bpy.data.materials[next(name for name, of in self._names.items() if of == original.name)]
+
+    def _rename(self):
+        for material in self.glb.document.get("materials", ()):
+            material["name"] = self._names.get(material.get("name"), material.get("name"))
+
+
+def make_glass_solid(glb):
+    """In Blender what transmits refracts, as the surface of a body; in glTF it does only with a thickness."""
+    for material in glb.document.get("materials", ()):
+        extensions = material.get("extensions", {})
+        if extensions.get("KHR_materials_transmission", {}).get("transmissionFactor", 0.0) > 0.0:
+            volume = extensions.setdefault("KHR_materials_volume", {})
+            volume["thicknessFactor"] = volume.get("thicknessFactor") or 1.0
+            glb.use("KHR_materials_volume")
+
+
+def take_values(source, target):
+    """Values of sockets, those of groups not included."""
+    if source.node_tree is None or target.node_tree is None:
+        return
+    for node in source.node_tree.nodes:
+        sockets = zip((*node.inputs, *node.outputs), (*target.node_tree.nodes[node.name].inputs,
+                                                      *target.node_tree.nodes[node.name].outputs))
+        for from_, to in sockets:
+            if hasattr(from_, "default_value") and hasattr(to, "default_value") and from_.type != "STRING":
+                to.default_value = from_.default_value
+
+
+def exported(scene, folder):
+    if not hasattr(bpy.types, "EXPORT_SCENE_OT_gltf"):
+        import addon_utils
+        addon_utils.enable(EXPORTER)
+    if not hasattr(bpy.types, "EXPORT_SCENE_OT_gltf"):
+        raise RuntimeError(f"the add-on {EXPORTER}, Blender's exporter of glTF, cannot be enabled")
+    file = pathlib.Path(folder, "meshes.glb")
+    known = bpy.ops.export_scene.gltf.get_rna_type().properties.keys()
+    options = {name: value for name, value in OPTIONS.items() if name in known}
+    with bpy.context.temp_override(scene=scene, view_layer=scene.view_layers[0], collection=scene.collection,
+                                   active_object=None, object=None, selected_objects=[]):
+        try:
+            bpy.ops.export_scene.gltf(filepath=str(file), **options)
+        except RuntimeError as error:
+            lines = [line for line in str(error).splitlines() if line.strip() and not line.startswith("Location:")]
+            raise RuntimeError(f"Blender's exporter of glTF failed: {lines[-1].strip()}") from None
+    glb = Glb(file)
+    file.unlink()
+    return glb

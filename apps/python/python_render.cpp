@@ -115,7 +115,7 @@ Task prepare(PythonScene& scene, const nb::kwargs& options)
     io::MemoryBudget memory = scene.stage.memory;
     spend_film(memory, arguments.options, size);
     arguments.options.sampling.samples = arguments.samples;
-    if (app::meters_light(arguments)) {
+    if (app::meters_light(arguments, scene.stage)) {
         arguments.light_exposure =
             app::metered_exposure(scene.stage, first);  // all views of a turn have one
     }

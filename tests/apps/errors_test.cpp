@@ -230,7 +230,14 @@ TEST_CASE("an invalid input gives exit code 4 and names it")
     SECTION("an empty scene")
     {
         text = R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{}]})";
-        expected = "the scene is empty";
+        expected = "no triangles and no light with a radius\n";
+    }
+    SECTION("nothing but points")
+    {
+        text = whole;
+        const std::string_view position = "\"attributes\"";
+        text.replace(text.find(position), position.size(), "\"mode\": 0, \"attributes\"");
+        expected = "a radius (/meshes/0/primitives/0: mode 0: points and lines are not rendered)";
     }
     write_text(bad, text);
     check_error(folder, {"render", bad, "-o", out}, 4, expected);

@@ -77,8 +77,8 @@ TEST_CASE("an exposure is a number, or auto or light with perhaps a number behin
         CHECK(exposure->base == right.base);
         CHECK(exposure->value == right.value);
     }
-    for (const char* wrong :
-         {"", "bright", "light0.5", "light+", "auto 1", "101", "light+101", "nan", "1EV", "+-1", "light++1"}) {
+    for (const char* wrong : {"", "bright", "light0.5", "light+", "auto 1", "101", "light+101",
+                              "nan", "1EV", "+-1", "light++1"}) {
         CAPTURE(wrong);
         CHECK_FALSE(parse_exposure(wrong));
     }
@@ -104,6 +104,40 @@ TEST_CASE("white, grey and black things have the same exposure by the light on t
     // Twice the light.
     CHECK(exposure_of("0.2", {"--env", "default", "--env-intensity", "2"}) ==
           Approx(grey - 1.0).margin(1e-3));
+}
+
+TEST_CASE("things under light that bdpt has made have the same exposure, whatever their colour")
+{
+    const ScratchFolder folder;
+    const auto shown = [&](const char* albedo, const Words& more) {
+        Words words{"render",
+                    cube_of(folder, albedo),
+                    "--size",
+                    "32x16",
+                    "--spp",
+                    "4",
+                    "--json",
+                    "--integrator",
+                    "mis",
+                    "-o",
+                    (folder / "b.png").string()};
+        words.insert(words.end(), more.begin(), more.end());
+        std::istringstream lines(run(words).out);
+        double exposure = 1e9;
+        for (std::string line; std::getline(lines, line);) {
+            const auto event = nlohmann::json::parse(line);
+            exposure = event.value("exposure", exposure);
+        }
+        return exposure;
+    };
+    for (const Words& light : {Words{}, Words{"--env", "default"}, Words{"--env", "studio"}}) {
+        const double grey = shown("0.2", light);
+        CHECK(shown("0.01", light) == Approx(grey).margin(0.1));
+        CHECK(shown("1", light) == Approx(grey).margin(0.1));
+        Words words = light;
+        words.insert(words.end(), {"--exposure", "auto"});
+        CHECK(std::abs(shown("0.01", words) - shown("1", words)) > 0.3);
+    }
 }
 
 TEST_CASE("all views of an orbit have one exposure")
@@ -154,7 +188,8 @@ TEST_CASE("develop takes the light that the render has metered, and no other")
     CHECK(developed({}) == metered);
     CHECK(developed({"--exposure", "light+1"}) == Approx(metered + 1.0));
 
-    const Outcome plain = run({"render", scene, "--size", "8x8", "--spp", "1", "-o", image});
+    const Outcome plain =
+        run({"render", scene, "--size", "8x8", "--spp", "1", "--exposure", "auto", "-o", image});
     REQUIRE(plain.exit_code == 0);
     const Outcome refused = develop({"--exposure", "light"});
     CAPTURE(refused.err);

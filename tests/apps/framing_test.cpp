@@ -84,7 +84,7 @@ TEST_CASE("a side to view from frames the scene, whatever cameras it has", "[fra
     CHECK(is_near(eye(folder.rendered({"--view", "front"})), {0.0f, 0.0f, distance}));
     CHECK(is_near(eye(folder.rendered({"--view", "back"})), {0.0f, 0.0f, -distance}));
     CHECK(is_near(eye(folder.rendered({"--view", "right"})), {distance, 0.0f, 0.0f}));
-    CHECK(is_near(eye(folder.rendered({"--view", "left"})), {-distance, 0.0f, 0.0f}));
+    CHECK(is_near(eye(folder.rendered({"--view", "Left"})), {-distance, 0.0f, 0.0f}));
     CHECK(is_near(eye(folder.rendered({"--view", "top"})), {0.0f, distance, 0.0f}));
     CHECK(is_near(eye(folder.rendered({"--view", "bottom"})), {0.0f, -distance, 0.0f}));
     CHECK(is_near(eye(folder.rendered({"--view", "90,0", "--camera", "auto"})),

@@ -82,6 +82,19 @@ TEST_CASE("option --noise ends a render at a level of noise", "[noise]")
           samples);
 }
 
+TEST_CASE("a noise that cannot be told from one sample is called so", "[noise]")
+{
+    const ScratchFolder folder;
+    const Outcome outcome =
+        run({"render", write_cube(folder, "cube", {.cameras = two_cameras}).string(), "--size",
+             "16x16", "--integrator", "mis", "--spp", "1", "--noise", "3%", "-o",
+             (folder / "out.png").string()});
+    CAPTURE(outcome.err);
+    CHECK(outcome.exit_code == 0);
+    CHECK(outcome.err.find("the noise is not known after 1 sample per pixel") != std::string::npos);
+    CHECK(outcome.err.find("would do") == std::string::npos);
+}
+
 TEST_CASE("merge tells which samples are missing for a level of noise", "[noise]")
 {
     const ScratchFolder folder;

@@ -44,6 +44,19 @@ TEST_CASE("a camera is selected by name, then by index")
     }
 }
 
+TEST_CASE("a camera without a name is listed by its index")
+{
+    std::vector<CameraDesc> list(2);
+    list[1].name = "side";
+    try {
+        (void)select_camera(list, "top", "a.gltf");
+        FAIL("a camera was found");
+    } catch (const Error& error) {
+        CHECK(std::string(error.what()) ==
+              "a.gltf: no camera \"top\"; this scene has 2 cameras: 0, 1 \"side\"");
+    }
+}
+
 /// Where `camera` looks.
 Vec3 forward(const CameraDesc& camera)
 {

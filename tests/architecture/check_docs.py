@@ -33,6 +33,10 @@ def extension_differences(root):
     errors = ["lib/io/src/gltf/document/extensions.cpp: no table found"] if not known else []
     errors += [f"docs/gltf.md: lacks the row {row}" for row in sorted(known - stated)]
     errors += [f"docs/gltf.md: the reader does not have the row {row}" for row in sorted(stated - known)]
+    names = {row[0] for row in known}
+    others = set(re.findall(r"^\| `(\w+)` \|(?: [^|]+ \|){3}$", text.partition("### What others read")[2], flags=re.M))
+    errors += [f"docs/gltf.md: lacks what others do with {name}" for name in sorted(names - others)]
+    errors += [f"docs/gltf.md: the reader does not know {name} of others" for name in sorted(others - names)]
     return errors, len(known)
 
 

@@ -149,7 +149,7 @@ int run_render(const RenderArguments& typed, const std::vector<std::string>& wor
         open_denoiser(asked.denoise, asked.outputs, asked.options.system.threads);
     std::optional<double> time = asked.scene.time;
     std::optional<Viewpoint> first;
-    std::optional<Scene> still;  // before its environment was turned
+    std::optional<Scene> still;     // before its environment was turned
     std::optional<float> exposure;  // by the light of the first frame, for all
     for (const SequenceView& view : views) {
         if (interrupt.signal()) {
@@ -187,7 +187,7 @@ int run_render(const RenderArguments& typed, const std::vector<std::string>& wor
             first = Viewpoint{
                 .camera = stage->camera, .size = stage->size, .is_framed = stage->is_framed};
         }
-        if (meters_light(asked) && !exposure) {
+        if (!exposure && meters_light(asked, *stage)) {
             exposure = metered_exposure(*stage, *first);
         }
         image.light_exposure = exposure;

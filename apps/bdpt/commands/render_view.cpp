@@ -245,7 +245,12 @@ void report_done(Console& console, const RenderArguments& arguments, const Rende
     const double noise = noise_of(result.film);
     fields["noise"] = noise_json(noise);
     note_noise(console, arguments, noise);
-    if (const std::optional<double> goal = arguments.goal.noise; goal && noise > *goal) {
+    const std::optional<double> goal = arguments.goal.noise;
+    if (goal && !std::isfinite(noise)) {
+        const auto samples = static_cast<std::size_t>(result.film.sample_count());
+        console.note(fmt::format("the noise is not known after {} per pixel (--noise)",
+                                 counted(samples, "sample")));
+    } else if (goal && noise > *goal) {
         const std::int64_t samples = samples_for_noise(noise, result.film.sample_count(), *goal);
         console.note(
             fmt::format("the noise is {}, more than {} (--noise): about {} samples per "

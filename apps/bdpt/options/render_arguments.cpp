@@ -208,7 +208,7 @@ const char* const render_footer = R"(Examples:
   bdpt render model.glb -o out.png --env sky.hdr --from 3,2,4 --look-at 0,1,0 --fov 40
 
 A file without a camera is framed as a whole, one without light gets a soft sky (and a lamp, if it
-is a closed room); a warning says so. Ctrl-C, or closing the terminal, finishes the current pass and
+is a closed room); a note says so. Ctrl-C, or closing the terminal, finishes the current pass and
 writes the image; a second Ctrl-C quits at once. With --part, SIGUSR1 writes a checkpoint, and what
 was killed goes on when the same command runs again.
 

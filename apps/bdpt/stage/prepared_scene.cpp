@@ -202,6 +202,18 @@ std::optional<CameraDesc> camera_in_file(const std::vector<CameraDesc>& cameras,
     return camera;
 }
 
+/// What was left out of the meshes, in parentheses; empty if nothing was.
+std::string why_no_triangles(const std::vector<std::string>& warnings)
+{
+    std::string reasons;
+    for (const std::string& warning : warnings) {
+        if (warning.starts_with("/meshes/")) {
+            reasons += (reasons.empty() ? "" : "; ") + warning;
+        }
+    }
+    return reasons.empty() ? "" : " (" + reasons + ")";
+}
+
 std::vector<VolumeDesc> load_volumes(const RenderArguments& arguments)
 {
     std::vector<VolumeDesc> volumes;
@@ -242,8 +254,8 @@ PreparedScene prepare_scene(const RenderArguments& asked,
     if (!has_surface(loaded.scene)) {
         throw Error(
             ErrorCode::invalid_input,
-            fmt::format("{}: the scene is empty: it has no triangles and no light with a radius",
-                        file));
+            fmt::format("{}: the scene is empty: it has no triangles and no light with a radius{}",
+                        file, why_no_triangles(loaded.warnings)));
     }
     const std::optional<CameraDesc> from_file = camera_in_file(loaded.cameras, arguments);
     const Size size =
@@ -313,6 +325,11 @@ Viewpoint viewpoint(const PreparedScene& stage, const RenderArguments& arguments
     return {.camera = with_lens(arguments.lens, std::move(camera), stage.scene),
             .size = size,
             .is_framed = !from_file.has_value()};
+}
+
+bool has_own_environment(const PreparedScene& stage)
+{
+    return stage.environment_name == "default" || stage.environment_name == "studio";
 }
 
 std::vector<std::string> camera_names(const PreparedScene& stage)

@@ -32,6 +32,9 @@ struct PreparedScene {
     io::MemoryBudget memory;                     ///< of which the scene has taken its part
 };
 
+/// Does bdpt itself make the light from infinity, the default sky or the studio?
+[[nodiscard]] bool has_own_environment(const PreparedScene& stage);
+
 /// A camera and the size of its image.
 struct Viewpoint {
     CameraDesc camera;  ///< named by its name or index

@@ -7,6 +7,8 @@
 #include <bdpt/render.h>
 #include <fmt/core.h>
 
+#include <glm/vector_relational.hpp>
+
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
@@ -90,6 +92,14 @@ std::shared_ptr<const SampleRates> rates_of(const RenderArguments& arguments,
     return rates;
 }
 
+/// Does the camera stand outside of what it shows, so that most of that has the same light?
+bool is_seen_from_outside(const PreparedScene& stage)
+{
+    const Bounds& bounds = stage.scene.bounds();
+    const Vec3 eye(stage.camera.world_from_camera[3]);
+    return glm::any(glm::lessThan(eye, bounds.min)) || glm::any(glm::greaterThan(eye, bounds.max));
+}
+
 }  // namespace
 
 std::uint64_t image_cache_bytes(const RenderArguments& arguments)
@@ -150,11 +160,14 @@ RenderArguments with_choice(RenderArguments arguments, const PreparedScene& stag
     return arguments;
 }
 
-bool meters_light(const RenderArguments& arguments)
+bool meters_light(const RenderArguments& arguments, const PreparedScene& stage)
 {
     const std::optional<Exposure>& exposure = arguments.display.exposure;
-    return (exposure && exposure->base == ExposureBase::light) || arguments.display.backdrop ||
-           (arguments.sequence && arguments.sequence->frames);
+    if (arguments.display.backdrop || (arguments.sequence && arguments.sequence->frames)) {
+        return true;
+    }
+    return exposure ? exposure->base == ExposureBase::light
+                    : has_own_environment(stage) && is_seen_from_outside(stage);
 }
 
 std::optional<float> metered_exposure(const PreparedScene& stage, const Viewpoint& seen)

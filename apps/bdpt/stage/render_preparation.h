@@ -37,8 +37,10 @@ void spend_film(io::MemoryBudget& memory, const RenderOptions& options, const Si
 [[nodiscard]] double light_beyond_max_depth(const RenderArguments& arguments,
                                             const PreparedScene& stage);
 
-/// Is the light metered, for the exposure of images?
-[[nodiscard]] bool meters_light(const RenderArguments& arguments);
+/// Is the light metered, for the exposure of images? It is where `--exposure light` says so, before
+/// a background and for frames, and, unless another exposure is asked for, where bdpt itself has
+/// made the light from infinity and the camera stands outside of the scene.
+[[nodiscard]] bool meters_light(const RenderArguments& arguments, const PreparedScene& stage);
 
 /// The exposure [EV] that makes a white card white which lies on what `seen` shows of the scene;
 /// none where no light falls on it.

@@ -15,8 +15,9 @@ namespace bdpt {
 /// True when something in `desc` can be seen: a triangle, or a light with a radius.
 [[nodiscard]] BDPT_EXPORT bool has_surface(const SceneDesc& desc);
 
-/// A soft grey sky for scenes without light: its radiance is 0.5 nit below, grows upwards from the
-/// horizon, and is 1 nit on average.
+/// A soft grey sky for scenes without light: its radiance is 1 nit on average, least below and
+/// behind, and greatest high on the left of who sees the front (+z), so that sides that face
+/// different ways differ.
 [[nodiscard]] BDPT_EXPORT EnvironmentLightDesc default_environment();
 
 /// A lamp for a room that the sky does not reach. At the distance from the lamp to the camera a

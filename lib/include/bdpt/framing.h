@@ -13,13 +13,14 @@ struct ViewDirection {
     float elevation = 0.0f;  ///< in [-pi/2, pi/2]; above the horizon if positive
 };
 
-/// The view that objects are shown from: 35 degrees to the right, and 20 above.
+/// The view that most objects are shown from: 35 degrees to the right, and 20 above.
 inline constexpr ViewDirection three_quarter_view{.azimuth = 0.6108652f, .elevation = 0.3490659f};
 
 /// How `frame_scene` frames.
 struct FrameOptions {
     /// From outside, whatever the scene is. None: three quarters from the front and slightly above
-    /// for an object, from inside for a room.
+    /// for an object, nearly from its flat side for one like a board, from 45 degrees above for one
+    /// like a floor, from its long side for a row; from inside for a room.
     std::optional<ViewDirection> direction{};
     /// From outside: share of the width and of the height that stays free on each side of the
     /// image, in [0, 0.5). None: 0.1, so that the scene fills 80 % of the width or of the height;

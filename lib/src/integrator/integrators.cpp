@@ -44,7 +44,7 @@ constexpr std::array table{
         &make<PathIntegrator>},
     Row{{.kind = IntegratorKind::mis,
          .name = name_of(IntegratorKind::mis),
-         .summary = "path tracing, light and BSDF sampling",
+         .summary = "path tracing with light and BSDF sampling",
          .traces_light_paths = false,
          .has_strategies = false},
         &make<PathIntegrator>},

@@ -1,7 +1,11 @@
 #include <bdpt/default_lights.h>
 
 #include <bdpt/light/light_meter.h>
+
+#include "light/painted/painted_environment.h"
+
 #include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -13,6 +17,31 @@
 
 namespace bdpt {
 namespace {
+
+// The key is on the left of who sees the front of things, the rim behind them on the right.
+const glm::dvec3 key_towards = glm::normalize(glm::dvec3(-0.5, 1.0, 0.87));
+const glm::dvec3 rim_towards = glm::normalize(glm::dvec3(0.5, 0.36, -0.87));
+constexpr double key_radiance = 5.0;  // before the mean becomes 1 nit, as all of these
+constexpr double rim_radiance = 1.0;
+
+/// A light as wide as a part of the sky: so soft that it makes next to no noise, and shows in no
+/// mirror as a lamp.
+double soft_light(const glm::dvec3& direction, const glm::dvec3& towards, double radiance)
+{
+    const double cosine = std::max(glm::dot(direction, towards), 0.0);
+    return radiance * cosine * cosine * cosine * cosine * cosine * cosine;
+}
+
+/// A sky that is brightest above, and a ground that goes on from its horizon without an edge, so
+/// that it is a backdrop behind what is seen from above.
+double even_sky(double sine)
+{
+    constexpr double horizon = 0.7;
+    constexpr double zenith = 1.2;
+    constexpr double ground = 0.5;
+    return sine > 0.0 ? horizon + (zenith - horizon) * sine
+                      : horizon + (ground - horizon) * smooth_step(-1.5 * sine);
+}
 
 /// Do surfaces that emit light what is framed, when nothing else does?
 bool is_lit_by_emitters(const Scene& scene, const FramedView& framed, float aspect)
@@ -67,33 +96,10 @@ bool has_surface(const SceneDesc& desc)
 
 EnvironmentLightDesc default_environment()
 {
-    // Rows are 5.6 degrees high: the gradient shows no steps between interpolated texels.
-    constexpr int height = 32;
-    constexpr int width = 2;
-    constexpr float ground = 0.5f;
-    // The mean over the upper half of 1 + 2 sin(elevation) is 2, so that of all directions is 1
-    // when the sky starts at 0.75 over the horizon: (0.5 + 0.75 * 2) / 2.
-    constexpr float horizon = 0.75f;
-
-    // Sine and cosine of the elevation of the first row, and of the angle between two rows. Turning
-    // by them takes no sine of the C library, which may differ between machines.
-    double sine = 0.99879545620517239;
-    double cosine = 0.049067674327418015;
-    constexpr double step_sine = 0.098017140329560602;
-    constexpr double step_cosine = 0.99518472667219693;
-
-    EnvironmentLightDesc result;
-    result.radiance.width = width;
-    result.radiance.height = height;
-    for (int row = 0; row < height; ++row) {
-        const float radiance =
-            sine > 0.0 ? horizon * (1.0f + 2.0f * static_cast<float>(sine)) : ground;
-        result.radiance.pixels.insert(result.radiance.pixels.end(), width, Rgb(radiance));
-        const double before = sine;
-        sine = sine * step_cosine - cosine * step_sine;
-        cosine = cosine * step_cosine + before * step_sine;
-    }
-    return result;
+    return painted_environment(painted_32_rows, [](const glm::dvec3& direction) {
+        return even_sky(direction.y) + soft_light(direction, key_towards, key_radiance) +
+               soft_light(direction, rim_towards, rim_radiance);
+    });
 }
 
 PointLightDesc default_lamp(const FramedView& view)

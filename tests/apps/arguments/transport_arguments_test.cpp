@@ -97,7 +97,7 @@ TEST_CASE("what was chosen is told in the words that choose it by hand")
     CHECK(integrator_words(options) ==
           "bdpt --light-paths 0.25 --connections 2 --disable s1t1,s0t12");
     options.integrator = IntegratorKind::mis;
-    CHECK(integrator_text(options, true) == "auto chose path tracing, light and BSDF sampling");
+    CHECK(integrator_text(options, true) == "auto chose path tracing with light and BSDF sampling");
     options.integrator = IntegratorKind::bdpt;
     options.bidirectional.light_paths = 0.0625;
     options.bidirectional.connections = 1.0;

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -108,6 +109,36 @@ TEST_CASE("a view by angles stands where they say, upright", "[framing]")
     CHECK(near(axes(0.0f, quarter)[2], {0.0f, 1.0f, 0.0f}));
     CHECK(near(axes(0.0f, quarter)[1], {0.0f, 0.0f, -1.0f}));
     CHECK(near(axes(0.0f, -quarter)[1], {0.0f, 0.0f, 1.0f}));
+}
+
+TEST_CASE("flat and long things are seen from their large side", "[framing]")
+{
+    struct Case {
+        Vec3 extent;
+        ViewDirection direction;  // [degrees]
+    };
+    for (const Case& one : {Case{{2.0f, 2.0f, 2.0f}, {35.0f, 20.0f}},  // a box
+                            Case{{1.8f, 1.4f, 4.5f}, {35.0f, 20.0f}},  // a car
+                            Case{{3.0f, 2.0f, 0.4f}, {15.0f, 8.0f}},   // a picture
+                            Case{{0.4f, 2.0f, 3.0f}, {75.0f, 8.0f}},   // one on another wall
+                            Case{{9.0f, 0.2f, 9.0f}, {35.0f, 45.0f}},  // a floor
+                            Case{{9.0f, 2.0f, 2.0f}, {15.0f, 20.0f}},  // a row
+                            Case{{2.0f, 2.0f, 9.0f}, {75.0f, 20.0f}},  // one of another direction
+                            Case{{9.0f, 0.1f, 2.0f}, {15.0f, 45.0f}}}) {  // a plank
+        SceneBuilder builder;
+        const Vec3 e = one.extent;
+        builder.quad({}, {e.x, 0.0f, 0.0f}, e, {0.0f, e.y, e.z}, test::lambertian(Rgb(0.5f)));
+        const Scene scene(std::move(builder.desc));
+        CAPTURE(e.x, e.y, e.z);
+        const Vec3 back = -forward(frame_scene(scene, 1.5f));
+        constexpr float degree = 0.017453293f;
+        CHECK(std::atan2(back.x, back.z) == Approx(one.direction.azimuth * degree));
+        CHECK(std::asin(back.y) == Approx(one.direction.elevation * degree));
+        // A direction that is asked for counts.
+        const FrameOptions asked{.direction = three_quarter_view};
+        CHECK(-forward(frame_scene(scene, 1.5f, asked)).y ==
+              Approx(std::sin(three_quarter_view.elevation)));
+    }
 }
 
 TEST_CASE("another field of view changes the distance, not the size in the image", "[framing]")

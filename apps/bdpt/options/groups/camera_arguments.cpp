@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "options/arguments.h"
 #include "options/values/value_types.h"
 
 namespace bdpt::app {
@@ -64,7 +65,8 @@ ValueType<ViewDirection> view_direction()
         {"bottom", {0.0f, -quarter}},
         {"three-quarter", three_quarter_view},
     }};
-    const auto parse = [](const std::string& text) -> std::optional<ViewDirection> {
+    const auto parse = [](const std::string& given) -> std::optional<ViewDirection> {
+        const std::string text = lower_case(given);
         for (const auto& [name, direction] : named) {
             if (text == name) {
                 return direction;

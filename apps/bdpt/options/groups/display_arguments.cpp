@@ -97,7 +97,7 @@ void add_display_options(OptionList& options, DisplayArguments& display)
         "or "
         "by the light that falls in, so that a white card comes out white (light); auto+1 or "
         "light-0.5 is that and more or less, +1 alone is 1 EV. Default: light with --background, "
-        "--orbit and --frames, else auto",
+        "--orbit and --frames, and under the default sky and the studio; else auto",
         display.exposure,
         parsed_by(parse_exposure,
                   "EV from -100 to 100, auto or light, or one of these with EV behind it like "

@@ -17,7 +17,9 @@ std::string list_cameras(std::span<const CameraDesc> cameras)
     constexpr std::size_t longest_list = 8;
     std::string result;
     for (std::size_t i = 0; i < std::min(cameras.size(), longest_list); ++i) {
-        result += fmt::format("{}{} \"{}\"", i == 0 ? "" : ", ", i, cameras[i].name);
+        const std::string& name = cameras[i].name;
+        result += fmt::format("{}{}{}", i == 0 ? "" : ", ", i,
+                              name.empty() ? "" : fmt::format(" \"{}\"", name));
     }
     return result + (cameras.size() > longest_list ? ", ..." : "");
 }

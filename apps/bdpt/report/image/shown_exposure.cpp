@@ -23,24 +23,17 @@ std::optional<float> metered_in(const nlohmann::json& settings)
     return settings["light_exposure"].get<float>();
 }
 
-/// Without a sky behind the scene, and for frames, which must not flicker.
-ExposureBase default_base(const nlohmann::json& settings)
-{
-    const bool by_light =
-        settings.is_object() && (settings.contains("background") || settings.contains("frame"));
-    return by_light ? ExposureBase::light : ExposureBase::automatic;
-}
-
 }  // namespace
 
 float shown_exposure(const std::optional<Exposure>& asked, const io::ImageMetadata& metadata,
                      const Image& image)
 {
     const nlohmann::json settings = settings_in(metadata);
-    const Exposure exposure = asked.value_or(Exposure{.base = default_base(settings)});
+    const Exposure exposure = asked.value_or(Exposure{.base = ExposureBase::light});
     if (exposure.base == ExposureBase::radiance) {
         return exposure.value;
     }
+    // Light is metered only where it is the default, or asked for.
     const std::optional<float> metered =
         exposure.base == ExposureBase::light ? metered_in(settings) : std::nullopt;
     return exposure.value + (metered ? *metered : io::automatic_exposure(image));

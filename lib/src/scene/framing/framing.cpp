@@ -38,6 +38,39 @@ constexpr int box_places = 30;
 constexpr float box_agreement = 0.5f;  // how much the free directions agree on the missing wall
 constexpr float enclosed_escape = 0.02f;
 
+// Thresholds that tell flat and long objects from others, found by looking at models of both kinds.
+constexpr float board_depth = 0.26f;  // of the lesser of the other two extents: labels, reliefs
+constexpr float plate_height = 0.1f;  // likewise: floors, terrains
+constexpr float row_length = 4.0f;    // times the greater of the other two extents
+
+constexpr ViewDirection board_view{.azimuth = 0.2617994f,
+                                   .elevation = 0.1396263f};  // 15, 8 degrees
+constexpr float quarter_turn = 1.5707964f;
+constexpr float plate_elevation = 0.7853982f;  // 45 degrees
+
+/// Where to look at an object from, by the extents of its bounds: a board nearly from its front, as
+/// what is on it is not seen aslant; a plate from higher above; a row from its long side.
+ViewDirection direction_for(Vec3 extent)
+{
+    const float aside = quarter_turn - board_view.azimuth;
+    if (extent.z < board_depth * std::min(extent.x, extent.y)) {
+        return board_view;
+    }
+    if (extent.x < board_depth * std::min(extent.y, extent.z)) {
+        return {.azimuth = aside, .elevation = board_view.elevation};
+    }
+    ViewDirection view = three_quarter_view;
+    if (extent.x > row_length * std::max(extent.y, extent.z)) {
+        view.azimuth = board_view.azimuth;
+    } else if (extent.z > row_length * std::max(extent.x, extent.y)) {
+        view.azimuth = aside;
+    }
+    if (extent.y < plate_height * std::min(extent.x, extent.z)) {
+        view.elevation = plate_elevation;
+    }
+    return view;
+}
+
 CameraDesc look_at(Vec3 from, Vec3 to, float vertical_fov)
 {
     const Vec3 back = normalize(from - to);
@@ -185,10 +218,11 @@ glm::dmat3 turn_about_y(float angle)
 FramedView frame_scene(const Scene& scene, float aspect, const FrameOptions& options)
 {
     const World& world = scene.world();
+    const ViewDirection direction =
+        options.direction.value_or(direction_for(world.bounds().max - world.bounds().min));
     FramedView view;
     view.camera =
-        frame_from_outside(world, axes_towards(options.direction.value_or(three_quarter_view)),
-                           aspect, object_margin, options);
+        frame_from_outside(world, axes_towards(direction), aspect, object_margin, options);
     view.lamp_position = Vec3(view.camera.world_from_camera[3]);
     if (options.direction || options.projection == Projection::orthographic) {
         return view;

@@ -51,8 +51,8 @@ Image read_any(ByteView bytes, const ReadLimits& limits, Warnings& warnings,
         return read_tiff(bytes, limits, memory);
     }
     if (is_display_image(bytes)) {
-        warnings.add("an image for screens: nothing in it is brighter than white",
-                     "--env-intensity scales it");
+        warnings.add("nothing in it is brighter than white (--env-intensity scales it)",
+                     "an image for screens");
         return read_display_image(bytes, limits, warnings, memory);
     }
     const auto kind = other_kind(bytes);

@@ -123,9 +123,13 @@ private:
         for (const std::uint8_t value : {model, std::uint8_t{1}, transfer, flags}) {
             result += static_cast<char>(value);
         }
-        result += number(0, 12);
-        for (const std::uint8_t channel : channels) {
-            result += number(0, 3) + static_cast<char>(channel) + number(0, 12);
+        const bool is_plain = format != 0;
+        const std::size_t block_bytes = is_plain ? channels.size() : model == 163 ? 8 : 16;
+        result += number(is_plain ? 0 : 0x0303, 4) + number(block_bytes, 8);
+        const std::size_t bits = is_plain ? 8 : 8 * block_bytes;
+        for (std::size_t i = 0; i < channels.size(); ++i) {
+            result += number(i * bits, 2) + number(bits - 1, 1) + static_cast<char>(channels[i]);
+            result += number(0, 8) + number(is_plain ? 255 : UINT32_MAX, 4);
         }
         return result;
     }

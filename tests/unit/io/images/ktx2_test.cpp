@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
@@ -166,7 +167,7 @@ TEST_CASE("KTX2 headers that lie are refused before a library sees the file")
         {sound, ""},
         {"\xabKTX 11\xbb\r\n\x1a\n" + sound.substr(12), "not of version 2"},
         {sound.substr(0, 12), "ends within its header, after 12 bytes"},
-        {sound.substr(0, 90), "ends within its header, after 90 bytes"},
+        {sound.substr(0, 50), "ends within its header, after 50 bytes"},
         {sound.substr(0, 110),
          "the data format descriptor has 44 bytes from byte 104 on, but the "
          "file ends at byte 110"},
@@ -240,7 +241,7 @@ TEST_CASE("KTX2 headers that lie are refused before a library sees the file")
     const std::size_t place = whole.find("KTXwriter") - 4;
     CHECK(contains(fault(Ktx2File::patched(whole, place, 0xffffffff)),
                    "its metadata is broken at byte 0"));
-    CHECK(fault(Ktx2File::patched(whole, place, 0)).empty());
+    CHECK(contains(fault(Ktx2File::patched(whole, place, 0)), "its metadata is broken at byte 4"));
     // No number of a sound file, whatever it becomes, makes it read or write where it must not.
     for (std::size_t at = 0; at < whole.size(); ++at) {
         for (const int value : {0, 1, 127, 128, 255}) {
@@ -483,6 +484,40 @@ TEST_CASE("libktx itself decodes what encoders write")
     packed.supercompression = 2;
     packed.levels = {{std::string("\x28\xb5\x2f\xfd\x20\x06\x31\x00\x00", 9) + "abcdef", 6}};
     CHECK(decode(packed.bytes(), *library).image.bytes == Texels{'a', 'b', 'c', 'd', 'e', 'f'});
+}
+
+TEST_CASE("textures of real models are decoded as the transcoder of Basis Universal itself does")
+{
+    const auto library = real_library();
+    const char* const folder = std::getenv("BDPT_TEST_ASSETS");
+    if (!library || folder == nullptr) {
+        WARN("skipped: BDPT_TEST_ASSETS or BDPT_TEST_KTX is not set");
+        return;
+    }
+    const LoadedScene balloon =
+        load_gltf(fs::path(folder) / "CesiumBalloonKTX2/CesiumBalloonKTX2.glb", by(*library));
+    CHECK(balloon.warnings.empty());
+    // Means of red, green and blue, by Basis Universal 2.10.
+    constexpr std::array<std::array<double, 3>, 3> means{
+        {{129.361, 171.975, 166.998}, {182.899, 159.124, 125.032}, {97.592, 97.592, 97.592}}};
+    REQUIRE(balloon.scene.images.size() == means.size());
+    for (std::size_t i = 0; i < means.size(); ++i) {
+        const TexelImage& image = balloon.scene.images[i];
+        REQUIRE(image.channels == 3);
+        std::array<double, 3> sum{};
+        for (std::size_t k = 0; k < image.bytes.size(); ++k) {
+            sum.at(k % 3) += image.bytes[k];
+        }
+        for (std::size_t c = 0; c < 3; ++c) {
+            CAPTURE(i, c);
+            const double mean = sum.at(c) * 3 / static_cast<double>(image.bytes.size());
+            CHECK(std::abs(mean - means.at(i).at(c)) < 0.01);
+        }
+    }
+    const LoadedScene lamp =
+        load_gltf(fs::path(folder) / "AnisotropyBarnLamp/AnisotropyBarnLamp.gltf", by(*library));
+    CHECK(lamp.scene.images.size() == 4);
+    CHECK(warns(lamp.warnings, {"VkFormat 23, not Basis Universal", "2 more"}));
 }
 
 TEST_CASE("broken KTX2 images do no harm to libktx's caller")

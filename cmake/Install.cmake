@@ -42,6 +42,9 @@ if(BDPT_BUILD_IO)
   # So is the reader of volumes.
   install(TARGETS bdpt_oiio LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/bdpt"
           COMPONENT bdpt_openimageio)
+  # It needs no library but the one that it opens at run time.
+  install(TARGETS bdpt_ktx_reader RUNTIME DESTINATION "${CMAKE_INSTALL_LIBDIR}/bdpt"
+          COMPONENT bdpt_runtime)
   if(BDPT_HAS_OPENVDB)
     install(TARGETS bdpt_vdb_reader RUNTIME DESTINATION "${CMAKE_INSTALL_LIBDIR}/bdpt"
             COMPONENT bdpt_openvdb)

@@ -33,6 +33,8 @@ install(FILES "${package}/__init__.py" "${package}/_signatures.py" "${package}/p
 if(DEFINED SKBUILD)
   # A wheel has bdpt_io in its module, which finds companions beside itself.
   install(TARGETS bdpt_oiio LIBRARY DESTINATION "${BDPT_PYTHON_INSTALL_DIR}/bdpt" COMPONENT bdpt_python_companions)
+  install(TARGETS bdpt_ktx_reader RUNTIME DESTINATION "${BDPT_PYTHON_INSTALL_DIR}/bdpt"
+          COMPONENT bdpt_python_companions)
   if(BDPT_HAS_OPENVDB)
     install(TARGETS bdpt_vdb_reader RUNTIME DESTINATION "${BDPT_PYTHON_INSTALL_DIR}/bdpt"
             COMPONENT bdpt_python_companions)

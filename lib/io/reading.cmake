@@ -18,6 +18,9 @@ target_sources(bdpt_io PRIVATE
   src/image/image_cache.cpp
   src/image/image_size.cpp
   src/image/jpeg_image.cpp
+  src/image/ktx2_decoder.cpp
+  src/image/ktx2_header.cpp
+  src/image/ktx2_image.cpp
   src/image/png_image.cpp
   src/image/texels.cpp
   src/image/webp_image.cpp
@@ -40,8 +43,9 @@ target_sources(bdpt_io PRIVATE
   src/ies/ies_file.cpp
   src/ies/ies_numbers.cpp
   src/ies/ies_profile.cpp
-  # volumes: OpenVDB, by a process of its own
-  src/volume/child_process.cpp
+  # programs that read files in a process of their own
+  src/process/child_process.cpp
+  # volumes: OpenVDB, by such a program
   src/volume/vdb_file.cpp
   src/volume/volume.cpp
   # glTF, each folder including those above it only. What a document must be before any library sees it
@@ -136,6 +140,7 @@ bdpt_add_companion(bdpt_oiio)
 if(BDPT_HAS_OPENVDB)
   add_executable(bdpt_vdb_reader
     src/vdb_reader/dense_densities.cpp
+    src/process/limited_process.cpp
     src/vdb_reader/grid_choice.cpp
     src/vdb_reader/main.cpp
     src/vdb_reader/whole_file.cpp)
@@ -150,6 +155,21 @@ if(BDPT_HAS_OPENVDB)
   endif()
   bdpt_add_companion(bdpt_vdb_reader)
 endif()
+
+# libktx is opened by a program, which is started for each KTX2 image (src/image/ktx_reply.h).
+add_executable(bdpt_ktx_reader
+  src/ktx_reader/ktx_functions.cpp
+  src/ktx_reader/main.cpp
+  src/process/limited_process.cpp)
+set_target_properties(bdpt_ktx_reader PROPERTIES OUTPUT_NAME bdpt-read-ktx)
+bdpt_compile_options(bdpt_ktx_reader)
+target_include_directories(bdpt_ktx_reader PRIVATE src
+  $<TARGET_PROPERTY:bdpt,INTERFACE_INCLUDE_DIRECTORIES>)
+target_link_libraries(bdpt_ktx_reader PRIVATE ${CMAKE_DL_LIBS})
+if(BDPT_SANITIZE)
+  target_compile_definitions(bdpt_ktx_reader PRIVATE BDPT_SANITIZED)
+endif()
+bdpt_add_companion(bdpt_ktx_reader)
 
 # The library looks for its companions beside the file that holds its code, and where they are installed
 # relative to that: a shared library, or the program that a static one is linked into. It never looks

@@ -15,7 +15,7 @@ LAYERS = {"math": 1, "threads": 1, "film": 2, "identity": 2, "profile": 2, "rate
           "scene": 5, "path": 6, "integrator": 7, "pilot": 8, "render": 9, "inspect": 10}
 COMMAND_LAYERS = {"terminal": 1, "options": 2, "plan": 3, "stage": 3, "report": 4, "commands": 5}
 # The same of lib/io/src. Headers are named by their folder there too.
-IO_LAYERS = {"file": 1, "image": 2, "ies": 2, "output": 2, "volume": 2, "denoise": 2, "image/linear": 3, "part": 4, "oiio_module": 4, "vdb_reader": 4, "gltf/checks": 3, "gltf/compression": 4,
+IO_LAYERS = {"file": 1, "process": 1, "image": 2, "ies": 2, "output": 2, "volume": 2, "denoise": 2, "image/linear": 3, "part": 4, "oiio_module": 4, "vdb_reader": 4, "ktx_reader": 4, "gltf/checks": 3, "gltf/compression": 4,
              "gltf/document": 5, "gltf/animation": 6, "gltf/geometry": 7, "gltf/material": 7, "gltf/light_camera": 7,
              "gltf/scene": 8}
 MAX_LINES = 600
@@ -41,6 +41,7 @@ ALLOWED = {
     "lib/io/src/gltf": [r"glm/", FILE_LIBRARIES, r"draco/", r"meshoptimizer\.h", r"(oneapi/)?tbb/"],
     "lib/io/src/oiio_module": [r"OpenImageIO/"],
     "lib/io/src/vdb_reader": [r"openvdb/", r"oneapi/tbb/", POSIX],
+    "lib/io/src/ktx_reader": [POSIX],
     "lib/eval/include": [],
     "lib/eval/src": [r"glm/", r"nlohmann/", r"(oneapi/)?tbb/", r"zlib\.h"],
     "apps": [r"glm/", r"nlohmann/", r"fmt/", POSIX],

@@ -41,7 +41,7 @@ void decode(ByteView bytes)
 
 }  // namespace
 
-/// Images of all formats: PNG, JPEG, WebP, OpenEXR and Radiance HDR.
+/// Images of all formats: PNG, JPEG, WebP, OpenEXR and Radiance HDR; of KTX2 the headers.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     try {

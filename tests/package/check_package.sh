@@ -303,7 +303,7 @@ make_debian_packages() {
   for file in share/man/man1/bdpt-render.1 share/bash-completion/completions/bdpt \
     share/zsh/vendor-completions/_bdpt share/fish/vendor_completions.d/bdpt.fish \
     share/doc/bdpt/copyright share/doc/bdpt/docs/render.md include/bdpt/render.h \
-    lib/bdpt/libbdpt_oiio.so lib/libbdpt.so lib/cmake/bdpt/bdptConfig.cmake; do
+    lib/bdpt/libbdpt_oiio.so lib/bdpt/bdpt-read-ktx lib/libbdpt.so lib/cmake/bdpt/bdptConfig.cmake; do
     [[ -s $folder/unpacked/usr/$file ]] || fail "no $file"
   done
   check_python_package "$folder"

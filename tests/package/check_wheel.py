@@ -22,7 +22,7 @@ def main():
 
     # What is loaded or started when it is needed is in the wheel.
     companions = {file.name for file in pathlib.Path(bdpt.__file__).parent.iterdir()}
-    assert {"libbdpt_oiio.so", "_bdpt.pyi", "py.typed"} <= companions, companions
+    assert {"libbdpt_oiio.so", "bdpt-read-ktx", "_bdpt.pyi", "py.typed"} <= companions, companions
     assert ("bdpt-read-vdb" in companions) == openvdb, companions
     files = {"env": folder / "sky.tif", **({"volume": folder / "smoke.vdb"} if openvdb else {})}
     with_all = bdpt.render(bdpt.load(folder / "cornell-box.gltf", **files), spp=2, size=(12, 8), integrator="mis")

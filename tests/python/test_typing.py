@@ -19,7 +19,7 @@ FUNCTIONS = {"load": bdpt.load, "render": bdpt.render, "save": bdpt.Render.save}
 # Options of `bdpt render` that Python says in another way, or that concern one process of the command.
 OF_THE_COMMAND = {"file", "output", "float", "stats", "profile", "save_rates", "strategies", "strategy_depth", "part",
                   "fps", "cameras", "full_paths"}
-NOT_IN_JOBS = {"denoiser_library"}  # it names code that is loaded
+NOT_IN_JOBS = {"denoiser_library", "ktx_library"}  # they name code that is loaded
 
 PROGRAM = '''
 import pathlib

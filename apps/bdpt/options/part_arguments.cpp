@@ -50,7 +50,7 @@ void add_part_options(OptionList& options, PartChoice& part)
     options
         .add("--plan", "FILE",
              "Render one task of this plan (bdpt plan), which says all but --threads, "
-             "--max-memory, --stats, --restart, --quiet and --json",
+             "--max-memory, --stats, --ktx-library, --restart, --quiet and --json",
              part.plan, any_text())
         .uses.job = false;
     options

@@ -20,8 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
 
-constexpr std::array<std::string_view, 5> of_a_process{"--plan", "--task", "--threads",
-                                                       "--max-memory", "--stats"};
+constexpr std::array<std::string_view, 6> of_a_process{"--plan",       "--task",  "--threads",
+                                                       "--max-memory", "--stats", "--ktx-library"};
 constexpr std::array<std::string_view, 4> flags_of_a_process{"--restart", "-q", "--quiet",
                                                              "--json"};
 
@@ -62,7 +62,8 @@ void check_render_words(const Words& words)
         } else if (!has(of_a_process, name_of(words[i])) && !has(flags_of_a_process, words[i])) {
             throw OptionError(
                 fmt::format("--plan: it says what is rendered, so beside it there may be --task, "
-                            "--threads, --max-memory, --stats, --restart, --quiet and --json, but "
+                            "--threads, --max-memory, --stats, --ktx-library, --restart, --quiet "
+                            "and --json, but "
                             "not \"{}\"",
                             words[i]));
         }

@@ -188,6 +188,7 @@ TEST_CASE("mistakes in a job are told with their place", "[job]")
     told(R"("size": [640, "x"])", "/size: must be WIDTHxHEIGHT");
     told(R"("denoise": true, "denoiser_library": "evil.so")",
          "/\"denoiser_library\": is no option");
+    told(R"("ktx_library": "evil.so")", "/\"ktx_library\": is no option");
     told(R"("plan": "plan.json", "task": 0)", "/\"plan\": is no option of a job");
     told(R"("quiet": true)", "/\"quiet\": is no option of a job");
     const auto refused = [&](const std::string& text, const std::string& message, int code = 4) {

@@ -139,7 +139,8 @@ TEST_CASE("a plan has no words that write elsewhere, load code or call a machine
          {"--stats=" + elsewhere, "--part=" + elsewhere, "-o" + elsewhere, "--output=" + elsewhere,
           "--save-rates=" + elsewhere, "--strategies=" + elsewhere,
           std::string("--display=localhost"), std::string("--restart"), "--env=" + elsewhere,
-          "--rates=" + elsewhere, "--denoiser-library=" + elsewhere, "--volume=" + elsewhere,
+          "--rates=" + elsewhere, "--denoiser-library=" + elsewhere, "--ktx-library=" + elsewhere,
+          "--volume=" + elsewhere,
           elsewhere, std::string("--plan=other"), std::string("--config=x")}) {
         refused("render", word);
         refused("merge", word);

@@ -44,6 +44,17 @@ void add_scene_options(OptionList& options, io::GltfOptions& scene,
                 parsed_by([](const std::string& text) { return parse_shutter(text); },
                           "seconds that are not negative, or OPEN,CLOSE with OPEN not after "
                           "CLOSE"));
+    Option& library =
+        options.add("--ktx-library", "FILE|DIR",
+                    "libktx 4, which decodes KTX2 textures (KHR_texture_basisu), a file or its "
+                    "folder. Default: libktx.so.4 where the system finds it",
+                    scene.ktx_library, some_text("a file or a folder"));
+    library.uses.plan_render = false;  // no file says what code is loaded
+    library.uses.job = false;
+    options.add_flag("--ignore-required",
+                     "Render files that require extensions which bdpt does not support, or libktx "
+                     "where there is none, without what these add",
+                     scene.ignore_required);
     options.add("--max-memory", "SIZE",
                 "Refuse scenes that need more memory than this, like 500M or 2G; a render counts "
                 "its film and layers, too. Default, and never more: what the machine has free, the "

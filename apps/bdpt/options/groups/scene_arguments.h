@@ -10,7 +10,7 @@
 namespace bdpt::app {
 
 /// Adds --scene, --variant, --frame-time, --animation and --shutter, which choose what of a file is
-/// loaded, and --max-memory [bytes].
+/// loaded, --ktx-library and --ignore-required, which say how, and --max-memory [bytes].
 void add_scene_options(OptionList& options, io::GltfOptions& scene,
                        std::optional<std::uint64_t>& max_memory);
 

@@ -12,6 +12,8 @@
 
 namespace bdpt::io {
 
+class Ktx2Decoder;  // image/ktx2_decoder.h
+
 /// What all steps of loading one file share.
 struct LoadContext {
     std::filesystem::path folder;  ///< that relative URIs start from
@@ -20,6 +22,8 @@ struct LoadContext {
     DataBudget budget{limits, memory};
     Warnings warnings{};
     ImageCache* images = nullptr;  ///< of other loads, if there is one
+    Ktx2Decoder* ktx2 = nullptr;   ///< null: KTX2 images are not decoded
+    bool ignore_required = false;  ///< `GltfOptions::ignore_required`
 
     /// Adds a warning.
     void warn(const std::string& kind, const std::string& place) { warnings.add(kind, place); }

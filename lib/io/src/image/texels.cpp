@@ -18,7 +18,9 @@ bool has(ByteView bytes, std::string_view magic, std::size_t offset = 0)
                       [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
 }
 
-std::variant<PngImage, JpegImage, WebpImage> open(ByteView bytes)
+using ImageFile = std::variant<PngImage, JpegImage, WebpImage, Ktx2Image>;
+
+ImageFile open(ByteView bytes, Ktx2Decoder* ktx2)
 {
     if (has(bytes, "\x89PNG\r\n\x1a\n")) {
         return PngImage(bytes);
@@ -29,14 +31,14 @@ std::variant<PngImage, JpegImage, WebpImage> open(ByteView bytes)
     if (has(bytes, "RIFF") && has(bytes, "WEBP", 8)) {
         return WebpImage(bytes);
     }
-    if (has(bytes, "\xabKTX")) {
-        throw std::runtime_error("KTX images are not supported");
+    if (is_ktx(bytes)) {
+        return Ktx2Image(bytes, ktx2);
     }
-    throw std::runtime_error("neither PNG, JPEG nor WebP");
+    throw std::runtime_error("neither PNG, JPEG, WebP nor KTX2");
 }
 
 /// The image without its texels.
-TexelImage layout_of(const std::variant<PngImage, JpegImage, WebpImage>& file)
+TexelImage layout_of(const ImageFile& file)
 {
     return std::visit(
         [](const auto& image) {
@@ -52,7 +54,8 @@ TexelImage layout_of(const std::variant<PngImage, JpegImage, WebpImage>& file)
 
 }  // namespace
 
-EncodedImage::EncodedImage(ByteView bytes, const ReadLimits& limits) : file_(open(bytes))
+EncodedImage::EncodedImage(ByteView bytes, const ReadLimits& limits, Ktx2Decoder* ktx2)
+    : file_(open(bytes, ktx2))
 {
     const TexelImage layout = layout_of(file_);
     const std::uint64_t texel_bytes =
@@ -71,6 +74,10 @@ DecodedImage EncodedImage::decode() &&
     std::visit([&](auto& image) { image.read(decoded.image.bytes.data()); }, file_);
     if (const auto* const jpeg = std::get_if<JpegImage>(&file_)) {
         decoded.damage = jpeg->damage();
+    }
+    if (const auto* const ktx2 = std::get_if<Ktx2Image>(&file_)) {
+        decoded.remarks = ktx2->header().remarks;
+        decoded.encoding = ktx2->header().encoding;
     }
     return decoded;
 }

@@ -2,6 +2,7 @@
 
 #include "file/bytes.h"
 #include "image/jpeg_image.h"
+#include "image/ktx2_image.h"
 #include "image/png_image.h"
 #include "image/webp_image.h"
 
@@ -11,6 +12,7 @@
 #include <cstdint>
 #include <string>
 #include <variant>
+#include <vector>
 
 namespace bdpt::io {
 
@@ -18,16 +20,19 @@ namespace bdpt::io {
 struct DecodedImage {
     TexelImage image{};
     std::string damage{};  ///< what is wrong with the file, though it could be decoded; or empty
+    /// What the file should not have been, though all of it could be decoded.
+    std::vector<std::string> remarks{};
+    ColorEncoding encoding = ColorEncoding::unknown;  ///< as the file says
 };
 
-/// A PNG, JPEG or WebP image, told apart by its first bytes, whose size is known and within the
-/// limits, and which has not been decoded.
+/// A PNG, JPEG, WebP or KTX2 image, told apart by its first bytes, whose size is known and within
+/// the limits, and which has not been decoded.
 class EncodedImage {
 public:
-    /// `bytes` must stay as long as the image. Throws `Error` (invalid_input) when it is too large,
-    /// std::runtime_error when it is no such image or broken, so that the caller may go on without
-    /// it.
-    EncodedImage(ByteView bytes, const ReadLimits& limits);
+    /// `bytes` and `ktx2` must stay as long as the image; null: KTX2 is not decoded. Throws `Error`
+    /// (invalid_input) when it is too large, std::runtime_error when it is no such image or broken,
+    /// so that the caller may go on without it.
+    EncodedImage(ByteView bytes, const ReadLimits& limits, Ktx2Decoder* ktx2 = nullptr);
 
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }
@@ -40,7 +45,7 @@ public:
     [[nodiscard]] DecodedImage decode() &&;
 
 private:
-    std::variant<PngImage, JpegImage, WebpImage> file_;
+    std::variant<PngImage, JpegImage, WebpImage, Ktx2Image> file_;
     int width_ = 0;
     int height_ = 0;
     std::uint64_t decoded_bytes_ = 0;

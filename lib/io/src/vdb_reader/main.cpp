@@ -4,6 +4,7 @@
 
 #include <bdpt/error.h>
 
+#include "process/limited_process.h"
 #include "vdb_reader/dense_densities.h"
 #include "vdb_reader/grid_choice.h"
 #include "vdb_reader/whole_file.h"
@@ -12,12 +13,7 @@
 #include <openvdb/openvdb.h>
 
 #include <oneapi/tbb/global_control.h>
-#include <signal.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <cerrno>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -29,56 +25,8 @@
 namespace bdpt::vdb {
 namespace {
 
-void limit(decltype(RLIMIT_AS) resource, std::uint64_t most)
-{
-    rlimit limits{};
-    getrlimit(resource, &limits);
-    limits.rlim_cur = std::min<rlim_t>(limits.rlim_max, most);
-    setrlimit(resource, &limits);
-}
-
-/// What the process may use besides what the program itself takes.
-struct Allowance {
-    std::uint64_t memory;   // [bytes]
-    std::uint64_t seconds;  // of a processor
-};
-
-void allow(const Allowance& allowance)
-{
-    limit(RLIMIT_CPU, allowance.seconds);
-#ifndef BDPT_SANITIZED  // sanitizers take far more, but do not use it
-    constexpr std::uint64_t program = std::uint64_t{256} << 20U;
-    limit(RLIMIT_AS, std::min(allowance.memory, UINT64_MAX / 2) + program);
-#endif
-}
-
-/// Before anything is read. Signals to a group of processes are for who started this, and this ends
-/// with that.
-void limit_process(const Allowance& allowance)
-{
-    for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) {
-        signal(number, SIG_IGN);
-    }
-    limit(RLIMIT_CORE, 0);
-    limit(RLIMIT_FSIZE, 1U << 20U);  // of messages
-    allow(allowance);
-}
-
-void write(const void* bytes, std::size_t size)
-{
-    const auto* next = static_cast<const char*>(bytes);
-    while (size > 0) {
-        const ssize_t count = ::write(STDOUT_FILENO, next, size);
-        if (count < 0 && errno != EINTR) {
-            throw Error(ErrorCode::output, "nobody reads what it writes");
-        }
-        next += std::max<ssize_t>(count, 0);
-        size -= static_cast<std::size_t>(std::max<ssize_t>(count, 0));
-    }
-}
-
 void read(const std::string& name, const std::string& wanted, std::uint64_t most_bytes,
-          Allowance allowance)
+          io::Allowance allowance)
 {
     openvdb::initialize();
     check_whole_file(name);
@@ -86,14 +34,14 @@ void read(const std::string& name, const std::string& wanted, std::uint64_t most
     file.open(/*delayLoad=*/false);
     const openvdb::GridBase::Ptr grid = file.readGrid(chosen_grid(file, wanted));
     const io::VdbReply header = header_of(*grid, most_bytes);
-    write(&header, sizeof(header));
+    io::write_output(&header, sizeof(header));
     // From here on the work is as large as the densities, which `header_of` has limited.
     constexpr std::uint64_t bytes_per_second = std::uint64_t{64} << 20U;
     allowance.memory += slab_bytes(header);
     allowance.seconds += density_bytes(header) / bytes_per_second;
-    allow(allowance);
+    io::allow(allowance);
     write_densities(*grid, header, [](std::span<const float> densities) {
-        write(densities.data(), densities.size_bytes());
+        io::write_output(densities.data(), densities.size_bytes());
     });
 }
 
@@ -111,8 +59,8 @@ int run(std::span<char*> words)
                       "expected FILE GRID BYTES MEMORY SECONDS; bdpt --volume starts it");
     }
     const auto number = [&](std::size_t word) { return std::strtoull(words[word], nullptr, 10); };
-    const Allowance allowance{.memory = number(4), .seconds = number(5)};
-    limit_process(allowance);
+    const io::Allowance allowance{.memory = number(4), .seconds = number(5)};
+    io::limit_process(allowance);
     // Threads would take address space, and change nothing: reading is not parallel.
     const tbb::global_control serial(tbb::global_control::max_allowed_parallelism, 1);
     try {

@@ -3,7 +3,7 @@
 #include "file/companion.h"
 #include "file/file_kind.h"
 #include "file/read_file.h"
-#include "volume/child_process.h"
+#include "process/child_process.h"
 
 #include <bdpt/error.h>
 

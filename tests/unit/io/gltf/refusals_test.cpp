@@ -35,7 +35,7 @@ const std::vector<Refusal>& refusals()
          },
          "/extensionsRequired/1: the file requires \"EXT_odd\"", ErrorCode::unsupported},
         {"required extension that is merely known",
-         [](Json& j) { j["extensionsRequired"] = {"KHR_texture_basisu"}; }, "KHR_texture_basisu",
+         [](Json& j) { j["extensionsRequired"] = {"EXT_texture_avif"}; }, "EXT_texture_avif",
          ErrorCode::unsupported},
         {"extension name", [](Json& j) { j["extensionsUsed"] = {1}; },
          "/extensionsUsed/0: must be a string, but is 1"},

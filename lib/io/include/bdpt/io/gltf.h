@@ -53,6 +53,13 @@ struct GltfOptions {
     /// Images that are in it are not decoded again, others are added; none: nothing is kept. What
     /// it holds is not counted by `limits`.
     std::shared_ptr<ImageCache> images{};
+    /// libktx 4 of Khronos, which decodes KTX2 textures (KHR_texture_basisu): a file, or a folder
+    /// with libktx.so.4; none: what the system finds by that name. It is opened by the program
+    /// bdpt-read-ktx, in a process of its own for each image, and for files with such textures only.
+    std::optional<std::filesystem::path> ktx_library{};
+    /// A file that requires extensions which are not supported loads without what they add, with a
+    /// warning. Compressed meshes stay required.
+    bool ignore_required = false;
 };
 
 /// What we make of a glTF extension.
@@ -117,7 +124,8 @@ struct LoadedScene {
 /// not_found (a file that is missing or unreadable; no such scene, variant or animation),
 /// usage (times that are not finite, or a shutter that closes before it opens),
 /// invalid_input (broken, unsafe or ambiguous, or over a limit), unsupported (a required extension,
-/// or a glTF version, that we do not have). What is merely not conforming becomes a warning.
+/// or a glTF version, that we do not have;
+/// KHR_texture_basisu where there is no libktx). What is merely not conforming becomes a warning.
 [[nodiscard]] BDPT_EXPORT LoadedScene load_gltf(const std::filesystem::path& file,
                                                 const GltfOptions& options = {});
 

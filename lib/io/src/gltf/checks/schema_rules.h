@@ -35,6 +35,7 @@ inline constexpr std::array texture_rules{
     SchemaRule{"source", Kind::index, "images"},
     SchemaRule{"sampler", Kind::index, "samplers"},
     SchemaRule{"extensions/EXT_texture_webp/source", Kind::index, "images"},
+    SchemaRule{"extensions/KHR_texture_basisu/source", Kind::index, "images"},
 };
 
 inline constexpr std::array schema_rules{
@@ -193,6 +194,7 @@ inline constexpr std::array schema_rules{
     SchemaRule{"textures/*", Kind::object},
     SchemaRule{"textures/*/extensions", Kind::object},
     SchemaRule{"textures/*/extensions/EXT_texture_webp", Kind::object},
+    SchemaRule{"textures/*/extensions/KHR_texture_basisu", Kind::object},
     SchemaRule{"cameras/*", Kind::object},
     SchemaRule{"cameras/*/type!", Kind::string},
     SchemaRule{"cameras/*/perspective", Kind::object},

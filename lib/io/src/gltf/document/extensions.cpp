@@ -3,11 +3,14 @@
 #include "file/uri.h"
 #include "gltf/compression/draco_decoder.h"
 #include "gltf/compression/meshopt_decoder.h"
+#include "image/ktx2_decoder.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <string>
 
 namespace bdpt::io {
 
@@ -42,6 +45,7 @@ constexpr std::array table{
     ExtensionSupport{"KHR_meshopt_compression", supported,
                      "where meshoptimizer is installed; not the filter COLOR"},
     ExtensionSupport{"KHR_node_visibility", supported, ""},
+    ExtensionSupport{"KHR_texture_basisu", supported, "where libktx is installed"},
     ExtensionSupport{"KHR_texture_transform", supported, ""},
     ExtensionSupport{"EXT_lights_ies", supported, "TILT is ignored"},
     ExtensionSupport{"EXT_lights_image_based", supported,
@@ -61,7 +65,6 @@ constexpr std::array table{
                      "the core textures are used"},
     ExtensionSupport{"MSFT_lod", supported, "the finest level is shown"},
     // Without these the image lacks something.
-    ExtensionSupport{"KHR_texture_basisu", ignored, "only fallback images are read"},
     ExtensionSupport{"MSFT_texture_dds", ignored, "only fallback images are read"},
     ExtensionSupport{"EXT_texture_avif", ignored, "only fallback images are read"},
 };
@@ -71,6 +74,30 @@ bool is_missing(std::string_view name)
 {
     return (name == "KHR_draco_mesh_compression" && !has_draco()) ||
            (name.ends_with("_meshopt_compression") && !has_meshopt());
+}
+
+/// Without what these add there is no sensible mesh.
+bool is_about_meshes(std::string_view name)
+{
+    return name == "KHR_draco_mesh_compression" || name.ends_with("_meshopt_compression") ||
+           name == "KHR_mesh_quantization";
+}
+
+/// Why a file that requires an extension cannot be loaded as it is meant to be; none: it can.
+std::optional<std::string> obstacle_to(const ExtensionUse& use, LoadContext& context)
+{
+    if (is_missing(use.name)) {
+        return fmt::format("requires {}, which this build cannot decode", quote(use.name));
+    }
+    if (use.status != supported) {
+        return fmt::format("requires {}, which is not supported", quote(use.name));
+    }
+    if (use.name == "KHR_texture_basisu" && context.ktx2 != nullptr) {
+        if (const std::string* const obstacle = context.ktx2->obstacle()) {
+            return fmt::format("requires {}, KTX2 textures: {}", quote(use.name), *obstacle);
+        }
+    }
+    return std::nullopt;
 }
 
 ExtensionUse describe(const JsonPlace& place)
@@ -135,11 +162,12 @@ std::vector<ExtensionUse> check_extensions(const JsonPlace& root, LoadContext& c
         for (std::size_t i = 0; i < required.size(); ++i) {
             const JsonPlace place = required.element(i);
             ExtensionUse use = describe(place);
-            if (use.status != supported) {
-                place.fail(fmt::format("the file requires {}, which {}", quote(use.name),
-                                       is_missing(use.name) ? "this build cannot decode"
-                                                            : "is not supported"),
-                           ErrorCode::unsupported);
+            if (const auto obstacle = obstacle_to(use, context)) {
+                if (!context.ignore_required || is_about_meshes(use.name)) {
+                    place.fail("the file " + *obstacle, ErrorCode::unsupported);
+                }
+                context.warn("loaded without what the file requires",
+                             place.pointer() + ": it " + *obstacle);
             }
             use.required = true;
             if (find(use.name) == uses.end()) {

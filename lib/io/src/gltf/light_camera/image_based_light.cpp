@@ -135,13 +135,13 @@ CubeMap read_cube(const tinygltf::Model& model, const std::vector<std::size_t>& 
             continue;
         }
         try {
-            const auto [texels, damage] = read_face(model, images[side], context);
-            if (!damage.empty()) {
+            const DecodedImage decoded = read_face(model, images[side], context);
+            if (!decoded.damage.empty()) {
                 context.warn("an image of the environment is damaged; what can be decoded counts",
-                             face_place + ": " + damage);
+                             face_place + ": " + decoded.damage);
             }
             Image& face = cube.faces[side];
-            const std::uint64_t taken = texel_count(texels) * sizeof(Rgb);
+            const std::uint64_t taken = texel_count(decoded.image) * sizeof(Rgb);
             context.budget.memory().check(face_place, taken);
             bytes += taken;
             if (bytes > context.limits.texture_bytes) {
@@ -151,7 +151,7 @@ CubeMap read_cube(const tinygltf::Model& model, const std::vector<std::size_t>& 
                         "all sides together need more than {}",
                         human_bytes(static_cast<long double>(context.limits.texture_bytes))));
             }
-            face = decode_rgbd(texels, face_place, context);
+            face = decode_rgbd(decoded.image, face_place, context);
             if (face.width != face.height || face.width != cube.faces[0].width) {
                 context.warn(
                     "the sides of an environment should be square and of one size",

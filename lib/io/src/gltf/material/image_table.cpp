@@ -103,7 +103,7 @@ void ImageTable::open(Job& job)
         spend(job.decoded.image.bytes.size());
         return;
     }
-    job.encoded.emplace(job.bytes, context_.limits);
+    job.encoded.emplace(job.bytes, context_.limits, context_.ktx2);
     spend(job.encoded->decoded_bytes());
 }
 
@@ -171,10 +171,19 @@ void ImageTable::add(Job& job)
         if (!damage.empty()) {
             context_.warn("the image is damaged; the texture has what can be decoded of it",
                           place + ": " + damage);
-        } else if (job.hash) {  // Whoever loads a damaged image again is told again.
+        }
+        for (const std::string& remark : job.decoded.remarks) {
+            context_.warn("a KTX2 image that KHR_texture_basisu does not allow is used as it is",
+                          place + ": " + remark);
+        }
+        // Whoever loads a damaged image again is told again.
+        if (job.hash && damage.empty() && job.decoded.remarks.empty()) {
             context_.images->keep(*job.hash, job.decoded.image);
         }
         id = static_cast<ImageId>(images_.size());
+        if (job.decoded.encoding != ColorEncoding::unknown) {
+            encodings_.emplace(*id, SaidEncoding{job.index, job.decoded.encoding});
+        }
         images_.push_back(std::move(job.decoded.image));
     } catch (const Error& error) {
         throw Error(error.code(), place + ": " + error.what());
@@ -219,6 +228,17 @@ void ImageTable::decode(const std::vector<std::size_t>& indices,
         }
     }
     finish(batch, tell);
+}
+
+void ImageTable::check_encoding(ImageId id, ColorEncoding wanted)
+{
+    const auto found = encodings_.find(id);
+    if (found != encodings_.end() && found->second.encoding != wanted) {
+        const bool is_srgb = wanted == ColorEncoding::srgb;
+        context_.warn(is_srgb ? "colours of a KTX2 image that says it is linear are read as sRGB"
+                              : "data of a KTX2 image that says it is sRGB is read as linear",
+                      fmt::format("/images/{}", found->second.index));
+    }
 }
 
 std::optional<ImageId> ImageTable::get(std::size_t index)

@@ -36,6 +36,10 @@ public:
     /// be read or decoded.
     [[nodiscard]] std::optional<ImageId> get(std::size_t index);
 
+    /// Warns where an image says that its colours are encoded otherwise than `wanted`, which a
+    /// texture goes by.
+    void check_encoding(ImageId id, ColorEncoding wanted);
+
 private:
     struct Job;
     [[nodiscard]] bool take_kept(Job& job) const;
@@ -47,7 +51,12 @@ private:
     const tinygltf::Model& model_;
     std::vector<TexelImage>& images_;
     LoadContext& context_;
+    struct SaidEncoding {
+        std::size_t index;  // of the image in the document
+        ColorEncoding encoding;
+    };
     std::map<std::size_t, std::optional<ImageId>> known_;
+    std::map<ImageId, SaidEncoding> encodings_;  // of images that say one
     std::uint64_t total_bytes_ = 0;
     std::uint64_t packed_bytes_ = 0;  // of the batch
     std::uint64_t most_packed_ = 0;   // of any batch so far

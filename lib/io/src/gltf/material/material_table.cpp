@@ -53,6 +53,30 @@ std::vector<std::size_t> wanted_images(const tinygltf::Model& model,
     return wanted;
 }
 
+/// Warns of images whose colours are encoded otherwise than their textures need.
+void check_encodings(const MaterialDesc& material, ImageTable& images)
+{
+    const auto check = [&images](const std::optional<TextureRef>& texture, ColorEncoding wanted) {
+        if (texture) {
+            images.check_encoding(texture->image, wanted);
+        }
+    };
+    for (const auto* texture : {&material.base_color_texture, &material.emission_texture,
+                                &material.specular_color_texture, &material.sheen.color_texture,
+                                &material.diffuse_transmission.color_texture}) {
+        check(*texture, ColorEncoding::srgb);
+    }
+    // Alpha is linear in either encoding, so textures of which only that is read do not count.
+    for (const auto* texture :
+         {&material.metallic_roughness_texture, &material.normal_texture,
+          &material.transmission_texture, &material.clearcoat.texture,
+          &material.clearcoat.roughness_texture, &material.clearcoat.normal_texture,
+          &material.anisotropy.texture, &material.iridescence.texture,
+          &material.iridescence.thickness_texture}) {
+        check(*texture, ColorEncoding::linear);
+    }
+}
+
 }  // namespace
 
 std::vector<MaterialDesc> read_materials(
@@ -62,7 +86,11 @@ std::vector<MaterialDesc> read_materials(
     images.decode(wanted_images(model, indices, context), on_progress);
     TextureResolver textures(
         model, [&images](std::size_t image) { return images.get(image); }, context);
-    return read_all(model, indices, textures, context);
+    std::vector<MaterialDesc> materials = read_all(model, indices, textures, context);
+    for (const MaterialDesc& material : materials) {
+        check_encodings(material, images);
+    }
+    return materials;
 }
 
 }  // namespace bdpt::io

@@ -1,5 +1,7 @@
 #include "gltf/material/texture.h"
 
+#include "image/ktx2_decoder.h"
+
 #include <fmt/format.h>
 
 namespace bdpt::io {
@@ -18,13 +20,37 @@ Vec2 pair_or(const tinygltf::Value& object, const std::string& key, Vec2 fallbac
             static_cast<float>(pair.Get(1).GetNumberAsDouble())};
 }
 
-/// The images of a texture, the best first: WebP by its extension, then the one for everybody.
-std::vector<std::size_t> sources(const tinygltf::Texture& texture)
+/// The image of a texture by an extension.
+std::optional<std::size_t> source_of(const tinygltf::Texture& texture, const char* extension)
+{
+    const auto found = texture.extensions.find(extension);
+    if (found == texture.extensions.end() || !found->second.Has("source")) {
+        return std::nullopt;
+    }
+    return static_cast<std::size_t>(found->second.Get("source").GetNumberAsInt());
+}
+
+/// The images of a texture, the best first: WebP by its extension, KTX2 by its own if there is a
+/// library that decodes it, then the one for everybody.
+std::vector<std::size_t> sources(const tinygltf::Texture& texture, const std::string& place,
+                                 LoadContext& context)
 {
     std::vector<std::size_t> result;
-    const auto webp = texture.extensions.find("EXT_texture_webp");
-    if (webp != texture.extensions.end() && webp->second.Has("source")) {
-        result.push_back(static_cast<std::size_t>(webp->second.Get("source").GetNumberAsInt()));
+    if (const auto webp = source_of(texture, "EXT_texture_webp")) {
+        result.push_back(*webp);
+    }
+    if (const auto basis = source_of(texture, "KHR_texture_basisu")) {
+        const std::string* const obstacle =
+            context.ktx2 != nullptr ? context.ktx2->obstacle() : nullptr;
+        if (obstacle == nullptr) {
+            result.push_back(*basis);
+        } else if (texture.source >= 0 || !result.empty()) {
+            context.warn(fmt::format("the image beside the KTX2 one is used: {}", *obstacle),
+                         place);
+        } else {
+            context.warn(fmt::format("the material does without its KTX2 texture: {}", *obstacle),
+                         place);
+        }
     }
     if (texture.source >= 0) {
         result.push_back(static_cast<std::size_t>(texture.source));
@@ -36,7 +62,7 @@ std::vector<std::size_t> sources(const tinygltf::Texture& texture)
 std::string unread_images(const tinygltf::Texture& texture)
 {
     std::string names;
-    for (const char* name : {"KHR_texture_basisu", "EXT_texture_avif", "MSFT_texture_dds"}) {
+    for (const char* name : {"EXT_texture_avif", "MSFT_texture_dds"}) {
         if (texture.extensions.contains(name)) {
             names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
         }
@@ -107,11 +133,12 @@ std::optional<TextureRef> TextureResolver::resolve(const TextureInfo& info,
         return std::nullopt;
     }
     const auto& texture = model_.textures[static_cast<std::size_t>(info.index)];
-    const std::vector<std::size_t> images = sources(texture);
-    if (images.empty()) {
-        context_.warn("the texture has no PNG, JPEG or WebP image; the material does without it",
-                      fmt::format("/textures/{}{}", info.index, unread_images(texture)));
-        return std::nullopt;
+    const std::string texture_place = fmt::format("/textures/{}", info.index);
+    const std::vector<std::size_t> images = sources(texture, texture_place, context_);
+    if (images.empty() && !source_of(texture, "KHR_texture_basisu")) {
+        context_.warn(
+            "the texture has no PNG, JPEG, WebP or KTX2 image; the material does without it",
+            texture_place + unread_images(texture));
     }
     std::optional<ImageId> image;
     for (std::size_t i = 0; i < images.size() && !image; ++i) {

@@ -7,6 +7,7 @@
 #include "gltf/document/prepass.h"
 #include "gltf/document/selection.h"
 #include "gltf/scene/scene_builder.h"
+#include "image/ktx2_decoder.h"
 
 #include <utility>
 #include <vector>
@@ -20,6 +21,9 @@ LoadedScene load(const std::filesystem::path& file, const GltfOptions& options)
     LoadContext context{
         .folder = file.parent_path(), .limits = options.limits, .memory = options.memory};
     context.images = options.images.get();
+    Ktx2Decoder ktx2(options.ktx_library);
+    context.ktx2 = &ktx2;
+    context.ignore_required = options.ignore_required;
     CheckedGltf checked = read_checked_gltf(file, context);
     GltfFacts facts = collect_facts(checked);
     facts.scene = select_scene(checked.document, options.scene);

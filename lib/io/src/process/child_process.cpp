@@ -1,4 +1,4 @@
-#include "volume/child_process.h"
+#include "process/child_process.h"
 
 #include <bdpt/error.h>
 
@@ -10,6 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <string_view>
@@ -47,10 +48,15 @@ int above_streams(int descriptor)
 /// Where the standard streams of a new process go; it gets no other descriptor.
 class Streams {
 public:
-    Streams(int output, int errors)
+    /// `input` -1: there is none.
+    Streams(int input, int output, int errors)
     {
         posix_spawn_file_actions_init(&actions_);
-        posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+        if (input < 0) {
+            posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+        } else {
+            posix_spawn_file_actions_adddup2(&actions_, input, STDIN_FILENO);
+        }
         posix_spawn_file_actions_adddup2(&actions_, output, STDOUT_FILENO);
         posix_spawn_file_actions_adddup2(&actions_, errors, STDERR_FILENO);
         posix_spawn_file_actions_addclosefrom_np(&actions_, STDERR_FILENO + 1);
@@ -104,6 +110,26 @@ std::string last_line(int file)
     return text.substr(text.rfind('\n') + 1);
 }
 
+/// A file in memory that holds `bytes`, and is read from its start; -1 if there are none.
+int file_of(std::span<const std::uint8_t> bytes)
+{
+    if (bytes.empty()) {
+        return -1;
+    }
+    Descriptor file(above_streams(::memfd_create("input", MFD_CLOEXEC)));
+    while (file.number() >= 0 && !bytes.empty()) {
+        const ssize_t count = ::write(file.number(), bytes.data(), bytes.size());
+        if (count < 0 && errno != EINTR) {
+            break;
+        }
+        bytes = bytes.subspan(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+    }
+    if (!bytes.empty() || ::lseek(file.number(), 0, SEEK_SET) != 0) {
+        fail("no file in memory for a new process", errno);
+    }
+    return file.release();
+}
+
 }  // namespace
 
 void Descriptor::close()
@@ -115,7 +141,8 @@ void Descriptor::close()
 }
 
 ChildProcess::ChildProcess(const std::filesystem::path& program,
-                           const std::vector<std::string>& arguments)
+                           const std::vector<std::string>& arguments,
+                           std::span<const std::uint8_t> input)
     : output_(-1), errors_(above_streams(::memfd_create("errors", MFD_CLOEXEC)))
 {
     std::array<int, 2> ends{};
@@ -123,10 +150,11 @@ ChildProcess::ChildProcess(const std::filesystem::path& program,
         fail("no pipe to a new process", errno);
     }
     output_.adopt(above_streams(ends[0]));
-    const Descriptor input(above_streams(ends[1]));
-    if (output_.number() < 0 || input.number() < 0) {
+    const Descriptor written(above_streams(ends[1]));
+    if (output_.number() < 0 || written.number() < 0) {
         fail("no pipe to a new process", errno);
     }
+    const Descriptor given(file_of(input));
     std::vector<std::string> words{program.string()};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
@@ -134,7 +162,7 @@ ChildProcess::ChildProcess(const std::filesystem::path& program,
         argv.push_back(word.data());
     }
     argv.push_back(nullptr);
-    const Streams streams(input.number(), errors_.number());
+    const Streams streams(given.number(), written.number(), errors_.number());
     const int error =
         ::posix_spawn(&id_, program.c_str(), streams.get(), Signals().get(), argv.data(), environ);
     if (error != 0) {

@@ -1,4 +1,4 @@
-#include "volume/child_process.h"
+#include "process/child_process.h"
 
 #include <bdpt/error.h>
 

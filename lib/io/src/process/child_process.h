@@ -3,7 +3,9 @@
 #include <sys/types.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,6 +27,13 @@ public:
         number_ = number;
     }
     void close();
+    /// Gives away what it has, without closing it.
+    [[nodiscard]] int release()
+    {
+        const int number = number_;
+        number_ = -1;
+        return number;
+    }
 
 private:
     int number_ = -1;
@@ -37,14 +46,15 @@ struct ProcessEnd {
     std::string message;  ///< the last line on its standard error
 };
 
-/// A program that writes what it has to say to its standard output, which is read here. It sees no
-/// standard input, and nothing that this process has open. What is still running when this object
-/// goes is killed.
+/// A program that writes what it has to say to its standard output, which is read here. It sees
+/// nothing that this process has open. What is still running when this object goes is killed.
 class ChildProcess {
 public:
-    /// Throws `Error` when it cannot be started: out_of_memory where the system has no room for
-    /// another process, else unsupported.
-    ChildProcess(const std::filesystem::path& program, const std::vector<std::string>& arguments);
+    /// `input` is a file in memory on its standard input; without any the input is empty. Throws
+    /// `Error` when it cannot be started: out_of_memory where the system has no room for another
+    /// process or for the input, else unsupported.
+    ChildProcess(const std::filesystem::path& program, const std::vector<std::string>& arguments,
+                 std::span<const std::uint8_t> input = {});
     ~ChildProcess();
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;

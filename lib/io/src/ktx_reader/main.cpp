@@ -1,0 +1,152 @@
+// bdpt-read-ktx: decodes a KTX2 image for the library, which starts it (image/ktx_reply.h says
+// how). libktx may crash or ask for all memory on broken files: that ends this process and no
+// other.
+
+#include <bdpt/error.h>
+
+#include "image/ktx_reply.h"
+#include "ktx_reader/ktx_functions.h"
+#include "process/limited_process.h"
+
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <new>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace bdpt::ktx {
+namespace {
+
+/// What the header of the image says.
+struct Size {
+    std::size_t width = 0;
+    std::size_t height = 0;
+    std::size_t channels = 0;
+
+    [[nodiscard]] std::size_t pixels() const { return width * height; }
+};
+
+/// The file on the standard input.
+std::span<const std::uint8_t> input()
+{
+    struct stat info {};
+    const bool known = fstat(STDIN_FILENO, &info) == 0 && info.st_size > 0;
+    const auto size = static_cast<std::size_t>(known ? info.st_size : 0);
+    void* const bytes =
+        known ? mmap(nullptr, size, PROT_READ, MAP_PRIVATE, STDIN_FILENO, 0) : MAP_FAILED;
+    if (bytes == MAP_FAILED) {
+        throw Error(ErrorCode::not_found, "its standard input is no file");
+    }
+    return {static_cast<const std::uint8_t*>(bytes), size};
+}
+
+void check(const KtxFunctions& ktx, int error)
+{
+    if (error == KtxFunctions::out_of_memory) {
+        throw std::bad_alloc();
+    }
+    if (error != KtxFunctions::success) {
+        throw Error(ErrorCode::invalid_input,
+                    std::string("broken: libktx says: ") + ktx.ktxErrorString(error));
+    }
+}
+
+/// The values of pixels, `stride` of each, of which the first `channels` count.
+void write_pixels(std::span<const std::uint8_t> values, std::size_t stride, std::size_t channels)
+{
+    if (stride == channels) {
+        return io::write_output(values.data(), values.size());
+    }
+    constexpr std::size_t pixels_at_once = 16384;
+    std::vector<std::uint8_t> packed;
+    for (std::size_t done = 0; done < values.size();) {
+        const std::size_t end = std::min(values.size(), done + pixels_at_once * stride);
+        packed.clear();
+        for (; done < end; done += stride) {
+            const auto pixel = values.subspan(done, channels);
+            packed.insert(packed.end(), pixel.begin(), pixel.end());
+        }
+        io::write_output(packed.data(), packed.size());
+    }
+}
+
+void decode(const KtxFunctions& ktx, std::span<const std::uint8_t> file, const Size& size)
+{
+    Texture* texture = nullptr;
+    check(ktx, ktx.ktxTexture2_CreateFromMemory(file.data(), file.size(),
+                                                KtxFunctions::create_load_image_data, &texture));
+    std::size_t stride = size.channels;
+    if (ktx.ktxTexture2_NeedsTranscoding(texture)) {
+        check(ktx, ktx.ktxTexture2_TranscodeBasis(texture, KtxFunctions::format_rgba32, 0));
+        stride = 4;
+    }
+    std::size_t offset = 0;
+    check(ktx, texture->functions->GetImageOffset(texture, 0, 0, 0, &offset));
+    const std::span<const std::uint8_t> data(ktx.ktxTexture_GetData(texture),
+                                             ktx.ktxTexture_GetDataSize(texture));
+    const std::size_t bytes = size.pixels() * stride;
+    if (offset > data.size() || bytes > data.size() - offset) {
+        throw Error(ErrorCode::invalid_input, "broken: libktx decodes another size");
+    }
+    write_pixels(data.subspan(offset, bytes), stride, size.channels);
+}
+
+int failed(ErrorCode code, std::string message)
+{
+    constexpr std::size_t most = 4000;
+    std::replace_if(
+        message.begin(), message.end(), [](unsigned char c) { return c < ' '; }, ' ');
+    std::fprintf(stderr, "bdpt-read-ktx: %s\n", message.substr(0, most).c_str());
+    return static_cast<int>(code);
+}
+
+int run(std::span<char*> words)
+{
+    if (words.size() != 2 && words.size() != 7) {
+        return failed(ErrorCode::usage,
+                      "expected LIBRARY, or LIBRARY WIDTH HEIGHT CHANNELS MEMORY SECONDS; bdpt "
+                      "starts it");
+    }
+    const auto number = [&](std::size_t word) { return std::strtoull(words[word], nullptr, 10); };
+    const bool decodes = words.size() == 7;
+    const io::Allowance allowance = decodes
+                                        ? io::Allowance{.memory = number(5), .seconds = number(6)}
+                                        : io::Allowance{.memory = 0, .seconds = 10};
+    io::limit_process(allowance);
+    try {
+        const KtxFunctions ktx = open_ktx(words[1]);
+        const io::KtxReply reply;
+        io::write_output(&reply, sizeof(reply));
+        if (decodes) {
+            decode(ktx, input(), {.width = number(2), .height = number(3), .channels = number(4)});
+        }
+        return 0;
+    } catch (const Error& error) {
+        return failed(error.code(), error.what());
+    } catch (const std::bad_alloc&) {
+        return failed(ErrorCode::invalid_input, "broken, or too large: decoding takes more than " +
+                                                    std::to_string(allowance.memory) +
+                                                    " bytes, the limit for an image of its size");
+    } catch (const std::exception& error) {
+        return failed(ErrorCode::invalid_input, std::string("broken: ") + error.what());
+    }
+}
+
+}  // namespace
+}  // namespace bdpt::ktx
+
+int main(int count, char** words)
+{
+    const int code = bdpt::ktx::run({words, static_cast<std::size_t>(count)});
+    std::fflush(stderr);
+    // Nothing that libktx or a broken file left behind is cleaned up.
+    _exit(code);
+}

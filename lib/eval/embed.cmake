@@ -17,7 +17,7 @@ endfunction()
 
 file(WRITE "${OUTPUT}.tmp" "#include \"report/page_source.h\"\n\nnamespace bdpt::eval {\n\n")
 embed(page_template page.html)
-embed(page_style page.css)
+embed(page_style base.css page.css)
 embed(page_script ${SCRIPTS})
 file(APPEND "${OUTPUT}.tmp" "}  // namespace bdpt::eval\n")
 file(RENAME "${OUTPUT}.tmp" "${OUTPUT}")

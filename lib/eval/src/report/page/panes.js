@@ -41,6 +41,7 @@ class Pane {
   constructor(view, width, height, label) {
     this.view = view;
     this.size = [width, height];
+    this.smoothBelow = 1;  // magnification below which pixels are blended
     this.canvas = html("canvas", { class: "pane", role: "img", "aria-label": label,
       style: `aspect-ratio:${width}/${height}` });
   }
@@ -63,7 +64,7 @@ class Pane {
     const context = this.canvas.getContext("2d");
     const { x, y, zoom } = this.view;
     const scale = zoom * width / this.size[0];
-    context.imageSmoothingEnabled = scale < 1 || source.width < this.size[0];
+    context.imageSmoothingEnabled = scale < this.smoothBelow || source.width < this.size[0];
     context.setTransform(scale, 0, 0, zoom * height / this.size[1], width / 2 - x * zoom * width,
       height / 2 - y * zoom * height);
     context.drawImage(source, 0, 0, this.size[0], this.size[1]);

@@ -4,9 +4,9 @@ const FIRST_WAIT = 250;  // [ms] before the first try to connect again
 const LONGEST_WAIT = 4000;
 
 class Connection {
-  /** `on`: state(object), tile(header, halves), found(), lost(). */
-  constructor(token, on) {
-    this.token = token;
+  /** `on`: state(object), tile(header, halves), found(), lost(). `base`: the path of the page, which has the token in it. */
+  constructor(base, on) {
+    this.base = base;
     this.on = on;
     this.sequence = 0;
     this.waiting = new Map();
@@ -16,7 +16,7 @@ class Connection {
 
   connect() {
     const scheme = location.protocol === "https:" ? "wss" : "ws";
-    this.socket = new WebSocket(`${scheme}://${location.host}/socket?token=${encodeURIComponent(this.token)}`);
+    this.socket = new WebSocket(`${scheme}://${location.host}${this.base}socket`);
     this.socket.binaryType = "arraybuffer";
     this.socket.addEventListener("open", () => {
       this.wait = FIRST_WAIT;
@@ -77,8 +77,8 @@ class Connection {
   }
 
   /** The address of a file that the server makes. */
-  address(path, query) {
-    return `${path}?${new URLSearchParams({ token: this.token, ...query })}`;
+  address(name, query) {
+    return `${this.base}${name}?${new URLSearchParams(query)}`;
   }
 }
 
@@ -95,6 +95,13 @@ class OneAtATime {
   /** Something was not taken yet. */
   get busy() {
     return this.onWay || this.waiting !== null;
+  }
+
+  /** A promise that ends when all is taken. */
+  async idle() {
+    while (this.busy) {
+      await new Promise((resolve) => setTimeout(resolve, 10));
+    }
   }
 
   add(more) {

@@ -10,7 +10,7 @@ const look = { exposure: 0, automatic: true, curve: "filmic" };
 /** What tests and benchmarks look at: the moves that the picture shows, and how many pictures came. */
 const seen = { sequence: 0, generation: 0, updates: 0, states: 0, grid: 0 };
 
-const connection = new Connection(new URLSearchParams(location.search).get("token") || "", {
+const connection = new Connection(location.pathname, {
   state: takeState,
   tile: takeTile,
   found: () => {
@@ -73,6 +73,12 @@ function isHeat(layer) {
 }
 
 function takeState(next) {
+  byId("loading").hidden = !next.loading;
+  if (next.loading) {
+    byId("title").textContent = next.title || next.file;
+    byId("loading").textContent = `Loading ${next.file} ...`;
+    return;
+  }
   const before = state;
   state = next;
   seen.states += 1;
@@ -120,17 +126,19 @@ async function inspect(pixel, sample = 0) {
   }
 }
 
-function download(path, query = {}) {
-  const link = html("a", { href: connection.address(path, query), download: "" });
+/** Saves a file that the server makes, once it knows exposure and tone curve. */
+async function download(name, query = {}) {
+  await settings.idle();
+  const link = html("a", { href: connection.address(name, query), download: "" });
   document.body.append(link);
   link.click();
   link.remove();
 }
 
 const save = {
-  png: () => download("/save.png", { slot: 0, exposure: look.exposure, curve: look.curve }),
-  exr: () => download("/save.exr", { slot: 0 }),
-  job: () => download("/save.json"),
+  png: () => download("save.png", { slot: 0 }),
+  exr: () => download("save.exr", { slot: 0 }),
+  job: () => download("save.json"),
 };
 
 async function copyCommand() {
@@ -236,4 +244,4 @@ bindKeys();
 bindTheme();
 new ResizeObserver(() => stage.requestDraw()).observe(stage.canvas);
 stage.setPaint((rgb, target) => toneMap(rgb, target, { gain: 1, curve: look.curve }));
-window.bdptView = { seen, stage, look, get state() { return state; } };
+window.bdptView = { seen, stage, look, connection, get state() { return state; } };

@@ -216,7 +216,6 @@ def check_layers(window):
         window.wait(f"window.bdptView.state.layer === '{layer}' && window.bdptView.seen.updates > {before['updates']}")
         if layer == "strategy":
             window.wait("window.bdptView.state.strategies.length > 1")
-            window.finished()
         window.wait(f"window.bdptView.seen.grid === window.bdptView.state.size[0]")
         expect(window.codes() != picture, f"{layer} looks otherwise")
         bars = window.run("return document.querySelectorAll('#legend .colorbar').length")

@@ -50,7 +50,7 @@ class Window(Browser):
 
     def finished(self):
         """Waits until all samples are there."""
-        self.wait("window.bdptView.state.slots.every((slot) => slot.done) && "
+        self.wait("window.bdptView.state.slots.every((slot, i) => slot.done && window.bdptView.seen.samples[i] === slot.samples) && "
                   "window.bdptView.seen.grid === window.bdptView.state.size[0]")
 
     def wait_for_generation(self, before):

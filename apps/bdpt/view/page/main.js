@@ -7,8 +7,8 @@ const inspector = new Inspector(stage);
 let state = null;
 /** The page's own settings: exposure [EV] and tone curve. */
 const look = { exposure: 0, automatic: true, curve: "filmic" };
-/** What tests and benchmarks look at: the moves that the picture shows, and how many pictures came. */
-const seen = { sequence: 0, generation: 0, updates: 0, states: 0, grid: 0 };
+/** What tests and benchmarks look at: the request and the restart that A's picture shows, its grid, samples of A and B, how many pictures came. */
+const seen = { sequence: 0, generation: 0, updates: 0, grid: 0, samples: [0, 0] };
 
 const connection = new Connection(location.pathname, {
   state: takeState,
@@ -81,7 +81,6 @@ function takeState(next) {
   }
   const before = state;
   state = next;
-  seen.states += 1;
   if (!before || before.size[0] !== next.size[0] || before.size[1] !== next.size[1]) {
     stage.setSize(next.size[0], next.size[1]);
   }
@@ -103,14 +102,18 @@ function takeState(next) {
   panel.show(next);
 }
 
-function takeTile({ slot, generation, sequence, grid, tile, last }, halves) {
-  if (inspector.sample && generation !== seen.generation) {
+function takeTile({ slot, generation, sequence, grid, tile, samples, last }, halves) {
+  if (slot === 0 && generation !== seen.generation && inspector.sample) {
     inspector.clear();
   }
   stage.put(slot, grid, tile, halves);
-  Object.assign(seen, { sequence, generation, grid: grid.width });
-  if (last) {
-    seen.updates += 1;
+  if (!last) {
+    return;
+  }
+  seen.samples[slot] = samples;
+  seen.updates += 1;
+  if (slot === 0) {
+    Object.assign(seen, { sequence, generation, grid: grid.width });
     document.documentElement.dataset.ready = "true";
   }
 }

@@ -52,17 +52,17 @@ function changeLook(values) {
   change({ exposure: look.automatic ? "auto" : look.exposure, curve: look.curve });
 }
 
-function repaint() {
-  if (state && isHeat(state.layer)) {
-    stage.setPaint((rgb, target) => {
-      for (let i = 0; i < target.length / 4; ++i) {
-        setHeat(target, 4 * i, heat, rgb[3 * i]);
-      }
-    });
-  } else {
-    const { exposure, curve } = look;
-    stage.setPaint((rgb, target) => toneMap(rgb, target, { gain: 2 ** exposure, curve }));
+function paintHeat(rgb, target) {
+  for (let i = 0; i < target.length / 4; ++i) {
+    setHeat(target, 4 * i, heat, rgb[3 * i]);
   }
+}
+
+/** `waits`: what is shown is of another layer, and stays until pixels come. */
+function repaint(waits = false) {
+  const { exposure, curve } = look;
+  const paintLight = (rgb, target) => toneMap(rgb, target, { gain: 2 ** exposure, curve });
+  stage.setPaint(state && isHeat(state.layer) ? paintHeat : paintLight, waits);
   panel.exposure.set(look.exposure);
   byId("curve").value = look.curve;
   byId("exposure-auto").disabled = look.automatic;
@@ -73,10 +73,10 @@ function isHeat(layer) {
 }
 
 function takeState(next) {
-  byId("loading").hidden = !next.loading;
-  if (next.loading) {
-    byId("title").textContent = next.title || next.file;
-    byId("loading").textContent = `Loading ${next.file} ...`;
+  byId("loading").hidden = Boolean(next.slots);
+  if (!next.slots) {
+    byId("title").textContent = next.title;
+    byId("loading").textContent = next.message || `Loading ${next.file} ...`;
     return;
   }
   const before = state;
@@ -86,16 +86,20 @@ function takeState(next) {
   }
   const theirs = { exposure: next.exposure, automatic: next.exposure_is_auto, curve: next.curve };
   const differs = Object.keys(theirs).some((key) => theirs[key] !== look[key]);
-  if ((differs && !settings.busy) || !before || before.layer !== next.layer) {
+  const isOther = Boolean(before) && before.layer !== next.layer;
+  if (differs && !settings.busy) {
     Object.assign(look, theirs);
-    repaint();
   }
-  if (Boolean(next.integrator_b) !== stage.pair) {
-    stage.setPair(Boolean(next.integrator_b));
+  if ((differs && !settings.busy) || !before || isOther) {
+    repaint(isOther);
   }
-  byId("name-a").textContent = next.integrator_b ? next.integrator_a : "";
-  byId("name-b").textContent = next.integrator_b || "";
-  byId("name-b").hidden = !next.integrator_b;
+  const pair = Boolean(next.integrator_b) && next.layer !== "strategy";
+  if (pair !== stage.pair) {
+    stage.setPair(pair);
+  }
+  byId("name-a").textContent = pair ? next.slots[0].integrator : "";
+  byId("name-b").textContent = pair ? next.slots[1].integrator : "";
+  byId("name-b").hidden = !pair;
   byId("legend").replaceChildren(...(next.scale && isHeat(next.layer) ? [colorBar(heat, next.scale.label, next.scale.ticks)] : []));
   stage.canvas.setAttribute("aria-label", `Picture of ${next.title || next.file} by ${next.integrator_a}` +
     (next.integrator_b ? ` and ${next.integrator_b}` : ""));
@@ -157,7 +161,7 @@ async function copyCommand() {
 }
 
 function setExposure(value) {
-  changeLook({ exposure: Math.min(Math.max(Math.round(10 * value) / 10, -10), 10) });
+  changeLook({ exposure: Math.min(Math.max(Math.round(10 * value) / 10, -20), 20) });
 }
 
 const moves = new Moves((move) => ask({ move }));
@@ -246,5 +250,5 @@ bindButtons();
 bindKeys();
 bindTheme();
 new ResizeObserver(() => stage.requestDraw()).observe(stage.canvas);
-stage.setPaint((rgb, target) => toneMap(rgb, target, { gain: 1, curve: look.curve }));
+repaint();
 window.bdptView = { seen, stage, look, connection, get state() { return state; } };

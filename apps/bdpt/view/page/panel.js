@@ -54,14 +54,24 @@ class Panel {
     const pause = byId("pause");
     pause.textContent = state.paused ? "Continue" : "Pause";
     pause.setAttribute("aria-pressed", String(state.paused));
-    const notes = [state.message, ...(state.warnings || [])].filter((text) => text);
-    const message = byId("message");
-    message.hidden = notes.length === 0;
-    if (message.textContent !== notes.join("\n")) {
-      message.textContent = notes.join("\n");
+    byId("message").hidden = !state.message;
+    if (byId("message").textContent !== (state.message || "")) {
+      byId("message").textContent = state.message || "";
     }
+    this.showNotes(state.warnings || []);
     byId("command").value = state.command;
     byId("status").replaceChildren(...state.slots.flatMap((slot) => statusOf(slot, state.slots.length > 1)));
+  }
+
+  /** Warnings and notes of the scene: one as it is, more of them behind their number. */
+  showNotes(notes) {
+    const box = byId("notes");
+    box.hidden = notes.length === 0;
+    if (box.dataset.notes !== notes.join("\n")) {
+      box.dataset.notes = notes.join("\n");
+      box.replaceChildren(html("summary", null, notes.length === 1 ? "A note about the scene" : `${notes.length} notes about the scene`),
+        html("ul", null, notes.map((note) => html("li", null, note))));
+    }
   }
 
   showLayers(state) {

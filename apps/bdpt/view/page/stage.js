@@ -22,11 +22,13 @@ class Stage extends Pane {
     this.requestDraw();
   }
 
-  /** How light becomes colours: `paint(rgb, target)`. All is painted anew. */
-  setPaint(paint) {
+  /** How light becomes colours: `paint(rgb, target)`. All is painted anew, or (`waits`) what comes from now on. */
+  setPaint(paint, waits = false) {
     this.paint = paint;
-    this.slots.forEach((slot) => slot.develop(paint));
-    this.requestDraw();
+    if (!waits) {
+      this.slots.forEach((slot) => slot.develop(paint));
+      this.requestDraw();
+    }
   }
 
   setPair(pair) {

@@ -46,7 +46,7 @@ def check_page(server):
 
 def check_hosts(server):
     page = server.path()
-    for host in ("evil.example", f"evil.example:{server.port}", f"127.0.0.1.evil.example:{server.port}", "127.0.0.1:1",
+    for host in ("evil.example", f"evil.example:{server.port}", f"127.0.0.1.evil.example:{server.port}", f"127.0.0.1:x{server.port}",
                  f"127.0.0.1:{server.port}@evil.example", "", None):
         refused(server.request(page, {"Host": host}), f"the host {host!r}")
     refused(server.request(server.path("save.exr"), {"Host": "evil.example"}), "another host of a saved picture")
@@ -76,7 +76,7 @@ def check_tokens(server):
 def check_paths(server):
     for name in ("../../../../etc/passwd", "%2e%2e/%2e%2e/%2e%2e/etc/passwd", "..%2f..%2f..%2fetc%2fpasswd", "/etc/passwd", "view.html",
                  "page/main.js", ".git/config", "save.exr/../../etc/passwd", "%00", "save.exr%00.png", "save", "favicon.ico", "socket/x",
-                 "a/" * 1000, "save.exr?slot=7", "save.exr?slot=-1", "save.exr?slot=x", "save.png?slot=" + "9" * 100):
+                 "a/" * 1000):
         answer = server.request(server.path(name))
         refused(answer, f"the path {name[:40]}")
         expect(b"root:" not in answer[1], "and gives no file away")
@@ -170,7 +170,8 @@ def check_many_connections(server):
             # Reset, so that no port waits for packets that come late.
             connection.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
             connection.close()
-    expect(server.alive and server.get(), f"{opened} connections in turns: the page is still served")
+    wait_for(lambda: server.request(server.path())[0] == 200, "the page is served again")
+    expect(server.alive, f"{opened} connections in turns: the page is still served")
     wait_for(lambda: server.threads() <= threads + 4, "their threads end")
     wait_for(lambda: server.files() < 64, "their files are closed")
 
@@ -217,7 +218,7 @@ def check_socket(server):
     wrong = [{"move": "x"}, {"move": {"orbit": [1], "pan": [0, 0], "dolly": 1}}, {"move": {"orbit": [1e300, 0], "pan": [0, 0], "dolly": 1}},
              {"move": {"orbit": [0, 0], "pan": [0, 0], "dolly": 0}}, {"move": {"orbit": [0, 0], "pan": [0, 0], "dolly": -1}},
              {"move": {"orbit": [0, 0], "pan": [0, 0], "dolly": 1e300}}, {"move": {"orbit": [None, 0], "pan": [0, 0], "dolly": 1}},
-             {"focus": [-1, 0]}, {"focus": [10 ** 9, 0]}, {"focus": "x"}, {"inspect": [0, 10 ** 6]}, {"inspect": [0, 0], "sample": -1},
+             {"focus": [-1, 0]}, {"focus": [10 ** 9, 0]}, {"focus": [64, 0]}, {"inspect": [0, 48]}, {"focus": "x"}, {"inspect": [0, 10 ** 6]}, {"inspect": [0, 0], "sample": -1},
              {"inspect": {"x": 1}}, {"set": {"integrator_a": "no such"}}, {"set": {"integrator_a": 5}}, {"set": {"integrator_b": "../x"}},
              {"set": {"environment": "/etc/passwd"}}, {"set": {"environment": "../../secret.exr"}}, {"set": {"rotation": "x"}},
              {"set": {"rotation": 1e300}}, {"set": {"intensity": -1}}, {"set": {"intensity": 1e300}}, {"set": {"exposure": "bright"}},

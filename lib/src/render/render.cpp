@@ -228,10 +228,17 @@ std::optional<TimeProfile> Renderer::Impl::run(SampleRange wanted_range,
             render_pass({.integrator = *integrator_,
                          .aov_pass = *aov_pass_,
                          .on_path = control.on_path,
-                         .times = times ? &*times : nullptr},
+                         .times = times ? &*times : nullptr,
+                         .abandon = control.abandon},
                         options_, pass, part_);
-            noise.look(part_);
+            if (!control.abandon.stop_requested()) {
+                noise.look(part_);
+            }
         });
+        if (control.abandon.stop_requested()) {
+            begin();
+            return std::nullopt;
+        }
         done += pass.end - pass.begin;
         const double seconds = seconds_since(start);
         seconds_ = seconds_before + seconds;

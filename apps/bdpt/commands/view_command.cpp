@@ -9,8 +9,8 @@
 #include <string>
 
 #include "terminal/console.h"
-#include "view/page.h"
-#include "view/server.h"
+#include "view/server/page.h"
+#include "view/server/server.h"
 #include "view/session.h"
 
 namespace bdpt::app {

@@ -4,7 +4,7 @@ include("${CMAKE_CURRENT_LIST_DIR}/../../../cmake/EmbedText.cmake")
 
 string(REPLACE "\\;" ";" STYLES "${STYLES}")
 string(REPLACE "\\;" ";" SCRIPTS "${SCRIPTS}")
-file(WRITE "${OUTPUT}.tmp" "#include \"view/page.h\"\n\nnamespace bdpt::app {\n\n")
+file(WRITE "${OUTPUT}.tmp" "#include \"view/server/page.h\"\n\nnamespace bdpt::app {\n\n")
 bdpt_embed_text("${OUTPUT}.tmp" page_template "${TEMPLATE}")
 bdpt_embed_text("${OUTPUT}.tmp" page_style ${STYLES})
 bdpt_embed_text("${OUTPUT}.tmp" page_script ${SCRIPTS})

@@ -42,6 +42,12 @@ bool Mailbox::work_off(bool waits)
     return !closed_;
 }
 
+bool Mailbox::wait_for(std::chrono::milliseconds time)
+{
+    std::unique_lock lock(mutex_);
+    return wake_.wait_for(lock, time, [this] { return closed_ || !tasks_.empty(); });
+}
+
 void Mailbox::close()
 {
     const std::lock_guard lock(mutex_);

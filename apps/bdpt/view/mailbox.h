@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -28,6 +29,8 @@ public:
     /// Does all tasks that are there. Without any it waits for one first, if that is asked for.
     /// False: it is closed.
     [[nodiscard]] bool work_off(bool waits);
+    /// Waits for a task, for at most `time`. False: none came.
+    [[nodiscard]] bool wait_for(std::chrono::milliseconds time);
     /// Stops the pass in flight, and whoever waits. From any thread.
     void close();
 

@@ -467,6 +467,11 @@ bool Session::advance(std::optional<LiveRender>& render, std::size_t slot)
         return true;
     }
     if (!render) {
+        // A hand that moves on would wait for what begins now.
+        constexpr std::chrono::milliseconds rest{150};
+        if (generation_ > 1 && mailbox_.wait_for(rest)) {
+            return true;
+        }
         render.emplace(with_choice(words_of_slot(slot).arguments(), scene_.stage(), quiet_),
                        scene_.stage());
     }

@@ -12,7 +12,7 @@
 #include "options/option_list.h"
 #include "terminal/console.h"
 #include "view/coarse_to_fine.h"
-#include "view/frame.h"
+#include "view/server/frame.h"
 #include "view/live_render.h"
 #include "view/live_scene.h"
 #include "view/mailbox.h"

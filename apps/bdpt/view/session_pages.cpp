@@ -169,12 +169,13 @@ ViewState Session::state()
     }
     const PreparedScene& stage = scene_.stage();
     const RenderArguments& arguments = scene_.arguments();
-    if (!pose_) {
-        pose_ = scene_.pose();
+    const Pose pose = pose_ ? *pose_ : scene_.pose();
+    if (!is_stale_) {
+        pose_ = pose;  // else it is that of a camera that goes
     }
     state.size = stage.size;
     state.camera_name = stage.camera.name;
-    state.pose = *pose_;
+    state.pose = pose;
     state.vertical_fov = stage.camera.projection == Projection::orthographic
                              ? 0.0
                              : degrees(stage.camera.vertical_fov);

@@ -201,6 +201,7 @@ private:
     RenderPart part_;
     std::optional<PassSize> pass_size_;
     double seconds_ = 0.0;
+    bool is_abandoned_ = false;  ///< `part_` has no films
 };
 
 std::optional<TimeProfile> Renderer::Impl::run(SampleRange wanted_range,
@@ -208,6 +209,9 @@ std::optional<TimeProfile> Renderer::Impl::run(SampleRange wanted_range,
                                                std::chrono::steady_clock::time_point start,
                                                double cpu_start)
 {
+    if (std::exchange(is_abandoned_, false)) {
+        begin();  // now, as whoever abandons a render may not go on with it
+    }
     Threads threads(options_.system.threads);
     std::optional<TimeRecorder> times;
     if (control.profiling == Profiling::on) {
@@ -236,7 +240,8 @@ std::optional<TimeProfile> Renderer::Impl::run(SampleRange wanted_range,
             }
         });
         if (control.abandon.stop_requested()) {
-            begin();
+            part_ = {};
+            is_abandoned_ = true;
             return std::nullopt;
         }
         done += pass.end - pass.begin;

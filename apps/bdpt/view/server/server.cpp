@@ -1,4 +1,4 @@
-#include "view/server.h"
+#include "view/server/server.h"
 
 #include <bdpt/error.h>
 #include <fmt/core.h>
@@ -13,7 +13,7 @@
 #include <thread>
 #include <utility>
 
-#include "view/connection.h"
+#include "view/server/connection.h"
 
 namespace bdpt::app {
 

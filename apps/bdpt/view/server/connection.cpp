@@ -1,4 +1,4 @@
-#include "view/connection.h"
+#include "view/server/connection.h"
 
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/post.hpp>

@@ -19,8 +19,8 @@
 #include <set>
 #include <string>
 
-#include "view/access.h"
-#include "view/server.h"
+#include "view/server/access.h"
+#include "view/server/server.h"
 
 namespace bdpt::app {
 

@@ -1,4 +1,4 @@
-#include "view/page.h"
+#include "view/server/page.h"
 
 #include <bdpt/eval/report/page_text.h>
 #include <bdpt/version.h>

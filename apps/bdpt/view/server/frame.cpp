@@ -1,4 +1,4 @@
-#include "view/frame.h"
+#include "view/server/frame.h"
 
 #include <algorithm>
 #include <bit>

@@ -193,9 +193,9 @@ def check_half_open(server):
 def talk(server, name, payload, kind=web_socket.TEXT):
     """Sends a frame to a web socket, which may answer an error or close."""
     with WebSocket(server) as window:
-        window.send_frame(kind, payload)
-        sequence = window.ask(set={})
         try:
+            window.send_frame(kind, payload)
+            sequence = window.ask(set={})
             while True:
                 message = window.receive()
                 if isinstance(message, dict) and message.get("ack") == sequence:

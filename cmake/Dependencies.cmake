@@ -93,6 +93,7 @@ endif()
 
 if(BDPT_BUILD_APPS)
   find_package(CLI11 CONFIG REQUIRED)
+  find_package(Boost 1.74 REQUIRED)  # headers of Beast: the server of bdpt view
 endif()
 
 if(BDPT_BUILD_TESTS)

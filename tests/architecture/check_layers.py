@@ -13,7 +13,7 @@ import sys
 
 LAYERS = {"math": 1, "threads": 1, "film": 2, "identity": 2, "profile": 2, "rates": 2, "texture": 2, "geometry": 3, "material": 3, "light": 4, "camera": 4,
           "scene": 5, "path": 6, "integrator": 7, "pilot": 8, "render": 9, "inspect": 10}
-COMMAND_LAYERS = {"terminal": 1, "options": 2, "plan": 3, "stage": 3, "report": 4, "commands": 5}
+COMMAND_LAYERS = {"terminal": 1, "options": 2, "plan": 3, "stage": 3, "report": 4, "view": 5, "commands": 6}
 # The same of lib/io/src. Headers are named by their folder there too.
 IO_LAYERS = {"file": 1, "process": 1, "image": 2, "ies": 2, "output": 2, "volume": 2, "denoise": 2, "image/linear": 3, "part": 4, "oiio_module": 4, "vdb_reader": 4, "ktx_reader": 4, "gltf/checks": 3, "gltf/compression": 4,
              "gltf/document": 5, "gltf/animation": 6, "gltf/geometry": 7, "gltf/material": 7, "gltf/light_camera": 7,
@@ -47,6 +47,7 @@ ALLOWED = {
     "apps": [r"glm/", r"nlohmann/", r"fmt/", POSIX],
     "apps/python": [r"glm/", r"nlohmann/", r"fmt/", r"nanobind/", r"cxxabi\.h", POSIX],
     "apps/bdpt/options/command_parser.cpp": [r"CLI/", r"fmt/"],
+    "apps/bdpt/view": [r"glm/", r"nlohmann/", r"fmt/", r"boost/", POSIX],
     "apps/bdpt/main.cpp": [r"fmt/", r"(oneapi/)?tbb/", POSIX],
     "tests": [r"glm/", r"catch2/", r"embree[34]/", r"(oneapi/)?tbb/", FILE_LIBRARIES, POSIX, r"pthread\.h",
               INTRINSICS],

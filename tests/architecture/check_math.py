@@ -19,7 +19,9 @@ ALLOWED = {
     "camera_matrices.cpp": "matrices among the metadata of files",
     "display.cpp": "the image for a screen",
     "light_meter.cpp": "the exposure for a screen",
+    "view_camera.cpp": "the place of a camera that words then say",
     "tone_curve.cpp": "the image for a screen",
+    "layers.cpp": "false colours",
     "tone_map.cpp": "the image for a screen",
 }
 

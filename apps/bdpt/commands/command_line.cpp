@@ -16,6 +16,7 @@
 #include "commands/render_scenes.h"
 #include "commands/verify_command.h"
 #include "commands/version_command.h"
+#include "commands/view_command.h"
 #include "options/job_file.h"
 #include "options/values/output_files.h"
 #include "options/values/value_types.h"
@@ -31,6 +32,7 @@ constexpr const char* program_footer = R"(Examples:
   bdpt render model.glb                                        (writes model.png)
   bdpt render scene.glb -o out.exr -o preview.png --spp 256
   bdpt develop out.exr -o bright.png --exposure 2
+  bdpt view scene.glb
   bdpt info scene.glb
   bdpt plan scene.glb -o out.exr --spp 4096 --parts 64 --for slurm -d job
   bdpt merge part-*.part.exr -o out.exr
@@ -106,6 +108,12 @@ CommandLine::CommandLine()
     add("render", "Render a scene to an image", render_footer, add_render_options, render);
     program.commands.back().essentials = render_essentials();
     program.commands.back().short_footer = render_short_footer;
+    add("view", "Show a scene in the browser, to find view, light and look", view_footer,
+        add_view_command_options, view);
+    program.commands.back().essentials = {"file",  "--spp",      "--size",     "--camera",
+                                          "--view", "--env",     "--exposure", "--integrator",
+                                          "--background", "--listen", "--open"};
+    program.commands.back().short_footer = view_short_footer;
     add("plan", "Share a render among many processes or machines", plan_footer, add_plan_options,
         plan);
     add("merge", "Add parts of a render that were rendered apart", merge_footer, add_merge_options,
@@ -159,6 +167,9 @@ int CommandLine::run(const ParsedLine& line, const std::vector<std::string>& wor
     }
     if (name == "verify") {
         return run_verify(checked(verify, options));
+    }
+    if (name == "view") {
+        return run_view(checked(view, options), options);
     }
     if (name == "inspect") {
         return run_inspect(checked(inspect, options));

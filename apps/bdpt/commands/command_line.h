@@ -12,6 +12,7 @@
 #include "options/plan_arguments.h"
 #include "options/render_arguments.h"
 #include "options/verify_arguments.h"
+#include "options/view_arguments.h"
 
 namespace bdpt::app {
 
@@ -33,6 +34,7 @@ struct CommandLine {
     BenchRequest bench;
     VerifyRequest verify;
     InspectRequest inspect;
+    ViewRequest view;
     std::string topic;  ///< what to help with
     Program program;    ///< whose options have the places above
 };

@@ -42,6 +42,9 @@ enum class Profiling : std::uint8_t {
 struct RenderControl {
     /// A request ends the render after the pass in flight.
     std::stop_token stop;
+    /// A request ends the render in the middle of a pass, within the time of a few tiles: all
+    /// samples are lost, those of earlier calls too, and a `Renderer` is empty until it renders more.
+    std::stop_token abandon{};
     /// Called between passes on the thread that called render(). What it throws ends the render and
     /// reaches the caller.
     std::function<void(const Progress&)> on_progress;

@@ -51,12 +51,17 @@ void render_parts(const Work& work, SampleRange samples, RenderPart& result,
                   tbb::combinable<RenderStats>& stats_of_threads)
 {
     tbb::parallel_for(std::int64_t{0}, work.integrator.begin_pass(samples), [&](std::int64_t part) {
+        if (work.abandon.stop_requested()) {
+            return;
+        }
         const FlushDenormals flush;
         stats_of_threads.local() += work.integrator.do_part(
             part, samples,
             {.film = &result.film, .strategies = result.strategies, .on_path = work.on_path});
     });
-    work.integrator.end_parts();
+    if (!work.abandon.stop_requested()) {
+        work.integrator.end_parts();
+    }
 }
 
 void render_at_once(const Work& work, const RenderOptions& options, SampleRange samples,
@@ -70,9 +75,15 @@ void render_at_once(const Work& work, const RenderOptions& options, SampleRange 
     const int rows = (area.height() + side - 1) / side;
     tbb::combinable<RenderStats> stats_of_threads;
     render_parts(work, samples, result, stats_of_threads);
+    if (work.abandon.stop_requested()) {
+        return;
+    }
     tbb::parallel_for(
         tbb::blocked_range2d<int>(0, rows, 1, 0, columns, 1),
         [&](const tbb::blocked_range2d<int>& range) {
+            if (work.abandon.stop_requested()) {
+                return;
+            }
             const FlushDenormals flush;
             auto times = work.times != nullptr ? std::optional(work.times->sheet()) : std::nullopt;
             const Films films{.film = &result.film,
@@ -105,6 +116,9 @@ void render_pass(const Work& work, const RenderOptions& options, SampleRange sam
     for (SampleRange some = samples; some.begin < samples.end; some.begin = some.end) {
         some.end = samples.end - some.begin > most ? some.begin + most : samples.end;
         render_at_once(work, options, some, result);
+        if (work.abandon.stop_requested()) {
+            return;
+        }
     }
     result.film.count_samples(samples.begin, samples.end);
     result.strategies.count_samples(samples.end - samples.begin);

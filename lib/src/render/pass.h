@@ -9,6 +9,7 @@
 #include <bdpt/render_options.h>
 
 #include <functional>
+#include <stop_token>
 
 namespace bdpt {
 
@@ -20,10 +21,12 @@ struct Work {
     TimeRecorder* times = nullptr;  ///< if times are recorded
     /// Told what the samples of each tile were in work, on many threads at once; if it is there.
     std::function<void(const Tile&, const RenderStats&)> on_tile{};
+    std::stop_token abandon{};  ///< ends a pass in its middle
 };
 
 /// Renders `samples` of all pixels into `result`, on the threads that oneTBB gives: at once, or, if
-/// the integrator takes fewer in a pass, one such pass after the other.
+/// the integrator takes fewer in a pass, one such pass after the other. What is abandoned leaves
+/// `result` with some of the samples, and without a note of them.
 void render_pass(const Work& work, const RenderOptions& options, SampleRange samples,
                  RenderPart& result);
 

@@ -204,6 +204,7 @@ private:
     RenderPart part_;
     std::optional<PassSize> pass_size_;
     double seconds_ = 0.0;
+    bool is_abandoned_ = false;  ///< `part_` has no films
 };
 
 std::optional<TimeProfile> Renderer::Impl::run(SampleRange wanted_range,
@@ -211,6 +212,9 @@ std::optional<TimeProfile> Renderer::Impl::run(SampleRange wanted_range,
                                                std::chrono::steady_clock::time_point start,
                                                double cpu_start)
 {
+    if (std::exchange(is_abandoned_, false)) {
+        begin();  // now, as whoever abandons a render may not go on with it
+    }
     Threads threads(options_.system.threads);
     std::optional<TimeRecorder> times;
     if (control.profiling == Profiling::on) {
@@ -231,10 +235,18 @@ std::optional<TimeProfile> Renderer::Impl::run(SampleRange wanted_range,
             render_pass({.integrator = *integrator_,
                          .aov_pass = *aov_pass_,
                          .on_path = control.on_path,
-                         .times = times ? &*times : nullptr},
+                         .times = times ? &*times : nullptr,
+                         .abandon = control.abandon},
                         options_, pass, part_);
-            noise.look(part_);
+            if (!control.abandon.stop_requested()) {
+                noise.look(part_);
+            }
         });
+        if (control.abandon.stop_requested()) {
+            part_ = {};
+            is_abandoned_ = true;
+            return std::nullopt;
+        }
         done += pass.end - pass.begin;
         const double seconds = seconds_since(start);
         seconds_ = seconds_before + seconds;

@@ -78,7 +78,7 @@ TEST_CASE("a benchmark writes a page, JSON and CSV, and prints a table")
 TEST_CASE("scenes of one name are kept apart")
 {
     const ScratchFolder folder;
-    std::vector<std::string> words = tiny(folder, {"--quiet"});
+    std::vector<std::string> words = tiny(folder, {"--quiet", "--strategy-depth", "2"});
     words.insert(words.begin() + 2, box);
     const Outcome outcome = run(words);
     CAPTURE(outcome.err);
@@ -88,6 +88,8 @@ TEST_CASE("scenes of one name are kept apart")
     const json result = json::parse(read_text(folder / "out/bench.json"));
     CHECK(result["scenes"][1]["name"] == "cornell-box-2");
     CHECK(fs::exists(folder / "out/scenes/cornell-box-2/pt-0.exr"));
+    const json strategies = json::parse(read_text(folder / "out/scenes/cornell-box/strategies.json"));
+    CHECK(strategies["depth"] == 2);
 }
 
 TEST_CASE("words of a benchmark that make no sense")

@@ -7,6 +7,7 @@
 #include "room.h"
 #include "scene_builder.h"
 
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -46,6 +47,36 @@ std::string message_of(const std::function<void()>& call)
         return error.what();
     }
     return "";
+}
+
+TEST_CASE("a pass that is abandoned leaves nothing behind", "[render]")
+{
+    const Scene scene = room();
+    for (const IntegratorKind kind :
+         {IntegratorKind::mis, IntegratorKind::bdpt, IntegratorKind::vcm}) {
+        RenderOptions asked = options(kind);
+        asked.system.tile_size = 4;
+        asked.bidirectional.light_paths = 0.5;  // which all pixels share
+        const RenderPart whole = render_part(scene, room_camera(), asked, {}).part;
+        Renderer renderer(scene, room_camera(), asked);
+        renderer.render(4);
+        // In the middle of a pass: paths are told of while tiles are rendered.
+        std::stop_source abandon;
+        RenderControl control;
+        control.abandon = abandon.get_token();
+        std::atomic<int> paths{0};
+        control.on_path = [&](const PathContribution&) {
+            ++paths;
+            abandon.request_stop();
+        };
+        renderer.render(8, control);
+        CHECK(paths > 0);
+        CHECK(renderer.samples() == 0);
+        CHECK(renderer.part().film.sample_count() == 0);
+        renderer.finish();
+        CHECK(same_bits(renderer.part(), whole));
+        CHECK(render(scene, room_camera(), asked, control).film.sample_count() == 0);
+    }
 }
 
 TEST_CASE("a render that is held has the bits of one at once, however it grows", "[render]")

@@ -47,6 +47,9 @@ void add_strategy_file_option(OptionList& options, StrategyFiles& strategies, st
 std::optional<StrategyFiles> checked(const StrategyFiles& strategies, const RenderOptions& render,
                                      const OptionList& options)
 {
+    if (options.find("--strategies") == nullptr) {
+        return std::nullopt;  // bench: its --strategy-depth is one of its own
+    }
     const bool file = options.given("--strategies");
     if (!file && !options.given("--strategy-depth")) {
         return std::nullopt;

@@ -1,6 +1,6 @@
-#include <bdpt/eval/image/heat_map.h>
 #include <bdpt/eval/report/bench_output.h>
 #include <bdpt/eval/report/packed_image.h>
+#include <bdpt/eval/report/page_text.h>
 #include <bdpt/io/read_image.h>
 #include <bdpt/io/tone_map.h>
 #include <bdpt/options/option_fields.h>
@@ -29,19 +29,6 @@ using nlohmann::ordered_json;
 /// Logarithms of variances in a byte: 0 for nothing, then 2^-24 to 2^8 in eighths of an octave.
 constexpr double variance_octaves_below = 24.0;
 constexpr double variance_steps = 8.0;
-
-std::string heat_text()
-{
-    constexpr std::string_view digits = "0123456789abcdef";
-    std::string result;
-    for (const Color8& color : heat_colors()) {
-        for (const std::uint8_t channel : color) {
-            result += digits[channel >> 4];
-            result += digits[channel & 15];
-        }
-    }
-    return result;
-}
 
 /// The images of an integrator at equal time, one for each seed that it has runs with.
 std::vector<Image> read_images(const SceneResult& scene, IntegratorKind kind,
@@ -121,38 +108,6 @@ ordered_json times_json(const SceneResult& scene, const BenchFiles& files)
     return maps;
 }
 
-/// `text` with each word in double braces replaced by what it stands for.
-std::string fill(std::string_view text,
-                 const std::vector<std::pair<std::string_view, std::string_view>>& values)
-{
-    std::string result;
-    while (true) {
-        const std::size_t open = text.find("{{");
-        const std::size_t close = text.find("}}", open);
-        if (close == std::string_view::npos) {
-            return result.append(text);
-        }
-        result.append(text.substr(0, open));
-        const std::string_view word = text.substr(open + 2, close - open - 2);
-        for (const auto& [name, value] : values) {
-            if (name == word) {
-                result.append(value);
-            }
-        }
-        text.remove_prefix(close + 2);
-    }
-}
-
-/// JSON that no HTML parser takes for the end of a script.
-std::string script_safe(const std::string& json)
-{
-    std::string result;
-    for (const char c : json) {
-        result += c == '<' ? "\\u003c" : std::string(1, c);
-    }
-    return result;
-}
-
 }  // namespace
 
 std::string bench_page(const BenchRecord& record, const fs::path& folder)
@@ -172,8 +127,8 @@ std::string bench_page(const BenchRecord& record, const fs::path& folder)
     }
     const std::string text =
         script_safe(data.dump(-1, ' ', false, ordered_json::error_handler_t::replace));
-    return fill(page_template(),
-                {{"style", page_style()}, {"data", text}, {"script", page_script()}});
+    return fill_page(page_template(),
+                     {{"style", page_style()}, {"data", text}, {"script", page_script()}});
 }
 
 }  // namespace bdpt::eval

@@ -9,6 +9,15 @@ function readHeat(text) {
   return result;
 }
 
+/** Writes the colour of `place` in [0, 1] to the four bytes of `target` at `offset`. */
+function setHeat(target, offset, heat, place) {
+  const index = 3 * Math.round(255 * Math.min(Math.max(place, 0), 1));
+  target[offset] = heat[index];
+  target[offset + 1] = heat[index + 1];
+  target[offset + 2] = heat[index + 2];
+  target[offset + 3] = 255;
+}
+
 /** The colours from left to right, with what they stand for below. */
 function colorBar(heat, label, ticks) {
   const count = heat.length / 3;

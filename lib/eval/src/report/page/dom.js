@@ -45,3 +45,14 @@ function table(caption, head, rows, attributes) {
     html("table", attributes, html("caption", null, caption),
       html("thead", null, html("tr", null, headCells)), html("tbody", null, bodyRows)));
 }
+
+/** The button that chooses light or dark; else the system does. */
+function bindTheme() {
+  const themes = ["system", "light", "dark"];
+  const button = byId("theme");
+  button.addEventListener("click", () => {
+    const next = themes[(themes.indexOf(document.documentElement.dataset.theme || "system") + 1) % themes.length];
+    document.documentElement.dataset.theme = next;
+    button.textContent = `Theme: ${next}`;
+  });
+}

@@ -79,16 +79,6 @@ function bindToolbar() {
   });
 }
 
-function bindTheme() {
-  const themes = ["system", "light", "dark"];
-  const button = byId("theme");
-  button.addEventListener("click", () => {
-    const next = themes[(themes.indexOf(document.documentElement.dataset.theme || "system") + 1) % themes.length];
-    document.documentElement.dataset.theme = next;
-    button.textContent = `Theme: ${next}`;
-  });
-}
-
 function fillHeader() {
   const { options, machine } = data;
   byId("lead").textContent = `${options.integrators.length} integrators in ${data.scenes.length} ` +

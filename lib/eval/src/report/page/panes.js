@@ -41,12 +41,13 @@ class Pane {
   constructor(view, width, height, label) {
     this.view = view;
     this.size = [width, height];
+    this.smoothBelow = 1;  // magnification below which pixels are blended
     this.canvas = html("canvas", { class: "pane", role: "img", "aria-label": label,
       style: `aspect-ratio:${width}/${height}` });
   }
 
-  /** Draws the image `source`, a canvas, and a mark at `cursor`, a place in it. */
-  draw(source, cursor) {
+  /** Gives the canvas the pixels of the screen that it covers: [width, height]. */
+  fit() {
     const ratio = window.devicePixelRatio || 1;
     const width = Math.max(Math.round(this.canvas.clientWidth * ratio), 1);
     const height = Math.max(Math.round(width * this.size[1] / this.size[0]), 1);
@@ -54,13 +55,19 @@ class Pane {
       this.canvas.width = width;
       this.canvas.height = height;
     }
+    return [width, height];
+  }
+
+  /** Draws the image `source`, a canvas of any resolution, and a mark at `cursor`, a place in the image. */
+  draw(source, cursor) {
+    const [width, height] = this.fit();
     const context = this.canvas.getContext("2d");
     const { x, y, zoom } = this.view;
     const scale = zoom * width / this.size[0];
-    context.imageSmoothingEnabled = scale < 1;
+    context.imageSmoothingEnabled = scale < this.smoothBelow || source.width < this.size[0];
     context.setTransform(scale, 0, 0, zoom * height / this.size[1], width / 2 - x * zoom * width,
       height / 2 - y * zoom * height);
-    context.drawImage(source, 0, 0);
+    context.drawImage(source, 0, 0, this.size[0], this.size[1]);
     context.setTransform(1, 0, 0, 1, 0, 0);
     if (cursor) {
       this.mark(context, cursor, width, height, scale);

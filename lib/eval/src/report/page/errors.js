@@ -1,40 +1,4 @@
-// From light to a screen.
-
-const SRGB_STEPS = 4096;
-const SRGB = Uint8ClampedArray.from({ length: SRGB_STEPS + 1 }, (_, i) => {
-  const x = i / SRGB_STEPS;
-  return 255 * (x <= 0.0031308 ? 12.92 * x : 1.055 * x ** (1 / 2.4) - 0.055);
-});
-
-/** Curves on the largest component, from [0, inf) to [0, 1]; `fade`: how fast colours above 1 become white. */
-const CURVES = {
-  filmic: {
-    name: "Filmic",
-    map: (x) => Math.min((x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14), 1),
-    fade: 0.15,
-  },
-  reinhard: { name: "Reinhard", map: (x) => x / (1 + x), fade: 0 },
-  linear: { name: "Linear", map: (x) => Math.min(x, 1), fade: 0 },
-};
-
-/** Draws light into `target` (RGBA bytes). Hues stay but for the fade: all components are scaled alike. */
-function toneMap(rgb, target, { gain, curve, gamma }) {
-  const { map, fade } = CURVES[curve];
-  for (let i = 0, o = 0; i < rgb.length; i += 3, o += 4) {
-    const r = rgb[i] * gain;
-    const g = rgb[i + 1] * gain;
-    const b = rgb[i + 2] * gain;
-    const most = Math.max(r, g, b);
-    const excess = fade * Math.max(most - 1, 0);
-    const white = excess / (1 + excess);
-    const shown = most > 0 ? SRGB_STEPS * map(most) ** gamma : 0;
-    const k = most > 0 ? shown * (1 - white) / most : 0;
-    target[o] = SRGB[r * k + white * shown | 0];
-    target[o + 1] = SRGB[g * k + white * shown | 0];
-    target[o + 2] = SRGB[b * k + white * shown | 0];
-    target[o + 3] = 255;
-  }
-}
+// Errors and variances of images, in false colours.
 
 /** Errors of a pixel; `place` is where on the scale of colours it is, in [0, 1]. */
 const METRICS = {
@@ -61,14 +25,6 @@ function errorAt(rgb, reference, i, metric, epsilon) {
     sum += METRICS[metric].value(rgb[c], reference[c], epsilon);
   }
   return sum / 3;
-}
-
-function setHeat(target, offset, heat, place) {
-  const index = 3 * Math.round(255 * Math.min(Math.max(place, 0), 1));
-  target[offset] = heat[index];
-  target[offset + 1] = heat[index + 1];
-  target[offset + 2] = heat[index + 2];
-  target[offset + 3] = 255;
 }
 
 /** Draws errors in false colours. */

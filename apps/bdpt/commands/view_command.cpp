@@ -1,0 +1,65 @@
+#include "commands/view_command.h"
+
+#include <signal.h>
+#include <spawn.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <string>
+
+#include "terminal/console.h"
+#include "view/server/page.h"
+#include "view/server/server.h"
+#include "view/session.h"
+
+namespace bdpt::app {
+namespace {
+
+/// Shows `url` in the browser of the desktop; false: nothing can.
+bool open_in_browser(const std::string& url)
+{
+    std::string program = "xdg-open";
+    std::string address = url;
+    const std::array<char*, 3> words{program.data(), address.data(), nullptr};
+    pid_t child = 0;
+    return ::posix_spawnp(&child, program.c_str(), nullptr, nullptr, words.data(), environ) == 0;
+}
+
+/// Ends the server before the session whose tasks it holds goes.
+class Serving {
+public:
+    Serving(Server& server, Doors doors) : server_(server) { server_.start(std::move(doors)); }
+    ~Serving() { server_.stop(); }
+    Serving(const Serving&) = delete;
+    Serving& operator=(const Serving&) = delete;
+
+private:
+    Server& server_;
+};
+
+}  // namespace
+
+int run_view(const ViewArguments& arguments, const OptionList& options)
+{
+    Console console(Format::text, arguments.stage.printed.verbosity);
+    Server server(arguments.listen, view_page());
+    Session session(ViewWords(options), server, console);
+    const Serving serving(
+        server,
+        {.join = [&](ClientId client) { session.join(client); },
+         .leave = [&](ClientId client) { session.leave(client); },
+         .ask = [&](ClientId client, const std::string& text) { session.ask(client, text); },
+         .save = [&](const std::string& name, int slot,
+                     std::function<void(Download)> done) { session.save(name, slot, std::move(done)); },
+         .stop = [&] { session.stop(); }});
+    print_text(server.url() + "\n");
+    std::fflush(stdout);
+    if (arguments.opens_browser && !open_in_browser(server.url())) {
+        console.warning("there is no xdg-open: open the address in a browser");
+    }
+    session.run();
+    return 0;
+}
+
+}  // namespace bdpt::app

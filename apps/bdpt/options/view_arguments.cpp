@@ -1,0 +1,113 @@
+#include "options/view_arguments.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "options/arguments.h"
+#include "options/values/pipes.h"
+#include "options/values/value_types.h"
+
+namespace bdpt::app {
+namespace {
+
+/// Options of `bdpt render` about its files, its processes and its many images.
+constexpr std::array<std::string_view, 27> not_for_view{
+    "others",     "--output",     "--samples",    "--time",         "--stats",
+    "--profile",  "--save-rates", "--strategies", "--strategy-depth", "--part",
+    "--restart",  "--plan",       "--task",       "--display",      "--save-job",
+    "--frames",   "--fps",        "--orbit",      "--turn",         "--cameras",
+    "--same-noise", "--json",     "--aov",        "--half",         "--float",
+    "--tiled",    "--full-paths"};
+
+bool is_for_view(const Option& option)
+{
+    return std::find(not_for_view.begin(), not_for_view.end(), option.name()) ==
+           not_for_view.end();
+}
+
+}  // namespace
+
+const char* const view_footer = R"(Examples:
+  bdpt view model.glb
+  bdpt view model.glb --env studio --background white
+  bdpt view room.glb --integrator bdpt --size 960x540
+  bdpt view room.glb --listen 127.0.0.1:8080
+
+Prints an address on this machine. Its page shows the picture while it grows: drag to turn, click to
+inspect a pixel; docs/view.md has the rest. The files of the scene are read again when they change.
+Who does not know the address is refused. On a server, reach it through ssh:
+ssh -L 8080:127.0.0.1:8080 SERVER. Ctrl-C ends it.
+
+Exit codes: 0 done (Ctrl-C), 1 internal error, 2 wrong usage, 3 input not found, 4 invalid input,
+5 unsupported feature, 6 cannot listen there, 7 out of memory or threads.)";
+
+const char* const view_short_footer = R"(Examples:
+  bdpt view model.glb
+  bdpt view model.glb --env studio --background white
+
+"bdpt view --help-all" has all options and the exit codes.)";
+
+std::optional<DisplayAddress> parse_listen_address(const std::string& text)
+{
+    const std::size_t host_end = text.starts_with('[') ? text.find(']') : 0;
+    const std::size_t colon = text.find(':', host_end == std::string::npos ? 0 : host_end);
+    const bool has_port = colon != std::string::npos && text.substr(colon + 1) != "0";
+    if (has_port) {
+        return parse_address(text);
+    }
+    std::string host = text.substr(0, colon);
+    if (host.empty() && colon != std::string::npos) {
+        host = "localhost";
+    }
+    std::optional<DisplayAddress> address = parse_address(host);
+    if (address) {
+        address->port = "0";
+    }
+    return address;
+}
+
+void add_view_command_options(OptionList& options, ViewRequest& request)
+{
+    add_render_options(options, request.render);
+    std::deque<Option>& all = options.all();
+    all.erase(std::remove_if(all.begin(), all.end(),
+                             [](const Option& option) { return !is_for_view(option); }),
+              all.end());
+    for (Option& option : all) {
+        option.uses = {.job = option.uses.job};
+        if (option.name() == "--spp") {
+            option.help =
+                "Samples per pixel after which the picture is done. Default: " +
+                std::to_string(view_samples);
+        } else if (option.name() == "file") {
+            option.help = "The scene: .gltf or .glb";
+        } else if (option.name() == "--noise") {
+            option.help = "The picture is done when the noise is that low, like 2%";
+        }
+    }
+    options.section("Server", {.job = false});
+    options.add("--listen", "HOST[:PORT]",
+                "Listen there. Default: 127.0.0.1, which only this machine reaches, and any free "
+                "port",
+                request.arguments.listen,
+                parsed_by(parse_listen_address, "HOST or HOST:PORT, like 127.0.0.1:8080"));
+    options.add_flag("--open", "Show the page in the browser (xdg-open)",
+                     request.arguments.opens_browser);
+}
+
+ViewArguments checked(const ViewRequest& request, const OptionList& options)
+{
+    ViewArguments result = request.arguments;
+    result.stage = checked(request.render, options);
+    for (const std::string& file :
+         {result.stage.file.string(), result.stage.environment.value_or("")}) {
+        if (file == "-") {
+            throw OptionError("-: the standard input cannot be read again; name a file");
+        }
+    }
+    return result;
+}
+
+}  // namespace bdpt::app

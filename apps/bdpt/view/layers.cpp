@@ -1,0 +1,104 @@
+#include "view/layers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace bdpt::app {
+namespace {
+
+constexpr double least_noise = 1e-3;  // at the left end of the scale
+constexpr double decades = 3.0;
+
+double luminance(Rgb color)
+{
+    return 0.2126 * static_cast<double>(color.r) + 0.7152 * static_cast<double>(color.g) +
+           0.0722 * static_cast<double>(color.b);
+}
+
+struct Block {
+    double sum = 0.0;
+    double variance = 0.0;
+    int pixels = 0;
+};
+
+}  // namespace
+
+Image noise_image(const Film& film)
+{
+    constexpr int side = 8;  // [pixels]
+    const Image mean = film.develop();
+    const Image variance = film.variance();
+    Image result{.width = mean.width, .height = mean.height, .pixels = {}};
+    result.pixels.resize(mean.pixels.size(), Rgb(0.0f));
+    if (film.sample_count() < 2) {
+        return result;
+    }
+    double total = 0.0;
+    for (const Rgb& pixel : mean.pixels) {
+        total += luminance(pixel);
+    }
+    const double darkest =
+        0.01 * total / static_cast<double>(std::max<std::size_t>(mean.pixels.size(), 1));
+    for (int top = 0; top < mean.height; top += side) {
+        for (int left = 0; left < mean.width; left += side) {
+            const int bottom = std::min(top + side, mean.height);
+            const int right = std::min(left + side, mean.width);
+            Block block;
+            for (int y = top; y < bottom; ++y) {
+                for (int x = left; x < right; ++x) {
+                    block.sum += luminance(mean.at(x, y));
+                    block.variance += luminance(variance.at(x, y));
+                    ++block.pixels;
+                }
+            }
+            // Of a pixel, root mean square.
+            const double error = std::sqrt(block.variance / block.pixels);
+            const double noise = error / std::max(block.sum / block.pixels, darkest);
+            const double place =
+                noise > 0.0 ? std::log10(noise / least_noise) / decades : 0.0;
+            for (int y = top; y < bottom; ++y) {
+                for (int x = left; x < right; ++x) {
+                    result.pixels[static_cast<std::size_t>(y) *
+                                      static_cast<std::size_t>(mean.width) +
+                                  static_cast<std::size_t>(x)] =
+                        Rgb(static_cast<float>(std::clamp(place, 0.0, 1.0)), 0.0f, 0.0f);
+                }
+            }
+        }
+    }
+    return result;
+}
+
+Scale noise_scale()
+{
+    return {.label = "noise of a pixel, by blocks of 8 x 8",
+            .ticks = {{0.0, "0.1 %"},
+                      {1.0 / decades, "1 %"},
+                      {2.0 / decades, "10 %"},
+                      {1.0, "100 %"}}};
+}
+
+Image rates_image(const SampleRates& rates, const PixelRect& region)
+{
+    constexpr auto span =
+        static_cast<float>(SampleRates::greatest_exponent - SampleRates::least_exponent);
+    Image result{.width = region.width(), .height = region.height(), .pixels = {}};
+    for (int y = region.y0; y < region.y1; ++y) {
+        for (int x = region.x0; x < region.x1; ++x) {
+            const auto steps =
+                static_cast<float>(rates.exponent(x, y) - SampleRates::least_exponent);
+            result.pixels.emplace_back(steps / span, 0.0f, 0.0f);
+        }
+    }
+    return result;
+}
+
+Scale rates_scale()
+{
+    return {.label = "samples, in units of --spp",
+            .ticks = {{0.0, "1/4"}, {0.25, "1/2"}, {0.5, "1"}, {0.75, "2"}, {1.0, "4"}}};
+}
+
+}  // namespace bdpt::app

@@ -1,0 +1,76 @@
+#include "view/live_render.h"
+
+#include <bdpt/noise.h>
+#include <bdpt/part/sample_rates.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "stage/render_preparation.h"
+
+namespace bdpt::app {
+
+LiveRender::LiveRender(RenderArguments arguments, const PreparedScene& stage)
+    : arguments_(std::move(arguments)),
+      renderer_(stage.scene, stage.camera, arguments_.options),
+      noise_(std::numeric_limits<double>::infinity())
+{
+    if (meters_light(arguments_)) {
+        arguments_.light_exposure =
+            metered_exposure(stage, {.camera = stage.camera, .size = stage.size});
+    }
+}
+
+bool LiveRender::is_done() const
+{
+    return renderer_.samples() >= arguments_.samples.end ||
+           (arguments_.goal.noise && noise_ <= *arguments_.goal.noise);
+}
+
+bool LiveRender::advance(const PassStops& stops)
+{
+    constexpr double longest = 0.5;  // [s]
+    const std::int64_t unit = arguments_.options.sampling.rates ? SampleRates::group : 1;
+    const std::int64_t before = renderer_.samples();
+    std::int64_t count = std::max(before, unit);  // twice as many as there are
+    if (seconds_a_sample_ > 0.0) {
+        count = std::min(count, static_cast<std::int64_t>(longest / seconds_a_sample_));
+    }
+    count = std::min(std::max(count, unit) / unit * unit, arguments_.samples.end - before);
+    const double seconds = renderer_.seconds();
+    RenderControl control;
+    control.stop = stops.soon;
+    control.abandon = stops.now;
+    control.noise_goal = arguments_.goal.noise.value_or(0.0);
+    renderer_.render(count, control);
+    if (stops.now.stop_requested()) {
+        return false;
+    }
+    const std::int64_t rendered = renderer_.samples() - before;
+    if (rendered > 0) {
+        seconds_a_sample_ = (renderer_.seconds() - seconds) / static_cast<double>(rendered);
+    }
+    noise_ = renderer_.noise();
+    return true;
+}
+
+std::optional<Image> coarse_picture(const RenderArguments& arguments, const PreparedScene& stage,
+                                    const Size& size, const std::stop_token& now)
+{
+    RenderOptions options = arguments.options;
+    options.integrator = IntegratorKind::mis;
+    options.bidirectional = {};
+    options.film.width = size.width;
+    options.film.height = size.height;
+    options.film.crop.reset();
+    options.film.aovs = {};
+    options.sampling.rates.reset();
+    options.sampling.samples = {.begin = 0, .end = 1};
+    RenderControl control;
+    control.abandon = now;
+    const RenderResult result = render(stage.scene, stage.camera, options, control);
+    return now.stop_requested() ? std::nullopt : std::optional(result.film.develop());
+}
+
+}  // namespace bdpt::app

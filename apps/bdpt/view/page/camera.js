@@ -1,0 +1,113 @@
+// Camera moves by pointer, wheel and keys. What comes while a move is on its way is added up to one.
+
+/** Radians for a drag across the width of the picture, and for a key. */
+const TURN_ACROSS = Math.PI;
+const TURN_KEY = Math.PI / 36;
+const PAN_KEY = 0.05;
+const DOLLY_KEY = 1.1;
+
+/** Camera moves; those that wait are added up. */
+class Moves {
+  constructor(send) {
+    this.queue = new OneAtATime(send, (a, b) => ({ orbit: sum(a.orbit, b.orbit), pan: sum(a.pan, b.pan), dolly: a.dolly * b.dolly }));
+  }
+
+  /** Radians to the right and down. */
+  turn(dx, dy) {
+    this.queue.add({ orbit: [dx, dy], pan: [0, 0], dolly: 1 });
+  }
+
+  /** Heights of the picture to the right and down. */
+  shift(dx, dy) {
+    this.queue.add({ orbit: [0, 0], pan: [dx, dy], dolly: 1 });
+  }
+
+  /** Multiplies the distance to the target. */
+  approach(factor) {
+    this.queue.add({ orbit: [0, 0], pan: [0, 0], dolly: factor });
+  }
+}
+
+function sum(a, b) {
+  return [a[0] + b[0], a[1] + b[1]];
+}
+
+/** Drags, the wheel and double clicks on the stage. `click(pixel)` and `focus(pixel)` are for clicks without a drag. */
+function bindPointer(stage, moves, { click, focus }) {
+  const canvas = stage.canvas;
+  const nearby = 4;  // [CSS pixels] a click may move so far
+  let drag = null;
+  canvas.addEventListener("pointerdown", (event) => {
+    drag = { x: event.clientX, y: event.clientY, far: false, pans: event.button === 1 || event.button === 2 || event.shiftKey };
+    canvas.setPointerCapture(event.pointerId);
+    if (event.button === 1) {
+      event.preventDefault();
+    }
+  });
+  canvas.addEventListener("pointermove", (event) => {
+    if (!drag || !event.buttons) {
+      return;
+    }
+    const dx = event.clientX - drag.x;
+    const dy = event.clientY - drag.y;
+    if (!drag.far && Math.hypot(dx, dy) < nearby) {
+      return;
+    }
+    Object.assign(drag, { x: event.clientX, y: event.clientY, far: true });
+    canvas.classList.add("dragged");
+    const width = canvas.clientWidth;
+    const height = canvas.clientHeight;
+    if (drag.pans) {
+      moves.shift(dx / height, dy / height);
+    } else {
+      moves.turn(TURN_ACROSS * dx / width, TURN_ACROSS * dy / width);
+    }
+  });
+  canvas.addEventListener("pointerup", (event) => {
+    canvas.classList.remove("dragged");
+    const pixel = drag && !drag.far && event.button === 0 && !event.shiftKey ? stage.pixel(event) : null;
+    drag = null;
+    if (pixel) {
+      click(pixel);
+    }
+  });
+  canvas.addEventListener("pointercancel", () => {
+    canvas.classList.remove("dragged");
+    drag = null;
+  });
+  canvas.addEventListener("contextmenu", (event) => event.preventDefault());
+  canvas.addEventListener("dblclick", (event) => {
+    const pixel = stage.pixel(event);
+    if (pixel) {
+      focus(pixel);
+    }
+  });
+  canvas.addEventListener("wheel", (event) => {
+    event.preventDefault();
+    const lines = event.deltaMode === 1 ? 16 : 1;
+    if (event.ctrlKey || event.metaKey) {
+      stage.view.zoomAt(2 ** (-lines * event.deltaY / 240), ...stage.place(event));
+      stage.requestDraw();
+    } else {
+      moves.approach(2 ** (lines * event.deltaY / 480));
+    }
+  }, { passive: false });
+}
+
+/** Keys that move the camera: false for others. */
+function moveByKey(event, moves) {
+  const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+  const arrow = arrows[event.key];
+  if (arrow && event.shiftKey) {
+    moves.shift(PAN_KEY * arrow[0], PAN_KEY * arrow[1]);
+  } else if (arrow) {
+    moves.turn(TURN_KEY * arrow[0], TURN_KEY * arrow[1]);
+  } else if (event.key === "PageUp") {
+    moves.approach(1 / DOLLY_KEY);
+  } else if (event.key === "PageDown") {
+    moves.approach(DOLLY_KEY);
+  } else {
+    return false;
+  }
+  return true;
+}

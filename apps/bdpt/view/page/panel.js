@@ -1,0 +1,125 @@
+// Controls of the page. Each shows what the server says, unless one is just moving it.
+
+class Panel {
+  /** `change(settings)` asks the server for them; `look(settings)` is the page's own: exposure, curve. */
+  constructor(change, look) {
+    this.change = change;
+    this.look = look;
+    this.bindSelect("curve", (value) => look({ curve: value }));
+    byId("curve").append(...Object.entries(CURVES).map(([value, { name }]) => html("option", { value }, name)));
+    this.bindSelect("integrator-a", (value) => change({ integrator_a: value }));
+    this.bindSelect("integrator-b", (value) => change({ integrator_b: value || null }));
+    this.bindSelect("environment", (value) => change({ environment: value }));
+    this.bindSelect("strategy", (value) => change({ strategy: value.split(",").map(Number) }));
+    this.exposure = this.bindSlider("exposure", evText, (value) => look({ exposure: value }));
+    this.rotation = this.bindSlider("rotation", (value) => `${value}°`, (value) => change({ rotation: value }));
+    this.intensity = this.bindSlider("intensity", (value) => `× ${digits(2 ** value)}`, (value) => change({ intensity: 2 ** value }));
+  }
+
+  bindSelect(id, changed) {
+    byId(id).addEventListener("change", (event) => changed(event.target.value));
+  }
+
+  /** `set(value)` of the result moves the slider without a request. */
+  bindSlider(id, text, changed) {
+    const slider = byId(id);
+    const write = () => {
+      byId(`${id}-out`).textContent = text(Number(slider.value));
+    };
+    slider.addEventListener("input", () => {
+      write();
+      changed(Number(slider.value));
+    });
+    return { set: (value) => {
+      if (Math.abs(Number(slider.value) - value) > Number(slider.step) / 2) {
+        slider.value = value;
+      }
+      write();
+    } };
+  }
+
+  show(state) {
+    const title = state.title || state.file;
+    byId("title").textContent = title;
+    document.title = `${title} – bdpt view`;
+    byId("camera-line").textContent = cameraText(state.camera);
+    fillOptions("integrator-a", state.integrators.map((name) => [name, name]), state.integrator_a);
+    fillOptions("integrator-b", [["", "none"], ...state.integrators.map((name) => [name, name])], state.integrator_b || "");
+    fillOptions("environment", state.environments.map((name) => [name, name]), state.environment);
+    fillOptions("strategy", (state.strategies || []).map(([s, t]) => [`${s},${t}`, `s = ${s}, t = ${t}`]), String(state.strategy || ""));
+    byId("strategy-box").hidden = state.layer !== "strategy";
+    this.rotation.set(state.rotation);
+    this.intensity.set(Math.log2(state.intensity));
+    this.showLayers(state);
+    const pause = byId("pause");
+    pause.textContent = state.paused ? "Continue" : "Pause";
+    pause.setAttribute("aria-pressed", String(state.paused));
+    byId("message").hidden = !state.message;
+    if (byId("message").textContent !== (state.message || "")) {
+      byId("message").textContent = state.message || "";
+    }
+    this.showNotes(state.warnings || []);
+    byId("command").value = state.command;
+    byId("status").replaceChildren(...state.slots.flatMap((slot) => statusOf(slot, state.slots.length > 1)));
+  }
+
+  /** Warnings and notes of the scene: one as it is, more of them behind their number. */
+  showNotes(notes) {
+    const box = byId("notes");
+    box.hidden = notes.length === 0;
+    if (box.dataset.notes !== notes.join("\n")) {
+      box.dataset.notes = notes.join("\n");
+      box.replaceChildren(html("summary", null, notes.length === 1 ? "A note about the scene" : `${notes.length} notes about the scene`),
+        html("ul", null, notes.map((note) => html("li", null, note))));
+    }
+  }
+
+  showLayers(state) {
+    const names = state.layers;
+    const box = byId("layers");
+    const legend = box.querySelector("legend");
+    if (box.dataset.names !== names.join()) {
+      box.dataset.names = names.join();
+      box.replaceChildren(legend, ...names.map((name, i) => html("button", { type: "button", value: name,
+        "aria-keyshortcuts": String(i + 1), onclick: () => this.change({ layer: name }) }, LAYERS[name] || name)));
+    }
+    for (const button of box.querySelectorAll("button")) {
+      button.setAttribute("aria-pressed", String(button.value === state.layer));
+    }
+  }
+}
+
+const LAYERS = { picture: "Picture", strategy: "Strategy", noise: "Noise", rates: "Rates" };
+
+function fillOptions(id, options, value) {
+  const select = byId(id);
+  const key = options.map(([name]) => name).join("\n");
+  if (select.dataset.options !== key) {
+    select.dataset.options = key;
+    select.replaceChildren(...options.map(([name, text]) => html("option", { value: name }, text)));
+  }
+  if (select.value !== value && document.activeElement !== select) {
+    select.value = value;
+  }
+}
+
+function evText(value) {
+  return `${value > 0 ? "+" : ""}${Number(value.toFixed(2))} EV`;
+}
+
+function cameraText(camera) {
+  const point = (p) => p.map((x) => digits(x)).join(", ");
+  return `${camera.name ? `${camera.name}: ` : ""}from ${point(camera.from)} to ${point(camera.look_at)}` +
+    (camera.fov ? `, ${digits(camera.fov)}°` : "");
+}
+
+/** One line about what was rendered: "mis 48 of 256 samples, noise 2.1 %, 3.2 s". */
+function statusOf(slot, named) {
+  const pair = (name, value) => html("div", null, html("dt", null, name), html("dd", null, value));
+  return [
+    pair(named ? `${slot.integrator}: samples` : "Samples", `${digits(slot.samples, 4)}${slot.target ? ` of ${slot.target}` : ""}`),
+    pair("noise", slot.noise === null ? "–" : percent(slot.noise)),
+    pair("time", seconds(slot.seconds)),
+    slot.done ? html("div", null, html("dd", null, "finished")) : null,
+  ].filter((one) => one);
+}

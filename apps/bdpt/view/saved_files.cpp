@@ -1,0 +1,110 @@
+#include "view/saved_files.h"
+
+#include <bdpt/error.h>
+#include <fmt/core.h>
+
+#include <array>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "report/image/denoised.h"
+#include "report/image/image_files.h"
+#include "report/image/shown_exposure.h"
+#include "report/render_settings.h"
+
+namespace bdpt::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder of our own, which goes with all that is in it.
+class TemporaryFolder {
+public:
+    TemporaryFolder()
+    {
+        std::string pattern = (fs::temp_directory_path() / "bdpt-view-XXXXXX").string();
+        if (::mkdtemp(pattern.data()) == nullptr) {
+            throw Error(ErrorCode::output,
+                        fmt::format("{}: cannot make a temporary folder", pattern));
+        }
+        path_ = pattern;
+    }
+    ~TemporaryFolder()
+    {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+    [[nodiscard]] const fs::path& path() const { return path_; }
+
+private:
+    fs::path path_;
+};
+
+io::ImageMetadata metadata(const LiveRender& render, const PreparedScene& stage)
+{
+    nlohmann::ordered_json settings = settings_of(render.arguments(), stage);
+    io::ImageMetadata result = metadata_of(render.arguments(), stage, settings);
+    result.samples_per_pixel = render.renderer().samples();
+    result.render_seconds = render.renderer().seconds();
+    result.created = std::chrono::system_clock::now();
+    return result;
+}
+
+ImageFileOptions file_options(const LiveRender& render, const PreparedScene& stage,
+                              const std::optional<io::Denoiser>& denoiser)
+{
+    const RenderArguments& arguments = render.arguments();
+    const RenderPart& part = render.renderer().part();
+    const PixelRect& region = part.film.region();
+    return {.exr = {.type = arguments.exr.channel_type,
+                    .metadata = metadata(render, stage),
+                    .storage = arguments.exr.storage,
+                    .placement = {{.x = region.x0,
+                                   .y = region.y0,
+                                   .full_width = stage.size.width,
+                                   .full_height = stage.size.height}},
+                    .manifests = part.ids.manifests()},
+            .layers = layers_of(part.film, part.aovs, part.ids),
+            .display = arguments.display,
+            .denoiser = denoiser ? &*denoiser : nullptr,
+            .denoised_as = arguments.denoise ? arguments.denoise->as : DenoisedAs::image};
+}
+
+}  // namespace
+
+Download saved_image(const LiveRender& render, const PreparedScene& stage,
+                     std::string_view extension)
+{
+    const TemporaryFolder folder;
+    const RenderArguments& arguments = render.arguments();
+    const std::string name =
+        fmt::format("{}{}", arguments.file.stem().string(), extension);
+    const std::array files{folder.path() / fmt::format("image{}", extension)};
+    const std::optional<io::Denoiser> denoiser =
+        open_denoiser(arguments.denoise, files, arguments.options.system.threads);
+    Attempts attempts;
+    static_cast<void>(write_image_files(files, render.renderer().image(),
+                                        file_options(render, stage, denoiser), attempts));
+    attempts.finish();
+    std::ifstream file(files.front(), std::ios::binary);
+    return {.type = extension == ".png" ? "image/png" : "image/x-exr",
+            .name = name,
+            .content = {std::istreambuf_iterator<char>(file), {}}};
+}
+
+float exposure_of(const LiveRender& render, const PreparedScene& stage, const Image& image)
+{
+    return shown_exposure(render.arguments().display.exposure, metadata(render, stage), image);
+}
+
+}  // namespace bdpt::app

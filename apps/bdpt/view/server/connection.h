@@ -1,0 +1,109 @@
+#pragma once
+
+// Only server.cpp and connection.cpp include this: Boost takes long to compile.
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/http/empty_body.hpp>
+#include <boost/beast/http/parser.hpp>
+#include <boost/beast/http/string_body.hpp>
+#include <boost/beast/websocket.hpp>
+
+#include <array>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "view/server/access.h"
+#include "view/server/server.h"
+
+namespace bdpt::app {
+
+class Window;
+
+/// What all connections of a server know.
+struct ServerState {
+    std::string page;
+    std::optional<Access> access;
+    Doors doors;
+    std::string text{};  ///< the last state that was told; empty: none yet
+    std::array<std::shared_ptr<const Frame>, 2> frames{};  ///< the last of each slot
+    std::map<ClientId, std::weak_ptr<Window>> windows{};
+    ClientId next_client = 1;
+    int connections = 0;
+    bool is_closing = false;
+};
+
+/// One connection that speaks HTTP, until it ends or becomes a `Window`.
+class Connection : public std::enable_shared_from_this<Connection> {
+public:
+    Connection(boost::asio::ip::tcp::socket socket, ServerState& server);
+    ~Connection();
+    Connection(const Connection&) = delete;
+    Connection& operator=(const Connection&) = delete;
+
+    void read();
+
+private:
+    using Parser = boost::beast::http::request_parser<boost::beast::http::empty_body>;
+    using Response = boost::beast::http::response<boost::beast::http::string_body>;
+
+    void take(const boost::system::error_code& error);
+    void serve();
+    void save(const std::string& name);
+    void open_window();
+    void refuse(int status, const std::string& line);
+    void send(Response response);
+    [[nodiscard]] Response response(int status, const std::string& type) const;
+
+    boost::beast::tcp_stream stream_;
+    ServerState& server_;
+    boost::beast::flat_buffer buffer_;
+    std::optional<Parser> parser_;
+    bool counts_ = true;  // among the connections
+};
+
+/// A page that is open: a web socket.
+class Window : public std::enable_shared_from_this<Window> {
+public:
+    using Stream = boost::beast::websocket::stream<boost::beast::tcp_stream>;
+
+    Window(boost::beast::tcp_stream stream, ServerState& server);
+    ~Window();
+    Window(const Window&) = delete;
+    Window& operator=(const Window&) = delete;
+
+    void open(const boost::beast::http::request<boost::beast::http::empty_body>& request);
+    /// Sends the state that the server has.
+    void tell();
+    void show(const std::shared_ptr<const Frame>& frame);
+    void answer(std::string text);
+    void close();
+
+private:
+    void read();
+    void write();
+    void sent(const boost::system::error_code& error);
+
+    Stream stream_;
+    ServerState& server_;
+    ClientId client_;
+    boost::beast::flat_buffer buffer_;
+    // What waits to be sent.
+    std::deque<std::string> answers_;
+    bool has_news_ = false;  // the state
+    std::array<std::shared_ptr<const Frame>, 2> frames_;
+    // What is on its way.
+    bool is_writing_ = false;
+    bool is_open_ = false;
+    std::string text_;
+    FrameHeader header_{};
+    std::shared_ptr<const Frame> frame_;
+};
+
+}  // namespace bdpt::app

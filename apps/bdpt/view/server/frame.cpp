@@ -1,0 +1,71 @@
+#include "view/server/frame.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace bdpt::app {
+namespace {
+
+/// A half, to the nearest one; to the even one of two. `value` is not below 0.
+std::uint16_t half_of(float value)
+{
+    constexpr float greatest = 65504.0f;
+    constexpr float least_normal = 6.103515625e-5f;  // 2^-14
+    constexpr float subnormal_steps = 16777216.0f;   // 2^24
+    if (!(value > 0.0f)) {
+        return 0;
+    }
+    if (value >= greatest) {
+        return 0x7bff;
+    }
+    if (value < least_normal) {
+        return static_cast<std::uint16_t>(std::nearbyint(value * subnormal_steps));
+    }
+    const auto bits = std::bit_cast<std::uint32_t>(value);
+    const std::uint32_t rounded = bits + 0xfffU + ((bits >> 13U) & 1U);
+    constexpr std::uint32_t rebias = (127U - 15U) << 10U;
+    return static_cast<std::uint16_t>((rounded >> 13U) - rebias);
+}
+
+}  // namespace
+
+FrameHeader frame_header(const Frame& frame, ClientId client)
+{
+    constexpr std::uint32_t version = 1;
+    const auto seen = frame.sequences.find(client);
+    const std::array<std::uint32_t, frame_header_bytes / 4> numbers{
+        version,
+        frame.slot,
+        frame.generation,
+        seen != frame.sequences.end() ? seen->second : 0,
+        frame.grid_width,
+        frame.grid_height,
+        frame.x,
+        frame.y,
+        frame.width,
+        frame.height,
+        frame.samples,
+        1};  // each is a whole update
+    FrameHeader bytes{};
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+        bytes[i] = static_cast<std::uint8_t>(numbers[i / 4] >> (8 * (i % 4)));
+    }
+    return bytes;
+}
+
+std::vector<std::uint8_t> half_pixels(const Image& image)
+{
+    std::vector<std::uint8_t> bytes(image.pixels.size() * 6);
+    std::size_t at = 0;
+    for (const Rgb& pixel : image.pixels) {
+        for (int channel = 0; channel < 3; ++channel) {
+            const std::uint16_t half = half_of(pixel[channel]);
+            bytes[at++] = static_cast<std::uint8_t>(half);
+            bytes[at++] = static_cast<std::uint8_t>(half >> 8U);
+        }
+    }
+    return bytes;
+}
+
+}  // namespace bdpt::app

@@ -1,0 +1,218 @@
+#include "view/server/server.h"
+
+#include <bdpt/error.h>
+#include <fmt/core.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <boost/asio/post.hpp>
+#include <boost/asio/signal_set.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <chrono>
+#include <thread>
+#include <utility>
+
+#include "view/server/connection.h"
+
+namespace bdpt::app {
+
+namespace asio = boost::asio;
+using boost::system::error_code;
+using asio::ip::tcp;
+
+namespace {
+
+constexpr int most_connections = 64;
+
+/// With brackets around what has colons.
+std::string host_text(const std::string& host)
+{
+    return host.find(':') != std::string::npos ? "[" + host + "]" : host;
+}
+
+}  // namespace
+
+class Server::Impl {
+public:
+    Impl(const DisplayAddress& address, std::string page)
+        : signals_(context_), acceptor_(context_), pause_(context_), token_(random_token())
+    {
+        state_.page = std::move(page);
+        state_.access.emplace(token_, address.host);
+        try {
+            tcp::resolver resolver(context_);
+            const auto found = resolver.resolve(address.host, address.port);
+            const tcp::endpoint endpoint = found.begin()->endpoint();
+            acceptor_.open(endpoint.protocol());
+            acceptor_.set_option(tcp::acceptor::reuse_address(true));
+            acceptor_.bind(endpoint);
+            acceptor_.listen();
+        } catch (const boost::system::system_error& error) {
+            throw Error(ErrorCode::output,
+                        fmt::format("--listen {}:{}: cannot listen there: {}",
+                                    host_text(address.host), address.port,
+                                    error.code().message()));
+        }
+        url_ = fmt::format("http://{}:{}/{}/", host_text(address.host),
+                           acceptor_.local_endpoint().port(), token_);
+    }
+
+    [[nodiscard]] const std::string& url() const { return url_; }
+    [[nodiscard]] int signal() const { return signal_; }
+
+    void start(Doors doors)
+    {
+        state_.doors = std::move(doors);
+        for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+            struct sigaction action {};
+            ::sigaction(number, nullptr, &action);
+            if (action.sa_handler != SIG_IGN) {  // as nohup has it
+                signals_.add(number);
+            }
+        }
+        wait_for_signal();
+        accept();
+        thread_ = std::thread([this] { context_.run(); });
+    }
+
+    void stop()
+    {
+        asio::post(context_, [this] {
+            state_.is_closing = true;
+            context_.stop();
+        });
+        if (thread_.joinable()) {
+            thread_.join();
+        }
+    }
+
+    void tell(std::string state)
+    {
+        asio::post(context_, [this, state = std::move(state)]() mutable {
+            state_.text = std::move(state);
+            for_all([](Window& window) { window.tell(); });
+        });
+    }
+
+    void show(std::shared_ptr<const Frame> frame)
+    {
+        asio::post(context_, [this, frame = std::move(frame)] {
+            state_.frames.at(frame->slot) = frame;
+            for_all([&](Window& window) { window.show(frame); });
+        });
+    }
+
+    void answer(ClientId client, std::string text)
+    {
+        asio::post(context_, [this, client, text = std::move(text)]() mutable {
+            const auto found = state_.windows.find(client);
+            const auto window = found != state_.windows.end() ? found->second.lock() : nullptr;
+            if (window) {
+                window->answer(std::move(text));
+            }
+        });
+    }
+
+private:
+    template <typename Work>
+    void for_all(const Work& work)
+    {
+        for (const auto& [client, kept] : state_.windows) {
+            if (const std::shared_ptr<Window> window = kept.lock()) {
+                work(*window);
+            }
+        }
+    }
+
+    void wait_for_signal()
+    {
+        signals_.async_wait([this](const error_code& error, int number) {
+            if (error) {
+                return;
+            }
+            if (signal_.exchange(number) != 0) {
+                ::_exit(128 + number);
+            }
+            state_.doors.stop();
+            wait_for_signal();
+        });
+    }
+
+    void accept()
+    {
+        acceptor_.async_accept([this](const error_code& error, tcp::socket socket) {
+            if (error == asio::error::operation_aborted) {
+                return;
+            }
+            if (error) {
+                // There are no more files to open: wait until there may be some.
+                pause_.expires_after(std::chrono::milliseconds(100));
+                pause_.async_wait([this](const error_code& /*error*/) { accept(); });
+                return;
+            }
+            // Those that are too many are closed, as the socket goes.
+            if (state_.connections < most_connections) {
+                std::make_shared<Connection>(std::move(socket), state_)->read();
+            }
+            accept();
+        });
+    }
+
+    ServerState state_;  // first: connections, which the context holds, look at it as they go
+    asio::io_context context_{1};
+    asio::signal_set signals_;
+    tcp::acceptor acceptor_;
+    asio::steady_timer pause_;
+    std::string token_;
+    std::string url_;
+    std::atomic<int> signal_{0};
+    std::thread thread_;
+};
+
+Server::Server(const DisplayAddress& address, std::string page)
+    : impl_(std::make_unique<Impl>(address, std::move(page)))
+{
+}
+
+Server::~Server()
+{
+    impl_->stop();
+}
+
+std::string Server::url() const
+{
+    return impl_->url();
+}
+
+void Server::start(Doors doors)
+{
+    impl_->start(std::move(doors));
+}
+
+void Server::stop()
+{
+    impl_->stop();
+}
+
+int Server::signal() const
+{
+    return impl_->signal();
+}
+
+void Server::tell(std::string state)
+{
+    impl_->tell(std::move(state));
+}
+
+void Server::show(std::shared_ptr<const Frame> frame)
+{
+    impl_->show(std::move(frame));
+}
+
+void Server::answer(ClientId client, std::string text)
+{
+    impl_->answer(client, std::move(text));
+}
+
+}  // namespace bdpt::app

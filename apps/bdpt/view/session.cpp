@@ -1,0 +1,525 @@
+#include "view/session.h"
+
+#include <bdpt/error.h>
+#include <bdpt/inspect.h>
+#include <bdpt/io/tone_map.h>
+#include <bdpt/options/option_fields.h>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "report/values.h"
+#include "stage/render_preparation.h"
+#include "terminal/text.h"
+#include "view/inspected.h"
+
+namespace bdpt::app {
+namespace {
+
+std::string point_text(Vec3 point)
+{
+    return fmt::format("{},{},{}", point.x, point.y, point.z);
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start)
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// `work()`, whose failure becomes a line.
+template <typename Work>
+std::optional<std::string> failure_of(const Work& work)
+{
+    try {
+        work();
+        return std::nullopt;
+    } catch (const Error& error) {
+        return one_line(error.what());
+    } catch (const std::bad_alloc&) {
+        return "out of memory";
+    }
+}
+
+}  // namespace
+
+Session::Session(const ViewWords& words, Audience& audience, Console& console)
+    : audience_(audience),
+      console_(console),
+      first_words_(words),
+      words_(words),
+      shown_words_(words),
+      scene_(console, [this] { drop_renders(); }),
+      watch_([this] {
+          mailbox_.post([this] { files_changed_ = true; }, Urgency::soon);
+      })
+{
+}
+
+void Session::run()
+{
+    tell(true);
+    watch_.watch({words_.text("file")});
+    scene_.load(words_);
+    watch_.watch(scene_.files());
+    coarse_.restart(scene_.stage().size);
+    ++generation_;
+    for (const std::string& note : scene_.stage().notes) {
+        console_.note(note);
+    }
+    for (const std::string& warning : scene_.stage().warnings) {
+        console_.warning(warning);
+    }
+    tell(true);
+    bool busy = true;
+    while (mailbox_.work_off(!busy)) {
+        if (!clients_.empty() && files_changed_) {
+            load();
+        }
+        if (is_stale_) {
+            restart();
+        }
+        busy = step();
+        if (is_untold_) {
+            tell(!busy);
+        }
+    }
+}
+
+void Session::join(ClientId client)
+{
+    mailbox_.post([this, client] { clients_.emplace(client, 0); }, Urgency::when_idle);
+}
+
+void Session::leave(ClientId client)
+{
+    mailbox_.post([this, client] { clients_.erase(client); }, Urgency::soon);
+}
+
+void Session::ask(ClientId client, const std::string& message)
+{
+    PageRequest request;
+    std::optional<std::string> wrong = failure_of([&] { request = parse_request(message); });
+    // A place to look at may be refused: then the picture is still wanted.
+    const bool gives_up = request.changes_picture() && !request.focus;
+    const Urgency urgency = gives_up ? Urgency::now : Urgency::soon;
+    mailbox_.post(
+        [this, client, request, wrong, sequence = wrong ? sequence_of(message) : std::nullopt] {
+            if (wrong) {
+                nlohmann::ordered_json reply{{"error", *wrong}};
+                if (sequence) {
+                    reply["ack"] = *sequence;
+                }
+                audience_.answer(
+                    client,
+                    reply.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+            } else {
+                answer(client, request);
+            }
+        },
+        wrong ? Urgency::when_idle : urgency);
+}
+
+void Session::save(const std::string& name, int slot, std::function<void(Download)> done)
+{
+    mailbox_.post(
+        [this, name, slot, done = std::move(done)] {
+            Download file;
+            if (const auto wrong = failure_of([&] { file = saved(name, slot); })) {
+                file = {.status = 500, .type = "text/plain", .name = "", .content = *wrong};
+            }
+            done(std::move(file));
+        },
+        Urgency::soon);
+}
+
+void Session::answer(ClientId client, const PageRequest& request)
+{
+    nlohmann::ordered_json reply{{"ack", request.sequence}};
+    const ViewWords before = words_;
+    const std::optional<Pose> pose_before = pose_;
+    const auto wrong = failure_of([&] {
+        if (!scene_.is_there()) {
+            throw Error(ErrorCode::usage, "the scene is not loaded yet");
+        }
+        change_camera(request);
+        if (request.settings) {
+            change_settings(*request.settings);
+        }
+        if (words_ != before) {
+            static_cast<void>(words_.arguments());  // throws
+        }
+        if (request.inspect) {
+            reply["inspect"] = nlohmann::ordered_json::parse(inspected(*request.inspect));
+        }
+    });
+    if (wrong) {
+        words_ = before;
+        pose_ = pose_before;
+        reply["error"] = *wrong;
+    }
+    is_stale_ = is_stale_ || words_ != shown_words_;
+    if (const auto found = clients_.find(client); found != clients_.end()) {
+        found->second = std::max(found->second, request.sequence);
+    }
+    if (request.changes_picture() && !is_stale_) {
+        show_all();  // the page waits for a picture with its number
+    }
+    audience_.answer(client, reply.dump(-1, ' ', false,
+                                        nlohmann::ordered_json::error_handler_t::replace));
+    tell(false);
+}
+
+void Session::change_camera(const PageRequest& request)
+{
+    if (request.reset) {
+        for (const char* option : {"--camera", "--view", "--margin", "--from", "--look-at",
+                                   "--ortho", "--fov", "--focal-length", "--focus-distance"}) {
+            words_.remove(option);
+            if (first_words_.has(option)) {
+                words_.set(option, first_words_.text(option));
+            }
+        }
+        pose_.reset();
+    }
+    if (!request.move && !request.focus) {
+        return;
+    }
+    if (is_stale_ && (request.focus || !pose_)) {
+        restart();  // places are those of the picture
+    }
+    const RenderArguments& arguments = scene_.arguments();
+    if (arguments.view.projection == Projection::orthographic) {
+        throw Error(ErrorCode::usage, "--ortho frames all of the scene, so that it cannot be moved");
+    }
+    const CameraDesc& camera = scene_.stage().camera;
+    Pose pose = pose_ ? *pose_ : scene_.pose();
+    if (request.focus) {
+        const auto [x, y] = *request.focus;
+        const std::optional<Vec3> target = scene_.picked(x, y);
+        if (!target) {
+            throw Error(ErrorCode::usage, "there is nothing but sky");
+        }
+        pose.look_at = *target;
+        if (words_.has("--focus-distance")) {
+            words_.set("--focus-distance", fmt::format("{}", glm::length(*target - pose.from)));
+        }
+    }
+    if (request.move) {
+        pose = moved(pose, *request.move,
+                     view_height(camera, glm::length(pose.look_at - pose.from)));
+    }
+    if (arguments.view.frames()) {
+        // Words that frame all do not go with a place.
+        words_.remove("--view");
+        words_.remove("--margin");
+        words_.set("--camera", "auto");
+        if (!words_.has("--focal-length")) {
+            words_.set("--fov", fmt::format("{}", degrees(camera.vertical_fov)));
+        }
+    }
+    words_.set("--from", point_text(pose.from));
+    words_.set("--look-at", point_text(pose.look_at));
+    pose_ = pose;
+}
+
+void Session::check(const ViewSettings& settings) const
+{
+    if (settings.integrator_b && !settings.integrator_b->empty()) {
+        ViewWords words = words_;
+        words.set("--integrator", *settings.integrator_b);
+        static_cast<void>(words.arguments());  // throws
+    }
+    if (settings.layer == ViewLayer::rates && !scene_.arguments().rates) {
+        throw Error(ErrorCode::usage,
+                    "\"layer\": rates of samples are there with --adaptive or --rates only");
+    }
+    const std::vector<Strategy> there = known_strategies();
+    if (settings.strategy &&
+        std::find(there.begin(), there.end(), *settings.strategy) == there.end()) {
+        throw Error(ErrorCode::usage,
+                    fmt::format("\"strategy\": there is no image of s = {}, t = {}",
+                                settings.strategy->s, settings.strategy->t));
+    }
+}
+
+void Session::change_settings(const ViewSettings& settings)
+{
+    check(settings);
+    if (settings.integrator_a) {
+        words_.set("--integrator", *settings.integrator_a);
+    }
+    if (settings.environment) {
+        set_environment(*settings.environment);
+    }
+    if (settings.rotation) {
+        words_.set("--env-rotation", fmt::format("{}", *settings.rotation));
+    }
+    if (settings.intensity) {
+        words_.set("--env-intensity", fmt::format("{}", *settings.intensity));
+    }
+    if (settings.exposure) {
+        words_.set("--exposure", *settings.exposure);
+        if (*settings.exposure == "auto") {
+            const std::optional<Exposure> first = first_words_.arguments().display.exposure;
+            if (!first_words_.has("--exposure")) {
+                words_.remove("--exposure");
+            } else if (first && first->base != ExposureBase::radiance) {
+                words_.set("--exposure", first_words_.text("--exposure"));
+            }
+        }
+    }
+    if (settings.curve) {
+        words_.set("--tone-map", *settings.curve);
+    }
+    static_cast<void>(words_.arguments());  // throws, before anything else is changed
+    if (settings.integrator_b && *settings.integrator_b != integrator_b_) {
+        renders_[1].reset();
+        integrator_b_ = *settings.integrator_b;
+    }
+    if (settings.paused) {
+        is_paused_ = *settings.paused;
+    }
+    const bool changes_layer = (settings.layer && *settings.layer != layer_) ||
+                               (settings.strategy && *settings.strategy != strategy_);
+    layer_ = settings.layer.value_or(layer_);
+    strategy_ = settings.strategy.value_or(strategy_);
+    if (changes_layer) {
+        tell(true);
+        show_all();
+    }
+}
+
+void Session::set_environment(const std::string& name)
+{
+    if (name == "scene") {
+        words_.remove("--env");
+    } else if (name == "none" || name == "default" || name == "studio" ||
+               name == first_words_.text("--env")) {
+        words_.set("--env", name);  // no other file: pages do not choose what is read
+    } else {
+        throw Error(ErrorCode::usage, fmt::format("\"environment\": there is none \"{}\"", name));
+    }
+}
+
+std::string Session::inspected(const PixelSample& pixel)
+{
+    if (is_stale_) {
+        restart();
+    }
+    const RenderArguments& arguments =
+        renders_[0] ? renders_[0]->arguments() : scene_.arguments();
+    return inspected_text(scene_.stage(), arguments.options, pixel);
+}
+
+Download Session::saved(const std::string& name, int slot)
+{
+    const auto place = static_cast<std::size_t>(slot);
+    const bool is_there = place < renders_.size() && renders_[place] &&
+                          renders_[place]->renderer().samples() > 0 && !is_stale_;
+    if (name == "save.json") {
+        const std::int64_t samples =
+            is_there ? renders_[place]->renderer().samples() : scene_.arguments().samples.end;
+        return {.type = "application/json",
+                .name = fmt::format("{}.json", scene_.arguments().file.stem().string()),
+                .content = words_of_slot(place).job(std::max<std::int64_t>(samples, 1))};
+    }
+    if (!is_there) {
+        return {.status = 503,
+                .type = "text/plain",
+                .name = "",
+                .content = "there is no sample yet: try again"};
+    }
+    return saved_image(*renders_[place], scene_.stage(), name == "save.png" ? ".png" : ".exr");
+}
+
+void Session::load()
+{
+    files_changed_ = false;
+    if (const auto wrong = failure_of([&] { scene_.load(words_); })) {
+        file_message_ = *wrong;
+        console_.warning(*wrong, Repeat::always);
+    } else {
+        file_message_.clear();
+        message_.clear();
+        watch_.watch(scene_.files());
+        console_.note(fmt::format("{}: loaded again", words_.text("file")));
+        shown_words_ = words_;
+        is_stale_ = false;
+        pose_.reset();
+        is_metered_ = false;
+        coarse_.restart(scene_.stage().size);
+        ++generation_;
+    }
+    tell(true);
+}
+
+void Session::restart()
+{
+    is_stale_ = false;
+    const ViewWords before = std::exchange(shown_words_, words_);
+    const bool look_only = [&] {  // which changes no pixel
+        ViewWords a = before;
+        ViewWords b = words_;
+        for (const char* option : {"--exposure", "--tone-map"}) {
+            a.remove(option);
+            b.remove(option);
+        }
+        return a == b && meters_light(before.arguments()) == meters_light(words_.arguments());
+    }();
+    if (look_only) {
+        for (std::optional<LiveRender>& render : renders_) {
+            if (render) {
+                render->set_display(words_.arguments().display);
+            }
+        }
+        if (renders_[0] && renders_[0]->renderer().samples() > 0) {
+            meter(renders_[0]->renderer().image(), &*renders_[0]);
+        }
+        scene_.show(words_);
+        tell(false);
+        return;
+    }
+    drop_renders();
+    if (const auto wrong = failure_of([&] { scene_.show(words_); })) {
+        message_ = *wrong;
+        words_ = before;
+        shown_words_ = before;
+        pose_.reset();
+    } else {
+        message_.clear();
+        watch_.watch(scene_.files());
+    }
+    ++generation_;
+    if (scene_.is_there()) {
+        coarse_.restart(scene_.stage().size);
+    }
+    tell(false);
+}
+
+void Session::drop_renders()
+{
+    for (std::optional<LiveRender>& render : renders_) {
+        render.reset();
+    }
+    strategies_.reset();
+    shown_samples_ = {};
+}
+
+bool Session::step()
+{
+    if (!scene_.is_there()) {
+        return false;
+    }
+    // The first picture waits for the first page, not the other way round.
+    const bool shown_before = renders_[0] && renders_[0]->renderer().samples() > 0;
+    if ((clients_.empty() && shown_before) || (is_paused_ && shown_before)) {
+        return false;
+    }
+    bool busy = false;
+    const auto wrong = failure_of([&] {
+        if (coarse_.divisor() && layer_ == ViewLayer::picture) {
+            busy = preview();
+        } else {
+            busy = (layer_ == ViewLayer::strategy && advance_strategies()) || advance_pictures();
+        }
+    });
+    if (wrong) {
+        message_ = *wrong;
+        drop_renders();
+        is_paused_ = true;  // or it would fail again and again
+        tell(true);
+        return false;
+    }
+    return busy;
+}
+
+bool Session::preview()
+{
+    const Size size = coarse_size(scene_.stage().size, *coarse_.divisor());
+    const PassStops stops = mailbox_.begin_pass(!coarse_.is_first());
+    const auto start = std::chrono::steady_clock::now();
+    const std::optional<Image> image =
+        coarse_picture(scene_.arguments(), scene_.stage(), size, stops.now);
+    if (!image) {
+        coarse_.skip();  // what stopped it begins anew
+        return true;
+    }
+    coarse_.done(seconds_since(start));
+    if (!is_metered_) {
+        meter(*image, nullptr);
+    }
+    tell(generation_ == 1);
+    const PixelRect whole{.x0 = 0, .y0 = 0, .x1 = size.width, .y1 = size.height};
+    for (std::size_t slot = 0; slot < (integrator_b_.empty() ? 1U : 2U); ++slot) {
+        send(slot, *image, size, whole, 1);
+    }
+    return true;
+}
+
+bool Session::advance(std::optional<LiveRender>& render, std::size_t slot)
+{
+    const PassStops stops = mailbox_.begin_pass(true);
+    if (stops.now.stop_requested()) {
+        return true;
+    }
+    if (!render) {
+        // A hand that moves on would wait for what begins now.
+        constexpr std::chrono::milliseconds rest{150};
+        if (generation_ > 1 && mailbox_.wait_for(rest)) {
+            return true;
+        }
+        render.emplace(with_choice(words_of_slot(slot).arguments(), scene_.stage(), quiet_),
+                       scene_.stage());
+    }
+    if (render->advance(stops)) {
+        show(slot);
+        tell(true);
+    }
+    return true;
+}
+
+bool Session::advance_pictures()
+{
+    std::size_t slot = 0;
+    if (!integrator_b_.empty() && renders_[0]) {
+        // Who has less time goes on; who is done leaves it to the other.
+        const bool b_is_behind = !renders_[1] || renders_[0]->is_done() ||
+                                 renders_[1]->renderer().seconds() < renders_[0]->renderer().seconds();
+        slot = b_is_behind && !(renders_[1] && renders_[1]->is_done()) ? 1 : 0;
+    }
+    if (renders_[slot] && renders_[slot]->is_done()) {
+        return false;
+    }
+    return advance(renders_[slot], slot);
+}
+
+bool Session::advance_strategies()
+{
+    if (!strategies_) {
+        const auto wrong = failure_of([&] { begin_strategies(); });
+        if (wrong) {
+            message_ = *wrong;
+            layer_ = ViewLayer::picture;
+            tell(true);
+            show_all();
+            return false;
+        }
+        tell(true);
+    }
+    return !strategies_->is_done() && advance(strategies_, 0);
+}
+
+ViewWords Session::words_of_slot(std::size_t slot) const
+{
+    ViewWords words = shown_words_;
+    if (slot == 1 && !integrator_b_.empty()) {
+        words.set("--integrator", integrator_b_);
+    }
+    return words;
+}
+
+}  // namespace bdpt::app

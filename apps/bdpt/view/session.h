@@ -1,0 +1,120 @@
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "options/option_list.h"
+#include "terminal/console.h"
+#include "view/coarse_to_fine.h"
+#include "view/server/frame.h"
+#include "view/live_render.h"
+#include "view/live_scene.h"
+#include "view/mailbox.h"
+#include "view/page_request.h"
+#include "view/saved_files.h"
+#include "view/scene_watch.h"
+#include "view/view_state.h"
+#include "view/view_words.h"
+
+namespace bdpt::app {
+
+/// Whom a session tells. Called on the thread that renders.
+class Audience {
+public:
+    virtual ~Audience() = default;
+    /// To all pages, and to those that come.
+    virtual void tell(std::string state) = 0;
+    virtual void show(std::shared_ptr<const Frame> frame) = 0;
+    /// To one page.
+    virtual void answer(ClientId client, std::string text) = 0;
+};
+
+/// What `bdpt view` shows: one scene, one camera, by one or two integrators, for all pages.
+class Session {
+public:
+    Session(const ViewWords& words, Audience& audience, Console& console);
+
+    /// Loads the scene, then renders and answers until `stop`, on this thread. Throws `Error` if
+    /// the scene cannot be loaded.
+    void run();
+
+    // From any thread:
+    void join(ClientId client);
+    void leave(ClientId client);
+    /// A message of a page.
+    void ask(ClientId client, const std::string& message);
+    /// "save.png", "save.exr" or "save.json"; `done` is called on the thread that renders.
+    void save(const std::string& name, int slot, std::function<void(Download)> done);
+    void stop() { mailbox_.close(); }
+
+private:
+    void answer(ClientId client, const PageRequest& request);
+    void change_camera(const PageRequest& request);
+    /// Throws `Error` for settings that cannot be.
+    void check(const ViewSettings& settings) const;
+    void change_settings(const ViewSettings& settings);
+    void set_environment(const std::string& name);
+    [[nodiscard]] std::string inspected(const PixelSample& pixel);
+    [[nodiscard]] Download saved(const std::string& name, int slot);
+    void load();
+    /// Does what was asked for since, and begins anew.
+    void restart();
+    /// One pass, of whatever is next. False: there is nothing to do.
+    [[nodiscard]] bool step();
+    [[nodiscard]] bool preview();
+    [[nodiscard]] bool advance(std::optional<LiveRender>& render, std::size_t slot);
+    [[nodiscard]] bool advance_pictures();
+    [[nodiscard]] bool advance_strategies();
+    void begin_strategies();
+    [[nodiscard]] std::vector<Strategy> known_strategies() const;
+    [[nodiscard]] ViewWords words_of_slot(std::size_t slot) const;
+    void drop_renders();
+
+    /// Sends what the layer shows of a slot.
+    void show(std::size_t slot);
+    void show_all();
+    void send(std::size_t slot, const Image& image, const Size& grid, const PixelRect& region,
+              std::int64_t samples);
+    /// Tells pages the state now, or in a moment if they were told just before.
+    void tell(bool now);
+    [[nodiscard]] ViewState state();
+    [[nodiscard]] SlotState slot_state(std::size_t slot) const;
+    void meter(const Image& image, const LiveRender* render);
+
+    Audience& audience_;
+    Console& console_;
+    Console quiet_{Format::text, Verbosity::quiet};  ///< of what is told again and again
+    Mailbox mailbox_;
+    const ViewWords first_words_;
+    ViewWords words_;        ///< that pages have asked for
+    ViewWords shown_words_;  ///< with which the scene was shown last
+    LiveScene scene_;
+    std::array<std::optional<LiveRender>, 2> renders_;
+    std::optional<LiveRender> strategies_;
+    std::array<std::int64_t, 2> shown_samples_{};  ///< of each slot, in the frame that was sent last
+    CoarseToFine coarse_;
+    std::string integrator_b_;
+    ViewLayer layer_ = ViewLayer::picture;
+    Strategy strategy_{.s = 1, .t = 2};
+    bool is_paused_ = false;
+    bool is_stale_ = false;       ///< words have changed
+    bool files_changed_ = false;  ///< on disk
+    std::string message_;       ///< why the last change was not made
+    std::string file_message_;  ///< why the file was not loaded again
+    float automatic_exposure_ = 0.0f;
+    bool is_metered_ = false;  ///< `automatic_exposure_` is of this scene
+    std::optional<Pose> pose_;  ///< of the camera, if it is known
+    std::uint32_t generation_ = 0;
+    std::map<ClientId, std::uint32_t> clients_;  ///< with the last request that was done
+    std::chrono::steady_clock::time_point told_{};
+    bool is_untold_ = false;
+    SceneWatch watch_;  // last: its thread uses the mailbox
+};
+
+}  // namespace bdpt::app

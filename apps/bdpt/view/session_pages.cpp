@@ -1,0 +1,245 @@
+// What pages are shown and told.
+
+#include <bdpt/io/tone_map.h>
+#include <bdpt/options/integrators.h>
+#include <bdpt/options/option_fields.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "report/values.h"
+#include "stage/render_preparation.h"
+#include "view/session.h"
+
+namespace bdpt::app {
+namespace {
+
+/// Edges of the longest paths whose strategies are shown apart.
+constexpr int strategy_edges = 4;
+
+/// Those that begin on the lens, of paths of up to `edges`.
+std::vector<Strategy> strategies_up_to(int edges)
+{
+    std::vector<Strategy> result;
+    for (int length = 1; length <= edges; ++length) {
+        for (int s = 0; s <= length; ++s) {
+            result.push_back({.s = s, .t = length + 1 - s});
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+std::vector<Strategy> Session::known_strategies() const
+{
+    return strategies_ ? strategies_->renderer().part().strategies.strategies()
+                       : strategies_up_to(std::min(
+                             strategy_edges, scene_.arguments().options.transport.max_depth));
+}
+
+void Session::begin_strategies()
+{
+    constexpr std::uint64_t most_bytes = std::uint64_t{256} << 20U;
+    constexpr std::int64_t samples = 64;
+    RenderArguments arguments = words_of_slot(0).arguments();
+    RenderOptions& options = arguments.options;
+    options.integrator = IntegratorKind::bdpt;
+    options.bidirectional.strategy_depth = std::min(strategy_edges, options.transport.max_depth);
+    options.sampling.rates.reset();
+    options.sampling.samples = {.begin = 0, .end = samples};
+    options.film.aovs = {};
+    options.film.crop.reset();
+    arguments.samples = options.sampling.samples;
+    arguments.goal.noise.reset();
+    for (int divisor = 1;; divisor *= 2) {
+        const Size size = coarse_size(scene_.stage().size, divisor);
+        options.film.width = size.width;
+        options.film.height = size.height;
+        if (size.width * size.height == 1 ||
+            strategy_image_bytes(options, scene_.stage().camera) <= most_bytes) {
+            break;
+        }
+    }
+    strategies_.emplace(std::move(arguments), scene_.stage());
+    const std::vector<Strategy>& there = strategies_->renderer().part().strategies.strategies();
+    if (std::find(there.begin(), there.end(), strategy_) == there.end() && !there.empty()) {
+        strategy_ = there.front();
+    }
+}
+
+void Session::show(std::size_t slot)
+{
+    if (layer_ == ViewLayer::strategy) {
+        if (slot != 0 || !strategies_ || strategies_->renderer().samples() == 0) {
+            return;
+        }
+        const RenderPart& part = strategies_->renderer().part();
+        const std::vector<Strategy>& there = part.strategies.strategies();
+        if (std::find(there.begin(), there.end(), strategy_) != there.end()) {
+            const PixelRect& region = part.film.region();
+            send(0, part.strategies.weighted(strategy_),
+                 {.width = region.width(), .height = region.height()}, region,
+                 part.samples.count());
+        }
+        return;
+    }
+    const std::optional<LiveRender>& render = renders_[slot];
+    if (!render || render->renderer().samples() == 0) {
+        return;
+    }
+    const Film& film = render->renderer().part().film;
+    const Size grid = scene_.stage().size;
+    const std::int64_t samples = render->renderer().samples();
+    if (layer_ == ViewLayer::noise) {
+        send(slot, noise_image(film), grid, film.region(), samples);
+    } else if (layer_ == ViewLayer::rates) {
+        if (const auto& rates = render->renderer().options().sampling.rates) {
+            send(slot, rates_image(*rates, film.region()), grid, film.region(), samples);
+        }
+    } else {
+        const Image image = film.develop();
+        if (slot == 0) {
+            meter(image, &*render);
+            tell(true);
+        }
+        send(slot, image, grid, film.region(), samples);
+    }
+}
+
+void Session::show_all()
+{
+    show(0);
+    show(1);
+}
+
+void Session::send(std::size_t slot, const Image& image, const Size& grid, const PixelRect& region,
+                   std::int64_t samples)
+{
+    auto frame = std::make_shared<Frame>();
+    frame->slot = static_cast<std::uint32_t>(slot);
+    frame->generation = generation_;
+    frame->grid_width = static_cast<std::uint32_t>(grid.width);
+    frame->grid_height = static_cast<std::uint32_t>(grid.height);
+    frame->x = static_cast<std::uint32_t>(region.x0);
+    frame->y = static_cast<std::uint32_t>(region.y0);
+    frame->width = static_cast<std::uint32_t>(image.width);
+    frame->height = static_cast<std::uint32_t>(image.height);
+    frame->samples = static_cast<std::uint32_t>(std::min<std::int64_t>(
+        samples, std::numeric_limits<std::uint32_t>::max()));
+    frame->pixels = half_pixels(image);
+    frame->sequences = clients_;
+    shown_samples_.at(slot) = samples;
+    audience_.show(std::move(frame));
+}
+
+void Session::meter(const Image& image, const LiveRender* render)
+{
+    const std::optional<Exposure>& asked = scene_.arguments().display.exposure;
+    if (render != nullptr && !(asked && asked->base == ExposureBase::radiance)) {
+        automatic_exposure_ = exposure_of(*render, scene_.stage(), image);
+    } else {
+        automatic_exposure_ = io::automatic_exposure(image);
+    }
+    is_metered_ = true;
+}
+
+void Session::tell(bool now)
+{
+    constexpr std::chrono::milliseconds interval{100};
+    const auto time = std::chrono::steady_clock::now();
+    if (!now && time - told_ < interval) {
+        is_untold_ = true;
+        return;
+    }
+    is_untold_ = false;
+    told_ = time;
+    audience_.tell(state_text(state()));
+}
+
+ViewState Session::state()
+{
+    ViewState state;
+    state.file = words_.text("file");
+    state.message = file_message_.empty() ? message_ : file_message_;
+    state.is_loading = !scene_.is_there() && file_message_.empty();
+    if (!scene_.is_there()) {
+        return state;
+    }
+    const PreparedScene& stage = scene_.stage();
+    const RenderArguments& arguments = scene_.arguments();
+    const Pose pose = pose_ ? *pose_ : scene_.pose();
+    if (!is_stale_) {
+        pose_ = pose;  // else it is that of a camera that goes
+    }
+    state.size = stage.size;
+    state.camera_name = stage.camera.name;
+    state.pose = pose;
+    state.vertical_fov = stage.camera.projection == Projection::orthographic
+                             ? 0.0
+                             : degrees(stage.camera.vertical_fov);
+    state.integrator_a = name_of(arguments.options.integrator);
+    state.integrator_b = integrator_b_;
+    state.environments = {"scene", "default", "studio", "none"};
+    if (const std::string own = first_words_.text("--env");
+        !own.empty() && is_file_of_environment(own)) {
+        state.environments.insert(state.environments.begin(), own);
+    }
+    const std::string environment = shown_words_.text("--env");
+    state.environment = environment.empty() ? "scene" : environment;
+    state.rotation = arguments.environment_change.rotation;
+    state.intensity = static_cast<double>(arguments.environment_change.intensity);
+    const std::optional<Exposure>& exposure = arguments.display.exposure;
+    state.exposure_is_automatic = !(exposure && exposure->base == ExposureBase::radiance);
+    state.automatic_exposure = static_cast<double>(automatic_exposure_);
+    state.exposure = static_cast<double>(state.exposure_is_automatic ? automatic_exposure_
+                                                                     : exposure->value);
+    state.curve = io::tone_curve_name(arguments.display.curve);
+    state.layers = {ViewLayer::picture, ViewLayer::noise};
+    if (arguments.rates) {
+        state.layers.push_back(ViewLayer::rates);
+    }
+    state.layers.push_back(ViewLayer::strategy);
+    state.layer = layer_;
+    if (layer_ == ViewLayer::noise) {
+        state.scale = noise_scale();
+    } else if (layer_ == ViewLayer::rates) {
+        state.scale = rates_scale();
+    }
+    state.strategies = known_strategies();
+    state.strategy = strategy_;
+    state.is_paused = is_paused_;
+    state.slots.push_back(slot_state(0));
+    if (!integrator_b_.empty()) {
+        state.slots.push_back(slot_state(1));
+    }
+    state.warnings = stage.warnings;
+    state.warnings.insert(state.warnings.end(), stage.notes.begin(), stage.notes.end());
+    const std::int64_t samples = state.slots.front().samples;
+    state.command = words_of_slot(0).command(samples > 0 ? samples : arguments.samples.end);
+    return state;
+}
+
+SlotState Session::slot_state(std::size_t slot) const
+{
+    const std::optional<LiveRender>& render = renders_[slot];
+    SlotState state;
+    state.target = scene_.arguments().samples.end;
+    state.noise = std::numeric_limits<double>::infinity();
+    if (!render) {
+        state.integrator =
+            slot == 1 ? integrator_b_ : std::string(name_of(scene_.arguments().options.integrator));
+        return state;
+    }
+    state.integrator = name_of(render->renderer().options().integrator);
+    state.samples = render->renderer().samples();
+    state.noise = render->noise();
+    state.seconds = render->renderer().seconds();
+    // Pages take it as said of the picture that they have.
+    const bool is_shown = layer_ == ViewLayer::strategy || shown_samples_[slot] == state.samples;
+    state.is_done = render->is_done() && is_shown && !is_stale_;
+    return state;
+}
+
+}  // namespace bdpt::app

@@ -1,0 +1,106 @@
+#include "view/view_camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+namespace bdpt::app {
+namespace {
+
+/// Right, up and forward, each of length 1.
+struct Axes {
+    Vec3 right;
+    Vec3 up;
+    Vec3 forward;
+};
+
+Axes axes_of(const CameraDesc& camera)
+{
+    return {.right = glm::normalize(Vec3(camera.world_from_camera[0])),
+            .up = glm::normalize(Vec3(camera.world_from_camera[1])),
+            .forward = -glm::normalize(Vec3(camera.world_from_camera[2]))};
+}
+
+/// Of an offset from the camera.
+std::optional<Vec2> raster_of_offset(const CameraDesc& camera, const Size& size, Vec3 offset)
+{
+    const Axes axes = axes_of(camera);
+    const float depth = glm::dot(offset, axes.forward);
+    if (!(depth > 0.0f)) {
+        return std::nullopt;
+    }
+    const float height = view_height(camera, depth) * depth;  // of the image, there
+    const auto pixels = static_cast<float>(size.height);
+    const Vec2 place = Vec2(glm::dot(offset, axes.right), -glm::dot(offset, axes.up)) / height;
+    const Vec2 raster = pixels * place + 0.5f * Vec2(static_cast<float>(size.width), pixels);
+    return std::isfinite(raster.x) && std::isfinite(raster.y) ? std::optional(raster)
+                                                              : std::nullopt;
+}
+
+}  // namespace
+
+Move& Move::operator+=(const Move& next)
+{
+    orbit += next.orbit;
+    pan += next.pan;
+    dolly *= next.dolly;
+    return *this;
+}
+
+Pose moved(const Pose& pose, const Move& move, float height)
+{
+    // Upright: a camera that looks along the vertical has no right hand.
+    constexpr float steepest = 0.499f * std::numbers::pi_v<float>;
+    const Vec3 arm = pose.from - pose.look_at;
+    const float distance = glm::length(arm);
+    if (!(distance > 0.0f)) {
+        return pose;
+    }
+    const float azimuth = std::atan2(arm.x, arm.z) - move.orbit.x;
+    const float elevation = std::clamp(
+        std::asin(std::clamp(arm.y / distance, -1.0f, 1.0f)) + move.orbit.y, -steepest, steepest);
+    const Vec3 direction(std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
+                         std::cos(elevation) * std::cos(azimuth));
+    const Vec3 right(std::cos(azimuth), 0.0f, -std::sin(azimuth));
+    const Vec3 up = glm::cross(direction, right);
+    const Vec3 shift = distance * height * (move.pan.y * up - move.pan.x * right);
+    // Nearer than this, floats no longer tell the two points apart.
+    const float nearest = 1e-4f * std::max(distance, 1e-3f);
+    const Vec3 look_at = pose.look_at + shift;
+    const Pose result{.from = look_at + std::max(distance * move.dolly, nearest) * direction,
+                      .look_at = look_at};
+    const auto is_finite = [](Vec3 v) {
+        return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+    };
+    return is_finite(result.from) && is_finite(result.look_at) && result.from != result.look_at
+               ? result
+               : pose;
+}
+
+float view_height(const CameraDesc& camera, float distance)
+{
+    return camera.projection == Projection::orthographic
+               ? camera.vertical_extent / distance
+               : 2.0f * std::tan(0.5f * camera.vertical_fov);
+}
+
+Pose pose_of(const CameraDesc& camera, float distance)
+{
+    const Vec3 from(camera.world_from_camera[3]);
+    return {.from = from, .look_at = from + distance * axes_of(camera).forward};
+}
+
+std::optional<Vec2> raster_of(const CameraDesc& camera, const Size& size, Vec3 point)
+{
+    return raster_of_offset(camera, size, point - Vec3(camera.world_from_camera[3]));
+}
+
+std::optional<Vec2> raster_of_direction(const CameraDesc& camera, const Size& size, Vec3 direction)
+{
+    return camera.projection == Projection::orthographic
+               ? std::nullopt
+               : raster_of_offset(camera, size, direction);
+}
+
+}  // namespace bdpt::app

@@ -1,0 +1,110 @@
+#include "view/view_words.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "options/job_file.h"
+#include "terminal/text.h"
+
+namespace bdpt::app {
+namespace {
+
+/// The options of `bdpt render`, and what they are stored in.
+struct RenderOptionList {
+    RenderOptionList() { add_render_options(options, request); }
+    RenderRequest request;
+    OptionList options;
+};
+
+}  // namespace
+
+ViewWords::ViewWords(const OptionList& given)
+{
+    const RenderOptionList render;
+    for (const Option& option : given.all()) {
+        if (option.given() && render.options.find(option.name()) != nullptr) {
+            texts_[option.name()] = option.texts;
+        }
+    }
+}
+
+void ViewWords::set(std::string_view option, std::string text)
+{
+    texts_.insert_or_assign(std::string(option), std::vector{std::move(text)});
+}
+
+void ViewWords::remove(std::string_view option)
+{
+    if (const auto found = texts_.find(option); found != texts_.end()) {
+        texts_.erase(found);
+    }
+}
+
+bool ViewWords::has(std::string_view option) const
+{
+    return texts_.find(option) != texts_.end();
+}
+
+std::string ViewWords::text(std::string_view option) const
+{
+    const auto found = texts_.find(option);
+    return found != texts_.end() ? found->second.back() : "";
+}
+
+void ViewWords::give_to(OptionList& options) const
+{
+    for (Option& option : options.all()) {
+        if (const auto found = texts_.find(option.name()); found != texts_.end()) {
+            option.texts = found->second;
+        }
+    }
+    options.store_given();
+}
+
+RenderArguments ViewWords::arguments() const
+{
+    RenderOptionList render;
+    give_to(render.options);
+    return checked(render.request, render.options);
+}
+
+ViewWords ViewWords::ending_after(std::int64_t samples) const
+{
+    ViewWords result = *this;
+    result.remove("--noise");
+    result.set("--spp", std::to_string(samples));
+    return result;
+}
+
+std::string ViewWords::command(std::int64_t samples) const
+{
+    RenderOptionList render;
+    ending_after(samples).give_to(render.options);
+    std::string line = "bdpt render";
+    for (const std::string& word : words_of(render.options)) {
+        line += " " + shell_word(word);
+    }
+    return line;
+}
+
+std::string ViewWords::job(std::int64_t samples) const
+{
+    RenderOptionList render;
+    ViewWords absolute = ending_after(samples);
+    for (const Option& option : render.options.all()) {
+        const auto found = absolute.texts_.find(option.name());
+        if (found == absolute.texts_.end() || !option.info.is_path) {
+            continue;
+        }
+        for (std::string& text : found->second) {
+            const bool is_word = std::find(option.info.words.begin(), option.info.words.end(),
+                                           text) != option.info.words.end();
+            text = is_word ? text : std::filesystem::absolute(text).lexically_normal().string();
+        }
+    }
+    absolute.give_to(render.options);
+    return job_text(render.options, "job.json");
+}
+
+}  // namespace bdpt::app

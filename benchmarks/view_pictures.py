@@ -1,0 +1,118 @@
+#!/usr/bin/env python3
+"""Photographs the page of `bdpt view` for docs/view.md and the README: view_pictures.py BDPT FOLDER.
+
+Writes growing.png, wiper.png, inspected.png, noise.png, broken.png and strip.png. Needs Debian's chromium,
+chromium-driver and python3-pil."""
+
+import pathlib
+import shutil
+import sys
+import tempfile
+import time
+
+from PIL import Image
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / "tests" / "view"))
+from served import Server  # noqa: E402
+from window import Window  # noqa: E402
+
+SIZE = 1180, 760
+COLORS = 128
+
+
+def quantised(image):
+    return image.convert("RGB").quantize(COLORS, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.FLOYDSTEINBERG)
+
+
+class Photographer:
+    def __init__(self, window, folder):
+        self.window, self.folder = window, folder
+
+    def scheme(self, name):
+        self.window.call("POST", "/goog/cdp/execute", {"cmd": "Emulation.setEmulatedMedia", "params": {
+            "features": [{"name": "prefers-color-scheme", "value": name}]}})
+
+    def page(self):
+        """What the window shows."""
+        self.window.drawn()
+        path = self.folder / "window.png"
+        self.window.screenshot(path)
+        with Image.open(path) as image:
+            image.load()
+        path.unlink()
+        return image
+
+    def stage(self):
+        """The picture alone, with what is drawn over it."""
+        left, top, width, height = self.window.box()
+        return self.page().crop((round(left), round(top), round(left + width), round(top + height)))
+
+    def keep(self, name):
+        quantised(self.page()).save(self.folder / name, optimize=True)
+
+
+def samples(window, count):
+    window.wait(f"window.bdptView.seen.samples[0] >= {count} && window.bdptView.seen.grid === window.bdptView.state.size[0]", 600)
+
+
+def take(bdpt, folder):
+    with tempfile.TemporaryDirectory() as name, Window(*SIZE) as window:
+        camera = Photographer(window, folder)
+        room = pathlib.Path(name, "cornell-spheres.gltf")
+        shutil.copy(ROOT / "scenes" / room.name, room)
+        with Server(bdpt, room, "--size", "640x480", "--spp", "256", "--integrator", "bdpt") as server:
+            camera.scheme("light")
+            window.show(server)
+            strip = [camera.stage()]
+            samples(window, 4)
+            camera.keep("growing.png")
+            samples(window, 64)
+            strip.append(camera.stage())
+            camera.scheme("dark")
+            window.click(0.66, 0.74)
+            window.wait("!document.getElementById('inspector').hidden")
+            window.run("document.querySelector('#inspector table button').click();")
+            camera.keep("inspected.png")
+            window.press("\ue00c")
+            camera.scheme("light")
+            window.press("2")
+            window.wait("window.bdptView.state.layer === 'noise' && document.querySelector('#legend .colorbar')")
+            time.sleep(1)
+            camera.keep("noise.png")
+            window.press("1")
+            window.wait("window.bdptView.state.layer === 'picture'")
+            before = window.seen()
+            window.drag((0.4, 0.5), (0.47, 0.46))
+            window.wait_for_generation(before["generation"])
+            samples(window, 16)
+            strip.append(camera.stage())
+            window.click(0.5, 0.7)
+            window.wait("!document.getElementById('inspector').hidden")
+            strip.append(camera.stage())
+            window.press("\ue00c")
+            room.write_text(room.read_text(encoding="utf-8")[:900], encoding="utf-8")
+            window.wait("!document.getElementById('message').hidden")
+            camera.keep("broken.png")
+            width, height = 300, 225
+            together = Image.new("RGB", (4 * width + 3 * 6, height), "white")
+            for i, image in enumerate(strip):
+                together.paste(image.resize((width, height), Image.Resampling.LANCZOS), (i * (width + 6), 0))
+            quantised(together).save(folder / "strip.png", optimize=True)
+        with Server(bdpt, ROOT / "scenes" / "door-ajar.gltf", "--size", "640x480", "--spp", "64", "--integrator", "mis") as server:
+            camera.scheme("dark")
+            window.show(server)
+            window.set("integrator-b", "bdpt", "change")
+            window.wait("window.bdptView.seen.samples[1] >= 8", 600)
+            camera.keep("wiper.png")
+
+
+def main():
+    folder = pathlib.Path(sys.argv[2])
+    folder.mkdir(parents=True, exist_ok=True)
+    take(sys.argv[1], folder.resolve())
+    print(f"{sum(f.stat().st_size for f in folder.glob('*.png')) >> 10} KiB")
+
+
+if __name__ == "__main__":
+    main()

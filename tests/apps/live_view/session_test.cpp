@@ -1,0 +1,331 @@
+#include "view/session.h"
+
+#include <bdpt/error.h>
+#include <bdpt/io/read_image.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <future>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "catch.hpp"
+#include "options/command_parser.h"
+#include "options/view_arguments.h"
+#include "scene_files.h"
+#include "scratch_folder.h"
+#include "subprocess.h"
+
+namespace bdpt::test::live_view_session_test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using Words = std::vector<std::string>;
+
+constexpr app::ClientId me = 1;
+
+/// Keeps what a session tells.
+class Listener : public app::Audience {
+public:
+    void tell(std::string state) override
+    {
+        keep([&] { state_ = json::parse(state).at("state"); });
+    }
+    void show(std::shared_ptr<const app::Frame> frame) override
+    {
+        keep([&] { frames_.push_back(std::move(frame)); });
+    }
+    void answer(app::ClientId /*client*/, std::string text) override
+    {
+        keep([&] { answers_.push_back(json::parse(text)); });
+    }
+
+    /// Waits for a state that `is_wanted`.
+    json state(const std::function<bool(const json&)>& is_wanted)
+    {
+        std::unique_lock lock(mutex_);
+        if (!news_.wait_for(lock, patience, [&] { return !state_.is_null() && is_wanted(state_); })) {
+            throw std::runtime_error("no such state; the last is " + state_.dump());
+        }
+        return state_;
+    }
+    json answer_to(int sequence)
+    {
+        std::unique_lock lock(mutex_);
+        const json* found = nullptr;
+        news_.wait_for(lock, patience, [&] {
+            for (const json& answer : answers_) {
+                if (answer.value("ack", 0) == sequence) {
+                    found = &answer;
+                }
+            }
+            return found != nullptr;
+        });
+        if (found == nullptr) {
+            throw std::runtime_error("no answer to " + std::to_string(sequence));
+        }
+        return *found;
+    }
+    std::vector<std::shared_ptr<const app::Frame>> frames()
+    {
+        const std::lock_guard lock(mutex_);
+        return frames_;
+    }
+
+private:
+    static constexpr std::chrono::seconds patience{60};
+
+    template <typename Work>
+    void keep(const Work& work)
+    {
+        const std::lock_guard lock(mutex_);
+        work();
+        news_.notify_all();
+    }
+
+    std::mutex mutex_;
+    std::condition_variable news_;
+    json state_;
+    std::vector<json> answers_;
+    std::vector<std::shared_ptr<const app::Frame>> frames_;
+};
+
+/// `bdpt view` of a cube without its server.
+class Viewing {
+public:
+    explicit Viewing(const Words& more, const std::string& cameras = two_cameras)
+    {
+        write_cube(folder_, "cube", {.cameras = cameras});
+        Words words{path("cube.gltf"), "--size=48x24", "--threads=2"};
+        words.insert(words.end(), more.begin(), more.end());
+        app::ViewRequest request;
+        app::OptionList options;
+        app::add_view_command_options(options, request);
+        app::parse(options, words);
+        static_cast<void>(checked(request, options));
+        session_.emplace(app::ViewWords(options), listener_, console_);
+        session_->join(me);
+        thread_ = std::thread([this] { session_->run(); });
+    }
+    ~Viewing()
+    {
+        session_->stop();
+        thread_.join();
+    }
+    Viewing(const Viewing&) = delete;
+    Viewing& operator=(const Viewing&) = delete;
+
+    std::string path(const std::string& name) const { return (folder_ / name).string(); }
+    Listener& listener() { return listener_; }
+    /// The answer to `request`.
+    json ask(json request)
+    {
+        request["seq"] = ++sequence_;
+        session_->ask(me, request.dump());
+        return listener_.answer_to(sequence_);
+    }
+    int sequence() const { return sequence_; }
+    /// Waits until all samples of what is seen now are there.
+    json finished(const Words& words_of_command = {})
+    {
+        return listener_.state([&](const json& state) {
+            bool done = state.contains("slots");
+            for (const std::string& word : words_of_command) {
+                done = done && state.at("command").get<std::string>().find(word) != std::string::npos;
+            }
+            for (const json& slot : state.value("slots", json::array())) {
+                done = done && slot.at("done").get<bool>();
+            }
+            return done;
+        });
+    }
+    app::Download save(const std::string& name, int slot = 0)
+    {
+        std::promise<app::Download> file;
+        session_->save(name, slot, [&](app::Download done) { file.set_value(std::move(done)); });
+        return file.get_future().get();
+    }
+    fs::path saved(const std::string& name, int slot = 0)
+    {
+        const app::Download file = save(name, slot);
+        INFO(file.content.substr(0, 200));
+        REQUIRE(file.status == 200);
+        std::ofstream(path("of_page_" + name), std::ios::binary) << file.content;
+        return path("of_page_" + name);
+    }
+    /// What the command that a page can copy renders.
+    fs::path rendered(const json& state, const std::string& name)
+    {
+        std::istringstream line(state.at("command").get<std::string>());
+        Words words;
+        for (std::string word; line >> word;) {
+            words.push_back(word);
+        }
+        words.erase(words.begin());
+        words.insert(words.end(), {"--quiet", "-o", path(name)});
+        const Outcome outcome = run(words);
+        INFO(outcome.err);
+        REQUIRE(outcome.exit_code == 0);
+        return path(name);
+    }
+
+private:
+    ScratchFolder folder_;
+    app::Console console_{app::Format::text, app::Verbosity::quiet};
+    Listener listener_;
+    std::optional<app::Session> session_;
+    std::thread thread_;
+    int sequence_ = 0;
+};
+
+bool same_pixels(const fs::path& a, const fs::path& b)
+{
+    return io::read_image(a).image.pixels == io::read_image(b).image.pixels;
+}
+
+std::string text_of(const fs::path& file)
+{
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+TEST_CASE("what is seen has the bits of the command that can be copied", "[live_view]")
+{
+    Viewing viewing({"--spp=6", "--env-intensity=2"});
+    static_cast<void>(viewing.listener().state(
+        [](const json& state) { return !state.at("loading").get<bool>(); }));
+    // Another view, and another light, by words that the command understands.
+    CHECK_FALSE(viewing.ask({{"move", {{"orbit", {0.4, 0.3}}, {"dolly", 1.2}}}}).contains("error"));
+    CHECK_FALSE(viewing.ask({{"set", {{"rotation", 35}, {"intensity", 0.5}}}}).contains("error"));
+    for (const char* integrator : {"auto", "bdpt", "vcm"}) {
+        CAPTURE(integrator);
+        CHECK_FALSE(
+            viewing.ask({{"set", {{"integrator_a", integrator}, {"exposure", 0.25}}}}).contains(
+                "error"));
+        const json state = viewing.finished(
+            {"--env-rotation=35", "--exposure=0.25", std::string("--integrator=") + integrator});
+        CHECK(state.at("slots").at(0).at("samples") == 6);
+        CHECK(state.at("rotation") == 35.0);
+        CHECK(state.at("exposure") == 0.25);
+        CHECK(same_pixels(viewing.saved("save.exr"), viewing.rendered(state, "command.exr")));
+        CHECK(same_pixels(viewing.saved("save.png"), viewing.rendered(state, "command.png")));
+    }
+    // The job renders the same.
+    const fs::path job = viewing.saved("save.json");
+    REQUIRE(run({"render", job.string(), "--quiet", "-o", viewing.path("job.exr")}).exit_code == 0);
+    CHECK(same_pixels(viewing.path("job.exr"), viewing.saved("save.exr")));
+    // And so does the picture in the page, as far as halves go.
+    const auto frame = viewing.listener().frames().back();
+    CHECK(frame->width == 48);
+    CHECK(frame->samples == 6);
+    CHECK(frame->pixels == app::half_pixels(io::read_image(viewing.path("job.exr")).image));
+    CHECK(frame->sequences.at(me) == static_cast<std::uint32_t>(viewing.sequence()));
+}
+
+TEST_CASE("two integrators have the same view and samples of their own", "[live_view]")
+{
+    Viewing viewing({"--spp=4", "--integrator=mis"});
+    static_cast<void>(viewing.finished());
+    CHECK_FALSE(viewing.ask({{"set", {{"integrator_b", "bdpt"}}}}).contains("error"));
+    static_cast<void>(viewing.listener().state(
+        [](const json& state) { return state.at("slots").size() == 2; }));
+    const json state = viewing.finished();
+    CHECK(state.at("slots").at(0).at("integrator") == "mis");
+    CHECK(state.at("slots").at(1).at("integrator") == "bdpt");
+    const fs::path of_a = viewing.path("a.exr");
+    fs::rename(viewing.saved("save.exr", 0), of_a);
+    CHECK_FALSE(same_pixels(of_a, viewing.saved("save.exr", 1)));
+    CHECK(same_pixels(of_a, viewing.rendered(state, "command.exr")));
+}
+
+TEST_CASE("settings that cannot be are refused, and change nothing", "[live_view]")
+{
+    Viewing viewing({"--spp=2"});
+    const json before = viewing.finished();
+    const std::vector<json> wrong{
+        {{"set", {{"integrator_a", "magic"}}}},
+        {{"set", {{"integrator_b", "magic"}, {"paused", true}}}},
+        {{"set", {{"environment", "/etc/passwd"}, {"layer", "noise"}}}},
+        {{"set", {{"curve", "none at all"}, {"layer", "noise"}}}},
+        {{"set", {{"layer", "rates"}}}},
+        {{"set", {{"strategy", {9, 9}}}}},
+        {{"inspect", {48, 3}}},
+        {{"focus", {3, 24}}}};
+    for (const json& request : wrong) {
+        CAPTURE(request.dump());
+        CHECK(viewing.ask(request).contains("error"));
+    }
+    // One that can be, by which we know that the others are done.
+    CHECK_FALSE(viewing.ask({{"set", {{"curve", "agx"}}}}).contains("error"));
+    const json after =
+        viewing.listener().state([](const json& state) { return state.at("curve") == "agx"; });
+    for (const auto& [key, value] : before.items()) {
+        if (key != "curve" && key != "command") {
+            CAPTURE(key);
+            CHECK(after.at(key) == value);
+        }
+    }
+}
+
+TEST_CASE("a pixel tells where its light comes from", "[live_view]")
+{
+    Viewing viewing({"--spp=2", "--integrator=bdpt"});
+    static_cast<void>(viewing.finished());
+    const json answer = viewing.ask({{"inspect", {24, 12}}, {"sample", 1}});
+    const json& sample = answer.at("inspect");
+    CHECK(sample.at("pixel") == json({24, 12}));
+    // The first surface is seen at the pixel itself.
+    const json& raster = sample.at("camera_path").at(1).at("raster");
+    CHECK(std::abs(raster.at(0).get<double>() - 24.5) < 1.0);
+    CHECK(std::abs(raster.at(1).get<double>() - 12.5) < 1.0);
+    CHECK(sample.contains("contributions"));
+}
+
+TEST_CASE("noise and strategies are layers", "[live_view]")
+{
+    Viewing viewing({"--spp=4", "--integrator=bdpt"});
+    static_cast<void>(viewing.finished());
+    CHECK_FALSE(viewing.ask({{"set", {{"layer", "noise"}}}}).contains("error"));
+    CHECK(viewing.listener()
+              .state([](const json& state) { return state.at("layer") == "noise"; })
+              .at("scale")
+              .at("ticks")
+              .size() == 4);
+    CHECK_FALSE(
+        viewing.ask({{"set", {{"layer", "strategy"}, {"strategy", {1, 2}}}}}).contains("error"));
+    static_cast<void>(viewing.listener().state(
+        [](const json& state) { return state.at("layer") == "strategy"; }));
+    const std::size_t shown = viewing.listener().frames().size();
+    for (int i = 0; i < 600 && viewing.listener().frames().size() < shown + 1; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    CHECK(viewing.listener().frames().size() > shown);
+    CHECK(viewing.ask({{"set", {{"strategy", {5, 5}}}}}).contains("error"));
+}
+
+TEST_CASE("a file that changes is loaded again, and a broken one keeps the picture", "[live_view]")
+{
+    Viewing viewing({"--spp=2"});
+    static_cast<void>(viewing.finished());
+    const std::string whole = text_of(viewing.path("cube.gltf"));
+    std::ofstream(viewing.path("cube.gltf")) << whole.substr(0, whole.size() / 2);
+    const json broken = viewing.listener().state(
+        [](const json& state) { return state.at("message").is_string(); });
+    CHECK(broken.at("message").get<std::string>().find("cube.gltf") != std::string::npos);
+    CHECK(viewing.save("save.exr").status == 200);
+    std::ofstream(viewing.path("cube.gltf")) << whole << "\n";
+    static_cast<void>(
+        viewing.listener().state([](const json& state) { return state.at("message").is_null(); }));
+    static_cast<void>(viewing.finished());
+}
+
+}  // namespace
+}  // namespace bdpt::test::live_view_session_test

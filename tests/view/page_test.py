@@ -1,0 +1,362 @@
+#!/usr/bin/env python3
+"""Uses the page of `bdpt view` in Chromium as its users do: page_test.py BDPT SCENE.
+
+Exit code 77 says that Chromium or chromedriver (Debian: chromium, chromium-driver) are not installed."""
+
+import json
+import pathlib
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+
+from served import SKIPPED, Server, expect, wait_for
+from window import MIDDLE, Window, missing
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "apps" / "ids"))
+from exr_file import ExrFile  # noqa: E402
+
+SAMPLES = 16
+CURVES = ("filmic", "pbr-neutral", "agx", "none")
+OPTIONS = ("--size", "96x72", "--spp", str(SAMPLES), "--integrator", "bdpt")
+
+
+def check_loading(window, server):
+    window.show(server)
+    expect(len(set(window.codes())) > 20, "a picture appears")
+    messages = window.messages()
+    expect(messages == [], f"the console is empty {messages}")
+    outside = window.run("return performance.getEntriesByType('resource').map((one) => one.name)"
+                         ".filter((name) => !name.startsWith('data:') && !name.startsWith(location.origin.replace('http', 'ws')));")
+    expect(outside == [], f"nothing else is fetched {outside}")
+    window.finished()
+    expect(window.state("slots")[0]["samples"] == SAMPLES, "it grows to all samples")
+
+
+def check_camera(window):
+    for name, act in (("a drag", lambda: window.drag((0.4, 0.4), (0.6, 0.5))),
+                      ("a drag with the middle button", lambda: window.drag((0.4, 0.4), (0.6, 0.5), MIDDLE)),
+                      ("the wheel", lambda: window.wheel(0.5, 0.5, 240)),
+                      ("an arrow key", lambda: window.press("\ue012")), ("Page Up", lambda: window.press("\ue00e")),
+                      ("the key 0", lambda: window.press("0")),
+                      ("a double click", lambda: window.click(0.5, 0.6, times=2)), ("another one", lambda: window.press("0"))):
+        before, picture, camera = window.seen(), window.picture(), window.state("camera")
+        act()
+        window.wait_for_generation(before["generation"])
+        window.finished()
+        expect(window.picture() != picture, f"{name} changes the picture")
+        expect(window.state("camera") != camera, "and the camera")
+
+
+def check_reset(window):
+    start = window.state("camera")
+    before = window.seen()
+    window.drag((0.2, 0.5), (0.5, 0.5))
+    window.wait_for_generation(before["generation"])
+    turned = window.state("camera")
+    expect(turned["from"] != start["from"] and turned["look_at"] == start["look_at"], "a drag turns around the target")
+    before = window.seen()
+    window.press("0")
+    window.wait_for_generation(before["generation"])
+    window.finished()
+    wait_for(lambda: window.state("camera") == start, "the key 0 brings the camera of the start back")
+
+
+def check_look(window):
+    window.finished()
+    before, picture = window.seen(), window.picture()
+    window.set("exposure", -3)
+    darker = window.picture()
+    expect(darker != picture, "the exposure changes the picture")
+    window.set("curve", "agx", "change")
+    other = window.picture()
+    expect(other not in (darker, picture), "so does the tone curve")
+    window.wait("window.bdptView.state.curve === 'agx' && window.bdptView.state.exposure === -3")
+    window.run("document.getElementById('exposure-auto').click();")
+    window.set("curve", "filmic", "change")
+    window.wait("window.bdptView.state.curve === 'filmic' && window.bdptView.state.exposure_is_auto")
+    expect(window.picture() == picture, "automatic exposure and the first curve bring it back")
+    after = window.seen()
+    expect(all(after[key] == before[key] for key in ("generation", "updates")), "without a new render, and without new pixels")
+
+
+def check_light(window):
+    for name, value, event in (("environment", "studio", "change"), ("rotation", 90, "input"), ("intensity", 1, "input")):
+        before, picture = window.seen(), window.codes()
+        window.set(name, value, event)
+        window.wait_for_generation(before["generation"])
+        window.finished()
+        expect(window.codes() != picture, f"{name} changes the picture")
+    expect(window.state("environment") == "studio" and window.state("rotation") == 90 and window.state("intensity") == 2,
+           "the server has what was chosen")
+
+
+def command_words(window, bdpt):
+    """The words of the copied command, with the program that is tested."""
+    window.press("c")
+    words = shlex.split(window.run("return document.getElementById('command').value;"))
+    expect(words[:2] == ["bdpt", "render"], f"the page shows a command: {' '.join(words)[:150]}")
+    return [bdpt, *words[1:]]
+
+
+def check_equality(window, bdpt, folder):
+    """What is saved is what the command makes, and what is seen is its picture."""
+    window.finished()
+    window.downloads_to(folder)
+    window.press("e")
+    saved = wait_for(lambda: next((f for f in folder.glob("*.exr") if f.stat().st_size), None), "the key E saves an EXR")
+    window.press("j")
+    job = wait_for(lambda: next((f for f in folder.glob("*.json") if f.stat().st_size), None), "the key J saves a job")
+    words = command_words(window, bdpt)
+    rendered, by_job = folder / "command" / "rendered.exr", folder / "command" / "job.exr"
+    rendered.parent.mkdir()
+    subprocess.run([*without_outputs(words), "-o", str(rendered), "--quiet"], check=True, cwd=folder)
+    subprocess.run([bdpt, "render", str(job), "-o", str(by_job), "--quiet"], check=True, cwd=folder)
+    files = [ExrFile(file) for file in (saved, rendered, by_job)]
+    values = [{name: [bytes(memoryview(row)) for row in rows] for name, rows in one.values.items()} for one in files]
+    expect(set(values[0]) >= {"R", "G", "B"} and values[0] == values[1], "the saved EXR is what the copied command writes, to the bit")
+    expect(values[0] == values[2], "and what the saved job writes")
+    for curve in CURVES:
+        window.set("curve", curve, "change")
+        window.wait(f"window.bdptView.state.curve === '{curve}' && document.getElementById('command').value.includes('{curve}')"
+                    if curve != "filmic" else "window.bdptView.state.curve === 'filmic'")
+        picture = folder / "command" / f"{curve}.png"
+        subprocess.run([*without_outputs(command_words(window, bdpt)), "-o", str(picture), "--quiet"], check=True, cwd=folder)
+        wanted, shown = codes_of(window, picture), window.codes()
+        worst = max(abs(a - b) for a, b in zip(wanted, shown))
+        expect(len(wanted) == len(shown) and worst <= 1, f"{curve}: the page shows the command's PNG (differs by {worst} of 255)")
+        expect(len(set(wanted)) > 20, "which is no empty picture")
+    window.press("s")
+    png = wait_for(lambda: next((f for f in folder.glob("*.png") if f.stat().st_size), None), "the key S saves a PNG")
+    expect(codes_of(window, png) == codes_of(window, picture), "the saved PNG is the command's")
+    window.set("curve", "filmic", "change")
+
+
+def without_outputs(words):
+    """A command without its -o FILE."""
+    result, rest = [], list(words)
+    while rest:
+        word = rest.pop(0)
+        if word in ("-o", "--output"):
+            rest.pop(0)
+        else:
+            result.append(word)
+    return result
+
+
+def codes_of(window, file):
+    """Red, green and blue bytes of a PNG file, as the browser reads it."""
+    import base64
+    url = "data:image/png;base64," + base64.b64encode(file.read_bytes()).decode()
+    return window.call("POST", "/execute/async", {"script": """
+        const [url, done] = arguments;
+        const image = new Image();
+        image.onload = () => {
+          const canvas = Object.assign(document.createElement("canvas"), { width: image.width, height: image.height });
+          const context = canvas.getContext("2d");
+          context.drawImage(image, 0, 0);
+          done([...context.getImageData(0, 0, image.width, image.height).data].filter((_, i) => i % 4 < 3));
+        };
+        image.onerror = () => done([]);
+        image.src = url;""", "args": [url]})
+
+
+def check_inspecting(window):
+    window.click(0.5, 0.6)
+    window.wait("!document.getElementById('inspector').hidden")
+    found = window.run("""
+        return { caption: document.querySelector('#inspector h2').textContent,
+          vertices: document.querySelectorAll('#inspector table')[1].querySelectorAll('tbody tr').length,
+          strategies: document.querySelectorAll('#inspector table')[0].querySelectorAll('tbody tr').length,
+          circles: document.querySelectorAll('#overlay circle.path-camera').length,
+          mark: document.querySelector('#overlay .pixel-mark').getBoundingClientRect().toJSON(),
+          first: document.querySelector('#overlay circle.path-camera').getBoundingClientRect().toJSON() };""")
+    expect(found["caption"].startswith("Pixel 48, 43"), f"a click inspects its pixel: {found['caption']}")
+    expect(found["vertices"] >= 2 and found["strategies"] >= 1, f"with its vertices and strategies {found}")
+    expect(found["circles"] >= 1, "its path is drawn")
+    mark, first = found["mark"], found["first"]
+    expect(abs(mark["x"] + mark["width"] / 2 - first["x"] - first["width"] / 2) < 12
+           and abs(mark["y"] + mark["height"] / 2 - first["y"] - first["height"] / 2) < 12, "from the pixel that was clicked")
+    window.press("n")
+    window.wait("document.querySelector('#inspector h2').textContent.endsWith('sample 1')")
+    window.press("\ue00c")
+    expect(window.text("inspector") == "" and window.run("return document.querySelectorAll('#overlay *').length") == 0, "Escape closes it")
+
+
+def check_pair(window):
+    before = window.seen()
+    window.set("integrator-b", "mis", "change")
+    window.wait("window.bdptView.state.slots.length === 2 && !window.bdptView.stage.slots[1].empty")
+    window.finished()
+    expect(window.codes(0) != window.codes(1), "two integrators are side by side")
+    middle = window.picture()
+    window.run("document.getElementById('wiper').focus();")
+    for _ in range(5):
+        window.press("\ue014")
+    expect(window.picture() != middle, "the wiper moves by keys")
+    box = window.run("const box = document.getElementById('wiper').getBoundingClientRect(); return [box.left + box.width / 2, box.top + 20];")
+    left = window.place(0.2, 0.1)
+    window.pointer([window.move(box), {"type": "pointerDown", "button": 0}, window.move((left[0], box[1]), 20), {"type": "pointerUp", "button": 0}])
+    expect(abs(window.run("return window.bdptView.stage.wiper;") - 0.2) < 0.02, "and by the mouse")
+    expect(window.state("camera") is not None and window.seen()["sequence"] >= before["sequence"], "the camera stays")
+    window.set("integrator-b", "", "change")
+    window.wait("window.bdptView.state.slots.length === 1")
+
+
+def check_layers(window):
+    window.finished()
+    picture = window.codes()
+    layers = window.state("layers")
+    expect("noise" in layers and "strategy" in layers, f"there are layers {layers}")
+    for number, layer in enumerate(layers, 1):
+        if layer == "picture":
+            continue
+        before = window.seen()
+        window.press(str(number))
+        window.wait(f"window.bdptView.state.layer === '{layer}' && window.bdptView.seen.updates > {before['updates']}")
+        if layer == "strategy":
+            window.wait("window.bdptView.state.strategies.length > 1")
+        window.wait(f"window.bdptView.seen.grid === window.bdptView.state.size[0]")
+        expect(window.codes() != picture, f"{layer} looks otherwise")
+        bars = window.run("return document.querySelectorAll('#legend .colorbar').length")
+        expect(bars == (1 if layer in ("noise", "rates") else 0), "with its scale")
+    before = window.seen()
+    window.press("1")
+    window.wait(f"window.bdptView.state.layer === 'picture' && window.bdptView.seen.updates > {before['updates']}")
+    window.finished()
+    expect(window.codes() == picture, "the picture comes back")
+
+
+def check_pause(window):
+    window.press(" ")
+    window.wait("window.bdptView.state.paused")
+    before = window.seen()
+    window.press("\ue012")
+    window.wait_for_generation(before["generation"])
+    window.press(" ")
+    window.wait("!window.bdptView.state.paused")
+    window.finished()
+    expect(True, "space pauses and continues")
+
+
+def check_keys(window):
+    window.press("?")
+    expect(window.run("return document.getElementById('keys').open && document.querySelectorAll('#keys kbd').length > 10;"), "? lists the keys")
+    window.press("\ue00c")
+    window.wait("!document.getElementById('keys').open")
+
+
+def check_access(window):
+    unnamed = window.run("""
+        const named = (one) => one.getAttribute('aria-label') || one.textContent.trim() || one.labels?.length;
+        return [...document.querySelectorAll('button, select, input, textarea, canvas[role], table, [role=slider]')]
+          .filter((one) => !named(one)).map((one) => one.outerHTML.slice(0, 80));""")
+    expect(unnamed == [], f"all controls have a name {unnamed}")
+    colors = []
+    for scheme in ("light", "dark"):
+        window.call("POST", "/goog/cdp/execute", {"cmd": "Emulation.setEmulatedMedia", "params": {
+            "features": [{"name": "prefers-color-scheme", "value": scheme}]}})
+        colors.append(window.run("return getComputedStyle(document.body).backgroundColor;"))
+    expect(colors[0] != colors[1], "light and dark differ, as the system says")
+
+
+def check_file(window, scene):
+    """The scene is read again when it changes; a broken file keeps the picture."""
+    window.finished()
+    text = scene.read_text(encoding="utf-8")
+    before, picture = window.seen(), window.codes()
+    model = json.loads(text)
+    for material in model["materials"]:
+        color = material.setdefault("pbrMetallicRoughness", {}).setdefault("baseColorFactor", [1, 1, 1, 1])
+        color[:3] = [0.2 * color[0], 0.9 * color[1], 0.2 * color[2]]
+    scene.write_text(json.dumps(model), encoding="utf-8")
+    window.wait_for_generation(before["generation"])
+    window.finished()
+    changed = window.codes()
+    expect(changed != picture, "a change of the file is seen")
+    scene.write_text(json.dumps(model)[:500], encoding="utf-8")
+    window.wait(f"document.getElementById('message').textContent.includes('{scene.name}')")
+    message = window.text("message")
+    expect(message and "\n" not in message.strip(), f"a broken file is told in one line: {message}")
+    expect(window.codes() == changed, "and the picture stays")
+    before = window.seen()
+    scene.write_text(text, encoding="utf-8")
+    window.wait_for_generation(before["generation"])
+    window.finished()
+    expect(scene.name not in window.text("message"), "the message goes when the file is whole again")
+    expect(window.codes() == picture, "and the first picture is back, to the bit")
+
+
+def check_two_tabs(window, server):
+    first = window.tab()
+    second = window.new_tab()
+    window.show(server)
+    window.finished()
+    expect(window.state("camera") is not None, "a second tab shows the picture")
+    camera = window.state("camera")
+    window.drag((0.4, 0.5), (0.6, 0.5))
+    wait_for(lambda: window.state("camera") != camera, "a drag in the second tab turns the camera")
+    turned = window.state("camera")
+    window.drag((0.4, 0.5), (0.5, 0.5))
+    window.close_tab()  # in the middle of a render
+    window.go_to(first)
+    window.finished()
+    expect(window.state("camera") not in (camera, None) and turned != camera, "what one tab turns, the other sees")
+    before = window.seen()
+    window.drag((0.5, 0.5), (0.4, 0.5))
+    window.wait_for_generation(before["generation"])
+    window.finished()
+    expect(server.alive and second != first, "a tab that is closed in the middle disturbs nobody")
+
+
+def check_connection(window, server):
+    window.messages()
+    window.run("window.bdptView.connection.socket.close();")
+    window.wait("document.documentElement.dataset.connection === 'lost'")
+    window.wait("document.documentElement.dataset.connection === 'open'")
+    expect(window.text("gone") == "", "a connection that is lost is made again")
+    before = window.seen()
+    window.drag((0.4, 0.5), (0.5, 0.5))
+    window.wait_for_generation(before["generation"])
+    picture = window.codes()
+    server.kill()
+    window.wait("document.documentElement.dataset.connection === 'lost'")
+    expect("gone" in window.text("gone"), f"a server that was killed is told: {window.text('gone')}")
+    expect(len(set(window.codes())) > 20 and len(picture) > 0, "and the last picture stays")
+
+
+def main():
+    lacking = missing()
+    if lacking:
+        print(f"skipped: {lacking} is not installed (Debian: chromium, chromium-driver)")
+        sys.exit(SKIPPED)
+    bdpt, original = (str(pathlib.Path(word).resolve()) for word in sys.argv[1:3])
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        scene = folder / "room.gltf"
+        shutil.copy(original, scene)
+        for other in pathlib.Path(original).parent.glob("*.bin"):
+            shutil.copy(other, folder)
+        with Server(bdpt, scene, *OPTIONS, folder=folder) as server, Window(1280, 900) as window:
+            check_loading(window, server)
+            check_reset(window)
+            check_look(window)
+            check_inspecting(window)
+            check_equality(window, bdpt, folder)
+            check_camera(window)
+            check_light(window)
+            check_pair(window)
+            check_layers(window)
+            check_pause(window)
+            check_keys(window)
+            check_access(window)
+            check_file(window, scene)
+            check_two_tabs(window, server)
+            messages = window.messages()
+            expect(messages == [], f"the console is still empty {messages}")
+            check_connection(window, server)
+
+
+if __name__ == "__main__":
+    main()

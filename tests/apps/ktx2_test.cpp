@@ -53,7 +53,7 @@ private:
     static Words joined(Words words, const Words& more)
     {
         if (words[1] != "--plan") {
-            words.insert(words.end(), {"--size", "8x8", "--integrator", "pt"});
+            words.insert(words.end(), {"--size", "8x8", "--integrator", "pt", "--env", "none"});
         }
         words.insert(words.end(), more.begin(), more.end());
         return words;

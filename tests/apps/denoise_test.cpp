@@ -194,6 +194,29 @@ TEST_CASE("a plan's parts are denoised when they are merged")
     CHECK(read_channels(folder.path("merged.exr")) == read_channels(folder.path("whole.exr")));
 }
 
+TEST_CASE("frames that are denoised have the same noise, unless that is switched off")
+{
+    // Nothing moves, so that the frames differ by noise alone.
+    const DenoiseFolder folder;
+    const auto are_equal = [&](const Words& more) {
+        Words words{"--frames", "1:2", "--fps", "24", "-o", folder.path("f.#.exr")};
+        words.insert(words.end(), more.begin(), more.end());
+        REQUIRE(folder.render(words).exit_code == 0);
+        const auto image = [&](const char* name) {
+            return read_exr_channel(folder.path(name), "R");
+        };
+        return image("f.1.exr") == image("f.2.exr");
+    };
+    const Words denoised{"--denoise", "--denoiser-library", BDPT_FAKE_OIDN};
+    CHECK(are_equal(denoised));
+    CHECK_FALSE(are_equal({}));
+    CHECK(are_equal({"--same-noise"}));
+    Words fresh = denoised;
+    fresh.push_back("--same-noise=false");
+    CHECK_FALSE(are_equal(fresh));
+    CHECK_FALSE(are_equal({"--same-noise=false"}));
+}
+
 TEST_CASE("without a denoiser nothing is rendered")
 {
     const DenoiseFolder folder;

@@ -106,7 +106,7 @@ TEST_CASE("option --ground shadow adds a shadow to alpha, and leaves colours as 
             REQUIRE(png.values[4 * i] == 0);  // black
         }
     }
-    CHECK(darkest(shadow, alpha, 11) > 0.25f);  // beside the bottom of the cube
+    CHECK(darkest(shadow, alpha, 11) > 0.2f);  // beside the bottom of the cube
     CHECK(darkest(shadow, alpha, 15) < darkest(shadow, alpha, 11));
     const auto settings = nlohmann::json::parse(png.text["bdpt.settings"]);
     CHECK(settings["ground"] == "shadow");

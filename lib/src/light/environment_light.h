@@ -46,6 +46,10 @@ public:
     /// Luminous flux into the scene's bounding sphere [lm].
     [[nodiscard]] Rgb power() const;
 
+    // The image's size [texels].
+    [[nodiscard]] int width() const { return image_.width; }
+    [[nodiscard]] int height() const { return image_.height; }
+
 private:
     struct Direction {
         Vec3 to_light;

@@ -12,11 +12,23 @@
 
 namespace bdpt {
 
+namespace {
+
+/// Is there a layer that has more of a surface than that a ray met it?
+bool shows_surfaces(AovSet aovs)
+{
+    return aovs.contains(Aov::albedo) || aovs.contains(Aov::normal) ||
+           aovs.contains(Aov::position) || aovs.contains(Aov::depth);
+}
+
+}  // namespace
+
 AovPass::AovPass(const World& world, const MovingCamera& camera, const RenderOptions& options)
     : world_(world),
       camera_(camera),
       options_(options),
       filter_(options.film.filter),
+      needs_surfaces_(shows_surfaces(options.film.aovs)),
       ground_(world, options)
 {
     if (asks_for_ids(options.film.aovs)) {
@@ -66,15 +78,19 @@ void AovPass::add_sample(int x, int y, std::int64_t sample_index, AovFilm& film,
     ++rays.aov;
     bool is_opaque = false;
     if (const auto hit = world_.first_hit(ray.lens, ray.direction, segment)) {
-        const SurfacePoint point =
-            world_.surface_at(*hit, ray.direction, segment, camera.pixel_cone());
-        is_opaque = point.opacity >= 1.0f;
-        const Vec3 normal = point.bsdf.shading_normal();
-        film.add(x, y,
-                 {.albedo = point.bsdf.base_color(),
-                  .normal = dot(normal, ray.direction) > 0.0f ? -normal : normal,
-                  .position = point.end.p,
-                  .depth = camera.depth(point.end.p)});
+        if (needs_surfaces_ || film.needs_opacity()) {
+            const SurfacePoint point =
+                world_.surface_at(*hit, ray.direction, segment, camera.pixel_cone());
+            is_opaque = point.opacity >= 1.0f;
+            const Vec3 normal = point.bsdf.shading_normal();
+            film.add(x, y,
+                     {.albedo = point.bsdf.base_color(),
+                      .normal = dot(normal, ray.direction) > 0.0f ? -normal : normal,
+                      .position = point.end.p,
+                      .depth = camera.depth(point.end.p)});
+        } else {
+            film.add(x, y, {});
+        }
         if (names_) {
             met.push_back(names_->ids_of(*hit));
         }

@@ -39,6 +39,7 @@ private:
     const MovingCamera& camera_;
     RenderOptions options_;
     PixelFilter filter_;
+    bool needs_surfaces_;
     GroundShadow ground_;
     std::optional<SceneNames> names_;  // if ids were asked for
 };

@@ -2,7 +2,6 @@
 
 #include "geometry/rounding.h"
 #include "math/rgb.h"
-#include "math/warp.h"
 
 #include <glm/geometric.hpp>
 
@@ -13,9 +12,6 @@
 namespace bdpt {
 namespace {
 
-/// Points on lights, and as many directions if there is a sky, for each camera ray.
-constexpr int samples_of_light = 2;
-
 constexpr Vec3 up(0.0f, 1.0f, 0.0f);
 
 /// Light that brings nothing, or comes from so near that it is no number.
@@ -24,10 +20,17 @@ bool is_useless(Rgb estimate)
     return is_black(estimate) || !is_finite(estimate);
 }
 
-/// Of an estimate of irradiance and the share that gets past the scene.
-GroundLight light_of(Rgb estimate, Rgb open)
+void add(GroundLight& sum, const GroundLight& light, float weight)
 {
-    return {.unshadowed = luminance(estimate), .shadowed = luminance(estimate * open)};
+    sum.unshadowed += weight * light.unshadowed;
+    sum.shadowed += weight * light.shadowed;
+}
+
+/// What a random number of a sample is for: each light, and each shadow ray, has its own.
+std::uint32_t number_of_ray(std::uint32_t kind, int sample)
+{
+    constexpr std::uint32_t kinds = 3;
+    return kinds * static_cast<std::uint32_t>(sample) + kind;
 }
 
 }  // namespace
@@ -35,15 +38,16 @@ GroundLight light_of(Rgb estimate, Rgb open)
 /// Of the ground, with all that sampling it needs.
 struct GroundShadow::Point {
     SegmentEnd end;
+    std::size_t place;  // among `occluders_`
     SampleMoment moment;
     Sampler& sampler;
     RayCounts& rays;
 
     [[nodiscard]] LightSampleContext receiver() const { return {.p = end.p, .normal = up}; }
     /// Of a shadow ray. The camera subpath has no second vertex, so segments to it are free.
-    [[nodiscard]] SegmentKey segment(int number) const
+    [[nodiscard]] SegmentKey segment(std::uint32_t number) const
     {
-        SegmentKey key = sampler.segment_key(number, 2);
+        SegmentKey key = sampler.segment_key(static_cast<int>(number), 2);
         key.wavelength = moment.wavelength;
         key.time = moment.time;
         return key;
@@ -51,10 +55,33 @@ struct GroundShadow::Point {
 };
 
 GroundShadow::GroundShadow(const World& world, const RenderOptions& options)
-    : world_(world),
-      height_(options.film.ground_height.value_or(world.bounds().min.y)),
-      sampling_{.environments = options.sampling.environment, .lights = options.sampling.lights}
-{}
+    : world_(world), height_(options.film.ground_height.value_or(world.bounds().min.y))
+{
+    if (!options.film.aovs.contains(Aov::shadow)) {
+        return;
+    }
+    occluders_.emplace(world.geometry(), height_);
+    const LightSet& lights = world.lights();
+    for (std::uint32_t i = 0; i < lights.size(); ++i) {
+        const LightId id{i};
+        if (id == lights.environment()) {
+            sky_.emplace(std::get<EnvironmentLight>(lights[id].model()), *occluders_);
+        } else if (lights[id].is_infinite()) {
+            suns_.push_back(id);
+        }
+    }
+    if (!lights.has_placed()) {
+        return;
+    }
+    float elsewhere = sky_ ? sky_->irradiance() : 0.0f;
+    for (const LightId id : suns_) {
+        const auto light = lights[id].sample_incident({.p = Vec3(0.0f), .normal = up}, Vec2(0.5f),
+                                                      EnvironmentSampling::plain, 0.5f);
+        elsewhere += light ? luminance(std::max(light->wi.y, 0.0f) * light->weight) : 0.0f;
+    }
+    has_other_lights_ = elsewhere > 0.0f;
+    lamps_.emplace(lights, *occluders_, height_, elsewhere);
+}
 
 std::optional<SegmentEnd> GroundShadow::meet(const CameraRay& ray) const
 {
@@ -78,73 +105,136 @@ std::optional<GroundLight> GroundShadow::light_at(const CameraRay& ray, const Sa
     if (!end) {
         return std::nullopt;
     }
-    const Point point{.end = *end, .moment = moment, .sampler = sampler, .rays = rays};
+    const Point point{.end = *end,
+                      .place = occluders_->place(end->p),
+                      .moment = moment,
+                      .sampler = sampler,
+                      .rays = rays};
     GroundLight sum;
-    const auto add = [&sum](const GroundLight& light) {
-        constexpr float share = 1.0f / samples_of_light;
-        sum.unshadowed += share * light.unshadowed;
-        sum.shadowed += share * light.shadowed;
-    };
-    for (int i = 0; i < samples_of_light; ++i) {
-        add(sampled_light(point, i));
-        if (world_.lights().environment()) {
-            add(sampled_sky(point, i));
-        }
-    }
+    add_sky(point, sum);
+    add_suns(point, sum);
+    add_lamps(point, sum);
     return sum;
 }
 
-GroundLight GroundShadow::sampled_light(const Point& point, int number) const
+/// The more of the sky the scene may block, the more samples are taken there: the noise is that of
+/// what may be blocked.
+void GroundShadow::add_sky(const Point& point, GroundLight& sum) const
 {
-    const LightSet& lights = world_.lights();
-    Sampler& sampler = point.sampler;
-    sampler.start(SampleUse::ground, static_cast<std::uint32_t>(2 * number));
-    const Vec2 u = sampler.next_2d();
-    const auto found = lights.sample_next_event(
-        point.receiver(), u, [&] { return sampler.next_fine(); }, sampling_, point.moment.time);
-    if (!found.incident || !(found.incident->wi.y > 0.0f)) {
-        return {};
+    if (!sky_) {
+        return;
     }
-    const IncidentSample& incident = *found.incident;
-    const float cosine = incident.wi.y;
-    Rgb estimate = cosine / found.probability * incident.weight;
-    if (found.light == lights.environment()) {
-        const float pdf = found.pdf().value;
-        estimate *= pdf / (pdf + cosine_hemisphere_pdf(cosine).value);
+    if (occluders_->empty()) {
+        sum = {.unshadowed = sky_->irradiance(), .shadowed = sky_->irradiance()};
+        return;
     }
-    if (is_useless(estimate)) {
-        return {};
+    const GroundSky::Shares shares = sky_->shares(point.place);
+    sum = {.unshadowed = shares.open, .shadowed = shares.open};
+    if (!(shares.exposed > 0.0f)) {
+        return;
     }
-    ++point.rays.aov;
-    const SegmentKey segment = point.segment(2 * number);
-    const Rgb open = lights[found.light].is_infinite()
-                         ? world_.transmittance_to_infinity(point.end, incident.wi, segment)
-                         : world_.transmittance(point.end, incident.end, segment);
-    if (is_black(open) && hides_itself(point, found.light, incident, segment)) {
-        return {};
+    constexpr float samples_of_all = 4.0f;  // if all of the sky may be blocked
+    const float wanted = samples_of_all * shares.exposed / (shares.open + shares.exposed);
+    // Less than one sample is one at a time, by chance.
+    const int samples = static_cast<int>(std::ceil(wanted));
+    const float chance = std::min(wanted, 1.0f);
+    const float weight = 1.0f / (chance * static_cast<float>(samples));
+    for (int i = 0; i < samples; ++i) {
+        const std::uint32_t number = number_of_ray(0, i);
+        point.sampler.start(SampleUse::ground, number);
+        Vec2 u = point.sampler.next_2d();
+        if (!(u.x < chance)) {
+            continue;
+        }
+        u.x /= chance;
+        const GroundSky::Sample sample = sky_->sample(point.place, u);
+        if (is_useless(sample.irradiance)) {
+            continue;
+        }
+        ++point.rays.aov;
+        const Rgb open =
+            world_.transmittance_to_infinity(point.end, sample.to_light, point.segment(number));
+        add(sum, {luminance(sample.irradiance), luminance(sample.irradiance * open)}, weight);
     }
-    return light_of(estimate, open);
 }
 
-GroundLight GroundShadow::sampled_sky(const Point& point, int number) const
+void GroundShadow::add_suns(const Point& point, GroundLight& sum) const
 {
+    // If there are more, each of these stands for as many.
+    constexpr std::size_t most = 4;
+    const std::size_t samples = std::min(suns_.size(), most);
+    for (std::size_t i = 0; i < samples; ++i) {
+        const std::uint32_t number = number_of_ray(1, static_cast<int>(i));
+        std::size_t which = i;
+        if (suns_.size() > most) {
+            point.sampler.start(SampleUse::ground, number);
+            const float u = point.sampler.next_1d();
+            which = static_cast<std::size_t>(
+                (static_cast<double>(i) + static_cast<double>(u)) *
+                (static_cast<double>(suns_.size()) / static_cast<double>(most)));
+        }
+        const LightId id = suns_[which];
+        const auto light = world_.lights()[id].sample_incident(
+            point.receiver(), Vec2(0.5f), EnvironmentSampling::plain, point.moment.time);
+        if (light && light->wi.y > 0.0f) {
+            add(sum, past_scene(point, id, *light, light->wi.y * light->weight, number),
+                static_cast<float>(suns_.size()) / static_cast<float>(samples));
+        }
+    }
+}
+
+void GroundShadow::add_lamps(const Point& point, GroundLight& sum) const
+{
+    if (!lamps_) {
+        return;
+    }
+    // Where there is nothing but lamps, all noise is theirs.
+    const int samples = has_other_lights_ ? 1 : 2;
+    const float chance = lamps_->chance(point.place);
     const LightSet& lights = world_.lights();
-    const LightId id = *lights.environment();
-    const auto& sky = std::get<EnvironmentLight>(lights[id].model());
-    point.sampler.start(SampleUse::ground, static_cast<std::uint32_t>(2 * number + 1));
-    const Vec3 local = square_to_cosine_hemisphere(point.sampler.next_2d());
-    const float cosine = local.z;
-    const Vec3 direction(local.x, cosine, local.y);
-    const float competing =
-        lights.next_event_pdf(id, {.p = direction}, point.receiver(), sampling_).value;
-    const float pdf = cosine_hemisphere_pdf(cosine).value;
-    const Rgb estimate = cosine / (pdf + competing) * sky.radiance(direction);
-    if (!(cosine > 0.0f) || is_useless(estimate)) {
+    for (int i = 0; i < samples; ++i) {
+        const std::uint32_t number = number_of_ray(2, i);
+        point.sampler.start(SampleUse::ground, number);
+        Vec2 u = point.sampler.next_2d();
+        if (!(u.x < chance)) {
+            continue;
+        }
+        u.x /= chance;
+        const auto choice =
+            lights.choose_placed(point.receiver(), fine_uniform(point.sampler.next_fine()));
+        if (!choice) {
+            continue;
+        }
+        const auto light = lights[choice->id].sample_incident(
+            point.receiver(), u, EnvironmentSampling::plain, point.moment.time);
+        if (light && light->wi.y > 0.0f) {
+            add(sum,
+                past_scene(point, choice->id, *light,
+                           light->wi.y / choice->probability * light->weight, number),
+                1.0f / (chance * static_cast<float>(samples)));
+        }
+    }
+}
+
+GroundLight GroundShadow::past_scene(const Point& point, LightId id, const IncidentSample& light,
+                                     Rgb irradiance, std::uint32_t ray) const
+{
+    if (is_useless(irradiance)) {
         return {};
     }
+    const float all = luminance(irradiance);
+    if (!occluders_->may_block(point.place, light.wi)) {
+        return {.unshadowed = all, .shadowed = all};
+    }
     ++point.rays.aov;
-    const SegmentKey segment = point.segment(2 * number + 1);
-    return light_of(estimate, world_.transmittance_to_infinity(point.end, direction, segment));
+    const SegmentKey segment = point.segment(ray);
+    const Rgb open = world_.lights()[id].is_infinite()
+                         ? world_.transmittance_to_infinity(point.end, light.wi, segment)
+                         : world_.transmittance(point.end, light.end, segment);
+    if (is_black(open) && hides_itself(point, id, light, segment)) {
+        return {};
+    }
+    return {.unshadowed = all, .shadowed = luminance(irradiance * open)};
 }
 
 bool GroundShadow::hides_itself(const Point& point, LightId id, const IncidentSample& light,

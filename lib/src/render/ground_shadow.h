@@ -4,6 +4,9 @@
 #include "integrator/sample_start.h"
 #include "light/light_samples.h"
 #include "math/sampler.h"
+#include "render/ground_lamps.h"
+#include "render/ground_occluders.h"
+#include "render/ground_sky.h"
 #include "scene/world.h"
 
 #include <bdpt/film/aov_film.h>
@@ -12,6 +15,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 namespace bdpt {
 
@@ -33,15 +37,24 @@ public:
 private:
     struct Point;
     [[nodiscard]] std::optional<SegmentEnd> meet(const CameraRay& ray) const;
-    [[nodiscard]] GroundLight sampled_light(const Point& point, int number) const;
-    [[nodiscard]] GroundLight sampled_sky(const Point& point, int number) const;
+    void add_sky(const Point& point, GroundLight& sum) const;
+    void add_suns(const Point& point, GroundLight& sum) const;
+    void add_lamps(const Point& point, GroundLight& sum) const;
+    /// What the light brings, and what of it gets past the scene.
+    [[nodiscard]] GroundLight past_scene(const Point& point, LightId id,
+                                         const IncidentSample& light, Rgb irradiance,
+                                         std::uint32_t ray) const;
     /// Does a surface of the light itself stand between the ground and this point of it?
     [[nodiscard]] bool hides_itself(const Point& point, LightId id, const IncidentSample& light,
                                     SegmentKey segment) const;
 
     const World& world_;
     float height_;
-    NextEventSampling sampling_;
+    std::optional<GroundOccluders> occluders_;  // if a shadow is asked for
+    std::optional<GroundSky> sky_;
+    std::vector<LightId> suns_;  // all others at infinity
+    std::optional<GroundLamps> lamps_;
+    bool has_other_lights_ = false;
 };
 
 }  // namespace bdpt

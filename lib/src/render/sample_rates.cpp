@@ -94,7 +94,9 @@ void render_group(const Scene& scene, const MovingCamera& camera, const RenderOp
                   const EnvironmentVisibility* visibility, int group, PilotSums& sums)
 {
     const auto integrator = make_integrator(scene.world(), camera, options, visibility);
-    const AovPass no_aovs(scene.world(), camera, options);
+    RenderOptions without_aovs = options;
+    without_aovs.film.aovs = {};
+    const AovPass no_aovs(scene.world(), camera, without_aovs);
     RenderPart part{.identity = {},
                     .samples = {},
                     .film = Film(film_layout(options)),

@@ -130,6 +130,14 @@ public:
         return choice ? std::optional(ChoiceAndNumbers{choice->id, choice->probability, u})
                       : std::nullopt;
     }
+    /// One of the lights that have a place, by the tree, as if there were no others.
+    [[nodiscard]] std::optional<Choice> choose_placed(const LightSampleContext& receiver,
+                                                      double u) const
+    {
+        return next_event_.choose_placed(receiver, u);
+    }
+    /// Is there any that has power?
+    [[nodiscard]] bool has_placed() const { return next_event_.placed_count() > 0; }
     /// Of choosing light `id` so; positive if it can shine at the receiver.
     [[nodiscard]] float context_probability(LightId id, const LightSampleContext& receiver,
                                             LightSampling sampling) const

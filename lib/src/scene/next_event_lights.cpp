@@ -61,12 +61,11 @@ std::optional<NextEventLights::Choice> NextEventLights::choose(const LightSample
 {
     constexpr double below_one = 1.0 - 0x1p-53;
     if (u < placed_share_) {
-        const auto choice = tree_.sample(receiver, std::min(u / placed_share_, below_one));
-        if (!choice) {
-            return std::nullopt;
+        auto choice = choose_placed(receiver, std::min(u / placed_share_, below_one));
+        if (choice) {
+            choice->probability *= static_cast<float>(placed_share_);
         }
-        return Choice{.id = placed_[choice->light],
-                      .probability = choice->probability * static_cast<float>(placed_share_)};
+        return choice;
     }
     if (infinite_table_.empty()) {
         return std::nullopt;
@@ -75,6 +74,15 @@ std::optional<NextEventLights::Choice> NextEventLights::choose(const LightSample
     const auto choice = infinite_table_.sample(std::min((u - placed_share_) / rest, below_one));
     return Choice{.id = infinite_[choice.index],
                   .probability = choice.probability * static_cast<float>(rest)};
+}
+
+std::optional<NextEventLights::Choice> NextEventLights::choose_placed(
+    const LightSampleContext& receiver, double u) const noexcept
+{
+    const auto choice = tree_.sample(receiver, u);
+    return choice ? std::optional(
+                        Choice{.id = placed_[choice->light], .probability = choice->probability})
+                  : std::nullopt;
 }
 
 float NextEventLights::probability(LightId id, const LightSampleContext& receiver) const noexcept

@@ -28,6 +28,9 @@ public:
     /// `u` in [0, 1). Nothing where no light can shine.
     [[nodiscard]] std::optional<Choice> choose(const LightSampleContext& receiver,
                                                double u) const noexcept;
+    /// The same of those at a place alone.
+    [[nodiscard]] std::optional<Choice> choose_placed(const LightSampleContext& receiver,
+                                                      double u) const noexcept;
     [[nodiscard]] float probability(LightId id, const LightSampleContext& receiver) const noexcept;
 
     /// Lights that have a place and power.

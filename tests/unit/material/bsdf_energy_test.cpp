@@ -124,6 +124,11 @@ TEST_CASE("layers take from what lies below no more than they give, and not much
     const std::vector<std::pair<test::BsdfCase, double>> cases{
         {{"smooth coat on a mirror", {white, 1, 0}, 1.5f, test::coated(1, 0)}, 0.001},
         {{"half a coat on a mirror", {white, 1, 0}, 1.5f, test::coated(0.5f, 0)}, 0.001},
+        {{"coat on metal 0.1", {white, 1, 0.1f}, 1.5f, test::coated(1, 0)}, 0.05},
+        {{"coat on metal 0.3", {white, 1, 0.3f}, 1.5f, test::coated(1, 0)}, 0.05},
+        {{"coat on metal 0.6", {white, 1, 0.6f}, 1.5f, test::coated(1, 0)}, 0.05},
+        {{"coat on metal 1", {white, 1, 1}, 1.5f, test::coated(1, 0)}, 0.05},
+        {{"coat 0.4 on metal 0.5", {white, 1, 0.5f}, 1.5f, test::coated(1, 0.4f)}, 0.05},
         {{"sheen on a mirror", {white, 1, 0}, 1.5f, test::sheen(white, 0.5f)}, 0.01},
         {{"smooth coat on lambert", {white, 0, 1, 0}, 1.5f, test::coated(1, 0)}, 0.08},
         {{"coat 0.3 on lambert", {white, 0, 1, 0}, 1.5f, test::coated(1, 0.3f)}, 0.08},

@@ -111,7 +111,8 @@ void add_sequence_options(OptionList& options, Sequence& sequence)
     options
         .add_flag("--same-noise",
                   "Give all frames the same random numbers: noise stands still, like dirt on a "
-                  "window, and does not average out",
+                  "window, and does not average out. Default with --denoise, for what is left of "
+                  "noise flickers more than it shows; --same-noise=false takes it away",
                   sequence.noise, noises.type())
         .uses.python_render = true;
 }
@@ -129,6 +130,9 @@ std::optional<Sequence> checked(Sequence sequence, const OptionList& options)
     check(conflicts, options);
     if (!options.given("--frames") && !options.given("--orbit") && !options.given("--cameras")) {
         return std::nullopt;
+    }
+    if (options.given("--denoise") && !options.given("--same-noise")) {
+        sequence.noise = SequenceNoise::same;
     }
     if (sequence.frames && sequence.orbit > 0 &&
         (sequence.frames->first < 1 || sequence.frames->last > sequence.orbit)) {

@@ -1,0 +1,178 @@
+#include "render/ground_sky.h"
+
+#include "math/elementary.h"
+#include "math/rgb.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace bdpt {
+namespace {
+
+constexpr float below_one = 0x1.fffffep-1f;
+
+/// The unit direction of an azimuth, counted as that of `GroundOccluders`, and a polar angle.
+Vec3 direction_of(float azimuth, float sine, float cosine)
+{
+    constexpr float radians = 2.0f * pi / static_cast<float>(GroundOccluders::strips);
+    const SinCos phi = sin_cos(radians * azimuth);
+    return {sine * phi.sin, cosine, sine * phi.cos};
+}
+
+}  // namespace
+
+GroundSky::GroundSky(const EnvironmentLight& sky, const GroundOccluders& occluders)
+    : sky_(sky), occluders_(occluders), weights_(columns), irradiances_(strips)
+{
+    for (std::size_t row = 0; row <= rows; ++row) {
+        const float sine =
+            sin_cos(0.5f * pi * static_cast<float>(row) / static_cast<float>(rows)).sin;
+        sines_squared_[row] = row == rows ? 1.0f : sine * sine;
+    }
+    fill_cells();
+    double all = 0.0;
+    for (const RowSums& strip : irradiances_) {
+        all += strip.back();
+    }
+    irradiance_ = static_cast<float>(all);
+    places_.resize(occluders.place_count());
+    tbb::parallel_for(std::size_t{0}, places_.size(), [&](std::size_t i) {
+        Place& place = places_[i];
+        const GroundOccluders::Skyline& skyline = occluders_.skyline(i);
+        double exposed = 0.0;
+        double weight = 0.0;
+        for (std::size_t strip = 0; strip < strips; ++strip) {
+            const GroundOccluders::Rows blocked = skyline[strip];
+            exposed += irradiances_[strip][blocked.end] - irradiances_[strip][blocked.begin];
+            for (std::size_t column = 0; column < columns_of_strip; ++column) {
+                weight += weight_between(strip * columns_of_strip + column, blocked);
+            }
+            place.weights[strip] = static_cast<float>(weight);
+        }
+        place.weight = place.weights.back();
+        place.shares = {.open = static_cast<float>(std::max(all - exposed, 0.0)),
+                        .exposed = place.weight > 0.0f ? static_cast<float>(exposed) : 0.0f};
+    });
+}
+
+/// Each cell is looked up at a grid of points that are no farther apart than texels. Bilinear
+/// interpolation makes even grids exact for what lies inside: a texel's shares at points one texel
+/// apart add up to one, wherever the points are.
+void GroundSky::fill_cells()
+{
+    const int most_points = 16;
+    const auto points = [most_points](int texels, int cells) {
+        return std::clamp((texels + cells - 1) / cells, 2, most_points);
+    };
+    const int across = points(sky_.width(), static_cast<int>(columns));
+    const int along = points(sky_.height(), 2 * static_cast<int>(rows));
+    std::vector<std::array<float, rows>> means(columns);
+    tbb::parallel_for(std::size_t{0}, columns, [&](std::size_t column) {
+        for (std::size_t row = 0; row < rows; ++row) {
+            double sum = 0.0;
+            for (int j = 0; j < along; ++j) {
+                const float y = static_cast<float>(row) +
+                                (static_cast<float>(j) + 0.5f) / static_cast<float>(along);
+                const SinCos theta = sin_cos(0.5f * pi * y / static_cast<float>(rows));
+                const double size = static_cast<double>(theta.sin * theta.cos);
+                for (int i = 0; i < across; ++i) {
+                    const float x = static_cast<float>(column) +
+                                    (static_cast<float>(i) + 0.5f) / static_cast<float>(across);
+                    const Vec3 to_light = direction_of(x / static_cast<float>(columns_of_strip),
+                                                       theta.sin, theta.cos);
+                    sum += size * static_cast<double>(luminance(sky_.radiance(to_light)));
+                }
+            }
+            constexpr double solid_angle =
+                2.0 * static_cast<double>(pi) / columns * 0.5 * static_cast<double>(pi) / rows;
+            means[column][row] =
+                static_cast<float>(sum * solid_angle / static_cast<double>(across * along));
+        }
+    });
+    // A cell where all points are dark may have light between them if its neighbours do.
+    constexpr float least_share = 0.01f;
+    tbb::parallel_for(std::size_t{0}, columns, [&](std::size_t column) {
+        RowSums& sums = weights_[column];
+        sums[0] = 0.0;
+        for (std::size_t row = 0; row < rows; ++row) {
+            float most = 0.0f;
+            for (const std::size_t x :
+                 {column, (column + 1) % columns, (column + columns - 1) % columns}) {
+                for (std::size_t y = row - std::min<std::size_t>(row, 1);
+                     y <= std::min(row + 1, rows - 1); ++y) {
+                    most = std::max(most, means[x][y]);
+                }
+            }
+            const float weight = std::max(means[column][row], least_share * most);
+            sums[row + 1] = sums[row] + static_cast<double>(weight);
+        }
+    });
+    for (std::size_t column = 0; column < columns; ++column) {
+        RowSums& strip = irradiances_[column / columns_of_strip];
+        double above = 0.0;
+        for (std::size_t row = 0; row < rows; ++row) {
+            above += static_cast<double>(means[column][row]);
+            strip[row + 1] += above;
+        }
+    }
+}
+
+GroundSky::Sample GroundSky::sample(std::size_t place, Vec2 u) const
+{
+    const Place& from = places_[place];
+    // A strip of those that may be blocked, a column of it, and the rest of the number.
+    const float target = std::min(u.x, below_one) * from.weight;
+    const auto found = std::upper_bound(from.weights.begin(), from.weights.end() - 1, target);
+    const auto strip = static_cast<std::size_t>(found - from.weights.begin());
+    const GroundOccluders::Rows blocked = occluders_.skyline(place)[strip];
+    double left = static_cast<double>(target - (strip > 0 ? from.weights[strip - 1] : 0.0f));
+    std::size_t column = strip * columns_of_strip;
+    double weight = 0.0;
+    double before = left;
+    for (std::size_t i = 0; i < columns_of_strip; ++i) {
+        const double next = weight_between(strip * columns_of_strip + i, blocked);
+        if (!(next > 0.0)) {
+            continue;
+        }
+        column = strip * columns_of_strip + i;
+        weight = next;
+        before = left;
+        left -= next;
+        if (left < 0.0) {
+            break;
+        }
+    }
+    if (!(weight > 0.0)) {
+        return {.to_light = {0.0f, 1.0f, 0.0f}};
+    }
+    const auto across = std::min(static_cast<float>(before / weight), below_one);
+    // A row of it.
+    const RowSums& sums = weights_[column];
+    const double height = sums[blocked.begin] + static_cast<double>(u.y) * weight;
+    const auto above =
+        std::upper_bound(sums.begin() + blocked.begin + 1, sums.begin() + blocked.end, height) - 1;
+    const auto row =
+        std::min(static_cast<std::size_t>(above - sums.begin()), std::size_t{blocked.end} - 1U);
+    const double of_cell = sums[row + 1] - sums[row];
+    if (!(of_cell > 0.0)) {
+        return {.to_light = {0.0f, 1.0f, 0.0f}};
+    }
+    const auto along =
+        std::min(static_cast<float>(std::max(height - sums[row], 0.0) / of_cell), below_one);
+    // In a cell all of the projected solid angle is the same.
+    const float sine_squared =
+        sines_squared_[row] + along * (sines_squared_[row + 1] - sines_squared_[row]);
+    const float azimuth =
+        (static_cast<float>(column) + across) / static_cast<float>(columns_of_strip);
+    const Vec3 to_light = direction_of(azimuth, std::sqrt(sine_squared),
+                                       std::sqrt(std::max(1.0f - sine_squared, 0.0f)));
+    const float projected =
+        pi / static_cast<float>(columns) * (sines_squared_[row + 1] - sines_squared_[row]);
+    const auto over_density = static_cast<float>(static_cast<double>(from.weight) *
+                                                 static_cast<double>(projected) / of_cell);
+    return {.to_light = to_light, .irradiance = over_density * sky_.radiance(to_light)};
+}
+
+}  // namespace bdpt

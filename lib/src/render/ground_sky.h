@@ -1,0 +1,66 @@
+#pragma once
+
+#include "light/environment_light.h"
+#include "render/ground_occluders.h"
+
+#include <bdpt/types.h>
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace bdpt {
+
+/// Light of the environment on level ground. All of it is known beforehand; samples are taken of
+/// those directions only that the scene may block (docs/decisions/0064).
+class GroundSky {
+public:
+    /// Refers to both, which must outlive it.
+    GroundSky(const EnvironmentLight& sky, const GroundOccluders& occluders);
+
+    /// The luminance of the irradiance, by whether the scene may block it [lx].
+    struct Shares {
+        float open = 0.0f;
+        float exposed = 0.0f;
+    };
+    [[nodiscard]] Shares shares(std::size_t place) const { return places_[place].shares; }
+    /// Where nothing stands on the ground.
+    [[nodiscard]] float irradiance() const { return irradiance_; }
+
+    struct Sample {
+        Vec3 to_light{0.0f};   ///< unit
+        Rgb irradiance{0.0f};  ///< radiance times cosine over the density
+    };
+    /// A direction that the scene may block, about in proportion to what it brings. The place's
+    /// share must be positive.
+    [[nodiscard]] Sample sample(std::size_t place, Vec2 u) const;
+
+private:
+    static constexpr std::size_t strips = GroundOccluders::strips;
+    static constexpr std::size_t rows = GroundOccluders::rows;
+    static constexpr std::size_t columns_of_strip = 8;
+    static constexpr std::size_t columns = strips * columns_of_strip;
+    /// Sums over the rows above each row, and at last over all.
+    using RowSums = std::array<double, rows + 1>;
+    struct Place {
+        Shares shares;
+        float weight = 0.0f;                  ///< of all directions that may be blocked
+        std::array<float, strips> weights{};  ///< the same up to and with each strip
+    };
+
+    void fill_cells();
+    [[nodiscard]] double weight_between(std::size_t column, GroundOccluders::Rows of) const
+    {
+        return weights_[column][of.end] - weights_[column][of.begin];
+    }
+
+    const EnvironmentLight& sky_;
+    const GroundOccluders& occluders_;
+    std::array<float, rows + 1> sines_squared_{};  ///< of the polar angle where rows begin
+    std::vector<RowSums> weights_;                 ///< of cells in sampling, by column
+    std::vector<RowSums> irradiances_;             ///< by strip
+    float irradiance_ = 0.0f;
+    std::vector<Place> places_;
+};
+
+}  // namespace bdpt

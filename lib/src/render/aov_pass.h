@@ -2,7 +2,7 @@
 
 #include "film/pixel_filter.h"
 #include "integrator/integrator.h"
-#include "render/ground_shadow.h"
+#include "render/ground/ground_shadow.h"
 #include "scene/scene_names.h"
 
 #include <bdpt/film/aov_film.h>

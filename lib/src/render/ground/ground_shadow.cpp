@@ -1,4 +1,4 @@
-#include "render/ground_shadow.h"
+#include "render/ground/ground_shadow.h"
 
 #include "geometry/rounding.h"
 #include "math/rgb.h"

@@ -1,4 +1,4 @@
-#include "render/ground_lamps.h"
+#include "render/ground/ground_lamps.h"
 
 #include "math/rgb.h"
 #include "math/split_mix.h"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "light/environment_light.h"
-#include "render/ground_occluders.h"
+#include "render/ground/ground_occluders.h"
 
 #include <bdpt/types.h>
 

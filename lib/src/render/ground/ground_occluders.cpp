@@ -1,4 +1,4 @@
-#include "render/ground_occluders.h"
+#include "render/ground/ground_occluders.h"
 
 #include "math/elementary.h"
 

@@ -1,4 +1,4 @@
-#include "render/ground_sky.h"
+#include "render/ground/ground_sky.h"
 
 #include "math/elementary.h"
 #include "math/rgb.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/ground_occluders.h"
+#include "render/ground/ground_occluders.h"
 #include "scene/light_set.h"
 
 #include <cstddef>

@@ -344,6 +344,9 @@ def test_animation(folder):
     assert len(places) == 3 and places[0] < 18 and abs(places[1] - 24) < 0.6 and places[2] > 30, places
     assert np.allclose(greens, (0, 0.5, 1), atol=0.02), greens
     assert scene.frame_current == 1
+    scene.render.use_motion_blur, scene.camera.data.type = True, "PANO"
+    error_of(scene)
+    assert scene.frame_current == 1 and scene.frame_subframe == 0, "an error leaves the scene at another frame"
 
 
 def bdpt_end_of(scene, function):

@@ -68,15 +68,17 @@ class BDPT_RenderEngine(bpy.types.RenderEngine):
         frame = scene.frame_current_final
         times = export.shutter_times(scene.render)
         exported = None
-        for moment in times:
+        try:
+            for moment in times:
+                if len(times) > 1:
+                    self._go_to(frame + moment)
+                if exported is None:
+                    exported = main_thread.call(lambda: export.Export(depsgraph, folder), self._cancelled)
+                else:
+                    exported.place(depsgraph)
+        finally:
             if len(times) > 1:
-                self._go_to(frame + moment)
-            if exported is None:
-                exported = main_thread.call(lambda: export.Export(depsgraph, folder), self._cancelled)
-            else:
-                exported.place(depsgraph)
-        if len(times) > 1:
-            self._go_to(frame)
+                self._go_to(frame)
         exported.write()
         return exported
 
@@ -92,8 +94,8 @@ class BDPT_RenderEngine(bpy.types.RenderEngine):
 
     def _run(self, words, film, layer):
         live = None if bpy.app.background else LiveImage()
+        command = Command(program(settings.chosen_command()), words + (["--display", live.address] if live else []))
         try:
-            command = Command(program(settings.chosen_command()), words + (["--display", live.address] if live else []))
             stopped, told = None, None
             while not command.ended():
                 command.wait(STEP)
@@ -107,10 +109,10 @@ class BDPT_RenderEngine(bpy.types.RenderEngine):
                     command.stop()
                     stopped = time.monotonic()
                 if stopped is not None and time.monotonic() - stopped > PATIENCE:
-                    command.kill()
                     raise main_thread.Cancelled
             return command
         finally:
+            command.kill()  # where it has not ended
             if live:
                 live.close()
 

@@ -31,7 +31,10 @@ install(TARGETS bdpt_python LIBRARY DESTINATION "${BDPT_PYTHON_INSTALL_DIR}/bdpt
 install(FILES "${package}/__init__.py" "${package}/_signatures.py" "${package}/py.typed" "${package}/_bdpt.pyi"
         DESTINATION "${BDPT_PYTHON_INSTALL_DIR}/bdpt" COMPONENT bdpt_python)
 if(DEFINED SKBUILD)
-  # A wheel has bdpt_io in its module, which finds companions beside itself.
+  # A wheel has bdpt_io in its module and in its program, which find companions beside themselves.
+  install(TARGETS bdpt_app RUNTIME DESTINATION "${BDPT_PYTHON_INSTALL_DIR}/bdpt" COMPONENT bdpt_python)
+  install(FILES apps/python/package/_command.py apps/python/package/__main__.py
+          DESTINATION "${BDPT_PYTHON_INSTALL_DIR}/bdpt" COMPONENT bdpt_python)
   install(TARGETS bdpt_oiio LIBRARY DESTINATION "${BDPT_PYTHON_INSTALL_DIR}/bdpt" COMPONENT bdpt_python_companions)
   install(TARGETS bdpt_ktx_reader RUNTIME DESTINATION "${BDPT_PYTHON_INSTALL_DIR}/bdpt"
           COMPONENT bdpt_python_companions)

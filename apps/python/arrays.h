@@ -5,10 +5,12 @@
 #include <fmt/core.h>
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
+#include <nanobind/stl/string.h>
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,7 +24,15 @@ using FloatArray = nb::ndarray<nb::numpy, float>;
 /// What NumPy can make of an argument: floats in a row.
 template <typename... Shape>
 using FloatInput = nb::ndarray<const float, nb::c_contig, nb::device::cpu, Shape...>;
-using ImageInput = FloatInput<nb::shape<-1, -1, 3>>;
+/// An `Array`, or whatever NumPy can make one of: other types of numbers, classes derived from its
+/// own, lists, renders.
+template <typename Array>
+struct ArrayLike {
+    Array array;
+};
+template <typename... Shape>
+using FloatsLike = ArrayLike<FloatInput<Shape...>>;
+using ImageInput = FloatsLike<nb::shape<-1, -1, 3>>;
 
 /// `values`, given away, as an array of that shape: nothing is copied.
 template <typename Value>
@@ -76,8 +86,9 @@ template <typename Value>
     return static_cast<int>(count);
 }
 
-[[nodiscard]] inline Image to_image(const ImageInput& array)
+[[nodiscard]] inline Image to_image(const ImageInput& input)
 {
+    const auto& array = input.array;
     const auto* pixels = reinterpret_cast<const Rgb*>(array.data());
     return {to_side(array.shape(1)), to_side(array.shape(0)),
             std::vector<Rgb>(pixels, pixels + array.shape(0) * array.shape(1))};
@@ -92,3 +103,38 @@ template <typename Value, typename Array>
 }
 
 }  // namespace bdpt::python
+
+namespace nanobind::detail {
+
+template <typename Array>
+struct type_caster<bdpt::python::ArrayLike<Array>> {
+    NB_TYPE_CASTER(bdpt::python::ArrayLike<Array>, const_name("numpy.typing.ArrayLike"))
+
+    bool from_python(handle source, std::uint8_t flags, cleanup_list* cleanup) noexcept
+    {
+        make_caster<Array> caster;
+        if (caster.from_python(source, flags, cleanup)) {
+            value.array = std::move(caster.value);
+            return true;
+        }
+        if ((flags & static_cast<std::uint8_t>(cast_flags::convert)) == 0) {
+            return false;
+        }
+        try {
+            const object array = module_::import_("numpy").attr("asarray")(source);
+            const auto kind = nanobind::cast<std::string>(array.attr("dtype").attr("kind"));
+            // Not None, texts or complex numbers, of which NumPy would make floats.
+            if (kind == "b" || kind == "i" || kind == "u" || kind == "f") {
+                if (caster.from_python(array, flags, cleanup)) {
+                    value.array = std::move(caster.value);
+                    return true;
+                }
+            }
+        } catch (const python_error&) {  // such as rows of different lengths
+        } catch (const std::exception&) {
+        }
+        return false;
+    }
+};
+
+}  // namespace nanobind::detail

@@ -36,12 +36,12 @@ struct ArrayMesh {
 };
 
 /// (n, 4, 4) matrices as NumPy has them, by rows.
-std::vector<Mat4> to_matrices(const std::optional<FloatInput<nb::shape<-1, 4, 4>>>& array)
+std::vector<Mat4> to_matrices(const std::optional<FloatsLike<nb::shape<-1, 4, 4>>>& matrix_rows)
 {
-    if (!array) {
+    if (!matrix_rows) {
         return {Mat4(1.0f)};
     }
-    std::vector<Mat4> matrices = to_vectors<Mat4>(*array);
+    std::vector<Mat4> matrices = to_vectors<Mat4>(matrix_rows->array);
     for (Mat4& matrix : matrices) {
         matrix = glm::transpose(matrix);
     }
@@ -81,29 +81,35 @@ std::vector<UVec3> to_triangles(const IndexInput& array)
     if (type == nb::dtype<std::int32_t>()) {
         return to_triangles<std::int32_t>(array);
     }
+    if (type == nb::dtype<std::int16_t>()) {
+        return to_triangles<std::int16_t>(array);
+    }
+    if (type == nb::dtype<std::int8_t>()) {
+        return to_triangles<std::int8_t>(array);
+    }
     if (type == nb::dtype<std::uint16_t>()) {
         return to_triangles<std::uint16_t>(array);
     }
     if (type == nb::dtype<std::uint8_t>()) {
         return to_triangles<std::uint8_t>(array);
     }
-    throw Error(ErrorCode::usage,
-                "triangles: expected an array of uint8, uint16, uint32, uint64, int32 or int64");
+    throw Error(ErrorCode::usage, "triangles: expected integers");
 }
 
-ArrayMesh make_mesh(const FloatInput<nb::shape<-1, 3>>& positions, const IndexInput& triangles,
-                    const std::optional<FloatInput<nb::shape<-1, 3>>>& normals,
-                    const std::optional<FloatInput<nb::shape<-1, 2>>>& uvs,
+ArrayMesh make_mesh(const FloatsLike<nb::shape<-1, 3>>& positions,
+                    const ArrayLike<IndexInput>& triangles,
+                    const std::optional<FloatsLike<nb::shape<-1, 3>>>& normals,
+                    const std::optional<FloatsLike<nb::shape<-1, 2>>>& uvs,
                     const std::shared_ptr<ArrayMaterial>& material,
-                    const std::optional<FloatInput<nb::shape<-1, 4, 4>>>& transforms,
+                    const std::optional<FloatsLike<nb::shape<-1, 4, 4>>>& transforms,
                     const std::string& name)
 {
     ArrayMesh mesh;
     mesh.desc.name = name;
-    mesh.desc.positions = to_vectors<Vec3>(positions);
-    mesh.desc.triangles = to_triangles(triangles);
-    mesh.desc.normals = normals ? to_vectors<Vec3>(*normals) : std::vector<Vec3>();
-    mesh.desc.uvs[0] = uvs ? to_vectors<Vec2>(*uvs) : std::vector<Vec2>();
+    mesh.desc.positions = to_vectors<Vec3>(positions.array);
+    mesh.desc.triangles = to_triangles(triangles.array);
+    mesh.desc.normals = normals ? to_vectors<Vec3>(normals->array) : std::vector<Vec3>();
+    mesh.desc.uvs[0] = uvs ? to_vectors<Vec2>(uvs->array) : std::vector<Vec2>();
     mesh.material = material ? material : std::make_shared<ArrayMaterial>();
     mesh.transforms = to_matrices(transforms);
     return mesh;

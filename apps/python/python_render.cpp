@@ -8,12 +8,13 @@
 #include <nanobind/stl/map.h>
 #include <nanobind/stl/string.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
@@ -26,6 +27,7 @@
 #include "options/groups/sequence_arguments.h"
 #include "options/part_arguments.h"
 #include "options/values/output_files.h"
+#include "python_files.h"
 #include "python_render.h"
 #include "report/image/denoised.h"
 #include "report/image/image_files.h"
@@ -245,14 +247,12 @@ Render read_part(const fs::path& file)
     io::MemoryBudget memory(app::memory_limit(std::nullopt));
     io::merge_part(render.part, info, &memory);
     render.backdrop = app::display_of_parts(info.notes.metadata, {}).backdrop;
+    render.seconds = info.notes.metadata.render_seconds;
     return render;
 }
 
-}  // namespace
-
-void save(const Render& render, const fs::path& file, const nb::kwargs& options)
+void save_file(const Render& render, const fs::path& file, const SaveArguments& asked)
 {
-    const SaveArguments asked = understand_save(words_of(options, Call::save));
     const std::vector<fs::path> files{file};
     app::check_outputs(files, render.inputs);
     if (app::is_part_name(file)) {
@@ -270,24 +270,71 @@ void save(const Render& render, const fs::path& file, const nb::kwargs& options)
     });
 }
 
+/// What save_file() writes into a file of this format.
+nb::bytes to_bytes(const Render& render, const std::string& format, const SaveArguments& asked)
+{
+    const ScratchFolder folder;
+    const fs::path file = folder.file("image." + format);
+    save_file(render, file, asked);
+    return read_bytes(file);
+}
+
+/// The format that save() is told, and its other options.
+std::pair<std::optional<std::string>, nb::kwargs> split_format(const nb::kwargs& options)
+{
+    static constexpr std::array known{"exr", "hdr", "png", "jpg", "webp", "part.exr"};
+    std::optional<std::string> format;
+    nb::dict others;
+    for (const auto& [key, value] : options) {
+        if (nb::cast<std::string>(key) != "format") {
+            others[key] = value;
+        } else if (!value.is_none()) {
+            format = nb::cast<std::string>(nb::str(value));
+            if (std::find(known.begin(), known.end(), *format) == known.end()) {
+                throw Error(
+                    ErrorCode::usage,
+                    fmt::format("format \"{}\": expected exr, hdr, png, jpg, webp or part.exr",
+                                *format));
+            }
+        }
+    }
+    return {format, nb::borrow<nb::kwargs>(others)};
+}
+
+}  // namespace
+
+void save(const Render& render, const nb::object& file, const nb::kwargs& options)
+{
+    const auto [format, others] = split_format(options);
+    const SaveArguments asked = understand_save(words_of(others, Call::save));
+    if (!is_writable_object(file)) {
+        if (format) {
+            throw Error(ErrorCode::usage,
+                        "format is for objects that are written into; the name of a file tells its "
+                        "format");
+        }
+        save_file(render, to_path(file), asked);
+        return;
+    }
+    if (!format) {
+        throw Error(ErrorCode::usage,
+                    "an object that is written into has no name that tells the format: give "
+                    "format=\"png\" or another one");
+    }
+    file.attr("write")(to_bytes(render, *format, asked));
+}
+
 nb::bytes to_png(const Render& render)
 {
-    const nb::object folder =
-        nb::module_::import_("tempfile").attr("TemporaryDirectory")(nb::arg("prefix") = "bdpt-");
-    const fs::path file = fs::path(nb::cast<std::string>(folder.attr("name"))) / "image.png";
-    save(render, file, nb::kwargs());
-    std::ifstream stream(file, std::ios::binary);
-    const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-    folder.attr("cleanup")();
-    return nb::bytes(bytes.data(), bytes.size());
+    return to_bytes(render, "png", {});
 }
 
 void bind_render(nb::module_& module)
 {
-    const std::string saving =
-        declaration("def save(self, file: str | os.PathLike[str], *", Call::save, "None");
+    const std::string saving = declaration(saving_head, Call::save, "None");
     const std::string text_of_saving = documentation(
-        "Writes an image, .exr (linear radiance and layers), .hdr (linear radiance), .png, .jpg or "
+        "Writes a file, or in the given format into an object with write(): an image, .exr (linear "
+        "radiance and layers), .hdr (linear radiance), .png, .jpg or "
         ".webp (tone-mapped), or a part, "
         ".part.exr, that bdpt merge and bdpt render --part understand.",
         Call::save);
@@ -337,6 +384,13 @@ void bind_render(nb::module_& module)
         .def("to_srgb", &to_srgb, nb::arg("options"), nb::sig(showing.c_str()),
              text_of_showing.c_str())
         .def("_repr_png_", &to_png, "For notebooks.")
+        .def("__getstate__", [](const Render& render) { return to_bytes(render, "part.exr", {}); })
+        .def("__setstate__",
+             [](Render& render, const nb::bytes& part) {
+                 const ScratchFolder folder;
+                 write_bytes(folder.file("image.part.exr"), part);
+                 new (&render) Render(read_part(folder.file("image.part.exr")));
+             })
         .def(
             "__array__",
             [](const Render& render, const nb::object& dtype, const nb::object& copy) {

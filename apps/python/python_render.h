@@ -47,8 +47,15 @@ struct Task {
 /// A control that looks for Ctrl-C between passes and calls `progress`, unless that is None.
 [[nodiscard]] RenderControl control_of(const nanobind::object& progress);
 
-/// Writes an image or a part. Throws `Error`.
-void save(const Render& render, const std::filesystem::path& file, const nanobind::kwargs& options);
+/// How save() is declared: its head for `declaration`.
+inline constexpr const char* saving_head =
+    "def save(self, file: str | os.PathLike[str] | typing.BinaryIO, *, "
+    "format: typing.Literal[\"exr\", \"hdr\", \"png\", \"jpg\", \"webp\", \"part.exr\"] | None = "
+    "None";
+
+/// Writes an image or a part, to a path or to an object with write(), whose format `options` name
+/// then. Throws `Error`.
+void save(const Render& render, const nanobind::object& file, const nanobind::kwargs& options);
 
 /// As a PNG file, for notebooks.
 [[nodiscard]] nanobind::bytes to_png(const Render& render);

@@ -1,9 +1,7 @@
 #include <bdpt/renderer.h>
-#include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/string.h>
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -92,8 +90,7 @@ void bind_renderer(nb::module_& module)
         declaration("def __init__(self, scene: Scene, *", Call::render, "None");
     const std::string text_of_making =
         documentation("Options are those of render(), which is what finish() makes.", Call::render);
-    const std::string saving =
-        declaration("def save(self, file: str | os.PathLike[str], *", Call::save, "None");
+    const std::string saving = declaration(saving_head, Call::save, "None");
     const std::string text_of_saving =
         documentation("As Render.save(), of the samples so far.", Call::save);
     nb::class_<PythonRenderer>(
@@ -137,7 +134,7 @@ void bind_renderer(nb::module_& module)
              "All samples as a Render; this then has none, and += gives them back.")
         .def(
             "save",
-            [](PythonRenderer& self, const std::filesystem::path& file, const nb::kwargs& options) {
+            [](PythonRenderer& self, const nb::object& file, const nb::kwargs& options) {
                 self.look_at_result([&](const Render& render) { save(render, file, options); });
             },
             nb::arg("file"), nb::arg("options"), nb::sig(saving.c_str()), text_of_saving.c_str())

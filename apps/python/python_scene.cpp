@@ -1,27 +1,88 @@
 #include "python_scene.h"
 
+#include <bdpt/error.h>
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include <filesystem>
+#include <new>
+#include <optional>
+#include <string>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 #include "interpreter_lock.h"
+#include "python_files.h"
 
 namespace bdpt::python {
 namespace {
 
 namespace nb = nanobind;
 
-PythonScene load(const std::filesystem::path& file, const nb::kwargs& options)
+namespace fs = std::filesystem;
+
+PythonScene load_file(const fs::path& file, const Words& words)
 {
-    const Words words = words_of(options, Call::load);
     app::RenderArguments arguments = understand_render(words);
     arguments.file = file;
+    std::error_code unknown;
     const Unlocked unlocked;
-    return {.stage = prepare_scene(arguments), .file = file.string(), .words = words};
+    return {.stage = prepare_scene(arguments),
+            .file = file.string(),
+            .words = words,
+            .origin = fs::absolute(file, unknown)};
+}
+
+/// `text`, which calls the file that the bytes were in for a while by this name.
+std::string renamed(std::string text, const std::string& file, const std::string& name)
+{
+    for (std::size_t at = text.find(file); at != std::string::npos; at = text.find(file)) {
+        text.replace(at, file.size(), name);
+    }
+    return text;
+}
+
+PythonScene load_bytes(const nb::bytes& contents, const Words& words)
+{
+    const std::string name = "bytes";
+    const ScratchFolder folder;
+    const fs::path file = folder.file(name);
+    write_bytes(file, contents);
+    try {
+        PythonScene scene = load_file(file, words);
+        for (std::vector<std::string>* texts : {&scene.stage.warnings, &scene.stage.notes}) {
+            for (std::string& text : *texts) {
+                text = renamed(text, file.string(), name);
+            }
+        }
+        scene.file = name;
+        scene.origin.reset();
+        return scene;
+    } catch (const Error& error) {
+        throw Error(error.code(), renamed(error.what(), file.string(), name));
+    }
+}
+
+PythonScene load(const nb::object& source, const nb::kwargs& options)
+{
+    const Words words = words_of(options, Call::load);
+    const std::optional<nb::bytes> contents = contents_of(source);
+    return contents ? load_bytes(*contents, words) : load_file(to_path(source), words);
+}
+
+std::tuple<std::string, Words> state_of(const PythonScene& scene)
+{
+    if (!scene.origin) {
+        throw nb::type_error(
+            "only scenes that load() made of a file can be pickled, and no edited ones: pickle "
+            "what this one "
+            "is made of");
+    }
+    return {scene.origin->string(), scene.words};
 }
 
 }  // namespace
@@ -53,16 +114,21 @@ void bind_scene(nb::module_& module)
         .def_prop_ro(
             "isa", [](const PythonScene& scene) { return isa_name(scene.stage.scene.isa()); },
             "Instruction set that its rays are traced with.")
+        .def("__getstate__", &state_of)
+        .def("__setstate__",
+             [](PythonScene& scene, const std::tuple<std::string, Words>& state) {
+                 new (&scene) PythonScene(load_file(std::get<0>(state), std::get<1>(state)));
+             })
         .def("__repr__", [](const PythonScene& scene) {
             return nb::str("<bdpt.Scene {}, {} triangles>")
                 .format(scene.file.empty() ? "of arrays" : scene.file.c_str(),
                         scene.stage.scene.counts().instanced_triangles);
         });
-    const std::string signature =
-        declaration("def load(file: str | os.PathLike[str], *", Call::load, "Scene");
+    const std::string signature = declaration(
+        "def load(file: str | os.PathLike[str] | bytes | typing.BinaryIO, *", Call::load, "Scene");
     const std::string text = documentation(
-        "Loads a .gltf or .glb file. What it lacks (a camera, light) is filled in as bdpt render "
-        "does.",
+        "Loads a .gltf or .glb file, or what is in one: bytes, or an open file. What it lacks (a "
+        "camera, light) is filled in as bdpt render does.",
         Call::load);
     module.def("load", &load, nb::arg("file"), nb::arg("options"), nb::sig(signature.c_str()),
                text.c_str());

@@ -2,6 +2,8 @@
 
 #include <nanobind/nanobind.h>
 
+#include <filesystem>
+#include <optional>
 #include <string>
 
 #include "stage/prepared_scene.h"
@@ -14,6 +16,7 @@ struct PythonScene {
     app::PreparedScene stage;
     std::string file;  ///< empty: it was made of arrays
     Words words;
+    std::optional<std::filesystem::path> origin{};  ///< the file of which load() makes it again
 };
 
 /// load() and `Scene`.

@@ -177,10 +177,13 @@ bdpt_add_companion(bdpt_ktx_reader)
 set(folders [["."]] [["bdpt"]])
 if(BUILD_SHARED_LIBS)
   bdpt_put_companions_beside(bdpt_io)
-elseif(NOT DEFINED SKBUILD)  # a wheel has no program
+elseif(NOT DEFINED SKBUILD)  # in a wheel the program and the module are beside them
   file(RELATIVE_PATH from_bindir "${CMAKE_INSTALL_FULL_BINDIR}" "${CMAKE_INSTALL_FULL_LIBDIR}")
   list(APPEND folders "\"${from_bindir}/bdpt\"")
 endif()
 list(JOIN folders "," folders)
 set_source_files_properties(src/file/companion.cpp PROPERTIES
   COMPILE_DEFINITIONS "BDPT_COMPANION_FOLDERS=${folders}")
+if(DEFINED SKBUILD)
+  set_source_files_properties(src/denoise/oidn_functions.cpp PROPERTIES COMPILE_DEFINITIONS BDPT_IN_PYTHON_PACKAGE)
+endif()

@@ -127,6 +127,10 @@ use_find_package() {
   build_consumer "$WORK/find_package" all -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release \
     -DCMAKE_CXX_FLAGS="$FLAGS"
   grep "^bdpt_DIR:PATH=$prefix/" "$WORK/find_package/CMakeCache.txt" || fail "not from $prefix"
+  local said
+  said=$("$CMAKE" -S "$consumer" -B "$WORK/find_package/other" -G "$GENERATOR" -DCMAKE_CXX_COMPILER="$CXX" \
+    -DCMAKE_PREFIX_PATH="$prefix" -DBDPT_MORE_COMPONENTS=gltf 2>&1) && fail "found a component gltf"
+  grep -q "bdpt has no component gltf" <<<"$said" || fail "no reason: $said"
   put_companions_beside "$WORK/find_package"
   expect_version "$WORK/find_package/render_box"
   "$WORK/find_package/read_sky" "$sky"
@@ -213,8 +217,7 @@ use_add_subdirectory() {
   [[ ! -e $trap/caught ]] || fail "a program of the current folder was run"
 }
 
-# Builds a wheel as "pip wheel ." does, though without optimization, and with the command, so that it is seen to link
-# that way. What it was built from is gone when the wheel is used, in an environment of its own.
+# Builds a wheel as "pip wheel ." does, though without optimization. What it was built from is gone when the wheel is used, in an environment of its own.
 make_wheel() {
   local folder=$WORK/wheel python name
   rm -rf "$folder"
@@ -230,8 +233,7 @@ make_wheel() {
   done
   TMPDIR=$folder/tmp CMAKE_BUILD_PARALLEL_LEVEL=2 "${pip[@]}" wheel "$folder/source" --no-deps -w "$folder" \
     --config-settings=cmake.build-type=Debug --config-settings=cmake.define.CMAKE_CXX_FLAGS_DEBUG=-O0 \
-    --config-settings=cmake.define.CMAKE_CXX_COMPILER_LAUNCHER="$LAUNCHER" \
-    --config-settings="build.targets=bdpt_python;bdpt_python_stub;bdpt_app"
+    --config-settings=cmake.define.CMAKE_CXX_COMPILER_LAUNCHER="$LAUNCHER"
   rm -rf "$folder/source" "$folder/tmp"
   "${pip[@]}" uninstall -q -y scikit-build-core
   "$python" -m zipfile -e "$folder"/bdpt-"$VERSION"-*.whl "$folder/unpacked"
@@ -240,12 +242,13 @@ make_wheel() {
   local package
   package=$(cd "$folder" && "$python" -c 'import bdpt, pathlib; print(pathlib.Path(bdpt.__file__).parent)')
   [[ $package == "$folder/venv/"* ]] || fail "imported $package"
-  "${pip[@]}" show -f bdpt | sed -n '/^Files:/,$p' | grep -v '^Files:\|^  bdpt/\|^  bdpt-' \
+  "${pip[@]}" show -f bdpt | sed -n '/^Files:/,$p' | grep -v '^Files:\|^  bdpt/\|^  bdpt-\|/bin/bdpt$' \
     && fail "files outside of the package"
   write_tiff >"$folder/sky.tif"
-  cp "$SOURCE"/scenes/{cornell-box.gltf,smoke.vdb} "$folder"
-  mkdir "$folder/elsewhere"
-  (cd "$folder/elsewhere" && "$python" "$here/check_wheel.py" .. "$VERSION" "$OPENVDB")
+  mkdir "$folder/elsewhere" "$folder/scenes"
+  cp "$SOURCE"/scenes/{cornell-box.gltf,room-spot.gltf,smoke.vdb} "$folder/scenes"
+  (cd "$folder/elsewhere" && "$python" "$here/check_wheel.py" .. "$VERSION" "$OPENVDB" "$SOURCE/docs/python.md" \
+    "$FAKE_OIDN")
 }
 
 # Configures with BDPT_BUILD_IO=OFF and nothing else: the core and its tests, without looking for the
@@ -300,14 +303,27 @@ make_debian_packages() {
   check_volume_package "$folder"
   expect_version "$folder/unpacked/usr/bin/bdpt" --version
   local file
-  for file in share/man/man1/bdpt-render.1 share/bash-completion/completions/bdpt \
+  for file in share/man/man1/bdpt-render.1.gz share/bash-completion/completions/bdpt \
     share/zsh/vendor-completions/_bdpt share/fish/vendor_completions.d/bdpt.fish \
-    share/doc/bdpt/copyright share/doc/bdpt/docs/render.md include/bdpt/render.h \
+    share/doc/bdpt/copyright share/doc/bdpt/changelog.gz share/doc/bdpt/docs/render.md include/bdpt/render.h \
     lib/bdpt/libbdpt_oiio.so lib/bdpt/bdpt-read-ktx lib/libbdpt.so lib/cmake/bdpt/bdptConfig.cmake; do
     [[ -s $folder/unpacked/usr/$file ]] || fail "no $file"
   done
   check_python_package "$folder"
   check_descriptions "$folder"
+  check_policy "$folder"
+}
+
+# lintian knows Debian's policy.
+check_policy() {
+  if ! command -v lintian >/dev/null; then
+    echo "lintian is not installed: the packages are not held against Debian's policy"
+    return
+  fi
+  local said
+  said=$(lintian --allow-root --tag-display-limit 0 "$1"/*_"${VERSION}"_*.deb) || true
+  printf '%s\n' "$said"
+  ! grep -E '^(E|W):' <<<"$said" || fail "lintian has found errors or warnings"
 }
 
 # Each package says what it is, and under what licence.
@@ -315,7 +331,8 @@ check_descriptions() {
   local package name line
   for package in "$1"/*_"${VERSION}"_*.deb; do
     name=$(dpkg-deb -f "$package" Package)
-    cmp "$SOURCE/LICENSE" "$1/unpacked/usr/share/doc/$name/copyright" || fail "no copyright in $package"
+    grep -q "^License: Apache License, Version 2.0" "$1/unpacked/usr/share/doc/$name/copyright" \
+      || fail "no licence in $package"
     dpkg-deb -f "$package" Description | sed -n 1p  # head would end before all is written
   done > "$1/descriptions"
   line=$(sort "$1/descriptions" | uniq -d)
@@ -357,11 +374,27 @@ check_python_package() {
   [[ $depends == *"python3 (>= 3.$abi), python3 (<< 3.$((abi + 1))), python3-numpy"* ]] \
     || fail "python3-bdpt with a module for Python 3.$abi depends on: $depends"
   dpkg-deb -x "${packages[0]}" "$folder/unpacked"
-  cmp "$SOURCE/LICENSE" "$usr/share/doc/python3-bdpt/copyright"
   dpkg-deb -e "${packages[0]}" "$folder/control"
   [[ -x $folder/control/postinst && -x $folder/control/prerm ]] || fail "nothing removes what Python compiles"
   PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$usr/lib/python3/dist-packages "$PYTHON" "$here/check_python.py" \
     "$usr" "$usr/bin/bdpt" "$SOURCE/scenes/cornell-box.gltf" "$VERSION"
+}
+
+# The archive, packed without much compression, whose libraries come along.
+make_archive() {
+  local program folder=$WORK/archive name=bdpt-$VERSION-linux-$(uname -m) components=bdpt_runtime
+  for program in patchelf xz readelf; do
+    command -v "$program" >/dev/null || skip "$program is not installed"
+  done
+  rm -rf "$folder"
+  mkdir -p "$folder"
+  [[ $OPENVDB != 1 ]] || components+=";bdpt_openvdb"
+  "$CMAKE" -DBUILD="$BUILD" -DCONFIG="$CONFIG" -DNAME="$name" -DCOMPONENTS="$components" -DLIBDIR="$LIBDIR" \
+    -DFOLDER="$folder" -DLEVEL=0 -P "$SOURCE/cmake/archive/make_archive.cmake"
+  check_names "$BUILD/archive" "$BUILD" "$SOURCE" "$WORK"
+  rm -rf "$BUILD/archive"
+  "$PYTHON3" "$here/check_archive.py" "$folder/$name.tar.xz" "$folder" "$SOURCE/scenes" "$VERSION" "$OPENVDB"
+  rm -rf "$folder"
 }
 
 # Completions where they are installed, as shells find them by the name of the command.
@@ -377,6 +410,7 @@ case $1 in
   pkg-config) use_pkg_config ;;
   add_subdirectory) use_add_subdirectory ;;
   debian) make_debian_packages ;;
+  archive) make_archive ;;
   wheel) make_wheel ;;
   core_alone) configure_core_alone ;;
   bash | zsh | fish) check_completions "$1" ;;

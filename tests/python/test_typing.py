@@ -68,7 +68,7 @@ def keywords_of_stub():
             if isinstance(node, ast.ClassDef):
                 look(node.body, node.name + ".")
             elif isinstance(node, ast.FunctionDef) and node.args.kwonlyargs:
-                found[prefix + node.name] = {argument.arg for argument in node.args.kwonlyargs} - {"progress"}
+                found[prefix + node.name] = {argument.arg for argument in node.args.kwonlyargs} - {"progress", "format"}
 
     look(ast.parse((PACKAGE / "_bdpt.pyi").read_text(encoding="utf-8")).body, "")
     found["save"] = found.pop("Render.save")
@@ -98,7 +98,7 @@ def test_stubs_signatures_and_help_have_the_same_keywords(name):
     function, keywords = FUNCTIONS[name], keywords_of_stub()[name]
     signature = inspect.signature(function)
     only = {key for key, value in signature.parameters.items() if value.kind is value.KEYWORD_ONLY}
-    assert only - {"progress"} == keywords
+    assert only - {"progress", "format"} == keywords
     text = pydoc.plain(pydoc.render_doc(function))
     documented = set(re.findall(r"^ {8}(\w+): \S.*\n {12}\S", text.partition("Options:")[2], flags=re.M))
     assert documented == keywords and len(keywords) > 5

@@ -125,7 +125,8 @@ Plan read(const JsonValue& json)
     if (!json.is_object() || !json.has("format") || !json.has("tasks")) {
         json.fail("is no plan of bdpt plan");
     }
-    if (const auto format = json.at("format").number<std::int64_t>(); format != plan_format) {
+    if (const std::string format = json.at("format").scalar_text();
+        format != std::to_string(plan_format)) {
         json.fail(fmt::format("is no plan of bdpt plan: format {}, where this program knows {}",
                               format, plan_format));
     }

@@ -381,9 +381,17 @@ TEST_CASE("words about plans that make no sense are refused, and nothing is writ
     check_refused(run({"render", "--plan", path(folder, "cube.gltf"), "--task", "0"}), 4,
                   {"cube.gltf: is no plan of bdpt plan"});
     json other = json::parse(read_text(file));
-    other["format"] = 99;
-    write_text(folder / "job" / "plan.json", other.dump());
-    check_refused(render_task(folder, "0"), 4, {"plan.json", "format 99"});
+    for (const json& format : {json(99), json("new"), json(2.5)}) {
+        other["format"] = format;
+        write_text(folder / "job" / "plan.json", other.dump());
+        check_refused(render_task(folder, "0"), 4,
+                      {"plan.json: is no plan of bdpt plan: format ", "this program knows 2"});
+    }
+    write_text(folder / "job" / "plan.json", "{}");
+    check_refused(render_task(folder, "0"), 4, {"plan.json: is no plan of bdpt plan"});
+    write_text(folder / "job" / "plan.json", "");
+    check_refused(render_task(folder, "0"), 4,
+                  {"plan.json: JSON: byte 1: line 1, column 1: unexpected end of input"});
 }
 
 }  // namespace

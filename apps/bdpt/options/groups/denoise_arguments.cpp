@@ -23,7 +23,7 @@ void add_denoise_options(OptionList& options, DenoiseArguments& denoise)
     Option& library =
         options.add("--denoiser-library", "FILE|DIR",
                     "Open Image Denoise 2, a file or its folder. Default: libOpenImageDenoise.so.2 "
-                    "where the system finds it",
+                    "where the system finds it, in a Python environment that of pyoidn",
                     denoise.library, some_text("a file or a folder"));
     library.uses = {.python_save = true, .job = false};  // no file says what code is loaded
 }

@@ -1,9 +1,13 @@
 #include <fmt/core.h>
 
 #include <cstddef>
+#include <filesystem>
+#include <string>
+#include <system_error>
 
 #include "plan/engines/engine_files.h"
 #include "plan/engines/template.h"
+#include "terminal/text.h"
 
 namespace bdpt::app {
 namespace {
@@ -14,7 +18,7 @@ constexpr const char* makefile =
     R"(# make -j4 -k: renders four tasks of plan.json at a time, and merges them.
 # Again: what is missing; tasks that are done end at once.
 # make -j4 -k THREADS=8 BDPT=/opt/bdpt/bin/bdpt: threads of each task, and where bdpt is.
-BDPT := bdpt
+BDPT := @PROGRAM@
 THREADS :=
 
 tasks :=@TASKS@
@@ -28,6 +32,19 @@ $(tasks): task-%:
 	$(BDPT) render --plan plan.json --task $* --quiet $(THREADS:%=--threads %)
 )";
 
+/// This program, as a makefile names it to a shell. make runs on this machine, where `bdpt` may be
+/// another program, or none.
+std::string this_program()
+{
+    std::error_code unknown;
+    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", unknown);
+    std::string text;
+    for (const char c : shell_word(unknown ? "bdpt" : program.string())) {
+        text += c == '$' ? "$$" : c == '#' ? "\\#" : std::string(1, c);
+    }
+    return text;
+}
+
 }  // namespace
 
 std::vector<EngineFile> make_files(const Plan& plan)
@@ -36,7 +53,8 @@ std::vector<EngineFile> make_files(const Plan& plan)
     for (std::size_t i = 0; i < plan.tasks.size(); ++i) {
         tasks += fmt::format(" task-{}", i);
     }
-    return {{.name = "Makefile", .text = filled(makefile, {{"TASKS", tasks}})}};
+    return {{.name = "Makefile",
+             .text = filled(makefile, {{"TASKS", tasks}, {"PROGRAM", this_program()}})}};
 }
 
 }  // namespace bdpt::app

@@ -1,5 +1,7 @@
 #include "denoise/oidn_functions.h"
 
+#include "file/companion.h"
+
 #include <bdpt/error.h>
 
 #include <dlfcn.h>
@@ -15,12 +17,26 @@ namespace fs = std::filesystem;
 
 constexpr const char* library_name = "libOpenImageDenoise.so.2";
 
+/// The library of the Python package pyoidn, where this code is in a package beside it.
+std::optional<fs::path> library_of_environment()
+{
+#ifdef BDPT_IN_PYTHON_PACKAGE
+    std::error_code error;
+    const fs::path file = own_folder().parent_path() / "pyoidn" / "oidn" / "lib" / library_name;
+    if (file.is_absolute() && fs::exists(file, error)) {
+        return file;
+    }
+#endif
+    return std::nullopt;
+}
+
 std::string file_to_open(const std::optional<fs::path>& library)
 {
-    if (!library) {
-        return library_name;
-    }
     std::error_code error;
+    if (!library) {
+        const std::optional<fs::path> near = library_of_environment();
+        return near ? near->string() : library_name;
+    }
     const fs::path file = fs::is_directory(*library, error) ? *library / library_name : *library;
     // A name without a slash would be looked for in the folders of the system.
     return fs::absolute(file, error).string();

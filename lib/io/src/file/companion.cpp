@@ -27,10 +27,16 @@ std::filesystem::path own_file()
 
 }  // namespace
 
+std::filesystem::path own_folder()
+{
+    std::error_code error;
+    return std::filesystem::canonical(own_file(), error).parent_path();
+}
+
 std::filesystem::path companion_file(std::string_view name)
 {
     std::error_code error;
-    const std::filesystem::path here = std::filesystem::canonical(own_file(), error).parent_path();
+    const std::filesystem::path here = own_folder();
     std::string tried;
     for (const char* folder : {BDPT_COMPANION_FOLDERS}) {  // the most likely place first
         const std::filesystem::path file = here / folder / name;

@@ -13,14 +13,27 @@ namespace bdpt::io {
 
 namespace {
 
-/// The parser's own words without their tag ("[json.exception...] "), in one printable line.
+/// What the parser found, in one printable line: of "[json.exception...] parse error at line 1,
+/// column 3: syntax error while parsing value - unexpected ..." the place and what follows the
+/// dash.
 std::string explanation(std::string_view text)
 {
     constexpr std::size_t longest = 200;
+    constexpr std::string_view error_at = "parse error at ";
     if (const std::size_t tag = text.find("] "); tag != std::string_view::npos) {
         text.remove_prefix(tag + 2);
     }
-    std::string line(text.substr(0, longest));
+    std::string place;
+    if (text.starts_with(error_at)) {
+        text.remove_prefix(error_at.size());
+        const std::size_t dash = text.find(" - ");
+        if (const std::size_t colon = text.find(": ");
+            colon < dash && dash != std::string_view::npos) {
+            place = text.substr(0, colon + 2);
+            text.remove_prefix(dash + 3);
+        }
+    }
+    std::string line = place + std::string(text.substr(0, longest));
     for (char& c : line) {
         c = c < ' ' || c > '~' ? '?' : c;
     }

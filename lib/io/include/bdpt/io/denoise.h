@@ -22,8 +22,9 @@ struct NoisyImage {
 class BDPT_EXPORT Denoiser {
 public:
     /// Opens `library`, a file or a folder with libOpenImageDenoise.so.2, or without one what the
-    /// system finds by that name. `threads`: at most so many; 0: one for each processor. Throws
-    /// `Error`: unsupported if there is no library, or it is not version 2; internal if it fails.
+    /// system finds by that name; in a Python wheel first that of the package pyoidn beside it.
+    /// `threads`: at most so many; 0: one for each processor. Throws `Error`: unsupported if there
+    /// is no library, or it is not version 2; internal if it fails.
     explicit Denoiser(const std::optional<std::filesystem::path>& library = {}, int threads = 0);
     Denoiser(Denoiser&&) noexcept;
     Denoiser& operator=(Denoiser&&) noexcept;

@@ -1,0 +1,10 @@
+"""The command bdpt of a wheel: the program beside this file."""
+
+import os
+import pathlib
+import sys
+
+
+def main() -> None:
+    program = pathlib.Path(__file__).resolve().with_name("bdpt")
+    os.execv(program, ["bdpt", *sys.argv[1:]])

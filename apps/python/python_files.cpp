@@ -1,0 +1,86 @@
+#include "python_files.h"
+
+#include <bdpt/error.h>
+#include <fmt/core.h>
+#include <nanobind/stl/filesystem.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+namespace bdpt::python {
+
+namespace nb = nanobind;
+namespace fs = std::filesystem;
+
+ScratchFolder::ScratchFolder()
+{
+    std::error_code error;
+    std::string name = (fs::temp_directory_path(error) / "bdpt-XXXXXX").string();
+    if (error || ::mkdtemp(name.data()) == nullptr) {
+        throw Error(ErrorCode::output, fmt::format("{}: cannot make a folder", name));
+    }
+    path_ = name;
+}
+
+ScratchFolder::~ScratchFolder()
+{
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+}
+
+nb::bytes read_bytes(const fs::path& file)
+{
+    std::ifstream stream(file, std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+    return nb::bytes(bytes.data(), bytes.size());
+}
+
+void write_bytes(const fs::path& file, const nb::bytes& contents)
+{
+    std::ofstream stream(file, std::ios::binary);
+    stream.write(contents.c_str(), static_cast<std::streamsize>(contents.size()));
+    stream.close();
+    if (!stream) {
+        throw Error(ErrorCode::output, fmt::format("{}: cannot write", file.string()));
+    }
+}
+
+fs::path to_path(nb::handle value)
+{
+    const nb::object path = nb::steal(PyOS_FSPath(value.ptr()));
+    if (!path.is_valid()) {
+        throw nb::python_error();
+    }
+    return nb::cast<fs::path>(path);
+}
+
+std::optional<nb::bytes> contents_of(nb::handle value)
+{
+    if (nb::hasattr(value, "__fspath__") || PyUnicode_Check(value.ptr()) != 0) {
+        return std::nullopt;
+    }
+    nb::object contents = nb::borrow(value);
+    if (nb::hasattr(value, "read")) {
+        contents = value.attr("read")();
+        if (PyUnicode_Check(contents.ptr()) != 0) {
+            throw nb::type_error("read() gives a text: open the file with mode \"rb\"");
+        }
+    }
+    if (PyObject_CheckBuffer(contents.ptr()) == 0) {
+        return std::nullopt;
+    }
+    const nb::object bytes = nb::steal(PyBytes_FromObject(contents.ptr()));
+    if (!bytes.is_valid()) {
+        throw nb::python_error();
+    }
+    return nb::cast<nb::bytes>(bytes);
+}
+
+bool is_writable_object(nb::handle value)
+{
+    return nb::hasattr(value, "write") && !nb::hasattr(value, "__fspath__");
+}
+
+}  // namespace bdpt::python

@@ -1,0 +1,20 @@
+# The target bdpt_archive: bdpt-VERSION-linux-PROCESSOR.tar.xz in the build folder, with the command, its man pages and
+# completions, the reader of volumes, and all libraries that they need but glibc. It runs where it is unpacked.
+if(NOT BUILD_SHARED_LIBS OR NOT BDPT_BUILD_APPS OR BDPT_SANITIZE OR NOT CMAKE_SYSTEM_NAME STREQUAL "Linux")
+  return()
+endif()
+set(BDPT_ARCHIVE_NAME "bdpt-${PROJECT_VERSION}-linux-${CMAKE_SYSTEM_PROCESSOR}")
+# The module that reads TIFF images is left out: OpenImageIO would bring some 260 libraries.
+set(archive_components bdpt_runtime)
+if(BDPT_HAS_OPENVDB)
+  list(APPEND archive_components bdpt_openvdb)
+endif()
+add_custom_target(bdpt_archive
+  COMMAND "${CMAKE_COMMAND}" "-DBUILD=${PROJECT_BINARY_DIR}" "-DCONFIG=$<CONFIG>" "-DNAME=${BDPT_ARCHIVE_NAME}"
+          "-DCOMPONENTS=${archive_components}" "-DLIBDIR=${CMAKE_INSTALL_LIBDIR}" "-DFOLDER=${PROJECT_BINARY_DIR}"
+          -P "${PROJECT_SOURCE_DIR}/cmake/archive/make_archive.cmake"
+  COMMENT "Packing ${BDPT_ARCHIVE_NAME}.tar.xz" VERBATIM)
+add_dependencies(bdpt_archive bdpt_app bdpt_manual_files)
+if(BDPT_HAS_OPENVDB)
+  add_dependencies(bdpt_archive bdpt_vdb_reader)
+endif()

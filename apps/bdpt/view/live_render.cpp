@@ -51,7 +51,11 @@ bool LiveRender::advance(const PassStops& stops)
     if (rendered > 0) {
         seconds_a_sample_ = (renderer_.seconds() - seconds) / static_cast<double>(rendered);
     }
-    noise_ = renderer_.noise();
+    // It takes as long as a sample, so it is looked at as renders do.
+    const std::int64_t there = renderer_.samples();
+    if (there < next_noise_look(0) || is_noise_look(there) || there >= arguments_.samples.end) {
+        noise_ = renderer_.noise();
+    }
     return true;
 }
 

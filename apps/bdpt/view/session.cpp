@@ -475,7 +475,8 @@ bool Session::advance(std::optional<LiveRender>& render, std::size_t slot)
         render.emplace(with_choice(words_of_slot(slot).arguments(), scene_.stage(), quiet_),
                        scene_.stage());
     }
-    if (render->advance(stops)) {
+    // Who wants to see something else waits for no picture of this.
+    if (render->advance(stops) && !stops.now.stop_requested()) {
         show(slot);
         tell(true);
     }

@@ -282,7 +282,7 @@ nb::bytes to_bytes(const Render& render, const std::string& format, const SaveAr
 /// The format that save() is told, and its other options.
 std::pair<std::optional<std::string>, nb::kwargs> split_format(const nb::kwargs& options)
 {
-    static constexpr std::array known{"exr", "hdr", "png", "jpg", "webp", "part.exr"};
+    static constexpr std::array known{"exr", "hdr", "png", "jpg", "webp", "part"};
     std::optional<std::string> format;
     nb::dict others;
     for (const auto& [key, value] : options) {
@@ -291,10 +291,9 @@ std::pair<std::optional<std::string>, nb::kwargs> split_format(const nb::kwargs&
         } else if (!value.is_none()) {
             format = nb::cast<std::string>(nb::str(value));
             if (std::find(known.begin(), known.end(), *format) == known.end()) {
-                throw Error(
-                    ErrorCode::usage,
-                    fmt::format("format \"{}\": expected exr, hdr, png, jpg, webp or part.exr",
-                                *format));
+                throw Error(ErrorCode::usage,
+                            fmt::format("format \"{}\": expected exr, hdr, png, jpg, webp or part",
+                                        *format));
             }
         }
     }
@@ -321,7 +320,7 @@ void save(const Render& render, const nb::object& file, const nb::kwargs& option
                     "an object that is written into has no name that tells the format: give "
                     "format=\"png\" or another one");
     }
-    file.attr("write")(to_bytes(render, *format, asked));
+    file.attr("write")(to_bytes(render, *format == "part" ? "part.exr" : *format, asked));
 }
 
 nb::bytes to_png(const Render& render)

@@ -50,7 +50,7 @@ struct Task {
 /// How save() is declared: its head for `declaration`.
 inline constexpr const char* saving_head =
     "def save(self, file: str | os.PathLike[str] | typing.BinaryIO, *, "
-    "format: typing.Literal[\"exr\", \"hdr\", \"png\", \"jpg\", \"webp\", \"part.exr\"] | None = "
+    "format: typing.Literal[\"exr\", \"hdr\", \"png\", \"jpg\", \"webp\", \"part\"] | None = "
     "None";
 
 /// Writes an image or a part, to a path or to an object with write(), whose format `options` name

@@ -245,7 +245,7 @@ TEST_CASE("broken JSON is refused")
     CHECK(contains(json_error("{\"asset\":{\"version\":\"2.0\"}"),
                    "JSON: byte 27: line 1, column 27: unexpected end of input; expected "));
     CHECK(contains(json_error("{\"asset\":{\"version\":\"2.0\"}} x"),
-                   "JSON: byte 29: line 1, column 29: unexpected "));
+                   "JSON: byte 29: line 1, column 29: invalid literal"));
     CHECK(contains(json_error("{\"asset\":{\"version\":1e999}}"), "JSON"));
     CHECK(contains(json_error("{\"asset\":{\"version\":\"\xff\"}}"), "JSON"));
     CHECK(contains(json_error("[]"), "must be a JSON object"));

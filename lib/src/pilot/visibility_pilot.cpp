@@ -30,8 +30,8 @@ using Trials = std::vector<EnvironmentVisibility::Trial>;
 constexpr int min_side = 16;
 constexpr int max_side = 128;
 /// Later vertices lie where earlier ones do, and bring less light.
-constexpr int pilot_edges = 8;
-constexpr std::uint64_t pilot_seed = 0x7669736962;  // one that nobody will choose
+constexpr int visibility_edges = 8;
+constexpr std::uint64_t visibility_seed = 0x7669736962;  // one that nobody will choose
 /// Where a greater share of rays reaches the environment, tiles without what was learned do as well
 /// and take less time: a shader ball gains at 0.76, a car in a studio does not at 0.80.
 constexpr double max_visible = 0.78;
@@ -63,14 +63,14 @@ public:
           options_(options),
           environment_(
               std::get<EnvironmentLight>(world.lights()[*world.lights().environment()].model())),
-          path_(std::min(options.transport.max_depth, pilot_edges) + 1)
+          path_(std::min(options.transport.max_depth, visibility_edges) + 1)
     {}
 
     [[nodiscard]] Trials trace(int row)
     {
         const int side = pilot_side(options_);
         for (int column = 0; column < side; ++column) {
-            Sampler sampler(SamplerKind::independent, pilot_seed, column, row, 0);
+            Sampler sampler(SamplerKind::independent, visibility_seed, column, row, 0);
             sampler.start(SampleUse::film);
             const Vec2 in_cell = sampler.next_2d();
             const Vec2 raster =

@@ -9,6 +9,8 @@ import check_math
 
 SOUND = {
     "lib/a/camera_matrices.cpp.o": "                 U tanf\n",
+    "apps/a/layers.cpp.o": "                 U log10\n",
+    "apps/a/view_camera.cpp.o": "                 U atan2f\n",
     "apps/a/direction_sheet.cpp.o": "                 U cos\n",
     "lib/a/display.cpp.o": "                 U exp2\n",
     "lib/a/light_meter.cpp.o": "                 U log2\n",

@@ -10,9 +10,6 @@
 namespace bdpt::eval {
 namespace {
 
-/// No round has it.
-constexpr std::uint64_t reference_seed = 1'000'003;
-
 TrialSetup setup_of(const BenchScene& scene, const RenderOptions& options, std::uint64_t seed,
                     const BenchControl& control)
 {

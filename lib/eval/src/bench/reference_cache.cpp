@@ -22,9 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// No run has it.
-constexpr std::uint64_t reference_seed = 1'000'003;
-
 /// What the layer "variance" of an image says about its own noise; 0 without the layer.
 double noise_by_layer(const fs::path& file, const Image& image)
 {

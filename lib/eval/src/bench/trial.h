@@ -24,6 +24,9 @@ struct TrialSetup {
                                     IntegratorKind integrator, std::uint64_t seed,
                                     const BenchControl& control);
 
+/// Seed of references; no run and no round has it.
+inline constexpr std::uint64_t reference_seed = 1'000'003;
+
 /// Renders that samples are taken to be endless for: more than anybody has time for.
 inline constexpr std::int64_t most_samples = std::int64_t{1} << 20;
 

@@ -17,12 +17,19 @@ sys.path.insert(0, str(ROOT / "tests" / "view"))
 from served import Server  # noqa: E402
 from window import Window  # noqa: E402
 
-SIZE = 1180, 760
-COLORS = 128
+SIZE = 1180, 860
+SHRUNK = 0.72  # noise does not compress
+PANEL = 300  # [CSS pixels] width of the page's panel, whose colours are those of all controls
 
 
-def quantised(image):
-    return image.convert("RGB").quantize(COLORS, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.FLOYDSTEINBERG)
+def quantised(image, controls=None):
+    """With a palette for the picture, and some colours of the controls of the page."""
+    def colors(part, count):
+        return part.convert("RGB").quantize(count, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE).getpalette()[:3 * count]
+
+    palette = Image.new("P", (1, 1))
+    palette.putpalette(colors(image, 48 if controls else 96) + (colors(controls, 48) if controls else []))
+    return image.convert("RGB").quantize(palette=palette, dither=Image.Dither.NONE)
 
 
 class Photographer:
@@ -49,7 +56,10 @@ class Photographer:
         return self.page().crop((round(left), round(top), round(left + width), round(top + height)))
 
     def keep(self, name):
-        quantised(self.page()).save(self.folder / name, optimize=True)
+        page = self.page()
+        page = page.resize([round(SHRUNK * length) for length in page.size], Image.Resampling.LANCZOS)
+        controls = page.crop((page.width - round(SHRUNK * PANEL), 0, page.width, page.height))
+        quantised(page, controls).save(self.folder / name, optimize=True)
 
 
 def samples(window, count):
@@ -61,20 +71,24 @@ def take(bdpt, folder):
         camera = Photographer(window, folder)
         room = pathlib.Path(name, "cornell-spheres.gltf")
         shutil.copy(ROOT / "scenes" / room.name, room)
-        with Server(bdpt, room, "--size", "640x480", "--spp", "256", "--integrator", "bdpt") as server:
+        with Server(bdpt, room.name, "--size", "480x360", "--spp", "32", "--integrator", "bdpt", folder=name) as server:
             camera.scheme("light")
             window.show(server)
             strip = [camera.stage()]
             samples(window, 4)
             camera.keep("growing.png")
-            samples(window, 64)
+            samples(window, 16)
             strip.append(camera.stage())
             camera.scheme("dark")
+            window.call("POST", "/window/rect", {"width": SIZE[0], "height": 1330})
+            window.drawn()
             window.click(0.66, 0.74)
             window.wait("!document.getElementById('inspector').hidden")
             window.run("document.querySelector('#inspector table button').click();")
+            window.drawn()
             camera.keep("inspected.png")
             window.press("\ue00c")
+            window.call("POST", "/window/rect", {"width": SIZE[0], "height": SIZE[1]})
             camera.scheme("light")
             window.press("2")
             window.wait("window.bdptView.state.layer === 'noise' && document.querySelector('#legend .colorbar')")
@@ -83,11 +97,11 @@ def take(bdpt, folder):
             window.press("1")
             window.wait("window.bdptView.state.layer === 'picture'")
             before = window.seen()
-            window.drag((0.4, 0.5), (0.47, 0.46))
+            window.drag((0.4, 0.5), (0.43, 0.5))
             window.wait_for_generation(before["generation"])
             samples(window, 16)
             strip.append(camera.stage())
-            window.click(0.5, 0.7)
+            window.click(0.64, 0.72)
             window.wait("!document.getElementById('inspector').hidden")
             strip.append(camera.stage())
             window.press("\ue00c")
@@ -99,11 +113,11 @@ def take(bdpt, folder):
             for i, image in enumerate(strip):
                 together.paste(image.resize((width, height), Image.Resampling.LANCZOS), (i * (width + 6), 0))
             quantised(together).save(folder / "strip.png", optimize=True)
-        with Server(bdpt, ROOT / "scenes" / "door-ajar.gltf", "--size", "640x480", "--spp", "64", "--integrator", "mis") as server:
+        with Server(bdpt, "door-ajar.gltf", "--size", "480x360", "--spp", "32", "--integrator", "mis", folder=ROOT / "scenes") as server:
             camera.scheme("dark")
             window.show(server)
             window.set("integrator-b", "bdpt", "change")
-            window.wait("window.bdptView.seen.samples[1] >= 8", 600)
+            window.wait("window.bdptView.seen.samples[1] >= 16", 600)
             camera.keep("wiper.png")
 
 

@@ -31,10 +31,12 @@ def wait_for(condition, what):
 
 
 class Server:
-    """Use it with `with`: the process ends with it."""
+    """Use it with `with`: the process ends with it. A `scene` without a folder is one of `folder`, else of this one."""
 
     def __init__(self, bdpt, scene, *options, port=0, folder=None):
-        self.process = subprocess.Popen([pathlib.Path(bdpt).resolve(), "view", pathlib.Path(scene).resolve(), "--listen", f"127.0.0.1:{port}", *options],
+        path = pathlib.Path(scene)
+        scene = path.resolve() if folder is None or path.parent != pathlib.Path() else path
+        self.process = subprocess.Popen([pathlib.Path(bdpt).resolve(), "view", str(scene), "--listen", f"127.0.0.1:{port}", *options],
                                         stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, bufsize=1, cwd=folder)
         self.url = self._read_address()
         found = re.fullmatch(r"http://127\.0\.0\.1:(\d+)/([0-9a-f]{32})/", self.url)

@@ -16,7 +16,7 @@ LiveRender::LiveRender(RenderArguments arguments, const PreparedScene& stage)
       renderer_(stage.scene, stage.camera, arguments_.options),
       noise_(std::numeric_limits<double>::infinity())
 {
-    if (meters_light(arguments_)) {
+    if (meters_light(arguments_, stage)) {
         arguments_.light_exposure =
             metered_exposure(stage, {.camera = stage.camera, .size = stage.size});
     }

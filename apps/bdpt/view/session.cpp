@@ -53,11 +53,8 @@ Session::Session(const ViewWords& words, Audience& audience, Console& console)
       words_(words),
       shown_words_(words),
       scene_(console, [this] { drop_renders(); }),
-      watch_([this] {
-          mailbox_.post([this] { files_changed_ = true; }, Urgency::soon);
-      })
-{
-}
+      watch_([this] { mailbox_.post([this] { files_changed_ = true; }, Urgency::soon); })
+{}
 
 void Session::run()
 {
@@ -168,8 +165,8 @@ void Session::answer(ClientId client, const PageRequest& request)
     if (request.changes_picture() && !is_stale_) {
         show_all();  // the page waits for a picture with its number
     }
-    audience_.answer(client, reply.dump(-1, ' ', false,
-                                        nlohmann::ordered_json::error_handler_t::replace));
+    audience_.answer(client,
+                     reply.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
     tell(false);
 }
 
@@ -193,7 +190,8 @@ void Session::change_camera(const PageRequest& request)
     }
     const RenderArguments& arguments = scene_.arguments();
     if (arguments.view.projection == Projection::orthographic) {
-        throw Error(ErrorCode::usage, "--ortho frames all of the scene, so that it cannot be moved");
+        throw Error(ErrorCode::usage,
+                    "--ortho frames all of the scene, so that it cannot be moved");
     }
     const CameraDesc& camera = scene_.stage().camera;
     Pose pose = pose_ ? *pose_ : scene_.pose();
@@ -209,8 +207,8 @@ void Session::change_camera(const PageRequest& request)
         }
     }
     if (request.move) {
-        pose = moved(pose, *request.move,
-                     view_height(camera, glm::length(pose.look_at - pose.from)));
+        pose =
+            moved(pose, *request.move, view_height(camera, glm::length(pose.look_at - pose.from)));
     }
     if (arguments.view.frames()) {
         // Words that frame all do not go with a place.
@@ -310,8 +308,7 @@ std::string Session::inspected(const PixelSample& pixel)
     if (is_stale_) {
         restart();
     }
-    const RenderArguments& arguments =
-        renders_[0] ? renders_[0]->arguments() : scene_.arguments();
+    const RenderArguments& arguments = renders_[0] ? renders_[0]->arguments() : scene_.arguments();
     return inspected_text(scene_.stage(), arguments.options, pixel);
 }
 
@@ -368,7 +365,9 @@ void Session::restart()
             a.remove(option);
             b.remove(option);
         }
-        return a == b && meters_light(before.arguments()) == meters_light(words_.arguments());
+        const PreparedScene& stage = scene_.stage();
+        return a == b &&
+               meters_light(before.arguments(), stage) == meters_light(words_.arguments(), stage);
     }();
     if (look_only) {
         for (std::optional<LiveRender>& render : renders_) {
@@ -488,8 +487,9 @@ bool Session::advance_pictures()
     std::size_t slot = 0;
     if (!integrator_b_.empty() && renders_[0]) {
         // Who has less time goes on; who is done leaves it to the other.
-        const bool b_is_behind = !renders_[1] || renders_[0]->is_done() ||
-                                 renders_[1]->renderer().seconds() < renders_[0]->renderer().seconds();
+        const bool b_is_behind =
+            !renders_[1] || renders_[0]->is_done() ||
+            renders_[1]->renderer().seconds() < renders_[0]->renderer().seconds();
         slot = b_is_behind && !(renders_[1] && renders_[1]->is_done()) ? 1 : 0;
     }
     if (renders_[slot] && renders_[slot]->is_done()) {

@@ -131,7 +131,7 @@ TEST_CASE("a colour of --background is darkened by the shadow on the ground")
             const double code =
                 light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1.0 / 2.4) - 0.055;
             REQUIRE(static_cast<double>(png.values[3 * i]) == Approx(255.0 * code).margin(0.51));
-            dark += png.values[3 * i] < 230 ? 1 : 0;
+            dark += png.values[3 * i] < 245 ? 1 : 0;
         }
     }
     CHECK(dark > 10);

@@ -148,7 +148,8 @@ inline constexpr auto fields<SamplingOptions> = all_fields(
                          "two as --spp) or independent"}},
     OptionField{"env_sampling",
                 &SamplingOptions::environment,
-                {.help = "Light sampling of environments: compensated (MIS compensation, leaves "
+                {.help = "Light sampling of environments: learned (by what a pilot finds visible "
+                         "from where, and as compensated), compensated (MIS compensation, leaves "
                          "uniform light to BSDF sampling) or plain"}},
     OptionField{"light_sampling",
                 &SamplingOptions::lights,

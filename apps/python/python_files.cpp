@@ -4,31 +4,13 @@
 #include <fmt/core.h>
 #include <nanobind/stl/filesystem.h>
 
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
-#include <system_error>
 
 namespace bdpt::python {
 
 namespace nb = nanobind;
 namespace fs = std::filesystem;
-
-ScratchFolder::ScratchFolder()
-{
-    std::error_code error;
-    std::string name = (fs::temp_directory_path(error) / "bdpt-XXXXXX").string();
-    if (error || ::mkdtemp(name.data()) == nullptr) {
-        throw Error(ErrorCode::output, fmt::format("{}: cannot make a folder", name));
-    }
-    path_ = name;
-}
-
-ScratchFolder::~ScratchFolder()
-{
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-}
 
 nb::bytes read_bytes(const fs::path& file)
 {

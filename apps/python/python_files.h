@@ -4,24 +4,8 @@
 
 #include <filesystem>
 #include <optional>
-#include <string>
-#include <string_view>
 
 namespace bdpt::python {
-
-/// A folder for files that only this process reads. It is removed at the end.
-class ScratchFolder {
-public:
-    ScratchFolder();
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-    ~ScratchFolder();
-
-    [[nodiscard]] std::filesystem::path file(std::string_view name) const { return path_ / name; }
-
-private:
-    std::filesystem::path path_;
-};
 
 /// All of `file`.
 [[nodiscard]] nanobind::bytes read_bytes(const std::filesystem::path& file);

@@ -39,6 +39,7 @@
 #include "stage/sequence_viewpoint.h"
 #include "terminal/console.h"
 #include "terminal/memory_limit.h"
+#include "terminal/temporary_folder.h"
 
 namespace bdpt::python {
 namespace {
@@ -273,7 +274,7 @@ void save_file(const Render& render, const fs::path& file, const SaveArguments& 
 /// What save_file() writes into a file of this format.
 nb::bytes to_bytes(const Render& render, const std::string& format, const SaveArguments& asked)
 {
-    const ScratchFolder folder;
+    const app::TemporaryFolder folder;
     const fs::path file = folder.file("image." + format);
     save_file(render, file, asked);
     return read_bytes(file);
@@ -386,7 +387,7 @@ void bind_render(nb::module_& module)
         .def("__getstate__", [](const Render& render) { return to_bytes(render, "part.exr", {}); })
         .def("__setstate__",
              [](Render& render, const nb::bytes& part) {
-                 const ScratchFolder folder;
+                 const app::TemporaryFolder folder;
                  write_bytes(folder.file("image.part.exr"), part);
                  new (&render) Render(read_part(folder.file("image.part.exr")));
              })

@@ -17,6 +17,7 @@
 
 #include "interpreter_lock.h"
 #include "python_files.h"
+#include "terminal/temporary_folder.h"
 
 namespace bdpt::python {
 namespace {
@@ -49,7 +50,7 @@ std::string renamed(std::string text, const std::string& file, const std::string
 PythonScene load_bytes(const nb::bytes& contents, const Words& words)
 {
     const std::string name = "bytes";
-    const ScratchFolder folder;
+    const app::TemporaryFolder folder;
     const fs::path file = folder.file(name);
     write_bytes(file, contents);
     try {

@@ -1,54 +1,24 @@
 #include "view/saved_files.h"
 
-#include <bdpt/error.h>
 #include <fmt/core.h>
 
 #include <array>
 #include <chrono>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <system_error>
 #include <utility>
 
 #include "report/image/denoised.h"
 #include "report/image/image_files.h"
 #include "report/image/shown_exposure.h"
 #include "report/render_settings.h"
+#include "terminal/temporary_folder.h"
 
 namespace bdpt::app {
 namespace {
-
-namespace fs = std::filesystem;
-
-/// A folder of our own, which goes with all that is in it.
-class TemporaryFolder {
-public:
-    TemporaryFolder()
-    {
-        std::string pattern = (fs::temp_directory_path() / "bdpt-view-XXXXXX").string();
-        if (::mkdtemp(pattern.data()) == nullptr) {
-            throw Error(ErrorCode::output,
-                        fmt::format("{}: cannot make a temporary folder", pattern));
-        }
-        path_ = pattern;
-    }
-    ~TemporaryFolder()
-    {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-    [[nodiscard]] const fs::path& path() const { return path_; }
-
-private:
-    fs::path path_;
-};
 
 io::ImageMetadata metadata(const LiveRender& render, const PreparedScene& stage)
 {
@@ -87,9 +57,8 @@ Download saved_image(const LiveRender& render, const PreparedScene& stage,
 {
     const TemporaryFolder folder;
     const RenderArguments& arguments = render.arguments();
-    const std::string name =
-        fmt::format("{}{}", arguments.file.stem().string(), extension);
-    const std::array files{folder.path() / fmt::format("image{}", extension)};
+    const std::string name = fmt::format("{}{}", arguments.file.stem().string(), extension);
+    const std::array files{folder.file(fmt::format("image{}", extension))};
     const std::optional<io::Denoiser> denoiser =
         open_denoiser(arguments.denoise, files, arguments.options.system.threads);
     Attempts attempts;

@@ -70,6 +70,10 @@ std::optional<Image> coarse_picture(const RenderArguments& arguments, const Prep
     options.film.crop.reset();
     options.film.aovs = {};
     options.sampling.rates.reset();
+    if (options.sampling.environment == EnvironmentSampling::learned) {
+        // A pilot would take as long as the picture.
+        options.sampling.environment = EnvironmentSampling::compensated;
+    }
     options.sampling.samples = {.begin = 0, .end = 1};
     RenderControl control;
     control.abandon = now;

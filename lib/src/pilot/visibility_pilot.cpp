@@ -35,10 +35,10 @@ constexpr std::uint64_t visibility_seed = 0x7669736962;  // one that nobody will
 /// Where a greater share of rays reaches the environment, tiles without what was learned do as well
 /// and take less time: a shader ball gains at 0.76, a car in a studio does not at 0.80.
 constexpr double max_visible = 0.78;
-/// Where a smaller one does, all is hidden alike.
+/// Where a smaller share does, all is hidden alike and there is nothing to learn.
 constexpr double min_visible = 1e-3;
 
-/// Is it worth a look at all?
+/// Can learned visibility help this render?
 bool may_help(const World& world, const RenderOptions& options)
 {
     // In fog, points of segments are sampled for a light, without a receiver.

@@ -93,11 +93,11 @@ public:
             return {};
         }
         // Made in its place: a copy would take longer than the choice.
-        return {
-            .light = choice->id,
-            .probability = choice->probability,
-            .incident = (*this)[choice->id].sample_incident(
-                knowing(receiver, choice->id, sampling), choice->u, sampling.environments, time)};
+        return {.light = choice->id,
+                .probability = choice->probability,
+                .incident = (*this)[choice->id].sample_incident(
+                    with_visibility(receiver, choice->id, sampling), choice->u,
+                    sampling.environments, time)};
     }
     /// The density of next-event estimation at the receiver taking the point `x0` of light `id`; in
     /// the measure of `IncidentSample::pdf`.
@@ -105,7 +105,7 @@ public:
                                          const LightSampleContext& receiver,
                                          const NextEventSampling& sampling) const
     {
-        return (*this)[id].pdf_incident(knowing(receiver, id, sampling), x0,
+        return (*this)[id].pdf_incident(with_visibility(receiver, id, sampling), x0,
                                         sampling.environments) *
                context_probability(id, receiver, sampling.lights);
     }
@@ -164,9 +164,10 @@ private:
     /// With so many a float has more than enough digits for a choice and a point.
     static constexpr std::size_t few_lights = 64;
 
-    /// The receiver with what is visible from it of light `id`, if that is known.
-    [[nodiscard]] LightSampleContext knowing(LightSampleContext receiver, LightId id,
-                                             const NextEventSampling& sampling) const
+    /// The receiver, with what is visible from it if light `id` is an environment whose visibility
+    /// was learned.
+    [[nodiscard]] LightSampleContext with_visibility(LightSampleContext receiver, LightId id,
+                                                     const NextEventSampling& sampling) const
     {
         if (sampling.visibility != nullptr && environment_ == id) {
             receiver.visibility = &sampling.visibility->at(receiver.p);

@@ -8,10 +8,10 @@
 namespace bdpt {
 namespace {
 
-/// A cell is split while each half keeps so many trials.
+/// A cell is split while its halves have about as many trials each.
 constexpr std::ptrdiff_t trials_of_cell = 400;
 constexpr int max_depth = 32;
-/// How many trials the probabilities of the enclosing cell count for.
+/// The probabilities of the enclosing cell count as so many trials.
 constexpr float prior = 4.0f;
 
 }  // namespace

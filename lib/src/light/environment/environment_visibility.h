@@ -10,10 +10,9 @@
 
 namespace bdpt {
 
-/// How much of each tile of an environment is visible from a place: cells of a kd-tree that are
-/// learned from rays, most of which were traced where most light paths of the image pass
-/// (docs/decisions/0068-learned-visibility.md). It guides next-event estimation and cannot bias it:
-/// no factor is zero.
+/// How much of each tile of an environment is visible from a place, by cells of a kd-tree that a
+/// pilot filled (docs/decisions/0068-learned-visibility.md). It guides next-event estimation and
+/// cannot bias it: no factor is zero.
 class EnvironmentVisibility {
 public:
     /// A ray towards an environment.
@@ -26,7 +25,7 @@ public:
     /// The order of `trials` does not matter. Without any, all is visible.
     explicit EnvironmentVisibility(std::vector<Trial> trials);
 
-    /// By which the tiles' shares of the samples are multiplied at `p`, in [smallest_factor, 1].
+    /// Factors of the tiles' shares of the samples at `p`, in [smallest_factor, 1].
     [[nodiscard]] const TileFactors& at(Vec3 p) const noexcept
     {
         std::uint32_t node = 0;
@@ -35,10 +34,10 @@ public:
         }
         return cells_[nodes_[node].next];
     }
-    /// In how many cells space is divided.
+    /// Number of cells that space is divided into.
     [[nodiscard]] std::size_t cells() const noexcept { return cells_.size(); }
 
-    /// Of a tile that no ray found: light from there is still found, if rarely.
+    /// The factor of a tile that no ray reached: its light is still sampled, if rarely.
     static constexpr float smallest_factor = 0.05f;
 
 private:
@@ -46,9 +45,9 @@ private:
     struct Node {
         float split = 0.0f;
         int axis = leaf;
-        std::uint32_t next = 0;  ///< its first child, the second follows; of a leaf: its cell
+        std::uint32_t next = 0;  ///< the first of two children; of a leaf: its cell
     };
-    /// What rays found in a part of space: how probably each tile is visible.
+    /// How probably each tile is visible from a part of space.
     using Probabilities = std::vector<float>;
 
     void build(std::uint32_t node, std::vector<Trial>::iterator begin,

@@ -167,10 +167,14 @@ Scene build(LitScene& lit, const RenderArguments& arguments, float aspect,
     return is_lit ? scene.with_lights(std::move(lit.desc.lights)) : std::move(scene);
 }
 
-/// The camera that shows all of the scene, in the way that was asked for.
+/// The camera that shows all of the scene, in the way that was asked for. A view that is asked for
+/// in full is not looked for: that would take longer than a coarse picture.
 CameraDesc framed(const Scene& scene, float aspect, const RenderArguments& arguments)
 {
     const ViewOverrides& view = arguments.view;
+    if (view.from && view.look_at && view.vertical_fov && !view.frames()) {
+        return {.name = "auto", .vertical_fov = *view.vertical_fov};
+    }
     FrameOptions options{.direction = view.direction,
                          .margin = view.margin,
                          .projection = view.projection,

@@ -215,9 +215,11 @@ void Session::change_camera(const PageRequest& request)
         words_.remove("--view");
         words_.remove("--margin");
         words_.set("--camera", "auto");
-        if (!words_.has("--focal-length")) {
-            words_.set("--fov", fmt::format("{}", degrees(camera.vertical_fov)));
-        }
+    }
+    const bool is_framed = arguments.view.frames() || scene_.stage().is_framed;
+    if (is_framed && !words_.has("--fov") && !words_.has("--focal-length")) {
+        // A view that is told in full needs no look at the whole scene.
+        words_.set("--fov", fmt::format("{}", degrees(camera.vertical_fov)));
     }
     words_.set("--from", point_text(pose.from));
     words_.set("--look-at", point_text(pose.look_at));

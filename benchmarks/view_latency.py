@@ -112,6 +112,9 @@ def measure(options, scene):
         times = sorted(script(window, MOVES, options.moves, 100))
         print(f"  from a move to changed pixels: median {statistics.median(times):.0f} ms, "
               f"95 % below {times[int(0.95 * (len(times) - 1))]:.0f} ms, {len(times)} moves")
+        times = sorted(script(window, MOVES, options.moves // 2, 600))
+        print(f"  from a move after a rest of 0.6 s, in which a render begins: median {statistics.median(times):.0f} ms, "
+              f"95 % below {times[int(0.95 * (len(times) - 1))]:.0f} ms")
         print(f"  pictures a second while turning: {script(window, TURNING, 5):.1f}")
         print(f"  width of the first picture after a move: {window.seen()['grid']} or less of {window.run(f'return {STAGE}.width')}")
         if options.idle:

@@ -101,11 +101,12 @@ def command_words(window, bdpt):
 
 
 def check_equality(window, bdpt, folder):
-    """What is saved is what the command makes, and what is seen is its picture."""
+    """What is saved is what the command makes, and what is seen is its picture. Gives the job, and what was seen then."""
     window.finished()
     window.downloads_to(folder)
     window.press("e")
     saved = wait_for(lambda: next((f for f in folder.glob("*.exr") if f.stat().st_size), None), "the key E saves an EXR")
+    shown = window.codes()
     window.press("j")
     job = wait_for(lambda: next((f for f in folder.glob("*.json") if f.stat().st_size), None), "the key J saves a job")
     words = command_words(window, bdpt)
@@ -123,14 +124,15 @@ def check_equality(window, bdpt, folder):
                     if curve != "filmic" else "window.bdptView.state.curve === 'filmic'")
         picture = folder / "command" / f"{curve}.png"
         subprocess.run([*without_outputs(command_words(window, bdpt)), "-o", str(picture), "--quiet"], check=True, cwd=folder)
-        wanted, shown = codes_of(window, picture), window.codes()
-        worst = max(abs(a - b) for a, b in zip(wanted, shown))
-        expect(len(wanted) == len(shown) and worst <= 1, f"{curve}: the page shows the command's PNG (differs by {worst} of 255)")
+        wanted, there = codes_of(window, picture), window.codes()
+        worst = max(abs(a - b) for a, b in zip(wanted, there))
+        expect(len(wanted) == len(there) and worst <= 1, f"{curve}: the page shows the command's PNG (differs by {worst} of 255)")
         expect(len(set(wanted)) > 20, "which is no empty picture")
     window.press("s")
     png = wait_for(lambda: next((f for f in folder.glob("*.png") if f.stat().st_size), None), "the key S saves a PNG")
     expect(codes_of(window, png) == codes_of(window, picture), "the saved PNG is the command's")
     window.set("curve", "filmic", "change")
+    return job, shown
 
 
 def without_outputs(words):
@@ -326,6 +328,48 @@ def check_connection(window, server):
     expect(len(set(window.codes())) > 20 and len(picture) > 0, "and the last picture stays")
 
 
+def check_job(window, bdpt, job, picture):
+    """A saved job is gone on with: same view, same light, same samples."""
+    with Server(bdpt, job) as server:
+        window.show(server)
+        window.finished()
+        expect(window.state("slots")[0]["samples"] == SAMPLES, "bdpt view JOB has the samples of the job")
+        expect(window.codes() == picture, "and shows what was saved")
+    with Server(bdpt, job, "--spp", "2") as server:
+        window.show(server)
+        window.finished()
+        expect(window.state("slots")[0]["samples"] == 2, "the command line overrides the job")
+
+
+def check_rates(window, bdpt, scene):
+    """Adaptive sampling has a layer more."""
+    with Server(bdpt, scene, "--size", "32x24", "--spp", "32", "--integrator", "mis", "--adaptive") as server:
+        window.show(server)
+        window.finished()
+        expect("rates" in window.state("layers"), "with --adaptive there are rates")
+        check_layers(window)
+
+
+def check_memory(window, bdpt, scene):
+    """What does not fit is told in the page, which keeps the picture."""
+    text = scene.read_text(encoding="utf-8")
+    with Server(bdpt, scene, "--size", "32x24", "--spp", "1", "--max-memory", "64M") as server:
+        window.show(server)
+        window.finished()
+        picture = window.codes()
+        model = json.loads(text)
+        zeros = 512 << 20
+        model["buffers"].append({"byteLength": zeros, "uri": "large.bin"})
+        with open(scene.parent / "large.bin", "wb") as file:
+            file.truncate(zeros)
+        scene.write_text(json.dumps(model), encoding="utf-8")
+        window.wait("document.getElementById('message').textContent.includes('memory')")
+        message = window.text("message")
+        expect("--max-memory" in message and "\n" not in message.strip(), f"a scene that does not fit is told in one line: {message}")
+        expect(window.codes() == picture and server.alive, "and the picture stays")
+    scene.write_text(text, encoding="utf-8")
+
+
 def main():
     lacking = missing()
     if lacking:
@@ -343,7 +387,7 @@ def main():
             check_reset(window)
             check_look(window)
             check_inspecting(window)
-            check_equality(window, bdpt, folder)
+            job, picture = check_equality(window, bdpt, folder)
             check_camera(window)
             check_light(window)
             check_pair(window)
@@ -356,6 +400,9 @@ def main():
             messages = window.messages()
             expect(messages == [], f"the console is still empty {messages}")
             check_connection(window, server)
+            check_job(window, bdpt, job, picture)
+            check_rates(window, bdpt, scene)
+            check_memory(window, bdpt, scene)
 
 
 if __name__ == "__main__":

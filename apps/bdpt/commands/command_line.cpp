@@ -169,6 +169,9 @@ int CommandLine::run(const ParsedLine& line, const std::vector<std::string>& wor
         return run_verify(checked(verify, options));
     }
     if (name == "view") {
+        if (const fs::path file = view.render.arguments.file; is_job(file)) {
+            load_viewed_job(file, options);
+        }
         return run_view(checked(view, options), options);
     }
     if (name == "inspect") {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "options/arguments.h"
+#include "options/job_file.h"
 #include "options/values/pipes.h"
 #include "options/values/value_types.h"
 
@@ -34,6 +35,7 @@ const char* const view_footer = R"(Examples:
   bdpt view model.glb --env studio --background white
   bdpt view room.glb --integrator bdpt --size 960x540
   bdpt view room.glb --listen 127.0.0.1:8080
+  bdpt view room.json                          (a job that the page saved)
 
 Prints an address on this machine. Its page shows the picture while it grows: drag to turn, click to
 inspect a pixel; docs/view.md has the rest. The files of the scene are read again when they change.
@@ -82,7 +84,7 @@ void add_view_command_options(OptionList& options, ViewRequest& request)
                 "Samples per pixel after which the picture is done. Default: " +
                 std::to_string(view_samples);
         } else if (option.name() == "file") {
-            option.help = "The scene: .gltf or .glb";
+            option.help = "The scene: .gltf or .glb, or a job: .json";
         } else if (option.name() == "--noise") {
             option.help = "The picture is done when the noise is that low, like 2%";
         }
@@ -95,6 +97,25 @@ void add_view_command_options(OptionList& options, ViewRequest& request)
                 parsed_by(parse_listen_address, "HOST or HOST:PORT, like 127.0.0.1:8080"));
     options.add_flag("--open", "Show the page in the browser (xdg-open)",
                      request.arguments.opens_browser);
+}
+
+void load_viewed_job(const std::filesystem::path& file, OptionList& options)
+{
+    RenderRequest request;
+    OptionList render;
+    add_render_options(render, request);
+    for (Option& option : render.all()) {
+        if (const Option* given = options.find(option.name())) {
+            option.texts = given->texts;
+        }
+    }
+    load_job(file, render);
+    for (Option& option : options.all()) {
+        if (const Option* loaded = render.find(option.name())) {
+            option.texts = loaded->texts;
+        }
+    }
+    options.store_given();
 }
 
 ViewArguments checked(const ViewRequest& request, const OptionList& options)

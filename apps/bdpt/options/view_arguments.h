@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "options/option_list.h"
@@ -32,6 +33,11 @@ inline constexpr std::int64_t view_samples = 4096;
 
 /// Adds the options of `bdpt view`: those of `bdpt render` that say what is seen, and its own.
 void add_view_command_options(OptionList& options, ViewRequest& request);
+
+/// Gives `options`, those of `bdpt view`, what the job in `file` says of the picture, but for options
+/// that were given already. The rest, such as names of outputs, is checked and left out. Throws
+/// `Error` like `load_job`.
+void load_viewed_job(const std::filesystem::path& file, OptionList& options);
 
 /// Throws `OptionError` for options that do not go together.
 [[nodiscard]] ViewArguments checked(const ViewRequest& request, const OptionList& options);

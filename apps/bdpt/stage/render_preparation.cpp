@@ -142,10 +142,14 @@ PreparedScene prepare_within_memory(const RenderArguments& asked, Console& conso
     return prepare_with_progress(arguments, console);
 }
 
-RenderArguments with_choice(RenderArguments arguments, const PreparedScene& stage, Console& console)
+RenderArguments with_choice(RenderArguments arguments, const PreparedScene& stage, Console& console,
+                            const std::stop_token& abandon)
 {
-    const IntegratorChoice choice =
-        choose_integrator(stage.scene, stage.camera, options_for(arguments, stage, console));
+    const IntegratorChoice choice = choose_integrator(
+        stage.scene, stage.camera, options_for(arguments, stage, console), abandon);
+    if (abandon.stop_requested()) {
+        return arguments;
+    }
     constexpr double worth_telling = 0.01;
     if (choice.unseen_light >= worth_telling) {
         console.warning(fmt::format(

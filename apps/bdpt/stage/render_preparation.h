@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <stop_token>
 
 #include "options/render_arguments.h"
 #include "stage/prepared_scene.h"
@@ -49,8 +50,9 @@ void spend_film(io::MemoryBudget& memory, const RenderOptions& options, const Si
 
 /// `arguments` with all their options: size, samples and limits of memory filled in, and what is
 /// left open chosen by a pilot; and with rates of samples, unless they have them already, from a
-/// file or another pilot. Throws `Error`.
+/// file or another pilot. A request of `abandon` ends the first pilot early; the result is then of
+/// no use. Throws `Error`.
 [[nodiscard]] RenderArguments with_choice(RenderArguments arguments, const PreparedScene& stage,
-                                          Console& console);
+                                          Console& console, const std::stop_token& abandon = {});
 
 }  // namespace bdpt::app

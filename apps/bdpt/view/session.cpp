@@ -473,8 +473,12 @@ bool Session::advance(std::optional<LiveRender>& render, std::size_t slot)
         if (generation_ > 1 && mailbox_.wait_for(rest)) {
             return true;
         }
-        render.emplace(with_choice(words_of_slot(slot).arguments(), scene_.stage(), quiet_),
-                       scene_.stage());
+        RenderArguments arguments =
+            with_choice(words_of_slot(slot).arguments(), scene_.stage(), quiet_, stops.now);
+        if (stops.now.stop_requested()) {
+            return true;
+        }
+        render.emplace(std::move(arguments), scene_.stage());
     }
     // Who wants to see something else waits for no picture of this.
     if (render->advance(stops) && !stops.now.stop_requested()) {

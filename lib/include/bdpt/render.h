@@ -90,10 +90,13 @@ struct IntegratorChoice {
 /// `light_paths` and `connections`. It is chosen by a pilot, a short render of its own, and depends
 /// on the scene, the camera and the options, but not on seed, samples, crop or threads. bdpt with
 /// one light path if the options limit or show strategies, or ask for another heuristic than
-/// balance and power. Other integrators stay as they are. Throws `Error` as render() does.
+/// balance and power. Other integrators stay as they are. A request of `abandon` ends the pilot
+/// within the time of a few rows of its pixels; the choice is then worth nothing. Throws `Error` as
+/// render() does.
 [[nodiscard]] BDPT_EXPORT IntegratorChoice choose_integrator(const Scene& scene,
                                                              const CameraDesc& camera,
-                                                             const RenderOptions& options);
+                                                             const RenderOptions& options,
+                                                             const std::stop_token& abandon = {});
 /// The options that choose_integrator() returns.
 [[nodiscard]] BDPT_EXPORT RenderOptions chosen_options(const Scene& scene, const CameraDesc& camera,
                                                        const RenderOptions& options);

@@ -92,19 +92,29 @@ bool fits(const RenderOptions& options, const PilotResult& pilot)
            options.bidirectional.light_path_memory;
 }
 
-/// Traces the light paths of sample `index`, and then the camera paths that meet them.
+/// Traces the light paths of sample `index`, and then the camera paths that meet them; some of them
+/// once `abandon` is requested.
 void add_sample(std::int64_t index, Heuristic heuristic, BidirectionalIntegrator& integrator,
-                PilotFinds& finds)
+                PilotFinds& finds, const std::stop_token& abandon)
 {
     const std::int64_t parts = integrator.begin_pass({.begin = index, .end = index + 1});
     finds.parts.resize(static_cast<std::size_t>(parts));
     tbb::parallel_for(std::int64_t{0}, parts, [&](std::int64_t part) {
+        if (abandon.stop_requested()) {
+            return;
+        }
         const FlushDenormals flush;
         finds.parts[static_cast<std::size_t>(part)].trace(integrator, part, index, finds.grid,
                                                           heuristic, finds.light_paths);
     });
+    if (abandon.stop_requested()) {
+        return;
+    }
     integrator.end_parts();
     tbb::parallel_for(0, finds.grid.rows(), [&](int row) {
+        if (abandon.stop_requested()) {
+            return;
+        }
         const FlushDenormals flush;
         finds.rows[static_cast<std::size_t>(row)].render(integrator, finds.grid, heuristic, row,
                                                          index, finds.light_paths);
@@ -114,7 +124,7 @@ void add_sample(std::int64_t index, Heuristic heuristic, BidirectionalIntegrator
 }  // namespace
 
 PilotResult run_pilot(const World& world, const MovingCamera& camera, const RenderOptions& asked,
-                      const EnvironmentVisibility* visibility)
+                      const EnvironmentVisibility* visibility, const std::stop_token& abandon)
 {
     const PilotGrid grid(asked.film.width, asked.film.height);
     const RenderOptions options = pilot_options(asked, grid);
@@ -124,7 +134,10 @@ PilotResult run_pilot(const World& world, const MovingCamera& camera, const Rend
                      .rows = std::vector<PilotRow>(static_cast<std::size_t>(grid.rows())),
                      .parts = {}};
     for (std::int64_t index = 0; index < PilotRow::samples_of_cell; ++index) {
-        add_sample(index, asked.transport.heuristic, integrator, finds);
+        add_sample(index, asked.transport.heuristic, integrator, finds, abandon);
+        if (abandon.stop_requested()) {
+            return {};
+        }
     }
     const PilotBrightness brightness(finds);
     PilotResult result{.errors = predicted_errors(finds, brightness),

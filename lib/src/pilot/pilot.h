@@ -6,6 +6,8 @@
 #include <bdpt/render_options.h>
 #include <bdpt/render_stats.h>
 
+#include <stop_token>
+
 namespace bdpt {
 
 class EnvironmentVisibility;
@@ -25,10 +27,12 @@ struct PilotResult {
 /// Renders a few samples all over the whole image with light paths of their own, and predicts from
 /// them error and cost of every candidate. Its random numbers are its own. What it returns depends
 /// on scene, camera, size of the film and options of transport, but not on seed, samples, crop or
-/// threads. `camera` is that of the whole image, `visibility` what was learned for it.
+/// threads. `camera` is that of the whole image, `visibility` what was learned for it. Once `abandon`
+/// is requested it returns soon, with a result that is worth nothing.
 [[nodiscard]] PilotResult run_pilot(const World& world, const MovingCamera& camera,
                                     const RenderOptions& options,
-                                    const EnvironmentVisibility* visibility = nullptr);
+                                    const EnvironmentVisibility* visibility = nullptr,
+                                    const std::stop_token& abandon = {});
 
 /// `options` with the integrator and the numbers that have the least error at equal cost in
 /// `pilot`, of those that fit into `light_path_memory`.

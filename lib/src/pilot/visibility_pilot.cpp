@@ -145,7 +145,8 @@ private:
 
 std::unique_ptr<const EnvironmentVisibility> learn_visibility(const World& world,
                                                               const MovingCamera& camera,
-                                                              const RenderOptions& options)
+                                                              const RenderOptions& options,
+                                                              const std::stop_token& abandon)
 {
     if (!may_help(world, options)) {
         return nullptr;
@@ -153,9 +154,15 @@ std::unique_ptr<const EnvironmentVisibility> learn_visibility(const World& world
     const int side = pilot_side(options);
     std::vector<Trials> rows(static_cast<std::size_t>(side));
     tbb::parallel_for(0, side, [&](int row) {
+        if (abandon.stop_requested()) {
+            return;
+        }
         const FlushDenormals flush;
         rows[static_cast<std::size_t>(row)] = VisibilityRow(world, camera, options).trace(row);
     });
+    if (abandon.stop_requested()) {
+        return nullptr;
+    }
     Trials all;
     for (const Trials& row : rows) {
         all.insert(all.end(), row.begin(), row.end());

@@ -26,7 +26,7 @@ bool asks_for_bdpt(const RenderOptions& options)
 }  // namespace
 
 IntegratorChoice choose_integrator(const Scene& scene, const CameraDesc& camera,
-                                   const RenderOptions& asked)
+                                   const RenderOptions& asked, const std::stop_token& abandon)
 {
     check_options(asked);
     check_camera(camera);
@@ -48,8 +48,9 @@ IntegratorChoice choose_integrator(const Scene& scene, const CameraDesc& camera,
     Threads threads(options.system.threads);
     IntegratorChoice choice;
     threads.execute([&] {
-        const auto visibility = learn_visibility(scene.world(), opened, whole);
-        const PilotResult pilot = run_pilot(scene.world(), opened, whole, visibility.get());
+        const auto visibility = learn_visibility(scene.world(), opened, whole, abandon);
+        const PilotResult pilot =
+            run_pilot(scene.world(), opened, whole, visibility.get(), abandon);
         choice = {.options = with_best(pilot, options), .unseen_light = pilot.merging_alone};
     });
     return choice;

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <stop_token>
 #include <utility>
 #include <vector>
 
@@ -295,6 +296,21 @@ TEST_CASE("points of lamps are joined to the lens where that is worth its cost",
     CHECK(with_best(pilot, small()).integrator == IntegratorKind::mis);
     pilot.seen_lamps = {.by_hits = 1.0, .by_both = 0.01};
     CHECK(with_best(pilot, small()).integrator == IntegratorKind::bdpt);
+}
+
+TEST_CASE("a pilot that is abandoned traces nothing more", "[pilot]")
+{
+    const Scene scene = indirect_room();
+    const RenderOptions options = small();
+    const MovingCamera camera = open_camera(scene.world(), inside(), options);
+    std::stop_source source;
+    const auto rays = [&] {
+        return run_pilot(scene.world(), camera, options, nullptr, source.get_token())
+            .stats.rays.total();
+    };
+    CHECK(rays() > 0);
+    source.request_stop();
+    CHECK(rays() == 0);
 }
 
 }  // namespace bdpt::test::pilot_test

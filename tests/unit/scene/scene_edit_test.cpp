@@ -5,6 +5,7 @@
 #include <bdpt/scene.h>
 
 #include "catch.hpp"
+#include "ground_views.h"
 #include "scene/world.h"
 #include "scene_builder.h"
 
@@ -128,7 +129,7 @@ SceneDesc all_kinds()
     builder.desc.instances.front().name = "floor";
     builder.light(PointLightDesc{
         .name = "bulb", .position = {-0.5f, 0.4f, 0.5f}, .intensity = Rgb(0.3f), .radius = 0.05f});
-    builder.light(default_environment());
+    builder.light(sunny_sky());
     builder.desc.images = {checks(16, 90), checks(8, 10)};
     return std::move(builder.desc);
 }

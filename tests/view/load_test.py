@@ -15,7 +15,7 @@ MOST_GROWTH = 32  # [MiB]
 
 def header(message):
     """Of pixels: their members by name."""
-    names = ("version", "slot", "generation", "sequence", "grid_width", "grid_height", "x", "y", "width", "height", "samples", "last")
+    names = ("version", "slot", "generation", "sequence", "grid_width", "grid_height", "x", "y", "width", "height", "samples", "channels")
     return dict(zip(names, struct.unpack_from("<12I", message)))
 
 
@@ -47,7 +47,7 @@ def check_pixels(server):
             if not isinstance(message, bytes):
                 continue
             found = header(message)
-            expect(found["version"] == 1 and len(message) == 48 + 6 * found["width"] * found["height"]
+            expect(found["version"] == 2 and len(message) == 48 + 2 * found["channels"] * found["width"] * found["height"]
                    and found["x"] + found["width"] <= found["grid_width"] and found["y"] + found["height"] <= found["grid_height"],
                    f"an update of {found['grid_width']}x{found['grid_height']} pixels after {found['samples']} samples")
             if [found["grid_width"], found["grid_height"]] == size and found["samples"] == SAMPLES:

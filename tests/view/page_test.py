@@ -350,6 +350,21 @@ def check_rates(window, bdpt, scene):
         check_layers(window)
 
 
+def check_background(window, bdpt, scene):
+    """What is over a background looks as the command's PNG does, its shadow on the ground too."""
+    picture = scene.parent / "over.png"
+    for background in ("#3060a0", "transparent"):
+        words = ("--size", "48x36", "--spp", "4", "--integrator", "mis", "--background", background, "--ground", "shadow", "--margin", "0.2")
+        subprocess.run([bdpt, "render", str(scene), "-o", str(picture), "--quiet", *words], check=True)
+        with Server(bdpt, scene, *words) as server:
+            window.show(server)
+            window.finished()
+            wanted, shown = codes_of(window, picture), window.codes()
+            worst = max(abs(a - b) for a, b in zip(wanted, shown))
+            expect(len(wanted) == len(shown) and worst <= 1 and len(set(wanted)) > 20,
+                   f"over {background} the page shows the command's PNG (differs by {worst} of 255)")
+
+
 def check_memory(window, bdpt, scene):
     """What does not fit is told in the page, which keeps the picture."""
     text = scene.read_text(encoding="utf-8")
@@ -402,6 +417,7 @@ def main():
             check_connection(window, server)
             check_job(window, bdpt, job, picture)
             check_rates(window, bdpt, scene)
+            check_background(window, bdpt, scene)
             check_memory(window, bdpt, scene)
 
 

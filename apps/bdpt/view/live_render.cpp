@@ -59,8 +59,14 @@ bool LiveRender::advance(const PassStops& stops)
     return true;
 }
 
-std::optional<Image> coarse_picture(const RenderArguments& arguments, const PreparedScene& stage,
-                                    const Size& size, const std::stop_token& now)
+Matte shown_matte(const RenderArguments& arguments, const RenderPart& part)
+{
+    return arguments.display.backdrop ? matte_of(part.aovs.develop(part.film)) : Matte{};
+}
+
+std::optional<CoarsePicture> coarse_picture(const RenderArguments& arguments,
+                                            const PreparedScene& stage, const Size& size,
+                                            const std::stop_token& now)
 {
     RenderOptions options = arguments.options;
     options.integrator = IntegratorKind::mis;
@@ -69,6 +75,9 @@ std::optional<Image> coarse_picture(const RenderArguments& arguments, const Prep
     options.film.height = size.height;
     options.film.crop.reset();
     options.film.aovs = {};
+    if (arguments.display.backdrop) {
+        options.film.aovs = {Aov::alpha};
+    }
     options.sampling.rates.reset();
     if (options.sampling.environment == EnvironmentSampling::learned) {
         // A pilot would take as long as the picture.
@@ -78,7 +87,14 @@ std::optional<Image> coarse_picture(const RenderArguments& arguments, const Prep
     RenderControl control;
     control.abandon = now;
     const RenderResult result = render(stage.scene, stage.camera, options, control);
-    return now.stop_requested() ? std::nullopt : std::optional(result.film.develop());
+    if (now.stop_requested()) {
+        return std::nullopt;
+    }
+    CoarsePicture picture{.image = result.film.develop()};
+    if (arguments.display.backdrop) {
+        picture.matte = matte_of(result.aovs.develop(result.film));
+    }
+    return picture;
 }
 
 }  // namespace bdpt::app

@@ -8,6 +8,7 @@
 #include <stop_token>
 
 #include "options/render_arguments.h"
+#include "report/image/matte.h"
 #include "stage/prepared_scene.h"
 
 namespace bdpt::app {
@@ -44,10 +45,19 @@ private:
     double seconds_a_sample_ = 0.0;
 };
 
+/// What covers the background that `arguments` ask for, by the films of `part`; empty without one.
+[[nodiscard]] Matte shown_matte(const RenderArguments& arguments, const RenderPart& part);
+
+struct CoarsePicture {
+    Image image;
+    Matte matte{};  ///< without the shadow on the ground
+};
+
 /// What is seen, in `size` and with one sample a pixel, by an integrator that is quick to begin;
 /// none: it was told to stop.
-[[nodiscard]] std::optional<Image> coarse_picture(const RenderArguments& arguments,
-                                                  const PreparedScene& stage, const Size& size,
-                                                  const std::stop_token& now);
+[[nodiscard]] std::optional<CoarsePicture> coarse_picture(const RenderArguments& arguments,
+                                                          const PreparedScene& stage,
+                                                          const Size& size,
+                                                          const std::stop_token& now);
 
 }  // namespace bdpt::app

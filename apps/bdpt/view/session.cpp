@@ -443,20 +443,20 @@ bool Session::preview()
     const Size size = coarse_size(scene_.stage().size, *coarse_.divisor());
     const PassStops stops = mailbox_.begin_pass(!coarse_.is_first());
     const auto start = std::chrono::steady_clock::now();
-    const std::optional<Image> image =
+    const std::optional<CoarsePicture> picture =
         coarse_picture(scene_.arguments(), scene_.stage(), size, stops.now);
-    if (!image) {
+    if (!picture) {
         coarse_.skip();  // what stopped it begins anew
         return true;
     }
     coarse_.done(seconds_since(start));
     if (!is_metered_) {
-        meter(*image, nullptr);
+        meter(picture->image, nullptr);
     }
     tell(generation_ == 1);
     const PixelRect whole{.x0 = 0, .y0 = 0, .x1 = size.width, .y1 = size.height};
     for (std::size_t slot = 0; slot < (integrator_b_.empty() ? 1U : 2U); ++slot) {
-        send(slot, *image, size, whole, 1);
+        send(slot, picture->image, {.alpha = picture->matte.alpha}, size, whole, 1);
     }
     return true;
 }

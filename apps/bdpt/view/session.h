@@ -79,8 +79,8 @@ private:
     /// Sends what the layer shows of a slot.
     void show(std::size_t slot);
     void show_all();
-    void send(std::size_t slot, const Image& image, const Size& grid, const PixelRect& region,
-              std::int64_t samples);
+    void send(std::size_t slot, const Image& image, const Cover& cover, const Size& grid,
+              const PixelRect& region, std::int64_t samples);
     /// Tells pages the state now, or in a moment if they were told just before.
     void tell(bool now);
     [[nodiscard]] ViewState state();

@@ -79,7 +79,7 @@ void Session::show(std::size_t slot)
         const std::vector<Strategy>& there = part.strategies.strategies();
         if (std::find(there.begin(), there.end(), strategy_) != there.end()) {
             const PixelRect& region = part.film.region();
-            send(0, part.strategies.weighted(strategy_),
+            send(0, part.strategies.weighted(strategy_), {},
                  {.width = region.width(), .height = region.height()}, region,
                  part.samples.count());
         }
@@ -93,10 +93,10 @@ void Session::show(std::size_t slot)
     const Size grid = scene_.stage().size;
     const std::int64_t samples = render->renderer().samples();
     if (layer_ == ViewLayer::noise) {
-        send(slot, noise_image(film), grid, film.region(), samples);
+        send(slot, noise_image(film), {}, grid, film.region(), samples);
     } else if (layer_ == ViewLayer::rates) {
         if (const auto& rates = render->renderer().options().sampling.rates) {
-            send(slot, rates_image(*rates, film.region()), grid, film.region(), samples);
+            send(slot, rates_image(*rates, film.region()), {}, grid, film.region(), samples);
         }
     } else {
         const Image image = film.develop();
@@ -104,7 +104,9 @@ void Session::show(std::size_t slot)
             meter(image, &*render);
             tell(true);
         }
-        send(slot, image, grid, film.region(), samples);
+        const Matte matte = shown_matte(render->arguments(), render->renderer().part());
+        send(slot, image, {.alpha = matte.alpha, .shadow = matte.shadow}, grid, film.region(),
+             samples);
     }
 }
 
@@ -114,8 +116,8 @@ void Session::show_all()
     show(1);
 }
 
-void Session::send(std::size_t slot, const Image& image, const Size& grid, const PixelRect& region,
-                   std::int64_t samples)
+void Session::send(std::size_t slot, const Image& image, const Cover& cover, const Size& grid,
+                   const PixelRect& region, std::int64_t samples)
 {
     auto frame = std::make_shared<Frame>();
     frame->slot = static_cast<std::uint32_t>(slot);
@@ -128,7 +130,8 @@ void Session::send(std::size_t slot, const Image& image, const Size& grid, const
     frame->height = static_cast<std::uint32_t>(image.height);
     frame->samples = static_cast<std::uint32_t>(std::min<std::int64_t>(
         samples, std::numeric_limits<std::uint32_t>::max()));
-    frame->pixels = half_pixels(image);
+    frame->channels = cover.alpha.empty() ? 3 : 5;
+    frame->pixels = half_pixels(image, cover);
     frame->sequences = clients_;
     shown_samples_.at(slot) = samples;
     audience_.show(std::move(frame));
@@ -196,6 +199,9 @@ ViewState Session::state()
     state.exposure = static_cast<double>(state.exposure_is_automatic ? automatic_exposure_
                                                                      : exposure->value);
     state.curve = io::tone_curve_name(arguments.display.curve);
+    if (arguments.display.backdrop) {
+        state.background = backdrop_text(*arguments.display.backdrop);
+    }
     state.layers = {ViewLayer::picture, ViewLayer::noise};
     if (arguments.rates) {
         state.layers.push_back(ViewLayer::rates);

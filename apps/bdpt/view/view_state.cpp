@@ -70,6 +70,8 @@ void add_picture(ordered_json& json, const ViewState& state)
     json["exposure_auto"] = state.automatic_exposure;
     json["exposure_is_auto"] = state.exposure_is_automatic;
     json["curve"] = state.curve;
+    json["background"] =
+        state.background.empty() ? ordered_json() : ordered_json(state.background);
     json["layers"] = ordered_json::array();
     for (const ViewLayer layer : state.layers) {
         json["layers"].push_back(layer_name(layer));

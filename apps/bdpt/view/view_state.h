@@ -42,6 +42,7 @@ struct ViewState {
     double automatic_exposure = 0.0;  ///< [EV] in the place of a number
     bool exposure_is_automatic = true;
     std::string curve;
+    std::string background;  ///< "transparent" or a colour, like "#ffffff"; empty: the environment
     std::vector<ViewLayer> layers;
     ViewLayer layer = ViewLayer::picture;
     std::optional<Scale> scale{};

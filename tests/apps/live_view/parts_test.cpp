@@ -75,13 +75,29 @@ TEST_CASE("pixels go to pages as halves", "[live_view]")
     CHECK(half_at(odd, 2) == 0.0);
 }
 
+TEST_CASE("pixels over a background go to pages with what covers it", "[live_view]")
+{
+    const Image image{.width = 2, .height = 1, .pixels = {Rgb(2.0f), Rgb(0.0f)}};
+    const std::vector<float> alpha{0.75f, 1.0f};
+    const std::vector<float> shadow{0.25f, 1.0f};
+    const std::vector<std::uint8_t> bytes =
+        half_pixels(image, {.alpha = alpha, .shadow = shadow});
+    REQUIRE(bytes.size() == 20);
+    CHECK(half_at(bytes, 3) == 0.5);   // light
+    CHECK(half_at(bytes, 4) == 0.25);  // background
+    CHECK(half_at(bytes, 5) == 0.0);
+    CHECK(half_at(bytes, 8) == 0.0);
+    CHECK(half_at(bytes, 9) == 0.0);
+    CHECK(half_at(half_pixels(image, {.alpha = alpha}), 3) == 0.75);
+}
+
 TEST_CASE("a frame tells each page which of its requests it shows", "[live_view]")
 {
     Frame frame{.slot = 1, .generation = 7, .grid_width = 40, .grid_height = 30, .x = 3, .y = 4,
                 .width = 5, .height = 6, .samples = 258};
     frame.sequences = {{11, 99}};
     const FrameHeader header = frame_header(frame, 11);
-    const std::vector<std::uint32_t> expected{1, 1, 7, 99, 40, 30, 3, 4, 5, 6, 258, 1};
+    const std::vector<std::uint32_t> expected{2, 1, 7, 99, 40, 30, 3, 4, 5, 6, 258, 3};
     for (std::size_t i = 0; i < expected.size(); ++i) {
         CHECK(number_at(header, i) == expected[i]);
     }

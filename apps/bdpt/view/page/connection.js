@@ -58,11 +58,11 @@ class Connection {
   }
 
   receiveTile(buffer) {
-    const [version, slot, generation, sequence, gridWidth, gridHeight, x, y, width, height, samples, last] =
+    const [version, slot, generation, sequence, gridWidth, gridHeight, x, y, width, height, samples, channels] =
       new Uint32Array(buffer, 0, 12);
-    if (version === 1) {
+    if (version === 2) {
       this.on.tile({ slot, generation, sequence, grid: { width: gridWidth, height: gridHeight }, tile: { x, y, width, height },
-        samples, last: last !== 0 }, new Uint16Array(buffer, 48));
+        samples, channels }, new Uint16Array(buffer, 48));
     }
   }
 

@@ -61,7 +61,14 @@ function paintHeat(rgb, target) {
 /** `waits`: what is shown is of another layer, and stays until pixels come. */
 function repaint(waits = false) {
   const { exposure, curve } = look;
-  const paintLight = (rgb, target) => toneMap(rgb, target, { gain: 2 ** exposure, curve });
+  const background = linearColor(state && state.background);
+  const paintLight = (rgb, target, cover) => {
+    if (cover) {
+      toneMapOver(rgb, cover, target, { gain: 2 ** exposure, curve, background });
+    } else {
+      toneMap(rgb, target, { gain: 2 ** exposure, curve });
+    }
+  };
   stage.setPaint(state && isHeat(state.layer) ? paintHeat : paintLight, waits);
   panel.exposure.set(look.exposure);
   byId("curve").value = look.curve;
@@ -106,14 +113,11 @@ function takeState(next) {
   panel.show(next);
 }
 
-function takeTile({ slot, generation, sequence, grid, tile, samples, last }, halves) {
+function takeTile({ slot, generation, sequence, grid, tile, samples, channels }, halves) {
   if (slot === 0 && generation !== seen.generation && inspector.sample) {
     inspector.clear();
   }
-  stage.put(slot, grid, tile, halves);
-  if (!last) {
-    return;
-  }
+  stage.put(slot, grid, tile, halves, channels);
   seen.samples[slot] = samples;
   seen.updates += 1;
   if (slot === 0) {

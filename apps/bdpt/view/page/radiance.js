@@ -9,35 +9,75 @@ const HALF_VALUES = Float32Array.from({ length: 65536 }, (_, bits) => {
   return bits & 0x8000 ? -size : size;
 });
 
+/** Light of a colour like "#ff8000"; null for no colour. */
+function linearColor(text) {
+  const codes = /^#([0-9a-f]{2})([0-9a-f]{2})([0-9a-f]{2})$/i.exec(text || "");
+  return codes && codes.slice(1).map((code) => {
+    const value = parseInt(code, 16) / 255;
+    return value <= 0.04045 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4;
+  });
+}
+
+/** Draws light over `background` (null: nothing, so that the pixels are transparent) into `target`, RGBA bytes, as the command
+ * does. `cover`: for each pixel the share that has this light, and the share that shows the background. */
+function toneMapOver(rgb, cover, target, { gain, curve, background }) {
+  const { map } = CURVES[curve];
+  const out = new Float64Array(3);
+  for (let i = 0, p = 0, o = 0; i < rgb.length; i += 3, p += 2, o += 4) {
+    const own = cover[p];
+    const open = cover[p + 1];
+    const alpha = 1 - open;
+    out.fill(0);
+    if (own > 0) {
+      map(rgb[i] * gain / own, rgb[i + 1] * gain / own, rgb[i + 2] * gain / own, out);
+    }
+    for (let channel = 0; channel < 3; ++channel) {
+      const light = background ? own * out[channel] + open * background[channel] : alpha > 0 ? own / alpha * out[channel] : 0;
+      target[o + channel] = SRGB[Math.min(light, 1) * SRGB_STEPS + 0.5 | 0];
+    }
+    target[o + 3] = background ? 255 : Math.round(255 * alpha);
+  }
+}
+
 /** An image that grows: linear light of a grid of pixels, coarser than the image at first, and its look on the screen. */
 class Radiance {
   constructor() {
     this.width = 0;
     this.height = 0;
     this.rgb = new Float32Array(0);
+    this.cover = null;
     this.canvas = html("canvas", { width: 1, height: 1 });
     this.context = this.canvas.getContext("2d", { willReadFrequently: true });
     this.empty = true;
   }
 
-  resize(width, height) {
-    if (width === this.width && height === this.height) {
+  /** `channels`: 3, or 5 with what covers a background. */
+  resize(width, height, channels) {
+    const covers = channels === 5;
+    if (width === this.width && height === this.height && covers === (this.cover !== null)) {
       return;
     }
     this.width = width;
     this.height = height;
     this.rgb = new Float32Array(3 * width * height);
+    this.cover = covers ? new Float32Array(2 * width * height) : null;
     this.canvas.width = width;
     this.canvas.height = height;
   }
 
-  /** Takes over a tile of half floats: three for each pixel, rows from the top. */
+  /** Takes over a tile of half floats: rows from the top. */
   put(x, y, width, height, halves) {
+    let h = 0;
     for (let row = 0; row < height; ++row) {
-      let o = 3 * ((y + row) * this.width + x);
-      const begin = 3 * row * width;
-      for (let i = begin; i < begin + 3 * width; ++i) {
-        this.rgb[o++] = HALF_VALUES[halves[i]];
+      const begin = (y + row) * this.width + x;
+      for (let i = begin; i < begin + width; ++i) {
+        this.rgb[3 * i] = HALF_VALUES[halves[h++]];
+        this.rgb[3 * i + 1] = HALF_VALUES[halves[h++]];
+        this.rgb[3 * i + 2] = HALF_VALUES[halves[h++]];
+        if (this.cover) {
+          this.cover[2 * i] = HALF_VALUES[halves[h++]];
+          this.cover[2 * i + 1] = HALF_VALUES[halves[h++]];
+        }
       }
     }
     this.empty = false;
@@ -47,22 +87,26 @@ class Radiance {
     this.empty = true;
   }
 
-  /** Paints a part of the canvas; `paint(rgb, target)` makes RGBA bytes of light. */
+  /** `channels` values for each pixel of a part of `values`. */
+  part(values, channels, x, y, width, height) {
+    if (!values || (width === this.width && height === this.height)) {
+      return values;
+    }
+    const part = new Float32Array(channels * width * height);
+    for (let row = 0; row < height; ++row) {
+      const begin = channels * ((y + row) * this.width + x);
+      part.set(values.subarray(begin, begin + channels * width), channels * row * width);
+    }
+    return part;
+  }
+
+  /** Paints a part of the canvas; `paint(rgb, target, cover)` makes RGBA bytes of light. */
   develop(paint, x = 0, y = 0, width = this.width, height = this.height) {
     if (this.width === 0 || width === 0 || height === 0) {
       return;
     }
     const image = this.context.createImageData(width, height);
-    if (width === this.width && height === this.height) {
-      paint(this.rgb, image.data);
-    } else {
-      const part = new Float32Array(3 * width * height);
-      for (let row = 0; row < height; ++row) {
-        const begin = 3 * ((y + row) * this.width + x);
-        part.set(this.rgb.subarray(begin, begin + 3 * width), 3 * row * width);
-      }
-      paint(part, image.data);
-    }
+    paint(this.part(this.rgb, 3, x, y, width, height), image.data, this.part(this.cover, 2, x, y, width, height));
     this.context.putImageData(image, x, y);
   }
 

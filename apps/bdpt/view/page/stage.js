@@ -49,9 +49,9 @@ class Stage extends Pane {
   }
 
   /** A tile of a grid that covers the whole image. */
-  put(slot, grid, tile, halves) {
+  put(slot, grid, tile, halves, channels) {
     const radiance = this.slots[slot];
-    radiance.resize(grid.width, grid.height);
+    radiance.resize(grid.width, grid.height, channels);
     radiance.put(tile.x, tile.y, tile.width, tile.height, halves);
     radiance.develop(this.paint, tile.x, tile.y, tile.width, tile.height);
     this.requestDraw();
@@ -71,14 +71,16 @@ class Stage extends Pane {
     if (a.empty && b.empty) {
       return;
     }
+    const context = this.canvas.getContext("2d");
+    context.clearRect(0, 0, this.canvas.width, this.canvas.height);
     this.draw(a.canvas, null);
     if (this.pair && !b.empty) {
-      const context = this.canvas.getContext("2d");
       const left = Math.round(this.wiper * this.canvas.width);
       context.save();
       context.beginPath();
       context.rect(left, 0, this.canvas.width - left, this.canvas.height);
       context.clip();
+      context.clearRect(0, 0, this.canvas.width, this.canvas.height);
       this.draw(b.canvas, null);
       context.restore();
     }

@@ -32,7 +32,7 @@ std::uint16_t half_of(float value)
 
 FrameHeader frame_header(const Frame& frame, ClientId client)
 {
-    constexpr std::uint32_t version = 1;
+    constexpr std::uint32_t version = 2;
     const auto seen = frame.sequences.find(client);
     const std::array<std::uint32_t, frame_header_bytes / 4> numbers{
         version,
@@ -46,7 +46,7 @@ FrameHeader frame_header(const Frame& frame, ClientId client)
         frame.width,
         frame.height,
         frame.samples,
-        1};  // each is a whole update
+        frame.channels};
     FrameHeader bytes{};
     for (std::size_t i = 0; i < bytes.size(); ++i) {
         bytes[i] = static_cast<std::uint8_t>(numbers[i / 4] >> (8 * (i % 4)));
@@ -54,15 +54,22 @@ FrameHeader frame_header(const Frame& frame, ClientId client)
     return bytes;
 }
 
-std::vector<std::uint8_t> half_pixels(const Image& image)
+std::vector<std::uint8_t> half_pixels(const Image& image, const Cover& cover)
 {
-    std::vector<std::uint8_t> bytes(image.pixels.size() * 6);
-    std::size_t at = 0;
-    for (const Rgb& pixel : image.pixels) {
+    std::vector<std::uint8_t> bytes;
+    bytes.reserve(image.pixels.size() * (cover.alpha.empty() ? 6 : 10));
+    const auto add = [&bytes](float value) {
+        const std::uint16_t half = half_of(value);
+        bytes.push_back(static_cast<std::uint8_t>(half));
+        bytes.push_back(static_cast<std::uint8_t>(half >> 8U));
+    };
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
         for (int channel = 0; channel < 3; ++channel) {
-            const std::uint16_t half = half_of(pixel[channel]);
-            bytes[at++] = static_cast<std::uint8_t>(half);
-            bytes[at++] = static_cast<std::uint8_t>(half >> 8U);
+            add(image.pixels[i][channel]);
+        }
+        if (!cover.alpha.empty()) {
+            add(cover.shadow.empty() ? cover.alpha[i] : cover.alpha[i] - cover.shadow[i]);
+            add(1.0f - cover.alpha[i]);
         }
     }
     return bytes;

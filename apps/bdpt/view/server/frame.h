@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <vector>
 
 namespace bdpt::app {
@@ -24,7 +25,8 @@ struct Frame {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
     std::uint32_t samples = 0;
-    std::vector<std::uint8_t> pixels{};               ///< halves, RGB, little-endian
+    std::uint32_t channels = 3;          ///< 3: RGB; 5: and what covers the background
+    std::vector<std::uint8_t> pixels{};  ///< halves, little-endian
     std::map<ClientId, std::uint32_t> sequences{};  ///< the last request of each page that it shows
 };
 
@@ -35,8 +37,15 @@ using FrameHeader = std::array<std::uint8_t, frame_header_bytes>;
 /// What goes before the pixels to `client`: 12 numbers of 32 bits, little-endian.
 [[nodiscard]] FrameHeader frame_header(const Frame& frame, ClientId client);
 
-/// Pixels as halves [IEEE 754 binary16]. What is not finite or negative becomes 0, what is too much
-/// the greatest half.
-[[nodiscard]] std::vector<std::uint8_t> half_pixels(const Image& image);
+/// How far the pixels of an image cover a background; empty where there is none.
+struct Cover {
+    std::span<const float> alpha{};
+    std::span<const float> shadow{};  ///< the part of alpha that is a black shadow; may be empty
+};
+
+/// Pixels as halves [IEEE 754 binary16]: RGB, and with `cover` the share of the pixel that has this
+/// light and the share that shows the background. What is not finite or negative becomes 0, what is
+/// too much the greatest half.
+[[nodiscard]] std::vector<std::uint8_t> half_pixels(const Image& image, const Cover& cover = {});
 
 }  // namespace bdpt::app

@@ -7,8 +7,13 @@
 #include "scene/checks/validate.h"
 #include "scene/precision.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <memory>
+#include <utility>
 #include <variant>
 
 namespace bdpt {
@@ -28,6 +33,25 @@ bool light_moves(const LightDesc& light)
             return moves;
         },
         light);
+}
+
+/// May light that meets it leave it by many ways?
+bool is_rough(const MaterialDesc& desc)
+{
+    return desc.roughness > 0.0f || desc.anisotropy.strength != 0.0f ||
+           desc.glossiness_texture.has_value();
+}
+
+/// The tables of red, green and blue.
+std::array<std::pair<float, SpecularAlbedo::Below>, 3> albedo_keys(const MaterialDesc& desc,
+                                                                   const Exterior& exterior)
+{
+    const auto [red, green, blue] = boundary_indices(desc, exterior).greater_by_less;
+    const bool is_transparent = desc.transmission > 0.0f && desc.thickness > 0.0f;
+    // A smooth boundary loses nothing, and the table of what is lost takes longest to make.
+    const auto below = is_transparent && is_rough(desc) ? SpecularAlbedo::Below::transparent_body
+                                                        : SpecularAlbedo::Below::base;
+    return {{{red, below}, {green, below}, {blue, below}}};
 }
 
 }  // namespace
@@ -91,8 +115,10 @@ void WorldBuilder::add_materials()
         is_known_desc_.push_back(is_known(i));
     }
     w.all_materials_->reserve(materials.size());
+    const Exterior outside{.medium = w.fog_};
+    make_albedos(outside);
     for (std::size_t i = 0; i < materials.size(); ++i) {
-        add_material(i, {.medium = w.fog_});
+        add_material(i, outside);
     }
     for (const InstanceDesc& instance : w.desc_.instances) {
         w.material_ids_.push_back(instance.material);
@@ -147,24 +173,51 @@ Material WorldBuilder::make_material(const MaterialDesc& desc, const ChannelAlbe
 
 ChannelAlbedos WorldBuilder::albedos_of(const MaterialDesc& desc, const Exterior& exterior)
 {
-    const auto [red, green, blue] = boundary_indices(desc, exterior).greater_by_less;
-    const bool is_transparent = desc.transmission > 0.0f && desc.thickness > 0.0f;
-    const auto below =
-        is_transparent ? SpecularAlbedo::Below::transparent_body : SpecularAlbedo::Below::base;
-    return {albedo_of({red, below}), albedo_of({green, below}), albedo_of({blue, below})};
+    const auto [red, green, blue] = albedo_keys(desc, exterior);
+    return {albedo_of(red), albedo_of(green), albedo_of(blue)};
+}
+
+/// The tables of all materials in this surrounding: side by side, as each takes some milliseconds.
+void WorldBuilder::make_albedos(const Exterior& exterior)
+{
+    std::vector<World::AlbedoKey> missing;
+    for (const MaterialDesc& desc : world_.desc_.materials) {
+        for (const World::AlbedoKey& key : albedo_keys(desc, exterior)) {
+            if (!known_albedo(key) &&
+                std::find(missing.begin(), missing.end(), key) == missing.end()) {
+                missing.push_back(key);
+            }
+        }
+    }
+    std::vector<std::shared_ptr<const SpecularAlbedo>> made(missing.size());
+    tbb::parallel_for(std::size_t{0}, missing.size(), [&](std::size_t i) {
+        made[i] = std::make_shared<const SpecularAlbedo>(missing[i].first, missing[i].second);
+    });
+    for (std::size_t i = 0; i < missing.size(); ++i) {
+        world_.albedos_.emplace(missing[i], std::move(made[i]));
+    }
+}
+
+/// Of this scene, or of the one that it is like; null: it has to be made.
+std::shared_ptr<const SpecularAlbedo> WorldBuilder::known_albedo(const World::AlbedoKey& key) const
+{
+    for (const World* world : {static_cast<const World*>(&world_), like_}) {
+        if (world != nullptr) {
+            if (const auto found = world->albedos_.find(key); found != world->albedos_.end()) {
+                return found->second;
+            }
+        }
+    }
+    return nullptr;
 }
 
 const SpecularAlbedo& WorldBuilder::albedo_of(const World::AlbedoKey& key)
 {
-    auto& albedo = world_.albedos_[key];
-    if (!albedo && like_ != nullptr) {
-        const auto known = like_->albedos_.find(key);
-        albedo = known != like_->albedos_.end() ? known->second : nullptr;
-    }
+    std::shared_ptr<const SpecularAlbedo> albedo = known_albedo(key);
     if (!albedo) {
         albedo = std::make_shared<const SpecularAlbedo>(key.first, key.second);
     }
-    return *albedo;
+    return *world_.albedos_.emplace(key, std::move(albedo)).first->second;
 }
 
 /// What is around each light; around those at infinity, where their rays enter the scene.

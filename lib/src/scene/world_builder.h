@@ -34,6 +34,9 @@ private:
     [[nodiscard]] Material make_material(const MaterialDesc& desc, const ChannelAlbedos& albedos,
                                          const Exterior& exterior, MediumId within);
     [[nodiscard]] ChannelAlbedos albedos_of(const MaterialDesc& desc, const Exterior& exterior);
+    void make_albedos(const Exterior& exterior);
+    [[nodiscard]] std::shared_ptr<const SpecularAlbedo> known_albedo(
+        const World::AlbedoKey& key) const;
     [[nodiscard]] const SpecularAlbedo& albedo_of(const World::AlbedoKey& key);
 
     void add_lights();

@@ -79,12 +79,20 @@ std::vector<float> weights_of(SampleContext sample, const Subpath& light_path,
     return weights;
 }
 
+/// It takes longer to build than to trace a thousand paths in.
+const World& built_room(bool foggy)
+{
+    static const World clear(room(false));
+    static const World fog(room(true));
+    return foggy ? fog : clear;
+}
+
 }  // namespace
 
 TEST_CASE("sums over subpaths weigh joins as all densities of the path do", "[mis]")
 {
     const bool foggy = GENERATE(false, true);
-    const World world(room(foggy));
+    const World& world = built_room(foggy);
     const auto heuristic = GENERATE(Heuristic::balance, Heuristic::power);
     // Of light paths and connections for each camera path.
     const auto [light_paths, connections] =

@@ -231,7 +231,7 @@ TEST_CASE("wrong words for the film are refused before anything is rendered")
     rejects({"--aov", "depth,colour"}, 2, "--aov \"depth,colour\"");
     rejects({"--crop", "0,0,0,5"}, 2, "--crop \"0,0,0,5\"");
     rejects({"--crop", "0,0,33,5"}, 2,
-            "crop 0,0,33,5 is empty or not inside of the image of 32x16 pixels");
+            "crop 0,0,33,5 is empty or outside of the image of 32x16 pixels");
     rejects({"--clamp", "0"}, 2, "--clamp \"0\"");
     rejects({"--clamp", "nan"}, 2, "--clamp");
     const std::string out = (cube.folder() / "out.exr").string();

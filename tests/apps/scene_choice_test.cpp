@@ -39,8 +39,9 @@ TEST_CASE("a variant, an animation or a time that there is not is refused")
         CHECK(outcome.err.find(text) != std::string::npos);
         CHECK_FALSE(std::filesystem::exists(out));
     };
-    check({"--variant", "dusk"}, 3, "no variant \"dusk\"; there are 0 \"day\", 1 \"night\"");
-    check({"--animation", "run"}, 3, "no animation \"run\"; there are none");
+    check({"--variant", "dusk"}, 3,
+          "no variant \"dusk\"; the file has 2 variants: 0 \"day\", 1 \"night\"");
+    check({"--animation", "run"}, 3, "no animation \"run\"; the file has no animations");
     check({"--frame-time", "nan"}, 2, "--frame-time");
     check({"--frame-time", "soon"}, 2, "--frame-time");
     check({"--max-memory", "much"}, 2, "--max-memory");

@@ -262,7 +262,7 @@ TEST_CASE("merge refuses to write images of strategies that are not there, or no
         CHECK_FALSE(room.folder().names().contains("m.exr"));
     };
     refused(room.path("all.exr"), 4, "a.part.exr has no images of strategies");
-    refused(room.path("all.png"), 2, "expected a file that is named .exr");
+    refused(room.path("all.png"), 2, "expected a file name that ends in .exr");
     refused(part, 2, "it is an input or another output");
     refused(room.path("none/all.exr"), 6, "none/all.exr");
     const Outcome outcome = run(part_words(room, {"--spp", "1", "--part", room.path("b.part.exr"),

@@ -32,8 +32,9 @@ void check_error_image(const CompareArguments& arguments, std::span<const fs::pa
     }
     const std::vector<fs::path> outputs{*arguments.error_image};
     if (!has_extension(outputs.front(), ".png")) {
-        throw Error(ErrorCode::usage, fmt::format("--error-image \"{}\": name it .png",
-                                                  arguments.error_image->string()));
+        throw Error(ErrorCode::usage,
+                    fmt::format("--error-image \"{}\": expected a file name that ends in .png",
+                                arguments.error_image->string()));
     }
     std::vector<fs::path> inputs(files.begin(), files.end());
     inputs.push_back(arguments.reference);

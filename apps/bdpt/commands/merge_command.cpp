@@ -44,7 +44,7 @@ std::string message_of_missing(const PartCollection& collection)
 {
     const PartInfo& part = collection.parts.front();
     const SampleSet missing = collection.missing();
-    return fmt::format("samples are missing: {}{}; --partial writes what there is",
+    return fmt::format("samples are missing: {}{}; --partial writes the image so far",
                        ranges_text(missing),
                        commands_text(part.notes.command, missing, part.file.parent_path()));
 }
@@ -74,7 +74,7 @@ std::string message_of_missing(const MergeArguments& asked, const Plan& plan,
         "samples are missing: {} (tasks {} of {}){}{}",
         is_sequence(plan) ? images_text(plan, images) : ranges_text(unwritten.front().missing),
         numbers_text(tasks), asked.plan->string(), commands_text(*asked.plan, tasks),
-        has_parts ? "; --partial writes what there is" : "");
+        has_parts ? "; --partial writes the image so far" : "");
 }
 
 /// The noise of the whole, and which samples it lacks for what was asked for, if anything was.
@@ -132,9 +132,9 @@ std::vector<MergeArguments> images_of(const MergeArguments& asked, const std::op
         const auto place = [&](fs::path& file) {
             const fs::path pattern = std::exchange(file, file_of(file, plan->images[i]));
             if (!files.insert(file).second && is_sequence(*plan)) {
-                throw OptionError(fmt::format("{}: expected {} in the name, as the plan has {}",
-                                              pattern.string(), places_of(plan->images[i]),
-                                              counted(plan->images.size(), "image")));
+                throw OptionError(fmt::format(
+                    "{}: expected {} in the name, because the plan has {}", pattern.string(),
+                    places_of(plan->images[i]), counted(plan->images.size(), "image")));
             }
         };
         std::for_each(image.outputs.begin(), image.outputs.end(), place);

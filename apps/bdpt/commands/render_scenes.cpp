@@ -79,12 +79,12 @@ void check_separate(const std::vector<RenderArguments>& all)
             if (inputs.contains(file)) {
                 throw Error(
                     ErrorCode::usage,
-                    fmt::format("{}: is an input and cannot be the output too", file.string()));
+                    fmt::format("{}: cannot be both an input and an output", file.string()));
             }
             if (!written.add(file)) {
                 throw OptionError(fmt::format(
-                    "{}: several scenes would write it: name outputs like -o '{{name}}.png', and "
-                    "scenes with the same name apart",
+                    "{}: several scenes would write it: put {{name}} into names of outputs, like "
+                    "-o '{{name}}.png', and rename scenes of the same name",
                     file.string()));
             }
         }

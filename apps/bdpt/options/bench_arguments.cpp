@@ -81,10 +81,10 @@ void add_effort(OptionList& options, BenchRequest& request)
                 bench.samples, whole_number(1, std::int64_t{1} << 20));
     options.add("--seeds", "N", "Runs of each integrator. Default: 5", bench.seeds,
                 whole_number(1, 10000));
-    options.add(
-        "--integrators", "LIST", "Integrators, comma-separated. Default: pt,nee,mis,lt,bdpt",
-        bench.integrators,
-        parsed_by(parse_integrators, "pt, nee, mis, lt, bdpt, vcm or auto, with commas between"));
+    options.add("--integrators", "LIST",
+                "Integrators, comma-separated. Default: pt,nee,mis,lt,bdpt", bench.integrators,
+                parsed_by(parse_integrators,
+                          "a comma-separated list of pt, nee, mis, lt, bdpt, vcm and auto"));
     options.add("--reference-time", "TIME",
                 "CPU time of each of the two renders that make the reference. Default: 12 times "
                 "--time",

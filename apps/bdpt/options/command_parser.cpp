@@ -115,7 +115,7 @@ private:
     std::vector<std::pair<Option*, CLI::Option*>> added_;
 };
 
-/// "render, plan and merge".
+/// "render, plan or merge".
 std::string command_names(const Program& program)
 {
     std::vector<std::string> names;
@@ -126,7 +126,7 @@ std::string command_names(const Program& program)
     }
     std::string text = names.front();
     for (std::size_t i = 1; i < names.size(); ++i) {
-        text += (i + 1 < names.size() ? ", " : " and ") + names[i];
+        text += (i + 1 < names.size() ? ", " : " or ") + names[i];
     }
     return text;
 }
@@ -197,7 +197,7 @@ std::string explain(const Program& program, const CLI::App& app, const CLI::App*
     if (extras.empty()) {
         const bool no_command =
             command == nullptr && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
-        return no_command ? fmt::format("no command: there are {}; see \"{}\"",
+        return no_command ? fmt::format("no command: expected {}; see \"{}\"",
                                         command_names(program), help)
                           : fmt::format("{}; see \"{}\"", complaint(error), help);
     }
@@ -237,7 +237,7 @@ const Command* Program::find(std::string_view wanted) const
 std::string unknown_command(const Program& program, const std::string& word,
                             const std::string& help)
 {
-    return fmt::format("unknown command \"{}\": there are {}; see \"{}\"", word,
+    return fmt::format("unknown command \"{}\": expected {}; see \"{}\"", word,
                        command_names(program), help);
 }
 

@@ -55,7 +55,7 @@ void parse(OptionList& options, const std::vector<std::string>& words);
 [[nodiscard]] std::string help_text(Program& program, std::string_view command = "",
                                     HelpDetail detail = HelpDetail::essentials);
 
-/// "unknown command ...: there are ...".
+/// "unknown command ...: expected ...".
 [[nodiscard]] std::string unknown_command(const Program& program, const std::string& word,
                                           const std::string& help);
 

@@ -68,8 +68,8 @@ void add_measures(OptionList& options, CompareRequest& request)
     options.section("What to measure");
     options.add("--metrics", "LIST", "Metrics, comma-separated. Default: all", request.metrics,
                 parsed_by(parse_metrics,
-                          "relmse, relmse_scales, mse, rmse, mape, smape, psnr, "
-                          "flip or flip_ldr, with commas between"));
+                          "a comma-separated list of relmse, relmse_scales, mse, rmse, mape, "
+                          "smape, psnr, flip and flip_ldr"));
     options.add("--layer", "NAME",
                 "Layer of the .exr files, like albedo or depth. Default: the image itself",
                 arguments.layer, any_text());

@@ -48,7 +48,7 @@ void add_what(OptionList& options, InspectArguments& arguments)
     options.add("-o,--output", "FILE",
                 "Image of the directions at a vertex: .png, or .exr with the numbers",
                 arguments.directions,
-                file_named({".png", ".exr"}, "a file that is named .png or .exr"));
+                file_named({".png", ".exr"}, "a file name that ends in .png or .exr"));
     options.add("--vertex", "K",
                 "Vertex of the camera path for that image; 1 (default) is the first surface",
                 arguments.vertex, whole_number(1, 4096));

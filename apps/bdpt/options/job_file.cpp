@@ -122,7 +122,7 @@ Option* option_of(OptionList& options, const std::string& key)
 void check_format(const JsonValue& job)
 {
     if (!job.is_object() || !job.has(format_key)) {
-        job.fail(fmt::format("is no job: it has no \"{}\"", format_key));
+        job.fail(fmt::format("is not a job: it has no \"{}\"", format_key));
     }
     const auto format = job.at(format_key).number<std::int64_t>();
     if (format != job_format) {

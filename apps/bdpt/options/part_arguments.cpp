@@ -40,7 +40,8 @@ void add_part_options(OptionList& options, PartChoice& part)
                 "Keep the render in this .exr file while it runs, and go on with it if it is "
                 "there: after a crash, with more --spp, or for bdpt merge. Without -o only this "
                 "file is written",
-                part.file, file_named({".exr"}, "a file that is named .exr, best .part.exr"));
+                part.file,
+                file_named({".exr"}, "a file name that ends in .exr, best in .part.exr"));
     const Choices<ExistingPart> existing{
         {{"true", ExistingPart::restart}, {"false", ExistingPart::go_on}}};
     options

@@ -37,7 +37,7 @@ std::vector<std::string> kept_words(const OptionList& options, bool OptionUses::
 void check_parts(const PlanArguments& arguments, const OptionList& options)
 {
     if (arguments.parts.has_value() == options.given("--minutes")) {
-        throw OptionError("--parts or --minutes is required, and only one of them");
+        throw OptionError("either --parts or --minutes is required");
     }
     // AWS Batch has no arrays of one task, and none of more than 10,000.
     constexpr std::int64_t longest_array = 10'000;
@@ -129,7 +129,8 @@ PlanArguments checked(const PlanRequest& request, const OptionList& options)
     }
     check_parts(result, options);
     if (render.file == "-" || render.environment == "-" || use_standard_output(render.outputs)) {
-        throw OptionError("-: a plan names files, which its tasks can read and write");
+        throw OptionError(
+            "-: a plan cannot use pipes; name files, which its tasks can read and write");
     }
     if (render.rates && render.sequence) {
         throw OptionError(

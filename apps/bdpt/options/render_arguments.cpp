@@ -130,7 +130,7 @@ void add_process_options(OptionList& options, RenderRequest& request)
                 "Write how many samples pixels take, in units of --spp: .exr for --rates, or .png "
                 "in false colours",
                 request.rates.saved,
-                file_named({".exr", ".png"}, "a file that is named .exr or .png"));
+                file_named({".exr", ".png"}, "a file name that ends in .exr or .png"));
     add_strategy_options(options, request.strategies);
     add_part_options(options, request.part);
     options
@@ -143,7 +143,7 @@ void add_process_options(OptionList& options, RenderRequest& request)
         .add("--save-job", "FILE",
              "Write what these options say to this .json file, a job, and render nothing. bdpt "
              "render takes a job in place of a scene; options beside it override the job's",
-             request.saved_job, file_named({".json"}, "a file that is named .json"))
+             request.saved_job, file_named({".json"}, "a file name that ends in .json"))
         .uses.job = false;
 }
 
@@ -181,7 +181,7 @@ void check_combinations(const OptionList& options, const std::optional<std::stri
 {
     static constexpr std::array conflicts{
         Conflict{"--samples", "--spp"},
-        Conflict{"--noise", "--samples", "a part does not decide when there is little noise"},
+        Conflict{"--noise", "--samples", "a range of samples cannot decide when to stop"},
         Conflict{"--adaptive", "--rates"}, Conflict{"--half", "--float"}};
     static constexpr std::array needs{Need{"--save-rates", "--adaptive|--rates"}};
     check(conflicts, options);

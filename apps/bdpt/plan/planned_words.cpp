@@ -61,10 +61,8 @@ void check_render_words(const Words& words)
             ++i;  // its value
         } else if (!has(of_a_process, name_of(words[i])) && !has(flags_of_a_process, words[i])) {
             throw OptionError(
-                fmt::format("--plan: it says what is rendered, so beside it there may be --task, "
-                            "--threads, --max-memory, --stats, --ktx-library, --restart, --quiet "
-                            "and --json, but "
-                            "not \"{}\"",
+                fmt::format("--plan cannot be combined with {}, only with --task, --threads, "
+                            "--max-memory, --stats, --ktx-library, --restart, --quiet and --json",
                             words[i]));
         }
     }
@@ -87,7 +85,7 @@ Words render_words(const Words& words, const Plan& plan, const fs::path& file)
     check_render_words(words);
     const std::optional<std::string> number = value_of(words, "--task");
     if (!number) {
-        throw OptionError("--plan: expected --task N with it");
+        throw OptionError("--plan needs --task N");
     }
     const PlanTask& task = task_of(plan, file, *number);
     Words result(words.begin(), words.begin() + 2);

@@ -5,9 +5,9 @@
 
 namespace bdpt {
 
-/// What can be measured beside radiance (arbitrary output variables). Those of surfaces are of the
-/// first one that a camera ray meets, averaged over the same rays that the image is made of, and
-/// do not depend on the integrator.
+/// Arbitrary output variables (AOVs), which are measured beside radiance. Those of surfaces belong
+/// to the first surface that a camera ray meets, averaged over the rays of the image, and do not
+/// depend on the integrator.
 enum class Aov : std::uint8_t {
     /// Linear base colour in [0, 1]; rays that leave the scene count as black.
     albedo,
@@ -19,8 +19,8 @@ enum class Aov : std::uint8_t {
     position,
     /// Samples of the pixel.
     sample_count,
-    /// Of the pixel's value [nit^2], estimated from its two half images; infinite when one is
-    /// empty.
+    /// The variance of the pixel's value [nit^2], estimated from its two half images; infinite when
+    /// one is empty.
     variance,
     /// Share of rays that meet a surface; with `shadow` the opacity of that is added.
     alpha,

@@ -31,11 +31,11 @@ enum class DefaultLights {
     sky_and_lamp,  ///< and `default_lamp`, as the view is in a closed room
 };
 
-/// The default lights that `scene`, which has been built without them, wants; `framed` is what
-/// `frame_scene` gives for it and `aspect`. None if it has a light of its own, or if its materials
-/// that emit do light it. In an open scene they do if half of what is framed gets at least 3 % of
-/// the light of the default sky, in a closed room if the mean of `white_cards` is at least 0.1 % of
-/// what the lamp would give. What glows and lights nothing is no light.
+/// The default lights that `scene`, which has been built without them, needs; `framed` is the
+/// result of `frame_scene` and `aspect`. None if the scene has a light, or if its emissive
+/// materials light it: in an open scene if half of the framed surfaces get at least 3 % of the
+/// light of the default sky, in a closed room if the mean of `white_cards` is at least 0.1 % of the
+/// light of the lamp.
 [[nodiscard]] BDPT_EXPORT DefaultLights missing_lights(const Scene& scene, const FramedView& framed,
                                                        float aspect = 1.0f);
 

@@ -14,7 +14,7 @@ namespace bdpt {
 // with all of them (checks, hashes) goes through that list; a list that misses a field does not
 // compile.
 
-/// What a number may be, or each channel of a colour: in [low, high], or (low, high].
+/// The range of a number, or of each channel of a colour: [low, high], or (low, high].
 struct Limits {
     float low = 0.0f;
     float high = 0.0f;
@@ -59,7 +59,7 @@ struct Number {
 template <typename Desc, typename T>
 Number(const char*, T Desc::*, Limits) -> Number<Desc, T>;
 
-/// What the value of an option changes.
+/// The effect of an option's value.
 enum class OptionRole : std::uint8_t {
     image,    ///< bits of the image: part of the identity of a render
     samples,  ///< which samples are rendered, each of which is what it is without the others
@@ -79,7 +79,8 @@ struct Range {
     }
 };
 
-/// What is told of an option. Its command-line flag is "--" and its name, with '-' for '_'.
+/// The documentation and range of an option. Its command-line flag is "--" and its name, with '-'
+/// for '_'.
 struct OptionInfo {
     Range range{};             ///< of numbers
     std::string_view value{};  ///< what stands for the value in help texts, such as "N"; for words

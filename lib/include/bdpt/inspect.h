@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-/// What one sample of a pixel does, for those who write or study integrators.
+/// The paths and strategies of one sample of a pixel, for those who write or study integrators.
 namespace bdpt {
 
 /// Which sample of which pixel.
@@ -19,7 +19,7 @@ struct PixelSample {
     std::int64_t index = 0;  ///< as in `SampleRange`
 };
 
-/// What a vertex lies on.
+/// The kind of place where a vertex lies.
 enum class InspectedKind : std::uint8_t {
     lens,
     light,  ///< where a light path starts
@@ -41,7 +41,7 @@ struct InspectedVertex {
     bool scattered_delta = false;  ///< the walk left through a delta lobe
 };
 
-/// What one strategy brings to the pixel.
+/// The contribution of one strategy to the pixel.
 struct InspectedContribution {
     Strategy strategy;
     int light_path = 0;         ///< as in `PathContribution`
@@ -71,7 +71,7 @@ struct InspectedSample {
                                                          const RenderOptions& options,
                                                          const PixelSample& sample);
 
-/// What next-event estimation and BSDF sampling see from a vertex, in all directions: images in the
+/// The directions from a vertex, as next-event estimation and BSDF sampling see them: images in the
 /// form of environments, +y at the top, -z in the centre. Values are means over the pixels.
 struct DirectionMaps {
     Image incident;    ///< radiance that comes straight from lights that have an area [nit]

@@ -23,8 +23,8 @@ struct PointLightDesc {
     std::string name{};
     Vec3 position{0.0f};
     Rgb intensity{1.0f};  ///< [cd]
-    /// [m] 0: a point. Else a sphere of radiance intensity / (pi radius^2), seen like any surface;
-    /// it hides what is behind it and reflects nothing.
+    /// [m] 0: a point. Otherwise an area light: a sphere of radiance intensity / (pi radius^2),
+    /// which rays hit like any surface. It hides the scene behind it and reflects nothing.
     float radius = 0.0f;
     std::vector<Vec3> motion{};  ///< of the position
 };

@@ -13,7 +13,7 @@
 
 namespace bdpt {
 
-/// What a texture shows outside of [0, 1]; names as in glTF 2.0.
+/// The continuation of a texture outside of [0, 1]; names as in glTF 2.0.
 enum class Wrap : std::uint8_t { repeat, mirrored_repeat, clamp_to_edge };
 
 /// An image used by a material slot, with the transform of KHR_texture_transform.
@@ -27,8 +27,8 @@ struct TextureRef {
     Vec2 scale{1.0f};
 };
 
-/// What alpha, that is base_color.a times the texture's and the vertex colour's, does to a surface
-/// [glTF 2.0, sec. 3.9.4].
+/// The effect of alpha, which is base_color.a times the texture's and the vertex colour's alpha, on
+/// a surface [glTF 2.0, sec. 3.9.4].
 enum class AlphaMode : std::uint8_t {
     opaque,  ///< nothing
     mask,    ///< the surface is there where alpha is at least `alpha_cutoff`

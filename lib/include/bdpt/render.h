@@ -43,7 +43,8 @@ struct RenderControl {
     /// A request ends the render after the pass in flight.
     std::stop_token stop;
     /// A request ends the render in the middle of a pass, within the time of a few tiles: all
-    /// samples are lost, those of earlier calls too, and a `Renderer` is empty until it renders more.
+    /// samples are lost, those of earlier calls too, and a `Renderer` is empty until it renders
+    /// more.
     std::stop_token abandon{};
     /// Called between passes on the thread that called render(). What it throws ends the render and
     /// reaches the caller.
@@ -63,26 +64,26 @@ struct RenderControl {
     double noise_goal = 0.0;
 };
 
-/// What render() gives back.
+/// The result of render().
 struct RenderResult {
     Film film;
     AovFilm aovs;             ///< of the same samples; empty if none were asked for
     IdFilm ids;               ///< likewise
     StrategyFilm strategies;  ///< of the same samples; empty if none were asked for
     RenderStats stats;
-    /// What was rendered: those that were asked for, with what IntegratorKind::automatic chose.
+    /// The options that were used: IntegratorKind::automatic is replaced by its choice.
     RenderOptions options;
     SampleRange samples;  ///< those that are in `film`; fewer than asked for after a stop
     double seconds = 0.0;
     std::optional<TimeProfile> profile{};  ///< of the same samples; with Profiling::on
 };
 
-/// What choose_integrator() chose, and what its pilot knows of it.
+/// The choice of choose_integrator(), and the pilot's knowledge about it.
 struct IntegratorChoice {
     RenderOptions options{};
-    /// About which share of the light of the image `options` cannot find, in [0, 1]: caustics of
-    /// the sun or of lights without extent that are seen in mirrors or through glass. Only `vcm`
-    /// finds it. 0 if the pilot found none, or if there was none.
+    /// Estimated share of the light of the image that `options` cannot find, in [0, 1]: caustics of
+    /// the sun or of lights without extent, seen in mirrors or through glass. Only `vcm` finds it.
+    /// 0 if the pilot found none, or if there was none.
     double unseen_light = 0.0;
 };
 
@@ -101,11 +102,11 @@ struct IntegratorChoice {
 [[nodiscard]] BDPT_EXPORT RenderOptions chosen_options(const Scene& scene, const CameraDesc& camera,
                                                        const RenderOptions& options);
 
-/// About which share of the light that surfaces and media scatter to the camera comes by paths of
-/// more than `max_depth` edges, which `options` leave out, in [0, 1]; 0 if that is too little to be
-/// told from noise. By a short render of its own, which depends on scene, camera, size of the film
-/// and `max_depth`, and is spared (0) where nothing is lost: no medium scatters light, and
-/// `max_depth` is not below its default; and from 512 edges on. Throws `Error` as render() does.
+/// Estimated share, in [0, 1], of the scattered light at the camera that comes by paths of more
+/// than `max_depth` edges, which `options` leave out; 0 if it cannot be told from noise. A short
+/// render of its own measures it; it depends on scene, camera, size of the film and `max_depth`. It
+/// is 0 without a render where nothing is lost: if no medium scatters light and `max_depth` is not
+/// below its default, and from 512 edges on. Throws `Error` as render() does.
 [[nodiscard]] BDPT_EXPORT double light_beyond_max_depth(const Scene& scene,
                                                         const CameraDesc& camera,
                                                         const RenderOptions& options);
@@ -119,7 +120,7 @@ struct IntegratorChoice {
                                               const RenderOptions& options,
                                               const RenderControl& control = {});
 
-/// What render_part() gives back.
+/// The result of render_part().
 struct PartResult {
     RenderPart part;                       ///< `so_far` and what was rendered
     RenderOptions options{};               ///< as in `RenderResult`
@@ -127,12 +128,12 @@ struct PartResult {
     std::optional<TimeProfile> profile{};  ///< of the samples of this call; with Profiling::on
 };
 
-/// Goes on where `so_far` ends, or begins if that has no samples: renders those samples of
-/// `options` that it lacks, into its own films. If it lacks some, and its noise is above the goal
-/// if there is one, at least one pass is done. Parts of a render that are merged have the bits of
-/// one render() of all their samples, however they were split. `control` is told of the samples of
-/// this call. Throws what render() does, and `Error` (invalid_input) when `so_far` is of another
-/// render, saying in what it differs.
+/// Continues `so_far`, or begins if that has no samples: renders the missing samples of `options`
+/// into its films. If samples are missing, and the noise is above the goal if there is one, at
+/// least one pass is done. Merged parts of a render have the bits of one render() of all their
+/// samples, however they were split. `control` observes the samples of this call. Throws as
+/// render() does, and `Error` (invalid_input) when `so_far` belongs to another render; the message
+/// names the difference.
 [[nodiscard]] BDPT_EXPORT PartResult render_part(const Scene& scene, const CameraDesc& camera,
                                                  const RenderOptions& options, RenderPart so_far,
                                                  const RenderControl& control = {});

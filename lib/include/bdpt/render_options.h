@@ -51,7 +51,7 @@ enum class SamplerKind : std::uint8_t {
     independent,  ///< every number by itself
 };
 
-/// What camera rays see that leave the scene without meeting a surface.
+/// The light that a camera ray finds if it leaves the scene without meeting a surface.
 enum class Background : std::uint8_t {
     environment,
     /// Nothing: paths of one edge from the lens to an environment are left out, whatever finds
@@ -140,10 +140,10 @@ struct TransportOptions {
     Background background = Background::environment;
 };
 
-/// What only bdpt, lt and vcm look at: their subpaths and strategies; `automatic` chooses
-/// light_paths and connections itself. Ranges: light_paths [0, 4096] (lt, vcm: above 0),
-/// connections [0, 4096] (0 without light paths), max_camera_depth and max_light_depth from 0,
-/// strategy_depth [0, 4096], merge_radius [0, 1], merge_alpha (0, 1].
+/// Subpaths and strategies of bdpt, lt and vcm; `automatic` chooses light_paths and connections
+/// itself. Ranges: light_paths [0, 4096] (lt, vcm: above 0), connections [0, 4096] (0 without light
+/// paths), max_camera_depth and max_light_depth from 0, strategy_depth [0, 4096], merge_radius [0,
+/// 1], merge_alpha (0, 1].
 struct BidirectionalOptions {
     /// Light paths that are traced for each camera path; need not be whole.
     double light_paths = 1.0;
@@ -183,7 +183,7 @@ struct SystemOptions {
     int threads = 0;
 };
 
-/// What to render but for scene and camera. The groups say their ranges.
+/// All options of a render beside scene and camera. The groups document their ranges.
 struct RenderOptions {
     IntegratorKind integrator = IntegratorKind::automatic;
     FilmOptions film{};

@@ -34,15 +34,15 @@ public:
     /// multiple of SampleRates::group. Throws `Error` (usage) for others, and what `control`
     /// throws: what was rendered until then stays.
     void render(std::int64_t samples, const RenderControl& control = {});
-    /// What is missing of the samples that the options ask for.
+    /// Renders the missing samples of those in the options.
     void finish(const RenderControl& control = {});
     /// Adds samples of the same render that were rendered elsewhere. Throws `Error` (invalid_input)
     /// for those of another one, and for samples that are here already.
     Renderer& operator+=(const RenderPart& part);
 
-    /// What is rendered: the options, with what was chosen for IntegratorKind::automatic.
+    /// The options, in which IntegratorKind::automatic is replaced by its choice.
     [[nodiscard]] const RenderOptions& options() const;
-    /// All that was rendered.
+    /// All samples so far.
     [[nodiscard]] const RenderPart& part() const;
     /// How many samples each pixel has; in the mean, with rates.
     [[nodiscard]] std::int64_t samples() const;

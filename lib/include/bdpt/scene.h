@@ -22,7 +22,7 @@ struct Bounds {
     Vec3 max{0.0f};
 };
 
-/// What a scene holds, for reports.
+/// The counts of a scene, for reports.
 struct SceneCounts {
     std::size_t triangles = 0;             ///< in meshes, each mesh once
     std::size_t instanced_triangles = 0;   ///< as rays see them
@@ -43,7 +43,7 @@ public:
     Scene& operator=(Scene&&) noexcept;
     ~Scene();
 
-    /// What it was built from. Its lists are shared: a copy takes no time.
+    /// The description of the scene. Its lists are shared: a copy takes no time.
     [[nodiscard]] const SharedSceneDesc& description() const;
     /// The scene of another description, traced with the same instruction set, as if built from it:
     /// the same bits. What stays the same is shared: where triangles keep their places no tree is
@@ -59,15 +59,16 @@ public:
     /// Instead of the one that there is, or besides all other lights; none: without one.
     [[nodiscard]] Scene with_environment(std::optional<EnvironmentLightDesc> environment) const;
 
-    /// Of all instances; both corners are zero in an empty scene.
+    /// The bounds of all instances; both corners are zero in an empty scene.
     [[nodiscard]] Bounds bounds() const;
     [[nodiscard]] SceneCounts counts() const;
-    /// What rays are traced with; never `native` on x86.
+    /// The instruction set for tracing rays; never `native` on x86.
     [[nodiscard]] Isa isa() const;
-    /// What is likely not meant, such as bodies that are not closed; one line each.
+    /// Likely mistakes in the scene, such as bodies that are not closed; one line each.
     [[nodiscard]] const std::vector<std::string>& warnings() const;
 
-    /// What its bits depend on (bdpt/part/identity.h), the instruction set and Embree included.
+    /// The identity of the scene (bdpt/part/identity.h): all inputs that its bits depend on, the
+    /// instruction set and Embree included.
     [[nodiscard]] const std::vector<IdentityComponent>& identity() const;
 
     /// For the library itself.

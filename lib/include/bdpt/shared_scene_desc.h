@@ -60,7 +60,7 @@ struct BDPT_EXPORT SharedSceneDesc {
     SharedSceneDesc() = default;
     /// Not explicit: it says the same.
     SharedSceneDesc(SceneDesc desc);
-    /// Of all that it has: large for a large scene.
+    /// A copy of all lists, which is large for a large scene.
     [[nodiscard]] SceneDesc copy() const;
 
     /// All members, in the order of those of `SceneDesc`.

@@ -11,7 +11,7 @@
 
 namespace bdpt {
 
-/// What the time of a sample is spent on.
+/// The phases of a sample.
 enum class Phase : std::uint8_t {
     walk,     ///< subpaths: random numbers, rays, sampling of lights, BSDFs and the lens
     shade,    ///< surfaces that walks meet: materials, textures, emission
@@ -46,9 +46,9 @@ inline constexpr std::array all_phases{Phase::walk, Phase::shade, Phase::connect
 /// time in which a thread had no processor, as far as the system tells. All zero when no sample was
 /// clocked.
 struct TimeProfile {
-    /// Of all samples [s], by phase. Every sixteenth sample or so, chosen by chance, is clocked in
-    /// phases, and what reading the clock takes is subtracted from each; the sum is what all
-    /// samples would take if none were clocked.
+    /// The time of all samples by phase [s]. About every sixteenth sample, chosen at random, is
+    /// clocked in phases, and the time of reading the clock is subtracted from each. The sum is the
+    /// time that all samples would take if none were clocked.
     std::array<double, all_phases.size()> phase_seconds{};
     std::uint64_t samples = 0;          ///< of pixels
     std::uint64_t clocked_samples = 0;  ///< of these, in phases
@@ -63,12 +63,12 @@ struct TimeProfile {
     {
         return phase_seconds[static_cast<std::size_t>(phase)];
     }
-    /// Of all phases [s].
+    /// The time of all phases [s].
     [[nodiscard]] double total() const
     {
         return std::accumulate(phase_seconds.begin(), phase_seconds.end(), 0.0);
     }
-    /// Of the total, in [0, 1].
+    /// The share of a phase in the total, in [0, 1].
     [[nodiscard]] double share(Phase phase) const
     {
         return total() > 0.0 ? seconds(phase) / total() : 0.0;

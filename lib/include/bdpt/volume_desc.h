@@ -16,7 +16,8 @@ struct VolumeDesc {
     std::string name{};
     UVec3 size{0};               ///< voxels along x, y and z, > 0
     std::vector<float> density;  ///< >= 0, at the centres of voxels, x runs fastest
-    /// Of coordinates in voxels: voxel (0, 0, 0) fills the unit cube. Affine and invertible.
+    /// Transforms coordinates in voxels, where voxel (0, 0, 0) fills the unit cube. Affine and
+    /// invertible.
     Mat4 world_from_grid{1.0f};
     Rgb extinction{1.0f};     ///< [1/m] where the density is 1, >= 0: absorption and scattering
     Rgb albedo{1.0f};         ///< [0, 1]: the share of it that scatters

@@ -16,8 +16,9 @@ struct AnyHit {
     SegmentKey segment;       ///< the ray's
 };
 
-/// Which surfaces rays pass as if they were not there. It hangs on materials, which are not known
-/// here, so whoever knows them passes functions in. Both are called from many threads at once.
+/// The any-hit decision: which surfaces rays pass as if they were not there. It depends on
+/// materials, which this layer does not know, so the caller passes functions. Both are called from
+/// many threads at once.
 struct AnyHitFilter {
     const void* owner = nullptr;  ///< first argument of both functions
     /// Could any ray pass any triangle of that instance? Null: no. The others cost nothing.

@@ -15,10 +15,10 @@ namespace bdpt {
     return static_cast<float>(n) * half_ulp / (1.0f - static_cast<float>(n) * half_ulp);
 }
 
-/// Where a ray that leaves a surface in direction `w` starts: moved along the normal until it is
-/// surely on the side of `w`, whatever the rounding of `p` and of the intersection test, both
-/// bounded by `error` [Pharr et al. 2023, Physically Based Rendering, sec. 6.8]. `ng` is unit, or
-/// zero for a point that is on no surface.
+/// Origin of a ray that leaves a surface in direction `w`, against self-intersection: the point is
+/// moved along the normal until it is surely on the side of `w`, whatever the rounding of `p` and
+/// of the intersection test, both bounded by `error` [Pharr et al. 2023, Physically Based
+/// Rendering, sec. 6.8]. `ng` is unit, or zero for a point that is on no surface.
 [[nodiscard]] inline Vec3 offset_origin(Vec3 p, float error, Vec3 ng, Vec3 w)
 {
     return p + (dot(ng, w) < 0.0f ? -error : error) * ng;

@@ -40,10 +40,10 @@ RenderOptions inspected_options(const Scene& scene, const CameraDesc& camera, Re
     const bool in_image = sample.x >= 0 && sample.y >= 0 && sample.x < options.film.width &&
                           sample.y < options.film.height;
     if (!in_image) {
-        throw Error(ErrorCode::usage, "pixel " + std::to_string(sample.x) + "," +
-                                          std::to_string(sample.y) + " is not in the image of " +
-                                          std::to_string(options.film.width) + "x" +
-                                          std::to_string(options.film.height) + " pixels");
+        throw Error(ErrorCode::usage,
+                    "pixel " + std::to_string(sample.x) + "," + std::to_string(sample.y) +
+                        " is outside of the image of " + std::to_string(options.film.width) + "x" +
+                        std::to_string(options.film.height) + " pixels");
     }
     options.film.crop =
         PixelRect{.x0 = sample.x, .y0 = sample.y, .x1 = sample.x + 1, .y1 = sample.y + 1};

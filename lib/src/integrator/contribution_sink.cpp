@@ -5,8 +5,8 @@
 namespace bdpt {
 namespace {
 
-/// What `found` would be if its strategy were alone; light of a path that has met dispersion counts
-/// in one channel.
+/// The estimate of `found` if its strategy were alone; light of a path that has met dispersion
+/// counts in one channel.
 Rgb unweighted_of(const SampleContext& sample, const Contribution& found)
 {
     return found.dispersed ? found.unweighted * spectral_weight(sample.wavelength)

@@ -20,10 +20,10 @@ public:
     ContributionSink(const Films& films, const PixelFilter& filter, PathWeigher* weigher,
                      std::size_t most_splats);
 
-    /// What comes until `end_sample` belongs to this sample of pixel (x, y).
+    /// Contributions until `end_sample` belong to this sample of pixel (x, y).
     void begin_sample(int x, int y, const ScheduledSample& sample);
-    /// What comes until `end_sample` are splats of a light path of that round that belongs to no
-    /// pixel.
+    /// Contributions until `end_sample` are splats of a light path of that round, which belongs to
+    /// no pixel.
     void begin_light_path(std::int64_t round) { begin_sample(-1, -1, {.index = round}); }
     /// Splats and contributions that come from here on belong to that light path of the sample.
     void begin_joins(int light_path)

@@ -22,7 +22,7 @@ std::unique_ptr<Integrator> make(const World& world, const MovingCamera& camera,
     return std::make_unique<T>(world, camera, options, visibility);
 }
 
-/// What users see of an integrator, and how it is made.
+/// The description of an integrator for users, and its factory.
 struct Row {
     IntegratorInfo info;
     Factory make;
@@ -82,7 +82,7 @@ const Row& row_of(IntegratorKind kind)
                          [kind](const Row& row) { return row.info.kind == kind; });
 }
 
-/// What the rows tell.
+/// The descriptions alone.
 constexpr auto infos = [] {
     std::array<IntegratorInfo, table.size()> result{};
     std::transform(table.begin(), table.end(), result.begin(),

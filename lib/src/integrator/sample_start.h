@@ -9,7 +9,7 @@
 
 namespace bdpt {
 
-/// What the two ends of a path must have in common.
+/// The shutter time and the wavelength, which both ends of a path must share.
 struct SampleMoment {
     float time = 0.0f;
     Wavelength wavelength = Wavelength::green;
@@ -29,7 +29,7 @@ struct SampleMoment {
     return moment;
 }
 
-/// What a sample of a pixel is before any of its paths, the same for all integrators.
+/// A sample of a pixel before any of its paths, the same for all integrators.
 struct SampleStart {
     Sampler sampler;
     Vec2 raster;  ///< where its camera path goes through the film [pixels]

@@ -12,8 +12,8 @@
 namespace bdpt {
 namespace {
 
-/// Density at the neighbour of the end of `path` of being sampled from there, whose density of
-/// directions is given; none if there is no neighbour.
+/// Area density of the neighbour of the end of `path`, sampled from the end with the given density
+/// of directions; none without a neighbour.
 AreaPdf at_neighbor(SolidAnglePdf pdf, std::span<const PathVertex> path)
 {
     return path.size() < 2 ? AreaPdf{}
@@ -232,6 +232,7 @@ std::optional<Contribution> connect_to_lens(SampleContext& sample,
         return std::nullopt;
     }
     const PathVertex lens = lens_vertex(*to_lens);
+    // Light subpaths scatter by the adjoint BSDF (docs/mis.md, 5).
     const BsdfEval f = y.bsdf->eval(to_lens->wi, TransportMode::importance);
     const Rgb value = y.beta * f.f_cos * to_lens->weight;
     auto found = join(sample, light, std::span(&lens, 1), value, weigher, [&] {

@@ -12,7 +12,7 @@ namespace bdpt {
 // Five ways to complete a path; lens_crossing.h and merge.h have two more. They begin in
 // Phase::connect, and one that finds something ends in Phase::weigh.
 
-/// What one strategy found.
+/// The contribution of one strategy to one path.
 struct Contribution {
     Rgb unweighted{0.0f};
     float weight = 1.0f;     ///< by MIS

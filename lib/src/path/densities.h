@@ -12,8 +12,8 @@ struct LightDensities {
     AreaPdf to_next;  ///< x_1 sampled from x_0 by a light path, media left out
 };
 
-/// x_1 as next-event estimation chooses a light for it. The same whichever walk made the vertex:
-/// where light cannot pass, both sides of the path that join there are on one side.
+/// The receiver x_1 for which next-event estimation chooses a light. It does not depend on the walk
+/// that made the vertex: on opaque surfaces, both sides of a join lie on one side.
 [[nodiscard]] LightSampleContext light_sample_context(const PathVertex& x1);
 
 /// x_0 on light `x0.light`, sampled from x_1 by next-event estimation.

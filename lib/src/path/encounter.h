@@ -7,8 +7,8 @@
 
 namespace bdpt {
 
-/// What a ray comes to first: a point where a medium or a volume scatters it, a surface, or
-/// nothing.
+/// A segment sample: the first interaction along a ray, which is a scattering point in a medium or
+/// a volume, a surface, or nothing; and the segment's transmittance and densities.
 struct Encounter {
     /// With the surface alone, which `find_surface()` finds.
     template <typename FindSurface>
@@ -23,10 +23,10 @@ struct Encounter {
     Flight flight;                      ///< to where it ends
     MediumId around = MediumId::clear;  ///< of a point in a volume
 
-    /// Probability of getting there, or its density along the ray.
-    /// Volumes are left out: what they let through, their extinction, too.
+    /// Probability of reaching the surface, or density of scattering along the ray. Transmittance
+    /// and extinction of volumes are left out.
     [[nodiscard]] float probability() const { return flight.to(in_medium.has_value()); }
-    /// What a throughput is multiplied by.
+    /// The factor of the throughput: transmittance over probability.
     [[nodiscard]] Rgb weight() const
     {
         return flight.transmittance / probability() * volume_weight;
@@ -46,11 +46,11 @@ struct WalkPlace {
     int vertices = 1;
 };
 
-/// Follows the ray from `origin` in the unit direction `direction`.
+/// Samples a segment of the ray from `origin` in the unit direction `direction`.
 [[nodiscard]] Encounter follow(SampleContext& sample, const SegmentEnd& origin, Vec3 direction,
                                SegmentKey segment, const WalkPlace& place);
 
-/// What was met, if anything: the walk's next vertex.
+/// The interaction at the end of the segment, if there is one: the walk's next vertex.
 [[nodiscard]] inline SurfacePoint point_of(const SampleContext& sample, const Encounter& met,
                                            const SegmentEnd& origin, Vec3 direction,
                                            SegmentKey segment)

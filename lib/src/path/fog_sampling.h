@@ -53,7 +53,7 @@ public:
                          .pdf = choice->probability * pdf_distance(fog, choice->id, distance),
                          .u = choice->u};
     }
-    /// Of `sample` choosing this light and this distance [1/m].
+    /// Probability density of `sample` choosing this light and this distance [1/m].
     [[nodiscard]] float pdf(const FogSegment& fog, LightId light, float distance) const
     {
         return lights_.context_probability(light, receiver(fog), sampling_) *

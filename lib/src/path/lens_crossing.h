@@ -5,14 +5,15 @@
 
 namespace bdpt {
 
-// The strategies with t = 0: a light walk crosses a finite lens, which stops nobody, by chance.
+// Strategies with t = 0: the light subpath crosses a finite aperture by chance; the aperture does
+// not block it.
 
 /// Records in `path` if `step`, which ends after `free_distance` [m], crosses the lens before.
 /// `segment` is the one that the walk follows.
 void look_for_lens(const SampleContext& sample, const WalkStep& step, float free_distance,
                    SegmentKey segment, Subpath& path);
 
-/// t = 0: what a crossing of `light_path` brings.
+/// t = 0: the contribution of a crossing of the lens by `light_path`.
 [[nodiscard]] std::optional<Contribution> hit_lens(const SampleContext& sample,
                                                    const Subpath& light_path,
                                                    const LensCrossing& crossing,

@@ -19,8 +19,8 @@ struct LightPathCounts {
     bool shared;
     /// Vertices of the set are wanted after their splats.
     [[nodiscard]] bool kept() const { return shared && (merged || connections > 0.0); }
-    /// Of the set: light paths that lie side by side and have one time and one wavelength, so that
-    /// a camera path can be joined to all of them.
+    /// Size of a bundle of the set: neighbouring light paths with one time and one wavelength, so
+    /// that a camera path can be joined to all of them.
     int bundle = 1;
     std::int64_t bundles = 0;  ///< in the set
 };

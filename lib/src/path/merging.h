@@ -9,8 +9,8 @@
 
 namespace bdpt {
 
-/// How light and camera vertices merge in one sample index [Georgiev et al. 2012]: those closer
-/// than `radius` count as one point. By default none does.
+/// Photon mapping as a strategy [Georgiev et al. 2012]: in one sample index, light vertices
+/// (photons) closer to a camera vertex than `radius` merge with it. By default none does.
 struct Merging {
     Merging() = default;
     /// As the options say for sample `index` of a scene in that sphere; they have been checked.
@@ -20,10 +20,10 @@ struct Merging {
     float radius = 0.0f;       ///< [m]
     float light_paths = 0.0f;  ///< that each camera path may merge with
 
-    /// Of the disk in which vertices merge [m^2].
+    /// Area of the disk in which vertices merge [m^2].
     [[nodiscard]] float disk() const;
-    /// What stands for the number of samples in the density of a path that merges: times the area
-    /// density of light vertices at a point, it is how many of them are merged there [m^2].
+    /// The number of light paths times the area of the merge disk [m^2]: times the area density of
+    /// light vertices at a point, it is the expected number of vertices that merge there.
     [[nodiscard]] double weight() const
     {
         return static_cast<double>(light_paths) * static_cast<double>(disk());

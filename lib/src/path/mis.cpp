@@ -94,7 +94,8 @@ public:
     }
 
 private:
-    /// Of sampling x_i from both sides: `other` is the density from the side that has not.
+    /// Measure of sampling x_i from both sides: `other` is the density of the side that did not
+    /// sample it.
     void add_merge(std::size_t i, double ratio, AreaPdf other)
     {
         if (!path_.merge_weights.empty() && path_.merge_weights[i] > 0.0f) {

@@ -67,7 +67,7 @@ static_assert(std::is_trivially_copyable_v<PathVertex> && sizeof(PathVertex) <= 
     return end.ng == Vec3(0.0f) ? 1.0f : std::abs(dot(end.ng, w));
 }
 
-/// Of a walk that comes to the vertex over the flight, which is part of its density.
+/// Probability that a walk reaches the vertex along this segment; a factor of its density.
 [[nodiscard]] inline float probability_to(const PathVertex& vertex, const Flight& flight)
 {
     return flight.to(vertex.kind == VertexKind::medium);

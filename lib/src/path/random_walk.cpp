@@ -84,7 +84,8 @@ bool survives(Rgb& beta, Rgb full, float least, Sampler& sampler)
     return true;
 }
 
-/// What was met, in the place of the next vertex of `path`; null if that is nothing.
+/// The interaction at the end of the segment, stored as the next vertex of `path`; null if there is
+/// none.
 const SurfacePoint* shade(const SampleContext& sample, const WalkStep& step, const Encounter& met,
                           SegmentKey segment, Subpath& path)
 {
@@ -154,8 +155,8 @@ void walk(SampleContext& sample, const Walk& rules, WalkStep step, Subpath& path
                 .pdf = scattered->pdf_fwd,
                 .pdf_plane = std::nullopt,
                 .origin = &vertex.end};
-        // A pixel that sees a dark surface is dark: its paths are worth as much to it as others are
-        // to theirs.
+        // Russian roulette compares with the throughput after the first hit, so that dark surfaces
+        // are not starved.
         const bool seen_first = rules.from_camera() && path.size() == 2;
         full = seen_first ? step.beta : full;
         if (path.size() > rules.limits.rr_start &&

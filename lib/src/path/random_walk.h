@@ -7,7 +7,7 @@
 
 namespace bdpt {
 
-/// What limits a walk.
+/// The limits of a random walk.
 struct WalkLimits {
     int max_vertices = 1;  ///< of the subpath, the lens or the light included
     int rr_start = std::numeric_limits<int>::max();  ///< edges before Russian roulette

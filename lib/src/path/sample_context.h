@@ -11,7 +11,7 @@
 
 namespace bdpt {
 
-/// What belongs to one sample of a pixel and goes wherever its paths go.
+/// The state of one sample of a pixel, which all of its paths share.
 struct SampleContext {
     const World& world;
     const Camera& camera;  ///< as it is at `time`
@@ -30,7 +30,7 @@ struct SampleContext {
         key.time = time;
         return key;
     }
-    /// What is done from here on counts for `phase`.
+    /// From here on, time counts for `phase`.
     void enter(Phase phase) const noexcept
     {
         if (clock != nullptr) [[unlikely]] {

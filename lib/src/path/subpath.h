@@ -11,7 +11,8 @@
 
 namespace bdpt {
 
-/// A light walk met the lens, which stops nobody, on its way from its last vertex at that time.
+/// The light subpath crosses the aperture on its way from its last vertex at that time; the
+/// aperture does not block it.
 struct LensCrossing {
     int light_vertices = 0;  ///< of the walk before the lens
     PathVertex lens;

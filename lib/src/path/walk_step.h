@@ -18,7 +18,7 @@ struct WalkStep {
     /// Where the ray starts: the last vertex, or the edge of the scene.
     const SegmentEnd* origin = nullptr;
 
-    /// Of sampling a point at that squared distance, with that cosine there.
+    /// Density of sampling a point at that squared distance, with that cosine there.
     [[nodiscard]] AreaPdf pdf_of_point(float cosine, float distance_squared) const
     {
         return pdf_plane ? to_area(*pdf_plane, cosine) : to_area(pdf, cosine, distance_squared);

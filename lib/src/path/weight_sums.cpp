@@ -32,7 +32,7 @@ WeightSums::WeightSums(const World& world, const Camera& camera, const StrategyS
       light_samples_(raise(strategies.light_samples()))
 {}
 
-/// What the heuristic makes of a quotient of densities, or of counts.
+/// The heuristic's measure of a quotient of densities, or of counts.
 double WeightSums::raise(double ratio) const
 {
     return squares_ ? ratio * ratio : ratio;
@@ -40,7 +40,7 @@ double WeightSums::raise(double ratio) const
 
 // Below, every divisor is a density that a walk really sampled, so it is never zero.
 
-/// What strategies count for that join light paths (s >= 2) to the first `t` camera vertices.
+/// The measure of the strategies that join light paths (s >= 2) to the first `t` camera vertices.
 double WeightSums::camera_term(bool joins, std::size_t t) const
 {
     return !joins ? 0.0 : t == 1 ? splats_ : joins_;
@@ -54,7 +54,7 @@ double WeightSums::light_term(const PathVertex& x0, bool joins, std::size_t s) c
                     : joins_;
 }
 
-/// What merging at `vertex` counts for, relative to sampling it once, with the density `pdf`.
+/// The measure of merging at `vertex`, relative to sampling it once, with the density `pdf`.
 double WeightSums::merge_term(const PathVertex& vertex, AreaPdf pdf, bool joins) const
 {
     return joins && vertex.kind == VertexKind::surface

@@ -10,8 +10,8 @@ namespace bdpt {
 
 class Camera;
 
-/// What joining two subpaths adds to the densities that the walks have stored: those of the ends
-/// and of their neighbours, which now see a new vertex.
+/// The densities that a join of two subpaths adds to those of the walks: those of the ends and of
+/// their neighbours, which now see a new vertex.
 struct JoinDensities {
     AreaPdf light_at_camera_end;       ///< z_{t-1} sampled from y_{s-1}
     AreaPdf light_at_camera_neighbor;  ///< z_{t-2} sampled from z_{t-1}

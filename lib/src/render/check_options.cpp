@@ -43,7 +43,7 @@ void check_crop(const PixelRect& crop, int width, int height)
         throw Error(ErrorCode::usage,
                     "crop " + std::to_string(crop.x0) + "," + std::to_string(crop.y0) + "," +
                         std::to_string(crop.x1) + "," + std::to_string(crop.y1) +
-                        " is empty or not inside of the image of " + std::to_string(width) + "x" +
+                        " is empty or outside of the image of " + std::to_string(width) + "x" +
                         std::to_string(height) + " pixels");
     }
 }

@@ -14,15 +14,15 @@
 
 namespace bdpt {
 
-/// The bodies of a scene that light passes through, and what lies within them. Found by rays when
-/// the scene is built: a point is in a body when a ray from it leaves the body once more often than
-/// it enters. Of three rays two decide.
+/// Nested dielectrics: the bodies of a scene that light passes through, and what lies within them.
+/// They are found by rays when the scene is built: a point is in a body when a ray from it leaves
+/// the body once more often than it enters. Of three rays two decide.
 class EnclosingVolumes {
 public:
-    /// Of how many bodies it is worth looking for what lies in what: the work may grow with the
-    /// square of their number.
+    /// The most bodies whose nesting is examined: the work may grow with the square of their
+    /// number.
     static constexpr std::size_t most = 1024;
-    /// How many may lie one in the other: the work grows with that for each of them.
+    /// The most bodies that may lie one in the other: the work grows with that for each of them.
     static constexpr std::size_t max_depth = 64;
 
     /// `instances` are those whose meshes bound bodies, `most` of them. All else must outlive this,

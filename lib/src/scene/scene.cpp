@@ -81,7 +81,7 @@ Scene Scene::with(MaterialId id, MaterialDesc material) const
     SharedSceneDesc desc = description();
     const auto number = static_cast<std::size_t>(id);
     if (number >= desc.materials.size()) {
-        fail("material ", number, ", but there are ", desc.materials.size(), " materials");
+        fail("material ", number, ", but the number of materials is ", desc.materials.size());
     }
     desc.materials = replaced(desc.materials, number, std::move(material));
     return edited(std::move(desc));

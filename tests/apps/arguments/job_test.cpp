@@ -196,7 +196,7 @@ TEST_CASE("mistakes in a job are told with their place", "[job]")
     };
     refused(R"({"bdpt_job": 1, "file": "../cube.gltf", "output": ["../o.exr", {}]})",
             "/output/1: must be a text");
-    refused("[]", "is no job");
+    refused("[]", "is not a job");
     refused("{}", "has no \"bdpt_job\"");
     refused(R"({"bdpt_job": 2, "file": "x.gltf"})", "/bdpt_job: is format 2");
     refused(R"({"bdpt_job": "1"})", "/bdpt_job: must be an integer");

@@ -64,14 +64,14 @@ def tests(folder):
     yield "there is a checkpoint while there is room", render.checkpoint('"event":"part"')
     before = part.read_bytes()
     filler = fill(folder)
-    yield "a full disk is a warning, with what happens next", render.checkpoint("No space left on device; the render goes on")
+    yield "a full disk is a warning, with what happens next", render.checkpoint("No space left on device; the render continues")
     yield "the checkpoint before it stays", part.read_bytes() == before
     yield "nothing half-written is left", names() == {"a.part.exr", "filler"}
     filler.unlink()
     yield "what was missed comes with the next one", render.checkpoint('"event":"part"')
     before = part.read_bytes()
     filler = fill(folder)
-    yield "a disk that is full again is told of again", render.checkpoint("No space left on device; the render goes on")
+    yield "a disk that is full again is told of again", render.checkpoint("No space left on device; the render continues")
     filler.unlink()
     yield "what was missed is no error when the last write succeeds", render.stop() == 143
     yield "and it has more samples", part.read_bytes() != before

@@ -112,7 +112,7 @@ TEST_CASE("what a part does not fit is refused by name, and --restart replaces i
 
     write_text(part, before.substr(0, before.size() / 2));
     check_refused(run(render_words(folder, {"--part", part, "--spp", "3", "--quiet"})), 4,
-                  {part + ": is no whole part of a render", "--restart"});
+                  {part + ": is not a part of a render", "--restart"});
     render(folder, {"--part", part, "--spp", "3", "--restart"});
     CHECK(read_exr(part).integer("bdpt.spp") == 3);
     // Also when what is there is sound, and ahead, and of another render.
@@ -266,14 +266,14 @@ TEST_CASE("a full disk costs a checkpoint, and the exit code only at the end", "
                .file_size = before.size() / 2});
     command.wait_for("\"progress\"");
     command.send(SIGUSR1);
-    command.wait_for("the render goes on");
+    command.wait_for("the render continues");
     CHECK(read_text(part) == before);
     command.wait_for("\"progress\"");
     command.send(SIGTERM);
     const Outcome outcome = command.finish();
     CAPTURE(outcome.out, outcome.err);
     CHECK(outcome.exit_code == 6);
-    CHECK(outcome.out.find("File too large; the render goes on") != std::string::npos);
+    CHECK(outcome.out.find("File too large; the render continues") != std::string::npos);
     CHECK(read_text(part) == before);
     CHECK(folder.names() == std::set<std::string>{"cube.bin", "cube.gltf", "a.part.exr"});
 }

@@ -256,7 +256,7 @@ TEST_CASE("words about plans of frames that make no sense are refused", "[plan]"
 
     checked(plan(folder, what, 3, place));
     checked(merge(folder, {"-o", path(folder, "one.exr")}), 2,
-            {"one.exr: expected #### in the name, as the plan has 3 images"});
+            {"one.exr: expected #### in the name, because the plan has 3 images"});
     checked(
         run({"render", "--plan", path(folder, "job/plan.json"), "--task", "0", "--frames", "1:1"}),
         2, {"--plan", "\"--frames\""});

@@ -70,7 +70,7 @@ TEST_CASE("inspect refuses pixels, vertices and files that there are not", "[ins
     refused({}, "--pixel");
     refused({"--pixel", "8"}, "--pixel \"8\"");
     refused({"--pixel", "8,-1"}, "--pixel");
-    refused({"--pixel", "16,0"}, "pixel 16,0 is not in the image");
+    refused({"--pixel", "16,0"}, "pixel 16,0 is outside of the image");
     refused({"--pixel", "0,0", "-o", "a.jpg"}, "a.jpg");
     refused({"--pixel", "0,0", "--width", "33"}, "--width \"33\"");
     refused({"--pixel", "8,8", "--vertex", "900", "-o", (folder / "a.png").string()}, "vertex 900");

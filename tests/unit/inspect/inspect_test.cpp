@@ -109,7 +109,8 @@ TEST_CASE("directions of a floor under a sky are those of the closed form", "[in
     CHECK(maps.incident.at(32, 4).g == Approx(3.0f));
     CHECK(maps.scattering.at(32, 28).g == 0.0f);
     CHECK(maps.light_pdf.at(32, 4).g == Approx(0.25f / exact_pi).epsilon(1e-3));
-    CHECK(maps.bsdf_pdf.at(32, 1).g == Approx(std::cos(1.5f * exact_pi / 32.0f) / exact_pi).epsilon(0.01));
+    CHECK(maps.bsdf_pdf.at(32, 1).g ==
+          Approx(std::cos(1.5f * exact_pi / 32.0f) / exact_pi).epsilon(0.01));
 }
 
 TEST_CASE("light sampling of a lamp that nothing hides has a density of one in all", "[inspect]")
@@ -140,7 +141,7 @@ TEST_CASE("what cannot be inspected is refused", "[inspect]")
         }
     };
     const RenderOptions options = options_of(IntegratorKind::mis);
-    fails(options, {.x = size, .y = 0}, 1, 8, "pixel 16,0 is not in the image of 16x16");
+    fails(options, {.x = size, .y = 0}, 1, 8, "pixel 16,0 is outside of the image of 16x16");
     fails(options, {.x = 0, .y = -1}, 1, 8, "pixel 0,-1");
     fails(options, {.x = 3, .y = 11}, 100, 8, "vertex 100");
     fails(options, {.x = 3, .y = 11}, 0, 8, "vertex 0");

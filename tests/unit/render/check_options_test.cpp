@@ -62,7 +62,7 @@ TEST_CASE("options out of range are refused by name and value", "[render]")
     }
     CHECK(refusal([](auto& o) {
               o.film.crop = PixelRect{9, 8, 7, 6};
-          }) == "crop 9,8,7,6 is empty or not inside of the image of 1280x720 pixels");
+          }) == "crop 9,8,7,6 is empty or outside of the image of 1280x720 pixels");
     CHECK(refusal([](auto& o) { o.film.crop = PixelRect{0, 0, 1280, 720}; }).empty());
     for (const float radius : {0.0f, -1.0f, 17.0f, std::numeric_limits<float>::quiet_NaN()}) {
         CHECK(refusal([&](auto& o) { o.film.filter.radius = radius; }).find("filter radius is ") ==

@@ -430,9 +430,9 @@ TEST_CASE("edits that no scene can have are refused as when it is built", "[edit
         {of_material("lamp", [](auto& m) { m.emission.x = 1e38f; }), "instance 4: triangle 0"},
         {of_material("floor",
                      [](auto& m) { m.base_color_texture = TextureRef{.image = ImageId{9}}; }),
-         "material 0 \"floor\": image 9, but there are 2 images"},
+         "material 0 \"floor\": image 9, but the number of images is 2"},
         {[](SharedSceneDesc& d) { change(d.materials, [](auto& list) { list.pop_back(); }); },
-         "instance 9 \"right\": material 9, but there are 9 materials"},
+         "instance 9 \"right\": material 9, but the number of materials is 9"},
         {of_instances([](auto& list) { list[0].world_from_object = Mat4(0.0f); }),
          "instance 0 \"floor\": transform has no inverse"},
         {of_instances([](auto& list) { list[0].world_from_object[3].x = 1e20f; }),
@@ -448,7 +448,7 @@ TEST_CASE("edits that no scene can have are refused as when it is built", "[edit
         {of_lights([](auto& list) { list.push_back(list.back()); }),
          "there are 2 environment lights"},
         {of_lights([](auto& list) { list.emplace_back(ProfileLightDesc{}); }),
-         "profile light 2: profile 0, but there are 0 profiles"},
+         "profile light 2: profile 0, but the number of profiles is 0"},
         {[](SharedSceneDesc& d) { d.fog = MediumDesc{.extinction = Rgb(-1.0f)}; }, "fog: "},
         {[](SharedSceneDesc& d) {
              change(d.images, [](auto& images) { images[1].bytes.pop_back(); });
@@ -472,7 +472,7 @@ TEST_CASE("edits that no scene can have are refused as when it is built", "[edit
           "the scene has 0 materials with the name \"flor\", not one");
     CHECK(message_of([&] { (void)scene.with("", InstanceDesc{}); }).find("the scene has 7 ") == 0);
     CHECK(message_of([&] { (void)scene.with(MaterialId{40}, any); }) ==
-          "material 40, but there are 10 materials");
+          "material 40, but the number of materials is 10");
     CHECK(rendered(scene, IntegratorKind::mis).film.develop().pixels ==
           before.film.develop().pixels);
 }

@@ -63,11 +63,11 @@ TEST_CASE("a good scene is accepted and counted", "[validate]")
 
 TEST_CASE("meshes: indices, attribute counts and numbers", "[validate]")
 {
-    check_refused("mesh 0 \"chair\": triangle 1 has index 912, but there are 4 vertices",
+    check_refused("mesh 0 \"chair\": triangle 1 has index 912, but the number of vertices is 4",
                   [](SceneDesc& d) { d.meshes[0].triangles[1].y = 912; });
     check_refused("mesh 0 \"chair\": positions 2 is not finite",
                   [](SceneDesc& d) { d.meshes[0].positions[2].y = nan_value; });
-    check_refused("3 normals, but there are 4 vertices",
+    check_refused("3 normals, but the number of vertices is 4",
                   [](SceneDesc& d) { d.meshes[0].normals.assign(3, Vec3(1.0f)); });
     check_refused("texture coordinates (set 1) 0 is not finite",
                   [](SceneDesc& d) { d.meshes[0].uvs[1].assign(4, Vec2(nan_value)); });
@@ -75,9 +75,9 @@ TEST_CASE("meshes: indices, attribute counts and numbers", "[validate]")
 
 TEST_CASE("instances: references and transforms", "[validate]")
 {
-    check_refused("instance 0: mesh 7, but there are 1 meshes",
+    check_refused("instance 0: mesh 7, but the number of meshes is 1",
                   [](SceneDesc& d) { d.instances[0].mesh = MeshId{7}; });
-    check_refused("instance 0: material 9, but there are 1 materials",
+    check_refused("instance 0: material 9, but the number of materials is 1",
                   [](SceneDesc& d) { d.instances[0].material = MaterialId{9}; });
     check_refused("instance 0: transform has no inverse",
                   [](SceneDesc& d) { d.instances[0].world_from_object[1] = Vec4(0.0f); });
@@ -134,12 +134,12 @@ TEST_CASE("materials: ranges and textures", "[validate]")
                   [](SceneDesc& d) { d.materials[0].iridescence.thickness_minimum = -5.0f; });
     check_refused("material 0: diffuse transmission is 2",
                   [](SceneDesc& d) { d.materials[0].diffuse_transmission.factor = 2.0f; });
-    check_refused("material 0: image 4, but there are 1 images", [](SceneDesc& d) {
+    check_refused("material 0: image 4, but the number of images is 1", [](SceneDesc& d) {
         d.materials[0].iridescence.thickness_texture = TextureRef{.image = ImageId{4}};
     });
     check_refused("attenuation distance is 0",
                   [](SceneDesc& d) { d.materials[0].attenuation_distance = 0.0f; });
-    check_refused("material 0: image 4, but there are 1 images", [](SceneDesc& d) {
+    check_refused("material 0: image 4, but the number of images is 1", [](SceneDesc& d) {
         d.materials[0].normal_texture = TextureRef{.image = ImageId{4}};
     });
     check_refused("texture coordinate set 2", [](SceneDesc& d) {
@@ -260,7 +260,7 @@ TEST_CASE("light profiles", "[validate]")
                   with([](LightProfile& p, ProfileLightDesc&) { p.azimuths[1] = 7.0f; }));
     check_refused("light profile 0: intensity is -1",
                   with([](LightProfile& p, ProfileLightDesc&) { p.intensities[2] = -1.0f; }));
-    check_refused("profile light 2 \"lantern\": profile 1, but there are 1 profiles",
+    check_refused("profile light 2 \"lantern\": profile 1, but the number of profiles is 1",
                   with([](LightProfile&, ProfileLightDesc& l) { l.profile = ProfileId{1}; }));
     check_refused("profile light 2 \"lantern\": axes are not orthonormal",
                   with([](LightProfile&, ProfileLightDesc& l) { l.world_from_light[1].x = 0.1f; }));

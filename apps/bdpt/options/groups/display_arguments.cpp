@@ -100,7 +100,7 @@ void add_display_options(OptionList& options, DisplayArguments& display)
         "--orbit and --frames, and under the default sky and the studio; else auto",
         display.exposure,
         parsed_by(parse_exposure,
-                  "EV from -100 to 100, auto or light, or one of these with EV behind it like "
+                  "EV from -100 to 100, auto or light, or one of these plus or minus EV, like "
                   "light-0.5"));
     exposure.info.may_be_number = true;
     exposure.uses.plan_render = true;    // the light is metered where the scene is

@@ -84,16 +84,16 @@ std::optional<PixelRect> parse_crop(std::string_view text)
 ValueType<FilterOptions> filter_type()
 {
     return parsed_by([](const std::string& text) { return parse_filter(text); },
-                     "box, tent, gaussian or blackman-harris, and perhaps a radius from 0.01 to "
-                     "16, like gaussian:2");
+                     "box, tent, gaussian or blackman-harris, optionally with a radius from 0.01 "
+                     "to 16, like gaussian:2");
 }
 
 ValueType<AovSet> aov_type()
 {
     return parsed_by(
         [](const std::string& text) { return parse_aovs(text); },
-        "albedo, normal, depth, position, samples, variance, alpha, opacity, object, material "
-        "or some of them, with commas between");
+        "a comma-separated list of albedo, normal, depth, position, samples, variance, alpha, "
+        "opacity, object and material");
 }
 
 ValueType<PixelRect> crop_type()

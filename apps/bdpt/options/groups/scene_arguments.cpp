@@ -42,8 +42,7 @@ void add_scene_options(OptionList& options, io::GltfOptions& scene,
                 "relative to it",
                 scene.shutter,
                 parsed_by([](const std::string& text) { return parse_shutter(text); },
-                          "seconds that are not negative, or OPEN,CLOSE with OPEN not after "
-                          "CLOSE"));
+                          "seconds from 0, or OPEN,CLOSE with OPEN not after CLOSE"));
     Option& library =
         options.add("--ktx-library", "FILE|DIR",
                     "libktx 4, which decodes KTX2 textures (KHR_texture_basisu), a file or its "

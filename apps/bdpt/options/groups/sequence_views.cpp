@@ -77,13 +77,13 @@ void check_patterns(const RenderArguments& arguments)
     const bool many = sequence.frames && numbers_of(*sequence.frames).size() > 1;
     for (const fs::path& file : files_of(arguments)) {
         if (many && !takes_number(file)) {
-            throw OptionError(fmt::format(
-                "{}: expected #### in the name, as there are several frames", file.string()));
+            throw OptionError(
+                fmt::format("{}: several frames need #### in the name", file.string()));
         }
         static_cast<void>(with_number(file, 0));
         if (sequence.cameras == SequenceCameras::all && !takes_camera(file)) {
-            throw OptionError(fmt::format("{}: expected {{camera}} in the name, for --cameras all",
-                                          file.string()));
+            throw OptionError(
+                fmt::format("{}: --cameras all needs {{camera}} in the name", file.string()));
         }
     }
 }

@@ -39,7 +39,7 @@ void add_strategy_file_option(OptionList& options, StrategyFiles& strategies, st
         return StrategyFiles::named(text);
     };
     Option& option = options.add("--strategies", "FILE", std::move(help), strategies,
-                                 parsed_by(parse, "a file that is named .exr"));
+                                 parsed_by(parse, "a file name that ends in .exr"));
     option.uses = {};
     option.info.is_path = true;
 }

@@ -163,7 +163,7 @@ std::optional<std::vector<Strategy>> parse_strategies(std::string_view text)
 ValueType<std::vector<Strategy>> strategies_type()
 {
     return parsed_by([](const std::string& text) { return parse_strategies(text); },
-                     "strategies sStT of at least two vertices, with commas between, like "
+                     "a comma-separated list of strategies sStT with at least two vertices, like "
                      "s2t1,s0t3");
 }
 

@@ -55,9 +55,8 @@ void check_not_read(std::span<const fs::path> outputs, const FileSet& inputs)
 {
     for (const fs::path& output : outputs) {
         if (inputs.contains(output)) {
-            throw Error(
-                ErrorCode::usage,
-                fmt::format("{}: is an input and cannot be the output too", output.string()));
+            throw Error(ErrorCode::usage,
+                        fmt::format("{}: cannot be both an input and an output", output.string()));
         }
     }
 }
@@ -68,11 +67,9 @@ void check_outputs(std::span<const fs::path> outputs, const FileSet& inputs)
     FileSet known;
     for (const fs::path& output : outputs) {
         if (!type_of(output)) {
-            throw Error(
-                ErrorCode::usage,
-                fmt::format(
-                    "{}: unknown type of output file: name it .exr, .hdr, .png, .jpg or .webp",
-                    output.string()));
+            throw Error(ErrorCode::usage, fmt::format("{}: unknown type of image: the name must "
+                                                      "end in .exr, .hdr, .png, .jpg or .webp",
+                                                      output.string()));
         }
         if (!known.add(output)) {
             throw Error(ErrorCode::usage,

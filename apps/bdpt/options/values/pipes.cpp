@@ -32,7 +32,7 @@ fs::path written_file(const fs::path& output)
 void check_pipes(std::span<const fs::path> inputs, std::span<const fs::path> outputs, Format format)
 {
     if (std::count(inputs.begin(), inputs.end(), "-") > 1) {
-        throw OptionError("-: the standard input cannot be two files");
+        throw OptionError("-: the standard input can be used only once");
     }
     if (format == Format::json && use_standard_output(outputs)) {
         throw OptionError("--json: its lines go to the standard output, where another output goes");

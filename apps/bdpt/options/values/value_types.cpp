@@ -184,7 +184,7 @@ ValueType<SampleRange> sample_range()
 ValueType<double> percent(double most)
 {
     ValueType<double> type =
-        number_above(0.0, most, fmt::format("more than 0 and at most {:g} percent", most));
+        number_above(0.0, most, fmt::format("a percentage above 0 and up to {:g}", most));
     type.parse = [parse = std::move(type.parse)](const std::string& text) {
         const std::optional<double> value = parse(text);
         return value ? std::optional(*value / 100.0) : std::nullopt;
@@ -195,12 +195,12 @@ ValueType<double> percent(double most)
 ValueType<Rgb> extinction()
 {
     constexpr float most = 1e6f;  // [1/m]
-    return color_up_to(most, "a number per metre from 0 to 1000000, or three");
+    return color_up_to(most, "one or three numbers from 0 to 1000000 [1/m]");
 }
 
 ValueType<Rgb> albedo()
 {
-    return color_up_to(1.0f, "a number from 0 to 1, or three");
+    return color_up_to(1.0f, "one or three numbers from 0 to 1");
 }
 
 ValueType<float> anisotropy()

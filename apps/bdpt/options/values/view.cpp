@@ -86,8 +86,8 @@ CameraDesc apply(const ViewOverrides& overrides, const CameraDesc& camera,
     const Vec3 forward = *goal - eye;
     if (!(glm::dot(forward, forward) > 0.0f)) {
         throw Error(ErrorCode::usage,
-                    fmt::format("the camera at {},{},{} cannot look at where it stands; give other "
-                                "values to --from and --look-at",
+                    fmt::format("the camera at {},{},{} cannot look at its own place: --from and "
+                                "--look-at must differ",
                                 eye.x, eye.y, eye.z));
     }
     result.world_from_camera = look_at(eye, *goal);

@@ -86,8 +86,7 @@ void PartKeeper::after_pass(const RenderPart& part, Checkpoint checkpoint)
         }
         last_ = Clock::now();
         interval_ *= interval_after_failure;
-        console_.warning(fmt::format("{}; the render goes on, and so it will be tried again in "
-                                     "{:.0f} minutes",
+        console_.warning(fmt::format("{}; the render continues, and tries again in {:.0f} minutes",
                                      error.what(), interval_.count() / 60.0),
                          Repeat::always);
     }

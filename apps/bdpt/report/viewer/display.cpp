@@ -155,7 +155,7 @@ void Display::warn(const std::string& problem)
 {
     if (!std::exchange(warned_, true)) {
         console_.warning(fmt::format(
-            "--display {}:{}: {}; the render goes on, and a viewer that comes will show it",
+            "--display {}:{}: {}; the render continues, and a viewer that starts later shows it",
             address_.host, address_.port, problem));
     }
 }

@@ -92,9 +92,9 @@ private:
         std::vector<std::uint64_t> AovFilm::*count = nullptr;
     };
     [[nodiscard]] std::vector<Plane> planes() const;
-    /// Of a pixel in the region.
+    /// The index of a pixel in the region.
     [[nodiscard]] std::size_t index(int x, int y) const;
-    /// Of the shadow in a pixel, of as many samples.
+    /// The opacity of the shadow in a pixel of that many samples.
     [[nodiscard]] double shadow_opacity(std::size_t pixel, double samples) const;
 
     PixelRect region_;

@@ -36,7 +36,7 @@ struct FilmDefects {
 /// Whether a film takes contributions of light paths to any pixel.
 enum class SplatImage : std::uint8_t { absent, present };
 
-/// What a film has room for.
+/// The size and the buffers of a film.
 struct FilmLayout {
     int width = 0;  ///< of the whole image [pixels]
     int height = 0;
@@ -47,22 +47,22 @@ struct FilmLayout {
     [[nodiscard]] bool operator==(const FilmLayout&) const = default;
 };
 
-/// What a film knows beside the sums of pixels: for files.
+/// The totals of a film that files keep beside the sums of its pixels.
 struct FilmTotals {
     FilmDefects defects;
     std::array<ExactSum::Words, 3> clamped{};  ///< radiance that clamping took, summed up
     ExactSum::Words clamped_contributions{};
 };
 
-/// What clamping took from the estimate.
+/// The radiance that clamping removed from the estimate.
 struct ClampLoss {
     std::uint64_t contributions = 0;  ///< that were scaled down
     Rgb radiance{0.0f};               ///< on average over the pixels of the region [nit]
 };
 
-/// What a render measured: for each pixel the sum of its own camera samples and the sum of what
-/// light paths splatted on it, each in two independent halves (even and odd sample index). All
-/// positions are those of the whole image, also when the film holds only a part of it.
+/// The sums of a render: for each pixel the sum of its own camera samples and the sum of the splats
+/// of light paths, each in two independent halves (even and odd sample index). All positions are
+/// those of the whole image, also when the film holds only a part of it.
 class BDPT_EXPORT Film {
 public:
     Film() = default;
@@ -72,7 +72,7 @@ public:
 
     [[nodiscard]] const FilmLayout& layout() const { return layout_; }
     [[nodiscard]] const PixelRect& region() const { return layout_.region; }
-    /// Of what the film holds [pixels].
+    /// The size of the film's region [pixels].
     [[nodiscard]] int width() const { return region().width(); }
     [[nodiscard]] int height() const { return region().height(); }
     /// Samples a pixel (and light paths a pixel) that the sums hold.
@@ -134,7 +134,7 @@ private:
         [[nodiscard]] bool operator==(const Pixel&) const = default;
     };
 
-    /// What clamping took from a row of pixels: far enough from what other threads add.
+    /// The loss by clamping in a row of pixels, on cache lines of its own.
     struct RowLoss {
         Pixel light;
         ExactSum contributions;

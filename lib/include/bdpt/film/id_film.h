@@ -18,13 +18,13 @@
 
 namespace bdpt {
 
-/// What ids are of.
+/// The kinds of things that have ids.
 enum class IdKind : std::uint8_t { object, material };
 
 /// All of them; what there is of each kind has this order.
 inline constexpr std::array id_kinds{IdKind::object, IdKind::material};
 
-/// What asks for each kind.
+/// The AOV of each kind.
 inline constexpr std::array id_aovs{Aov::object, Aov::material};
 
 /// The names that may be met, of each kind, in the order of their bytes, each once.
@@ -67,7 +67,7 @@ public:
     /// met them (g, a). The greatest share comes first; of equal ones the lesser id. `film` is that
     /// of the same samples; throws `Error` (usage) when its region is another.
     [[nodiscard]] std::vector<Layer> develop(const Film& film) const;
-    /// Of these layers, with the names that no ray has met, too.
+    /// The manifests of these layers. They include names that no ray has met.
     [[nodiscard]] std::vector<IdManifest> manifests() const;
 
     // For files: a plane for each rank of a kind, with the rank-th id (high) of every pixel, in the

@@ -8,9 +8,9 @@
 
 namespace bdpt {
 
-/// What stands for a name in an image: the bits of a float that is neither zero, denormal, infinite
-/// nor NaN [Friedman and Jones 2015, "Fully automatic ID mattes with support for motion blur and
-/// transparency"; Cryptomatte specification 1.2.0, "ID generation"].
+/// The hash of a name, which an image stores as a float: its bits are neither zero, denormal,
+/// infinite nor NaN [Friedman and Jones 2015, "Fully automatic ID mattes with support for motion
+/// blur and transparency"; Cryptomatte specification 1.2.0, "ID generation"].
 enum class NameId : std::uint32_t {
     none = 0,  ///< of no name: where no surface is
 };
@@ -36,7 +36,7 @@ struct NamedId {
     [[nodiscard]] bool operator==(const NamedId&) const = default;
 };
 
-/// What a surface belongs to.
+/// The object and the material of a surface.
 struct SurfaceIds {
     NameId object = NameId::none;
     NameId material = NameId::none;

@@ -16,7 +16,7 @@
 
 namespace bdpt {
 
-/// What one strategy brings to a pixel, divided by the number of its samples [nit].
+/// The contribution of one strategy to a pixel, divided by the number of its samples [nit].
 struct StrategyShare {
     Rgb weighted{0.0f};    ///< its share by MIS
     Rgb unweighted{0.0f};  ///< as if it were the only one

@@ -28,9 +28,9 @@ struct LightMeterOptions {
                                                           const CameraDesc& camera,
                                                           const LightMeterOptions& options = {});
 
-/// What most of the brighter half of `cards` have [nit]: the mean between their median and their
-/// highest twentieth. Nooks that light hardly enters do not count, nor do a few that are next to a
-/// lamp. 0 without cards.
+/// The level of the brighter `cards` [nit]: the mean of those between the median and the highest
+/// twentieth. Nooks that light hardly enters do not count, nor do a few cards next to a lamp. 0
+/// without cards.
 [[nodiscard]] BDPT_EXPORT double light_level(std::span<const double> cards);
 
 /// The exposure [EV] that gives a card of `light_level` the value 1, from which tone curves make

@@ -29,7 +29,7 @@ public:
     ContentHasher& operator=(const ContentHasher&) = delete;
 
     void add(const void* bytes, std::size_t size);
-    /// Of all bytes so far.
+    /// The hash of all bytes so far.
     [[nodiscard]] ContentHash hash() const;
 
 private:

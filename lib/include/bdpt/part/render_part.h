@@ -11,9 +11,9 @@
 
 namespace bdpt {
 
-/// What some of the samples of a render brought, and which samples they are. Parts of one render
-/// add up to its other samples', in any order, to the bit: they are checkpoints, what a machine of
-/// a farm gives back, and the whole.
+/// The sums of some samples of a render, and the set of these samples. Parts of one render add up,
+/// in any order, to the bit: a part is a checkpoint, the result of one machine of a farm, or the
+/// whole render.
 struct RenderPart {
     Identity identity;  ///< of the render
     SampleSet samples;  ///< that the films hold, of every pixel

@@ -38,7 +38,7 @@ public:
     }
     /// Samples per round.
     [[nodiscard]] float rate(int x, int y) const { return rate_of(exponent(x, y)); }
-    /// Of the whole image, exact but for one rounding.
+    /// The mean rate of the whole image, exact but for one rounding.
     [[nodiscard]] double mean() const { return mean_; }
     [[nodiscard]] float least() const;
     [[nodiscard]] float greatest() const;

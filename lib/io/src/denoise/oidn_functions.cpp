@@ -63,7 +63,7 @@ OidnFunctions open_oidn(const std::optional<fs::path>& library)
     if (module == nullptr) {
         throw Error(
             ErrorCode::unsupported,
-            fmt::format("there is no denoiser: {}. Open Image Denoise 2 is at "
+            fmt::format("no denoiser was found: {}. Open Image Denoise 2 is at "
                         "https://www.openimagedenoise.org, and in the Python package pyoidn",
                         dlerror()));
     }

@@ -61,7 +61,7 @@ KtxFunctions open_ktx(const std::string& library)
         return functions;
     }
     throw Error(ErrorCode::unsupported,
-                "there is no libktx: " + reason +
+                "libktx was not found: " + reason +
                     ". libktx 4 is part of https://github.com/KhronosGroup/KTX-Software");
 }
 

@@ -136,7 +136,8 @@ void OutputFile::read(std::uint64_t position, std::span<char> bytes) const
             continue;
         }
         if (count <= 0) {
-            refuse_output(name_, count < 0 ? error_text(errno) : "what was written is not there");
+            refuse_output(name_,
+                          count < 0 ? error_text(errno) : "the written data cannot be read back");
         }
         position += static_cast<std::uint64_t>(count);
         bytes = bytes.subspan(static_cast<std::size_t>(count));

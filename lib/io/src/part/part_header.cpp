@@ -296,8 +296,7 @@ PartHeader parse_part_header(std::string_view text)
     try {
         return read(JsonValue::parse(text));
     } catch (const Error& error) {
-        throw Error(error.code(),
-                    std::string("what it says about itself is not of a part: ") + error.what());
+        throw Error(error.code(), std::string("its header is not that of a part: ") + error.what());
     }
 }
 

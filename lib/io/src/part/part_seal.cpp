@@ -94,8 +94,7 @@ void SealedFile::check()
 {
     const auto fail = [] {
         throw Error(ErrorCode::invalid_input,
-                    "is no whole part of a render: it was cut off or changed, or it is something "
-                    "else");
+                    "is not a part of a render, or was cut off or changed");
     };
     if (size_ < seal_size) {
         fail();

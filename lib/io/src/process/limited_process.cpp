@@ -48,7 +48,7 @@ void write_output(const void* bytes, std::size_t size)
     while (size > 0) {
         const ssize_t count = ::write(STDOUT_FILENO, next, size);
         if (count < 0 && errno != EINTR) {
-            throw Error(ErrorCode::output, "nobody reads what it writes");
+            throw Error(ErrorCode::output, "its output has no reader");
         }
         next += std::max<ssize_t>(count, 0);
         size -= static_cast<std::size_t>(std::max<ssize_t>(count, 0));

@@ -34,7 +34,7 @@ private:
     /// The storage of one thread.
     struct Scratch;
 
-    /// Of each camera path, where it has light paths of its own.
+    /// The number of light paths of each camera path, if it has its own.
     [[nodiscard]] int own_light_paths() const;
     void trace_light_path(SampleContext& sample, Scratch& scratch) const;
     void add_sample(int x, int y, const ScheduledSample& scheduled, PhaseClock* clock,

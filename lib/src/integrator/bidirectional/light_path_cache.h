@@ -30,8 +30,8 @@ public:
     /// `options` have been checked.
     LightPathCache(const LightPathCounts& counts, const RenderOptions& options);
 
-    /// What the mean number of vertices of light paths hardly exceeds: Russian roulette ends most
-    /// paths soon after it begins. Without it, that of the longest.
+    /// A bound that the mean number of vertices of light paths hardly exceeds: Russian roulette
+    /// ends most paths soon after it begins. Without roulette, the maximum.
     [[nodiscard]] static int usual_vertices(const RenderOptions& options);
     /// Bytes that it takes with light paths of so many vertices in the mean.
     [[nodiscard]] static std::uint64_t bytes(const LightPathCounts& counts, double mean_vertices);
@@ -52,10 +52,10 @@ public:
     void add_path(std::int64_t chunk, std::span<const PathVertex> path);
     void end_chunk(std::int64_t chunk);
 
-    /// What the camera path of `sample` of pixel (x, y) is joined to: evenly spread over the image,
-    /// and far apart for neighbours; light paths of the same bundle in all rounds of the pixel,
-    /// which are as well spread over the rounds as a pixel's own, and of different ones for its
-    /// samples within a round.
+    /// The light paths to which the camera path of `sample` of pixel (x, y) is joined. They are
+    /// evenly spread over the image, and far apart for neighbours. All rounds of the pixel take
+    /// light paths of the same bundle, which are as well spread over the rounds as a pixel's own;
+    /// samples within a round take different bundles.
     [[nodiscard]] Choice choose(int x, int y, const ScheduledSample& sample) const;
     /// Asks memory for the light paths of the choice, some time before they are needed: they are
     /// anywhere in more of it than a processor's cache holds.

@@ -30,9 +30,8 @@ public:
     /// That a vertex takes at most: there are less than two buckets for each.
     static constexpr std::size_t bytes_of_vertex = sizeof(Entry) + 2 * sizeof(std::size_t);
 
-    /// Of all vertices in `cache` that others can merge with, which must stay where they are; those
-    /// not farther away than `radius` are near. Points are measured from `center`, for their
-    /// digits.
+    /// Sorts all vertices in `cache` that can merge into cells; they must stay in place. Vertices
+    /// at most `radius` apart are near. Coordinates are relative to `center`, for their precision.
     void build(const LightPathCache& cache, Vec3 center, float radius);
 
     /// Calls `visit` with the light paths up to each vertex near `p`, in an order that depends on

@@ -10,10 +10,10 @@
 
 namespace bdpt {
 
-/// Path tracing from the camera. `pt` finds lights by BSDF sampling alone, but for delta lights,
-/// which no such sample can hit; `mis` weighs BSDF sampling and light sampling [Veach 1997, ch. 9];
-/// `nee` takes light sampling and drops what BSDF sampling finds that it could have found. In fog
-/// both choose points for the lights, too (`FogSampling`).
+/// Unidirectional path tracing from the camera. `pt` finds lights by BSDF sampling alone, except
+/// delta lights, which no such sample can hit; `mis` weighs BSDF sampling and light sampling [Veach
+/// 1997, ch. 9]; `nee` takes light sampling and drops the light of BSDF samples that light sampling
+/// could have found. In fog `mis` and `nee` also choose points for the lights (`FogSampling`).
 class PathIntegrator final : public Integrator {
 public:
     PathIntegrator(const World& world, const MovingCamera& camera, const RenderOptions& options,
@@ -32,8 +32,8 @@ private:
     /// `probability_of_flight` is that of no medium scattering it on its way.
     [[nodiscard]] Rgb emission(const Ray& ray, LightId light, const LightPoint& hit, Rgb radiance,
                                float probability_of_flight) const;
-    /// Next-event estimation at the point, which is vertex `depth` + 1 of the path: the mean of
-    /// its light samples. `arrival` is set if it is a point of fog.
+    /// Next-event estimation at the point, which is vertex `depth` + 1 of the path. Returns the
+    /// mean of its light samples. `arrival` is set if the point lies in fog.
     [[nodiscard]] Rgb sample_lights(SampleContext& sample, const SurfacePoint& point,
                                     const std::optional<FogArrival>& arrival, int depth) const;
     /// One of them, by the random point `u`.

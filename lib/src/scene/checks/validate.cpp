@@ -26,7 +26,7 @@ void check_attribute(const std::string& item, const char* what, const std::vecto
                      std::size_t vertices)
 {
     if (!values.empty() && values.size() != vertices) {
-        fail(item, ": ", values.size(), " ", what, ", but there are ", vertices, " vertices");
+        fail(item, ": ", values.size(), " ", what, ", but the number of vertices is ", vertices);
     }
     for (std::size_t i = 0; i < values.size(); ++i) {
         if (!all_finite(&values[i][0], T::length())) {
@@ -48,7 +48,7 @@ void check(const MeshDesc& mesh, const std::string& item)
         for (int corner = 0; corner < 3; ++corner) {
             if (mesh.triangles[t][corner] >= vertices) {
                 fail(item, ": triangle ", t, " has index ", mesh.triangles[t][corner],
-                     ", but there are ", vertices, " vertices");
+                     ", but the number of vertices is ", vertices);
             }
         }
     }
@@ -57,8 +57,8 @@ void check(const MeshDesc& mesh, const std::string& item)
 void check(const TextureRef& texture, const std::string& item, std::size_t image_count)
 {
     if (static_cast<std::size_t>(texture.image) >= image_count) {
-        fail(item, ": image ", static_cast<std::size_t>(texture.image), ", but there are ",
-             image_count, " images");
+        fail(item, ": image ", static_cast<std::size_t>(texture.image),
+             ", but the number of images is ", image_count);
     }
     if (texture.uv_set != 0 && texture.uv_set != 1) {
         fail(item, ": texture coordinate set ", texture.uv_set, " is neither 0 nor 1");
@@ -142,12 +142,12 @@ void check(const VolumeDesc& volume, const std::string& item)
 void check(const InstanceDesc& instance, const std::string& item, const SharedSceneDesc& desc)
 {
     if (static_cast<std::size_t>(instance.mesh) >= desc.meshes.size()) {
-        fail(item, ": mesh ", static_cast<std::size_t>(instance.mesh), ", but there are ",
-             desc.meshes.size(), " meshes");
+        fail(item, ": mesh ", static_cast<std::size_t>(instance.mesh),
+             ", but the number of meshes is ", desc.meshes.size());
     }
     if (static_cast<std::size_t>(instance.material) >= desc.materials.size()) {
-        fail(item, ": material ", static_cast<std::size_t>(instance.material), ", but there are ",
-             desc.materials.size(), " materials");
+        fail(item, ": material ", static_cast<std::size_t>(instance.material),
+             ", but the number of materials is ", desc.materials.size());
     }
     check_transform(instance.world_from_object, item);
 }

@@ -143,8 +143,8 @@ struct OwnCheck {
     {
         const auto profile = static_cast<std::size_t>(light.profile);
         if (profile >= profile_peaks.size()) {
-            fail(item, ": profile ", profile, ", but there are ", profile_peaks.size(),
-                 " profiles");
+            fail(item, ": profile ", profile, ", but the number of profiles is ",
+                 profile_peaks.size());
         }
         check_color(item, "intensity", light.scale * profile_peaks[profile], any_positive);
     }
@@ -205,7 +205,7 @@ void validate_lights(const SharedSceneDesc& desc, float reach)
         environments += std::holds_alternative<EnvironmentLightDesc>(desc.lights[i]) ? 1U : 0U;
     }
     if (environments > 1) {
-        fail("there are ", environments, " environment lights, but one is the most");
+        fail("there are ", environments, " environment lights, but at most one is allowed");
     }
 }
 

@@ -160,7 +160,8 @@ TEST_CASE("animations are chosen by name, by index, all, or the first")
     CHECK(both.fixture.load().facts.animation_names == std::vector<std::string>{"slide", "grow"});
     const Error error = both.fixture.error({.animation = "run"});
     CHECK(error.code() == ErrorCode::not_found);
-    CHECK(contains(error.what(), "no animation \"run\"; there are 0 \"slide\", 1 \"grow\""));
+    CHECK(contains(error.what(),
+                   "no animation \"run\"; the file has 2 animations: 0 \"slide\", 1 \"grow\""));
     CHECK(warns(GltfFixture::triangle().load({.time = 2.0}).warnings, {"no animations"}));
     CHECK(both.fixture.error({.time = std::numeric_limits<double>::quiet_NaN()}).code() ==
           ErrorCode::usage);
@@ -190,7 +191,7 @@ TEST_CASE("key frames that make no sense are refused by name")
     CHECK(contains(error_of([](auto& a) { a["samplers"][0]["interpolation"] = "BOUNCE"; }),
                    "/animations/0/samplers/0/interpolation: \"BOUNCE\" is no interpolation"));
     CHECK(contains(error_of([](auto& a) { a["channels"][0]["sampler"] = 1; }),
-                   "/animations/0/channels/0/sampler: index 1, but there are 1 samplers"));
+                   "/animations/0/channels/0/sampler: index 1, but the number of samplers is 1"));
     CHECK(contains(error_of([](auto& a) { a["channels"][0].erase("sampler"); }),
                    "/animations/0/channels/0: \"sampler\" is missing"));
     CHECK(contains(error_of([](auto& a) { a["channels"][0].erase("target"); }),

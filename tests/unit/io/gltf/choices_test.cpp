@@ -53,10 +53,11 @@ TEST_CASE("a variant of materials is chosen by name or index")
     CHECK(fixture.load().warnings.empty());
     const Error error = fixture.error({.variant = "forest"});
     CHECK(error.code() == ErrorCode::not_found);
-    CHECK(contains(error.what(),
-                   "no variant \"forest\"; there are 0 \"beach\", 1 \"ocean\", 2 \"street\""));
+    CHECK(contains(
+        error.what(),
+        "no variant \"forest\"; the file has 3 variants: 0 \"beach\", 1 \"ocean\", 2 \"street\""));
     CHECK(contains(GltfFixture::triangle().error({.variant = "x"}).what(),
-                   "no variant \"x\"; there are none"));
+                   "no variant \"x\"; the file has no variants"));
 }
 
 TEST_CASE("mappings of variants are checked")
@@ -69,7 +70,8 @@ TEST_CASE("mappings of variants are checked")
     };
     const std::string place =
         "/meshes/0/primitives/0/extensions/KHR_materials_variants/mappings/1/";
-    CHECK(contains(error_of("material", 3), place + "material: index 3, but there are 3"));
+    CHECK(contains(error_of("material", 3),
+                   place + "material: index 3, but the number of materials is 3"));
     CHECK(contains(error_of("variants", {0, 7}), place + "variants/1: index 7"));
     CHECK(contains(error_of("variants", 1), place + "variants: must be an array"));
 }

@@ -256,7 +256,7 @@ TEST_CASE("skins that make no sense are refused by name, or are not followed")
     fixture.json["skins"][0]["joints"] = {1, 2, 1};
     bind(fixture);
     CHECK(contains(fixture.error().what(),
-                   "/skins/0/inverseBindMatrices: 2 matrices, but there are 3 joints"));
+                   "/skins/0/inverseBindMatrices: 2 matrices, but the number of joints is 3"));
 
     GltfFixture loose = with_skin();
     primitive_of(loose)["attributes"].erase("JOINTS_0");

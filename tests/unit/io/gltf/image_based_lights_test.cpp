@@ -284,7 +284,7 @@ TEST_CASE("a cube that cannot be read leaves the scene without environment")
     const LoadedScene loaded = broken.load();
     CHECK(loaded.scene.lights.empty());
     CHECK(warns(loaded.warnings, {"/extensions/EXT_lights_image_based/lights/0/specularImages/0/4",
-                                  "neither PNG", "does without it"}));
+                                  "neither PNG", "the environment is left out"}));
     broken.json["images"][4] = {{"uri", "none.png"}};
     CHECK(warns(broken.load().warnings, {"specularImages/0/4: \"none.png\": no such file"}));
 }
@@ -311,11 +311,12 @@ TEST_CASE("environments that are wrong are refused")
     CHECK(contains(light({{"specularImages", {nlohmann::json::array(), {0, 1, 2, 3, 4, 5}}}}),
                    "a cube of 0 sides"));
     CHECK(contains(light({{"specularImages", {{0, 1, 2, 3, 4, 6}}}}),
-                   "specularImages/0/5: index 6, but there are 6 images"));
+                   "specularImages/0/5: index 6, but the number of images is 6"));
     CHECK(contains(light({{"rotation", {0, 0, 1}}}), "rotation: must be 4 numbers"));
     CHECK(contains(light({{"intensity", "much"}}), "intensity: must be a number"));
     CHECK(contains(message({{"extensions", nullptr}}),
-                   "/scenes/0/extensions/EXT_lights_image_based/light: index 0, but there are 0"));
+                   "/scenes/0/extensions/EXT_lights_image_based/light: index 0, but the number of "
+                   "lights is 0"));
     CHECK(contains(
         message({{"scenes", {{{"nodes", {0}}, {"extensions", {{"EXT_lights_image_based", 3}}}}}}}),
         "EXT_lights_image_based: must be an object"));

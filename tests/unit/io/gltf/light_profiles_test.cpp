@@ -394,7 +394,8 @@ TEST_CASE("light profiles are files, data or views, each read once and only if i
     CHECK(contains(refused(as_data(std::string((33 << 20), ' '))), "but the limit is 33554432"));
     GltfFixture index = with_profile(text);
     node_light(index)["light"] = 1;
-    CHECK(contains(index.error().what(), "EXT_lights_ies/light: index 1, but there are 1 lights"));
+    CHECK(contains(index.error().what(),
+                   "EXT_lights_ies/light: index 1, but the number of lights is 1"));
     node_light(index) = {{"light", 0}, {"multiplier", "bright"}};
     CHECK(contains(index.error().what(), "EXT_lights_ies/multiplier: must be a number"));
 }

@@ -169,8 +169,9 @@ TEST_CASE("lights that are wrong are refused")
 
     GltfFixture fixture = with_lights({{{"type", "point"}}});
     fixture.json["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 1;
-    CHECK(contains(fixture.error().what(),
-                   "/nodes/0/extensions/KHR_lights_punctual/light: index 1, but there are 1"));
+    CHECK(contains(
+        fixture.error().what(),
+        "/nodes/0/extensions/KHR_lights_punctual/light: index 1, but the number of lights is 1"));
 }
 
 }  // namespace bdpt::test::lights_test

@@ -335,7 +335,7 @@ TEST_CASE("materials with wrong references are refused")
 {
     GltfFixture fixture = with_textures({{"normalTexture", {{"index", 6}}}});
     CHECK(contains(fixture.error().what(),
-                   "/materials/0/normalTexture/index: index 6, but there are 6 textures"));
+                   "/materials/0/normalTexture/index: index 6, but the number of textures is 6"));
     fixture.json["materials"][0] = {
         {"extensions", {{"KHR_materials_specular", {{"specularTexture", {{"index", -1}}}}}}}};
     CHECK(

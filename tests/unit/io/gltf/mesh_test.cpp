@@ -230,8 +230,9 @@ TEST_CASE("indices beyond the vertices are refused by name")
     fixture.bin.replace(36 + 4, 2, bytes_of<std::uint16_t>({912}));
     const Error error = fixture.error();
     CHECK(error.code() == ErrorCode::invalid_input);
-    CHECK(contains(error.what(),
-                   "/meshes/0/primitives/0/indices: element 2 is 912, but there are 3 vertices"));
+    CHECK(contains(
+        error.what(),
+        "/meshes/0/primitives/0/indices: element 2 is 912, but the number of vertices is 3"));
 }
 
 TEST_CASE("attributes with too few values are refused, with too many cut")
@@ -245,7 +246,8 @@ TEST_CASE("attributes with too few values are refused, with too many cut")
     set_uvs(2);
     const Error error = fixture.error();
     CHECK(error.code() == ErrorCode::invalid_input);
-    CHECK(contains(error.what(), "attributes/TEXCOORD_0: 2 values, but there are 3 vertices"));
+    CHECK(
+        contains(error.what(), "attributes/TEXCOORD_0: 2 values, but the number of vertices is 3"));
     set_uvs(4);
     const LoadedScene loaded = fixture.load();
     CHECK(loaded.scene.meshes.at(0).uvs[0].size() == 3);

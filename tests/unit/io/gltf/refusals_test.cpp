@@ -40,26 +40,26 @@ const std::vector<Refusal>& refusals()
         {"extension name", [](Json& j) { j["extensionsUsed"] = {1}; },
          "/extensionsUsed/0: must be a string, but is 1"},
         {"default scene", [](Json& j) { j["scene"] = 1; },
-         "/scene: index 1, but there are 1 scenes"},
+         "/scene: index 1, but the number of scenes is 1"},
         {"negative scene", [](Json& j) { j["scene"] = -1; },
          "/scene: must be a non-negative integer, but is -1"},
         {"scene node", [](Json& j) { j["scenes"][0]["nodes"] = {7}; },
-         "/scenes/0/nodes/0: index 7, but there are 1 nodes"},
+         "/scenes/0/nodes/0: index 7, but the number of nodes is 1"},
         {"nodes no array", [](Json& j) { j["nodes"] = "none"; },
          "/nodes: must be an array, but is \"none\""},
         {"node no object", [](Json& j) { j["nodes"][0] = 5; },
          "/nodes/0: must be an object, but is 5"},
         {"child", [](Json& j) { j["nodes"][0]["children"] = {1}; },
-         "/nodes/0/children/0: index 1, but there are 1 nodes"},
+         "/nodes/0/children/0: index 1, but the number of nodes is 1"},
         {"own child", [](Json& j) { j["nodes"][0]["children"] = {0}; }, "/nodes/0: a cycle"},
         {"mesh", [](Json& j) { j["nodes"][0]["mesh"] = 1; },
-         "/nodes/0/mesh: index 1, but there are 1 meshes"},
+         "/nodes/0/mesh: index 1, but the number of meshes is 1"},
         {"mesh as text", [](Json& j) { j["nodes"][0]["mesh"] = "0"; },
          "/nodes/0/mesh: must be a non-negative integer, but is \"0\""},
         {"camera", [](Json& j) { j["nodes"][0]["camera"] = 0; },
-         "/nodes/0/camera: index 0, but there are 0 cameras"},
+         "/nodes/0/camera: index 0, but the number of cameras is 0"},
         {"skin", [](Json& j) { j["nodes"][0]["skin"] = 3; },
-         "/nodes/0/skin: index 3, but there are 0 skins"},
+         "/nodes/0/skin: index 3, but the number of skins is 0"},
         {"short matrix",
          [](Json& j) {
              j["nodes"][0]["matrix"] = {1, 2, 3};
@@ -86,14 +86,14 @@ const std::vector<Refusal>& refusals()
          "/meshes/0/primitives/0: \"attributes\" is missing"},
         {"attribute",
          [](Json& j) { j["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = 2; },
-         "/meshes/0/primitives/0/attributes/POSITION: index 2, but there are 2 accessors"},
+         "/meshes/0/primitives/0/attributes/POSITION: index 2, but the number of accessors is 2"},
         {"attribute name",
          [](Json& j) { j["meshes"][0]["primitives"][0]["attributes"]["a/b~c"] = 2; },
          "/meshes/0/primitives/0/attributes/a~1b~0c: index 2"},
         {"indices", [](Json& j) { j["meshes"][0]["primitives"][0]["indices"] = 9; },
-         "/meshes/0/primitives/0/indices: index 9, but there are 2 accessors"},
+         "/meshes/0/primitives/0/indices: index 9, but the number of accessors is 2"},
         {"material", [](Json& j) { j["meshes"][0]["primitives"][0]["material"] = 0; },
-         "/meshes/0/primitives/0/material: index 0, but there are 0 materials"},
+         "/meshes/0/primitives/0/material: index 0, but the number of materials is 0"},
         {"mode", [](Json& j) { j["meshes"][0]["primitives"][0]["mode"] = 7; },
          "/meshes/0/primitives/0/mode: 7 is no mode"},
         {"mode beyond int", [](Json& j) { j["meshes"][0]["primitives"][0]["mode"] = 4294967300; },
@@ -129,7 +129,7 @@ const std::vector<Refusal>& refusals()
          [](Json& j) { j["accessors"][0]["byteOffset"] = 18446744073709551612u; },
          "/accessors/0: 3 elements need 36 B at byte 18446744073709551612"},
         {"accessor view", [](Json& j) { j["accessors"][0]["bufferView"] = 2; },
-         "/accessors/0/bufferView: index 2, but there are 2 bufferViews"},
+         "/accessors/0/bufferView: index 2, but the number of bufferViews is 2"},
         {"stride below the element", [](Json& j) { j["bufferViews"][0]["byteStride"] = 8; },
          "/accessors/0: elements of 12 bytes overlap: bufferView 0 has stride 8"},
         {"stride beyond the view", [](Json& j) { j["bufferViews"][0]["byteStride"] = 16; },
@@ -142,7 +142,7 @@ const std::vector<Refusal>& refusals()
          [](Json& j) { j["bufferViews"][1]["byteOffset"] = 18446744073709551615u; },
          "/bufferViews/1: 6 bytes at byte 18446744073709551615"},
         {"view buffer", [](Json& j) { j["bufferViews"][0]["buffer"] = 1; },
-         "/bufferViews/0/buffer: index 1, but there are 1 buffers"},
+         "/bufferViews/0/buffer: index 1, but the number of buffers is 1"},
         {"buffer length", [](Json& j) { j["buffers"][0]["byteLength"] = 43; },
          "/buffers/0/byteLength: 43 bytes, but there are 42"},
         {"buffer length beyond all",
@@ -179,13 +179,13 @@ const std::vector<Refusal>& refusals()
              j["textures"] = {{{"source", 0}}};
              j["materials"] = {{{"emissiveTexture", {{"index", 0}}}}};
          },
-         "/textures/0/source: index 0, but there are 0 images"},
+         "/textures/0/source: index 0, but the number of images is 0"},
         {"texture sampler",
          [](Json& j) {
              j["textures"] = {{{"sampler", 0}}};
              j["materials"] = {{{"emissiveTexture", {{"index", 0}}}}};
          },
-         "/textures/0/sampler: index 0, but there are 0 samplers"},
+         "/textures/0/sampler: index 0, but the number of samplers is 0"},
         {"image with two sources",
          [](Json& j) {
              j["images"] = {{{"uri", "a.png"}, {"bufferView", 0}}};
@@ -195,7 +195,7 @@ const std::vector<Refusal>& refusals()
          [](Json& j) {
              j["images"] = {{{"bufferView", 2}}};
          },
-         "/images/0/bufferView: index 2, but there are 2 bufferViews"},
+         "/images/0/bufferView: index 2, but the number of bufferViews is 2"},
         {"camera type",
          [](Json& j) {
              j["cameras"] = {{{"type", "fisheye"}}};
@@ -289,11 +289,12 @@ TEST_CASE("a broken texture that no material uses costs nothing but a warning")
     CHECK(loaded.scene.instances.size() == 1);
     REQUIRE(loaded.warnings.size() == 1);
     CHECK(warns(loaded.warnings, {"a broken texture that no material uses is left out",
-                                  "/textures/1/source: index 7, but there are 1 images"}));
+                                  "/textures/1/source: index 7, but the number of images is 1"}));
     // One that is used is still refused, wherever the material names it.
     fixture.json["materials"][0]["extensions"]["KHR_materials_sheen"]["sheenColorTexture"] = {
         {"index", 3}};
-    CHECK(contains(fixture.error().what(), "/textures/3/sampler: index 0, but there are 0"));
+    CHECK(contains(fixture.error().what(),
+                   "/textures/3/sampler: index 0, but the number of samplers is 0"));
 }
 
 TEST_CASE("deep, rich and long JSON is refused")

@@ -309,7 +309,7 @@ TEST_CASE("without libktx the other image of a texture is used, or none, or the 
     REQUIRE(other.scene.images.size() == 1);
     CHECK(other.scene.images[0].bytes == Texels{7});
     CHECK(warns(other.warnings,
-                {"/textures/0: the image beside the KTX2 one is used: there is no libktx: "
+                {"/textures/0: the image beside the KTX2 one is used: libktx was not found: "
                  "/nowhere/libktx.so.4: ",
                  "https://github.com/KhronosGroup/KTX-Software"}));
 
@@ -317,8 +317,8 @@ TEST_CASE("without libktx the other image of a texture is used, or none, or the 
     const LoadedScene without = fixture.load(none);
     CHECK(without.scene.images.empty());
     CHECK_FALSE(without.scene.materials.at(0).base_color_texture);
-    CHECK(warns(without.warnings, {"/textures/0: the material does without its KTX2 texture: "
-                                   "there is no libktx: "}));
+    CHECK(warns(without.warnings, {"/textures/0: the KTX2 texture is left out: "
+                                   "libktx was not found: "}));
 
     fixture.json["extensionsRequired"] = {"KHR_texture_basisu"};
     CHECK(fixture.load(fake).scene.images.size() == 1);
@@ -326,7 +326,7 @@ TEST_CASE("without libktx the other image of a texture is used, or none, or the 
     CHECK(refused.code() == ErrorCode::unsupported);
     CHECK(contains(refused.what(),
                    "/extensionsRequired/0: the file requires \"KHR_texture_basisu\""
-                   ", KTX2 textures: there is no libktx: /nowhere/"));
+                   ", KTX2 textures: libktx was not found: /nowhere/"));
     GltfOptions anyway = none;
     anyway.ignore_required = true;
     const LoadedScene ignored = fixture.load(anyway);
@@ -349,9 +349,9 @@ TEST_CASE("what is no libktx is not taken for one")
 {
     const std::string bytes = Ktx2File::uastc().bytes();
     const TempFolder folder;
-    CHECK(contains(decoding_fault(bytes, folder.path()), "there is no libktx: "));
+    CHECK(contains(decoding_fault(bytes, folder.path()), "libktx was not found: "));
     CHECK(contains(decoding_fault(bytes, folder.write("text.so", "no library")),
-                   "there is no libktx: "));
+                   "libktx was not found: "));
     CHECK(contains(decoding_fault(bytes, BDPT_FAKE_OIDN),
                    "is not libktx 4: it has no ktxTexture2_CreateFromMemory"));
     // A folder has the library by its name.
@@ -372,7 +372,7 @@ TEST_CASE("KTX2 images without the extension are read, too")
     REQUIRE(loaded.scene.images.size() == 1);
     CHECK(loaded.scene.images[0].bytes == Texels{1, 2, 3, 4, 5, 6});
     CHECK(warns(loaded.warnings, {"/images/0: VkFormat 23, not Basis Universal"}));
-    CHECK(warns(fixture.load(none).warnings, {"/images/0: there is no libktx: "}));
+    CHECK(warns(fixture.load(none).warnings, {"/images/0: libktx was not found: "}));
 }
 
 TEST_CASE("a texture goes by what it is for, and says where its KTX2 image disagrees")

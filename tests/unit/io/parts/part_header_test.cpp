@@ -94,7 +94,7 @@ TEST_CASE("each number in the header of a part is checked before it is converted
         FAIL("read");
     } catch (const Error& error) {
         CHECK(std::string(error.what()) ==
-              "what it says about itself is not of a part: /film/size/0: must be an integer from 1 "
+              "its header is not that of a part: /film/size/0: must be an integer from 1 "
               "to 65536, but is 1e+300");
     }
 }

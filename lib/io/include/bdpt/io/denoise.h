@@ -10,7 +10,7 @@
 
 namespace bdpt::io {
 
-/// What a denoiser is given.
+/// The input of a denoiser.
 struct NoisyImage {
     const Image& image;             ///< radiance [nit], not clamped; any exposure
     const Layer* albedo = nullptr;  ///< of the same size, in [0, 1]
@@ -30,7 +30,7 @@ public:
     Denoiser& operator=(Denoiser&&) noexcept;
     ~Denoiser();
 
-    /// Of the library: "2.5.1".
+    /// The version of the library: "2.5.1".
     [[nodiscard]] const std::string& version() const;
     /// `noisy` without noise, as high dynamic range. Albedo and normal are denoised first, as they
     /// are noisy where lenses or motion blur. The result depends on the library and on this

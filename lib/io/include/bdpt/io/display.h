@@ -19,7 +19,7 @@ struct DisplayOptions {
     float exposure = 0.0f;  ///< [EV] pixels are multiplied by 2^exposure
     ToneCurve curve = ToneCurve::filmic;
     TexelType type = TexelType::unorm8;  ///< of the result: unorm8 or unorm16
-    /// What is seen where the image covers nothing; none: the result has alpha.
+    /// The background where the image covers nothing; none: the result has alpha.
     std::optional<SrgbColor> background{};
     /// The part of each pixel's coverage that is a black shadow behind the image; empty: none.
     std::span<const float> shadow{};

@@ -11,7 +11,7 @@
 
 namespace bdpt::io {
 
-/// What `load_environment` read.
+/// The result of `load_environment`.
 struct LoadedEnvironment {
     EnvironmentLightDesc light;
     std::vector<std::string> warnings;  ///< one line each, without the file's name

@@ -44,7 +44,7 @@ struct ExrOptions {
     std::vector<IdManifest> manifests{};
 };
 
-/// What could not be written as it was.
+/// The values that could not be written unchanged.
 struct ExrReport {
     /// Pixels with a channel beyond what a half holds; it was stored as 65504.
     std::size_t clamped_pixels = 0;

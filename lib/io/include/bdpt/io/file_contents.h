@@ -11,7 +11,7 @@
 
 namespace bdpt::io {
 
-/// What is in a file that a scene is read from.
+/// The hash of a file that a scene is read from.
 struct FileContent {
     std::string name;                 ///< that of the scene, else the URI that the scene has for it
     std::optional<ContentHash> hash;  ///< of all its bytes; none: it cannot be read

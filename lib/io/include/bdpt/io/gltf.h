@@ -31,7 +31,7 @@ struct LoadProgress {
     std::size_t images_total = 0;
 };
 
-/// What to load of a file, and how much at most.
+/// The parts of a file to load, and the limits.
 struct GltfOptions {
     /// Name or index of the scene; none: the file's default scene, else its first.
     std::optional<std::string> scene{};
@@ -55,14 +55,15 @@ struct GltfOptions {
     std::shared_ptr<ImageCache> images{};
     /// libktx 4 of Khronos, which decodes KTX2 textures (KHR_texture_basisu): a file, or a folder
     /// with libktx.so.4; none: what the system finds by that name. It is opened by the program
-    /// bdpt-read-ktx, in a process of its own for each image, and for files with such textures only.
+    /// bdpt-read-ktx, in a process of its own for each image, and for files with such textures
+    /// only.
     std::optional<std::filesystem::path> ktx_library{};
     /// A file that requires extensions which are not supported loads without what they add, with a
     /// warning. Compressed meshes stay required.
     bool ignore_required = false;
 };
 
-/// What we make of a glTF extension.
+/// The support of a glTF extension.
 enum class ExtensionStatus : std::uint8_t {
     supported,
     ignored,  ///< known, and the image is right or close without it; `note` says what is lost
@@ -80,7 +81,7 @@ struct ExtensionUse {
     std::string note;  ///< empty, or what is lost, in a few words
 };
 
-/// What a file says and holds, for reports. Counts are those of the whole file.
+/// The contents of a file, for reports. Counts are those of the whole file.
 struct GltfFacts {
     std::string version;  ///< of glTF
     std::string generator;
@@ -105,7 +106,7 @@ struct GltfFacts {
     std::string xmp;
 };
 
-/// What `load_gltf` read.
+/// The result of `load_gltf`.
 struct LoadedScene {
     SceneDesc scene;  ///< its environment, if it has one (EXT_lights_image_based), is a light
     std::vector<CameraDesc> cameras;    ///< those of the scene's nodes, in the order of the nodes

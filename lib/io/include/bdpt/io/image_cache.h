@@ -22,7 +22,7 @@ public:
     [[nodiscard]] const TexelImage* find(const ContentHash& encoded) const;
     /// Keeps a copy of `image`, if there is room.
     void keep(const ContentHash& encoded, const TexelImage& image);
-    /// What the images take [bytes].
+    /// The memory of the images [bytes].
     [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
 
 private:

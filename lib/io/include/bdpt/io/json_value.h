@@ -39,15 +39,15 @@ public:
     [[nodiscard]] bool has(std::string_view key) const;
     [[nodiscard]] JsonValue at(std::string_view key) const;
     [[nodiscard]] JsonValue at(std::size_t index) const;
-    /// Of an array.
+    /// The elements of an array.
     [[nodiscard]] std::vector<JsonValue> elements() const;
-    /// Of an object, in the order of the text.
+    /// The members of an object, in the order of the text.
     [[nodiscard]] std::vector<std::pair<std::string, JsonValue>> members() const;
 
     [[nodiscard]] bool boolean() const;
     [[nodiscard]] std::string text() const;
     [[nodiscard]] std::vector<std::string> texts() const;
-    /// Of a text, a number, true or false: the text itself, or what is written for it in JSON.
+    /// The value of a text, a number, true or false: the text itself, or its JSON.
     [[nodiscard]] std::string scalar_text() const;
     /// In [low, high]. Integers have no fraction and no exponent; floats and doubles are finite.
     /// For int, std::int64_t, std::uint32_t, std::uint64_t, float and double.

@@ -15,7 +15,7 @@
 
 namespace bdpt::io {
 
-/// What a part file tells people and programs beside the part itself.
+/// Notes of a part file for people and programs, beside the part itself.
 struct PartNotes {
     /// Samples that its render was asked for, as far as that had an end.
     SampleSet goal;
@@ -25,7 +25,7 @@ struct PartNotes {
     std::vector<std::string> command{};
 };
 
-/// What a part file says about itself.
+/// The description in a part file.
 struct PartInfo {
     std::filesystem::path file;
     Identity identity;
@@ -34,7 +34,7 @@ struct PartInfo {
     ContentHash hash;  ///< of the whole file
 };
 
-/// What becomes of a file of that name.
+/// The treatment of an existing file of that name.
 enum class OldPart : std::uint8_t {
     /// Stays if it is of the same render, and has all samples of the new one and more: whoever
     /// wrote it is ahead of us.
@@ -42,7 +42,7 @@ enum class OldPart : std::uint8_t {
     replace,
 };
 
-/// What has become of the new part.
+/// The outcome of writing the new part.
 enum class PartWrite : std::uint8_t {
     written,
     kept,  ///< the file there is ahead, and stays

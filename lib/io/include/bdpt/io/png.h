@@ -8,7 +8,7 @@
 
 namespace bdpt::io {
 
-/// What goes into the file beside the image.
+/// Data of the file beside the image.
 struct PngOptions {
     float exposure = 0.0f;  ///< [EV] that the image was made with; for the record
     ImageMetadata metadata;

@@ -14,7 +14,7 @@
 /// Files: glTF to `SceneDesc`, images to and from EXR, PNG and Radiance HDR.
 namespace bdpt::io {
 
-/// What to read of an image's file, and how much at most.
+/// The layer to read from an image file, and the limits.
 struct ImageOptions {
     /// "albedo" reads albedo.R, albedo.G, albedo.B; X, Y, Z serve as well, and a single channel
     /// gives grey. None: the image itself, or else the first layer that has colours.
@@ -22,7 +22,7 @@ struct ImageOptions {
     ReadLimits limits{};
 };
 
-/// What `read_image` read.
+/// The result of `read_image`.
 struct LoadedImage {
     Image image;       ///< the whole image, black where the file has no data
     PixelRect filled;  ///< where it has data: all of it, or the part that was rendered

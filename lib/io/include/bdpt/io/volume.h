@@ -19,7 +19,7 @@ enum class UpAxis : std::uint8_t {
     z,  ///< as in Blender: (x, y, z) becomes (x, z, -y)
 };
 
-/// What to read of a file of volumes, and what its densities mean.
+/// The grid to read from a file of volumes, and the meaning of its densities.
 struct VolumeOptions {
     /// Name of the grid; none: "density", else the only one of floats.
     std::optional<std::string> grid{};

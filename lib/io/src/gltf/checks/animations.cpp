@@ -84,7 +84,7 @@ void check_channel(const JsonPlace& root, const std::vector<bool>& morphing,
     const JsonPlace samplers = require(animation, "samplers");
     const JsonPlace index = require(channel, "sampler");
     if (index.as_unsigned() >= samplers.size()) {
-        index.fail(fmt::format("index {}, but there are {} samplers", index.as_unsigned(),
+        index.fail(fmt::format("index {}, but the number of samplers is {}", index.as_unsigned(),
                                samplers.size()));
     }
     check_sampler(samplers.element(static_cast<std::size_t>(index.as_unsigned())));

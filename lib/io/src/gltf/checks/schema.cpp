@@ -43,8 +43,8 @@ void check_index(const JsonPlace& place, std::string_view target, std::size_t si
 {
     const std::uint64_t value = place.as_unsigned();
     if (value >= size) {
-        place.fail(fmt::format("index {}, but there are {} {}", value, size,
-                               target.substr(target.rfind('/') + 1)));
+        place.fail(fmt::format("index {}, but the number of {} is {}", value,
+                               target.substr(target.rfind('/') + 1), size));
     }
 }
 

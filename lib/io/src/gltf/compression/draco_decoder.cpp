@@ -92,8 +92,8 @@ std::vector<std::uint32_t> read_faces(const draco::Mesh& mesh)
     for (std::uint32_t i = 0; i < mesh.num_faces(); ++i) {
         for (const draco::PointIndex& point : mesh.face(draco::FaceIndex(i))) {
             if (point.value() >= mesh.num_points()) {
-                fail(fmt::format("triangle {} has point {}, but there are {}", i, point.value(),
-                                 mesh.num_points()));
+                fail(fmt::format("triangle {} has point {}, but the number of points is {}", i,
+                                 point.value(), mesh.num_points()));
             }
             indices.push_back(point.value());
         }

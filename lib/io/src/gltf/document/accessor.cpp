@@ -75,8 +75,8 @@ void for_each_element(const tinygltf::Model& model, int accessor_index, const Vi
                                   : index_size == 2 ? load<std::uint16_t>(bytes)
                                                     : load<std::uint32_t>(bytes);
         if (index >= accessor.count) {
-            fail(accessor_index, fmt::format("/sparse/indices: element {} is {}, but there are {} "
-                                             "elements",
+            fail(accessor_index, fmt::format("/sparse/indices: element {} is {}, but the number of "
+                                             "elements is {}",
                                              i, index, accessor.count));
         }
         if (index < next_allowed) {

@@ -55,10 +55,10 @@ constexpr std::array table{
     ExtensionSupport{"EXT_texture_webp", supported, ""},
     // Supported by doing nothing: they have no influence on an image.
     ExtensionSupport{"FB_ngon_encoding", supported, "no influence on the image"},
-    ExtensionSupport{"KHR_xmp", supported, "what is said about the file goes into images"},
-    ExtensionSupport{"KHR_xmp_json_ld", supported, "what is said about the file goes into images"},
+    ExtensionSupport{"KHR_xmp", supported, "metadata of the file are written into images"},
+    ExtensionSupport{"KHR_xmp_json_ld", supported, "metadata of the file are written into images"},
     ExtensionSupport{"KHR_animation_pointer", supported,
-                     "only what the core specification animates moves"},
+                     "properties of the core specification only"},
     ExtensionSupport{"MSFT_packing_normalRoughnessMetallic", supported,
                      "the core textures are used"},
     ExtensionSupport{"MSFT_packing_occlusionRoughnessMetallic", supported,

@@ -15,13 +15,15 @@ namespace bdpt::io {
 
 namespace {
 
-std::string list(const std::vector<std::string>& names)
+/// "the file has 2 scenes: 0 "day", 1 "night"".
+std::string list(std::string_view what, const std::vector<std::string>& names)
 {
     constexpr std::size_t longest_list = 20;
     if (names.empty()) {
-        return "there are none";
+        return fmt::format("the file has no {}s", what);
     }
-    std::string text = "there are";
+    std::string text = names.size() == 1 ? fmt::format("the file has one {}:", what)
+                                         : fmt::format("the file has {} {}s:", names.size(), what);
     for (std::size_t i = 0; i < std::min(names.size(), longest_list); ++i) {
         text += fmt::format("{} {}", i == 0 ? "" : ",", i);
         if (!names[i].empty()) {
@@ -75,7 +77,7 @@ std::size_t select(std::string_view what, const std::vector<std::string>& names,
     const std::optional<std::size_t> index = to_index(wanted);
     if (!index || *index >= names.size()) {
         throw Error(ErrorCode::not_found,
-                    fmt::format("no {} {}; {}", what, quote(wanted), list(names)));
+                    fmt::format("no {} {}; {}", what, quote(wanted), list(what, names)));
     }
     return *index;
 }

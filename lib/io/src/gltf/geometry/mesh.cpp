@@ -44,8 +44,9 @@ std::vector<std::uint32_t> read_checked_indices(const PrimitiveReader& primitive
     std::vector<std::uint32_t> indices = read_indices(primitive.model(), *accessor);
     for (std::size_t i = 0; i < indices.size(); ++i) {
         if (indices[i] >= vertices) {
-            primitive.fail("indices", fmt::format("element {} is {}, but there are {} vertices", i,
-                                                  indices[i], vertices));
+            primitive.fail("indices",
+                           fmt::format("element {} is {}, but the number of vertices is {}", i,
+                                       indices[i], vertices));
         }
     }
     return indices;

@@ -71,8 +71,8 @@ private:
         }
         std::vector<V> values = read_vectors<V>(*model_, *accessor, integers);
         if (values.size() < vertices) {
-            fail(where + "/" + semantic,
-                 fmt::format("{} values, but there are {} vertices", values.size(), vertices));
+            fail(where + "/" + semantic, fmt::format("{} values, but the number of vertices is {}",
+                                                     values.size(), vertices));
         }
         if (values.size() > vertices) {
             context.warn("more values than vertices; the rest is ignored",

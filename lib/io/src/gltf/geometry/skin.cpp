@@ -133,9 +133,10 @@ std::vector<glm::dmat4> joint_matrices(const tinygltf::Model& model, int skin,
                          size * sizeof(float));
     const std::vector<float> values = read_numbers(model, accessor, TINYGLTF_TYPE_MAT4);
     if (values.size() / size < matrices.size()) {
-        throw Error(ErrorCode::invalid_input,
-                    fmt::format("{}/inverseBindMatrices: {} matrices, but there are {} joints",
-                                place, values.size() / size, matrices.size()));
+        throw Error(
+            ErrorCode::invalid_input,
+            fmt::format("{}/inverseBindMatrices: {} matrices, but the number of joints is {}",
+                        place, values.size() / size, matrices.size()));
     }
     for (std::size_t i = 0; i < matrices.size(); ++i) {
         matrices[i] *= glm::dmat4(glm::make_mat4(values.data() + i * size));

@@ -235,7 +235,7 @@ std::optional<EnvironmentLightDesc> read_image_based_light(const tinygltf::Model
         CubeMap cube = read_cube(model, sides, place + "/specularImages/0", context);
         desc.radiance = flatten(std::move(cube), place, context);
     } catch (const UnreadableCube& error) {
-        context.warn("an image of the environment cannot be read; the scene does without it",
+        context.warn("an image of the environment cannot be read; the environment is left out",
                      error.what());
         return std::nullopt;
     }

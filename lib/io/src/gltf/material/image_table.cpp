@@ -188,8 +188,7 @@ void ImageTable::add(Job& job)
     } catch (const Error& error) {
         throw Error(error.code(), place + ": " + error.what());
     } catch (const std::runtime_error& error) {
-        context_.warn("the image cannot be read; the texture does without it",
-                      place + ": " + error.what());
+        context_.warn("the image cannot be read and is left out", place + ": " + error.what());
     }
 }
 

@@ -48,8 +48,7 @@ std::vector<std::size_t> sources(const tinygltf::Texture& texture, const std::st
             context.warn(fmt::format("the image beside the KTX2 one is used: {}", *obstacle),
                          place);
         } else {
-            context.warn(fmt::format("the material does without its KTX2 texture: {}", *obstacle),
-                         place);
+            context.warn(fmt::format("the KTX2 texture is left out: {}", *obstacle), place);
         }
     }
     if (texture.source >= 0) {
@@ -136,9 +135,8 @@ std::optional<TextureRef> TextureResolver::resolve(const TextureInfo& info,
     const std::string texture_place = fmt::format("/textures/{}", info.index);
     const std::vector<std::size_t> images = sources(texture, texture_place, context_);
     if (images.empty() && !source_of(texture, "KHR_texture_basisu")) {
-        context_.warn(
-            "the texture has no PNG, JPEG, WebP or KTX2 image; the material does without it",
-            texture_place + unread_images(texture));
+        context_.warn("the texture has no PNG, JPEG, WebP or KTX2 image and is left out",
+                      texture_place + unread_images(texture));
     }
     std::optional<ImageId> image;
     for (std::size_t i = 0; i < images.size() && !image; ++i) {

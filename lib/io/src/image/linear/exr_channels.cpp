@@ -93,7 +93,7 @@ ColorChannels find_layer(const Imf::ChannelList& channels, const std::string& na
     }
     if (own.empty()) {
         throw Error(ErrorCode::not_found,
-                    fmt::format("no layer \"{}\"; there are {}", name, all_layers(channels)));
+                    fmt::format("no layer \"{}\"; the file has {}", name, all_layers(channels)));
     }
     if (own.size() > 1) {
         throw Error(ErrorCode::unsupported,

@@ -30,13 +30,13 @@ struct BenchControl {
     std::function<void(const std::string&)> on_note;  ///< one line for people
 };
 
-/// What stays of an integrator's error however long it renders.
+/// The error floor of an integrator, which stays however long it renders.
 struct ErrorFloor {
     IntegratorKind integrator = IntegratorKind::bdpt;
     double relmse = 0.0;
 };
 
-/// What is known about a scene after its benchmark, be it finished or stopped.
+/// The result of a scene's benchmark, finished or stopped.
 struct SceneResult {
     std::string name;
     std::string file;

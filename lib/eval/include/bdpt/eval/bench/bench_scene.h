@@ -7,7 +7,7 @@
 
 namespace bdpt::eval {
 
-/// What is rendered in a benchmark.
+/// A scene of a benchmark.
 struct BenchScene {
     std::string name;  ///< of files: letters, digits, "_", "-" and "."; each scene has its own
     std::string file;  ///< for people

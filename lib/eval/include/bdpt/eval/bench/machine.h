@@ -6,7 +6,7 @@
 
 namespace bdpt::eval {
 
-/// What figures of time depend on beside the options; empty where it cannot be told.
+/// The machine and software that times depend on, beside the options; empty where unknown.
 struct MachineFacts {
     std::string cpu;        ///< model name
     int processors = 0;     ///< hardware threads that this process may use
@@ -15,7 +15,7 @@ struct MachineFacts {
     std::string libraries;  ///< that it was made with: "Embree 3.13.5, oneTBB 2021.8.0, ..."
 };
 
-/// Of the machine that runs this.
+/// The description of this machine.
 [[nodiscard]] BDPT_EXPORT MachineFacts machine_facts();
 
 }  // namespace bdpt::eval

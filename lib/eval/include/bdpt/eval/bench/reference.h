@@ -8,7 +8,7 @@
 
 namespace bdpt::eval {
 
-/// What the images of a scene converge to, as well as it is known.
+/// The best known limit of the images of a scene.
 struct Reference {
     Image image;
     double noise = 0.0;  ///< relMSE that its own noise adds to that of every image
@@ -30,7 +30,7 @@ struct HalvedImage {
 /// Throws like `bench_scale`.
 [[nodiscard]] BDPT_EXPORT double noise_of(const HalvedImage& image, const Image& base);
 
-/// What two renders by different integrators say together.
+/// The combination of two renders by different integrators.
 struct CombinedReference {
     Image image;
     double noise = 0.0;      ///< relMSE

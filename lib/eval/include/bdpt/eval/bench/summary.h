@@ -17,7 +17,7 @@ struct CurvePoint {
     Spread error;              ///< relMSE without the reference's noise
 };
 
-/// What the runs of an integrator did in one of the two comparisons.
+/// The results of an integrator's runs in one of the two comparisons.
 struct GoalSummary {
     std::int64_t samples = 0;
     double cpu_seconds = 0.0;   ///< median
@@ -48,7 +48,7 @@ struct IntegratorSummary {
     std::vector<CurvePoint> curve;
     double efficiency = 0.0;            ///< 1 / (error x CPU time) at equal time [1/s]
     std::optional<SpeedUp> speed_up{};  ///< none without runs of pt
-    /// What stays of the error however long it renders; none: it finds all light.
+    /// The error floor; none: the integrator finds all light.
     std::optional<double> floor{};
     std::optional<TimeSplit> time{};  ///< where it goes; none if that was not measured
     double samples_per_second = 0.0;  ///< of all pixels, in time on the wall

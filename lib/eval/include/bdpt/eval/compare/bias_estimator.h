@@ -21,7 +21,7 @@ public:
     /// Both have that size.
     void add(const Image& image, const Image& reference);
 
-    /// Of at least one image.
+    /// The bias of at least one image.
     [[nodiscard]] Bias bias() const;
     /// A test for each tile and channel, the surest bias first; none for one image.
     [[nodiscard]] std::vector<TileBias> tile_tests() const;

@@ -12,7 +12,7 @@
 
 namespace bdpt::eval {
 
-/// What `compare_files` found.
+/// The result of `compare_files`.
 struct FileComparison {
     ComparisonReport report;
     std::vector<std::string> warnings;  ///< one line each, with the file's name

@@ -12,7 +12,7 @@
 
 namespace bdpt::eval {
 
-/// What a comparison measures and reports.
+/// The measurements and reports of a comparison.
 struct ComparisonOptions {
     std::vector<Metric> metrics{all_metrics.begin(), all_metrics.end()};
     MetricOptions scale{};
@@ -36,7 +36,7 @@ public:
     /// NaN or infinity.
     void add(const std::string& name, const Image& image);
 
-    /// Of at least one image.
+    /// The statistics of at least one image.
     [[nodiscard]] ComparisonReport report() const;
 
 private:

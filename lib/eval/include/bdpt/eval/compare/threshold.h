@@ -11,7 +11,7 @@
 
 namespace bdpt::eval {
 
-/// What a threshold is for.
+/// The quantity of a threshold.
 enum class ThresholdKind : std::uint8_t {
     metric,  ///< the metric's mean over the images
     bias,    ///< the greatest of the three channels' absolute bias

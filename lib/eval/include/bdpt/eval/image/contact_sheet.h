@@ -15,7 +15,7 @@ struct SheetPlace {
     [[nodiscard]] bool operator==(const SheetPlace&) const = default;
 };
 
-/// Of a cell or a sheet [pixels].
+/// The size of a cell or a sheet [pixels].
 struct SheetSize {
     int width = 0;
     int height = 0;

@@ -9,13 +9,13 @@
 
 namespace bdpt::eval {
 
-/// What the small number under relative errors is a multiple of.
+/// The reference of the small number in the denominator of relative errors.
 enum class EpsilonUnit : std::uint8_t {
     absolute,        ///< 1, or 1 nit: images of about unit brightness
     reference_mean,  ///< the mean of the reference: images of any brightness
 };
 
-/// What metrics need to know beside the two images.
+/// The parameters of metrics beside the two images.
 struct MetricOptions {
     double epsilon = 0.01;  ///< > 0; keeps relative errors of black pixels finite
     EpsilonUnit epsilon_unit = EpsilonUnit::absolute;

@@ -14,7 +14,7 @@ namespace bdpt::eval {
 /// [EXT_texture_shared_exponent]: the greatest component keeps a relative error of 2^-9. `rgb` is
 /// clamped to [0, 65408]; NaN is 0.
 [[nodiscard]] BDPT_EXPORT std::uint32_t pack_rgb9e5(Rgb rgb);
-/// What `packed` stands for.
+/// The pixels of `packed`.
 [[nodiscard]] BDPT_EXPORT Rgb unpack_rgb9e5(std::uint32_t packed);
 
 /// Pixels for a page: each, times `scale`, as RGB9E5; the lowest bytes of all, then the second

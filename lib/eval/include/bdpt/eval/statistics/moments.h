@@ -20,7 +20,7 @@ public:
     [[nodiscard]] double mean() const { return mean_; }
     /// Unbiased; needs two numbers.
     [[nodiscard]] double variance() const { return squares_ / static_cast<double>(count_ - 1); }
-    /// Of the mean.
+    /// The standard error of the mean.
     [[nodiscard]] double standard_error() const
     {
         return std::sqrt(variance() / static_cast<double>(count_));

@@ -13,7 +13,8 @@ struct Spread {
     double greatest = 0.0;
 };
 
-/// Of at least one number; the median of an even count is the mean of the two in the middle.
+/// The spread of at least one number; the median of an even count is the mean of the two in the
+/// middle.
 [[nodiscard]] BDPT_EXPORT Spread spread(std::vector<double> values);
 
 }  // namespace bdpt::eval

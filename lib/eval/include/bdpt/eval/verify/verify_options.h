@@ -16,7 +16,7 @@ constexpr int other_samples = 16;  ///< of pt, nee, lt and vcm
 /// Of pt for paths of one edge: a single ray each, and lamps that are seen are often small.
 constexpr int direct_samples = 64;
 
-/// What `verify` does, and how sure and how sharp it is to be.
+/// The options of `verify`: its paths, confidence and sharpness.
 struct VerifyOptions {
     int width = 32;  ///< [pixels]
     int height = 32;

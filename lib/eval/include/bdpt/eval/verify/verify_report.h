@@ -11,7 +11,7 @@
 
 namespace bdpt::eval {
 
-/// What `verify` says of a scene.
+/// The verdict of `verify`.
 enum class Verdict : std::uint8_t {
     pass,          ///< nothing disagrees, and what would bias the image would have been seen
     fail,          ///< something disagrees
@@ -34,7 +34,7 @@ struct MeanComparison {
 /// A strategy held against all that find the same paths.
 struct StrategyFinding {
     Strategy strategy;
-    /// Of the light of paths of this length, what the strategy cannot make; in [0, 1].
+    /// The share of the light of paths of this length that the strategy cannot make; in [0, 1].
     double blind = 0.0;
     double weighted = 0.0;    ///< what it brings to the image, on average [nit]
     double unweighted = 0.0;  ///< what it finds by itself, on average [nit]; may be very noisy
@@ -67,7 +67,7 @@ struct LengthFinding {
     int edges = 0;
     double radiance = 0.0;  ///< on average over the image, by bdpt [nit]
     double error = 0.0;     ///< its standard error [nit]
-    /// What pt, nee and mis can make of it, and what lt can; in [0, 1].
+    /// The shares that pt, nee and mis can make, and that lt can; in [0, 1].
     double seen_from_camera = 0.0;
     double seen_from_light = 0.0;
 };
@@ -83,7 +83,7 @@ struct ImageFinding {
     double lost = 0.0;
 };
 
-/// What was seen of the weights of single paths.
+/// The check of the weights of single paths.
 struct WeightFinding {
     std::int64_t paths = 0;
     /// Whose weight differs by more than 0.001 from the definition, by which the weights of all
@@ -92,7 +92,7 @@ struct WeightFinding {
     double worst = 0.0;  ///< greatest such difference
 };
 
-/// What `verify` found.
+/// The result of `verify`.
 struct VerifyReport {
     Verdict verdict = Verdict::inconclusive;
     std::int64_t batches = 0;

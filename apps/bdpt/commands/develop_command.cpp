@@ -12,6 +12,7 @@
 
 #include "options/values/default_output.h"
 #include "options/values/output_files.h"
+#include "report/image/backplate.h"
 #include "report/image/denoised.h"
 #include "report/image/image_files.h"
 #include "report/image/layered_image.h"
@@ -75,6 +76,10 @@ int run_develop(const DevelopArguments& arguments)
     }
     const DisplayArguments display = display_of(arguments.display, image, arguments.file);
     check_transparency(display, outputs);
+    if (display.backdrop) {
+        check_not_read(outputs, FileSet({display.backdrop->photo}));
+    }
+    check_backplate(display);
     const bool denoises = arguments.denoise && !image.is_denoised;
     if (denoises && !has_layer(image, "albedo")) {
         console.warning(
@@ -84,10 +89,11 @@ int run_develop(const DevelopArguments& arguments)
     }
     const std::optional<io::Denoiser> denoiser =
         open_denoiser(denoises ? arguments.denoise : std::nullopt, outputs, 0);
-    ImageFileOptions options{.exr = {.metadata = std::move(image.metadata)},
-                             .layers = std::move(image.layers),
-                             .display = display,
-                             .denoiser = denoiser ? &*denoiser : nullptr};
+    ImageFileOptions options{
+        .exr = {.metadata = std::move(image.metadata), .placement = image.placement},
+        .layers = std::move(image.layers),
+        .display = display,
+        .denoiser = denoiser ? &*denoiser : nullptr};
     Attempts attempts;
     const WrittenImages written =
         write_image_files(outputs, image.image, std::move(options), attempts);

@@ -22,6 +22,7 @@
 #include "options/values/output_files.h"
 #include "plan/plan_file.h"
 #include "plan/planned_files.h"
+#include "report/image/backplate.h"
 #include "report/image/denoised.h"
 #include "report/part/merged_files.h"
 #include "report/part/part_collection.h"
@@ -163,6 +164,7 @@ void merge(const MergeArguments& arguments, const PartCollection& collection,
     const DisplayArguments display =
         display_of_parts(parts.front().notes.metadata, arguments.display);
     check_transparency(display, arguments.outputs);
+    check_backplate(display);
     RenderPart sum;
     io::MemoryBudget memory(memory_limit(std::nullopt));
     for (const PartInfo& part : parts) {

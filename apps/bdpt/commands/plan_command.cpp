@@ -288,6 +288,13 @@ int run_plan(const PlanArguments& arguments)
 {
     const RenderArguments& asked = arguments.render;
     check_patterns(asked);
+    if (asked.display.backdrop && !asked.display.backdrop->photo.empty()) {
+        throw OptionError(
+            fmt::format("--background \"{}\": a plan has no photographs; plan with --background "
+                        "transparent and "
+                        "name it to bdpt merge",
+                        backdrop_text(*asked.display.backdrop)));
+    }
     check_files(arguments, input_files(asked));
     Console console(asked.printed.format, asked.printed.verbosity);
     const fs::path folder =

@@ -19,6 +19,7 @@
 #include "plan/plan_file.h"
 #include "plan/planned_identity.h"
 #include "plan/planned_words.h"
+#include "report/image/backplate.h"
 #include "report/image/denoised.h"
 #include "report/part/part_keeper.h"
 #include "report/render_files.h"
@@ -140,6 +141,7 @@ int run_render(const RenderArguments& typed, const std::vector<std::string>& wor
         }
     };
     check_all();
+    check_backplate(asked.display);
     bool knows_scene = stage.has_value();
     std::optional<Display> display;
     if (asked.viewer) {

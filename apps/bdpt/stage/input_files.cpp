@@ -25,6 +25,9 @@ std::vector<fs::path> input_files(const RenderArguments& arguments)
     if (arguments.denoise && arguments.denoise->library) {
         files.push_back(*arguments.denoise->library);
     }
+    if (arguments.display.backdrop && !arguments.display.backdrop->photo.empty()) {
+        files.push_back(arguments.display.backdrop->photo);
+    }
     std::erase(files, "-");  // the standard input, which no output overwrites
     return files;
 }

@@ -1,5 +1,6 @@
 #include "material/layers.h"
 
+#include "material/coat_loss.h"
 #include "math/rgb.h"
 
 #include <algorithm>
@@ -25,11 +26,16 @@ LayerTables::LayerTables(std::span<const MaterialDesc> materials)
 {
     if (need_coat(materials)) {
         coat = std::make_unique<const SpecularAlbedo>(1.5f);
+        coat_loss = std::make_unique<const CoatLoss>(*coat);
     }
     if (need_sheen(materials)) {
         sheen = std::make_unique<const SheenAlbedo>();
     }
 }
+
+LayerTables::~LayerTables() = default;
+LayerTables::LayerTables(LayerTables&&) noexcept = default;
+LayerTables& LayerTables::operator=(LayerTables&&) noexcept = default;
 
 bool LayerTables::are_enough_for(std::span<const MaterialDesc> materials) const
 {

@@ -12,14 +12,20 @@
 
 namespace bdpt {
 
+class CoatLoss;
+
 /// Tables that all materials share whose surfaces have layers.
 struct LayerTables {
     /// Those that these materials need.
     explicit LayerTables(std::span<const MaterialDesc> materials);
+    ~LayerTables();
+    LayerTables(LayerTables&&) noexcept;
+    LayerTables& operator=(LayerTables&&) noexcept;
     /// Are those here that these materials need?
     [[nodiscard]] bool are_enough_for(std::span<const MaterialDesc> materials) const;
 
     std::unique_ptr<const SpecularAlbedo> coat;  ///< of index 1.5
+    std::unique_ptr<const CoatLoss> coat_loss;   ///< of the same
     std::unique_ptr<const SheenAlbedo> sheen;
 };
 

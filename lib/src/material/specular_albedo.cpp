@@ -1,6 +1,6 @@
 #include "material/specular_albedo.h"
 
-#include "material/lobes/ggx.h"
+#include "material/lobes/ggx_quadrature.h"
 
 #include <cmath>
 #include <cstddef>
@@ -57,39 +57,13 @@ Split SpecularAlbedo::integrate(float cosine, float roughness) const
         const float g = fresnel_course(cosine);
         return {1.0f - g, g};
     }
-    // Midpoints of the visible normals' own parametrisation: the azimuth over one half of its
-    // symmetric course, and the height on the spherical cap, drawn together where the far tails of
-    // the distribution are.
-    constexpr int heights = 16;
-    constexpr int azimuths = 8;
-    const float sine = std::sqrt(std::max(0.0f, 1.0f - cosine * cosine));
-    const Vec3 wo{sine, 0.0f, cosine};
-    const Vec3 stretched = normalize(Vec3{alpha * wo.x, 0.0f, wo.z});
-    const float stretch_o = ggx::stretch(wo, alpha);
     Split sum{};
-    for (int i = 0; i < heights; ++i) {
-        const float left = 1.0f - (static_cast<float>(i) + 0.5f) / heights;
-        const float share = 3.0f * left * left / (heights * azimuths);
-        const float depth = (1.0f - left * left * left) * (1.0f + stretched.z);
-        const float radius = std::sqrt(depth * (2.0f - depth));
-        for (int j = 0; j < azimuths; ++j) {
-            const SinCos azimuth = sin_cos(pi * (static_cast<float>(j) + 0.5f) / azimuths);
-            const Vec3 cap{radius * azimuth.cos, radius * azimuth.sin, 1.0f - depth};
-            const Vec3 slope = cap + stretched;
-            const Vec3 h = normalize(Vec3{alpha * slope.x, alpha * slope.y, slope.z});
-            const float cos_h = dot(wo, h);
-            const Vec3 wi = 2.0f * cos_h * h - wo;
-            if (wi.z <= 0.0f) {
-                continue;
-            }
-            // G2 / G1(wo)
-            const float masked = share * wi.z * (wo.z + stretch_o) /
-                                 (wi.z * stretch_o + wo.z * ggx::stretch(wi, alpha));
-            const float g = fresnel_course(cos_h);
-            sum.f0 += masked * (1.0f - g);
-            sum.f90 += masked * g;
-        }
-    }
+    ggx::for_each_visible_normal(cosine, alpha, 16, 8, [&](const ggx::QuadraturePoint& point) {
+        const float leaves = point.share * point.leaves(point.facet.reflected(), alpha);
+        const float g = fresnel_course(point.facet.cosine);
+        sum.f0 += leaves * (1.0f - g);
+        sum.f90 += leaves * g;
+    });
     return sum;
 }
 

@@ -1,5 +1,7 @@
 // bdpt develop: pictures of an .exr file are those that bdpt render writes with the same options.
 
+#include <algorithm>
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -127,6 +129,85 @@ TEST_CASE("denoised pictures of an image are those that its render would have wr
     }
 }
 
+TEST_CASE("a photograph lies behind what is rendered, in all of its pixels", "[develop]")
+{
+    const Darkroom room;
+    // A picture of something else, of the frame's size; it is stored without loss.
+    room.render({"-o", "photo.png", "--camera", "1", "--exposure", "0", "--env", "none"});
+    const PngFile photo = read_png(room.path("photo.png"));
+    const Words look{"--background", "photo.png", "--ground", "shadow"};
+    room.render(joined(look, {"-o", "a.png", "-o", "a.exr"}));
+    const PngFile shown = read_png(room.path("a.png"));
+    const std::vector<float> alpha = read_exr_channel(room.path("a.exr"), "A");
+    REQUIRE(shown.channels == 3);
+    REQUIRE(photo.rgb.size() == shown.rgb.size());
+    int open = 0;
+    int covered = 0;
+    for (std::size_t i = 0; i < shown.rgb.size(); ++i) {
+        if (alpha[i / 3] == 0.0f) {
+            REQUIRE(shown.rgb[i] == photo.rgb[i]);
+            ++open;
+        } else {
+            covered += shown.rgb[i] != photo.rgb[i] ? 1 : 0;
+        }
+    }
+    CHECK(open > 100);
+    CHECK(covered > 100);
+    room.check_equal(look, {});
+    room.check_equal(joined(look, {"--crop", "4,2,20,15"}), {});
+    room.check_equal({"--background", "transparent"}, {"--background", "photo.png"});
+    // A part of the frame has that part of the photograph.
+    room.render(joined(look, {"--crop", "4,2,20,15", "-o", "part.png", "--exposure", "0"}));
+    room.render(joined(look, {"-o", "whole.png", "--exposure", "0"}));
+    const PngFile part = read_png(room.path("part.png"));
+    const PngFile whole = read_png(room.path("whole.png"));
+    REQUIRE(part.width == 16);
+    for (int y = 0; y < part.height; ++y) {
+        for (int x = 0; x < 3 * part.width; ++x) {
+            const auto there = static_cast<std::size_t>((y + 2) * 3 * whole.width + x + 12);
+            const auto here = static_cast<std::size_t>(y * 3 * part.width + x);
+            if (alpha[there / 3] == 0.0f) {
+                REQUIRE(part.rgb[here] == photo.rgb[there]);
+            }
+        }
+    }
+}
+
+TEST_CASE("a photograph of other proportions fills the frame", "[develop]")
+{
+    const Darkroom room;
+    // Left and right of the middle half it is cut off; 64 x 32 becomes 16 x 16.
+    room.succeed({"render", "cube.gltf", "--size", "64x32", "--spp", "4", "--env", "none",
+                  "--exposure", "0", "-o", "wide.png"});
+    room.succeed({"render", "cube.gltf", "--size", "16x16", "--spp", "1", "-o", "a.png", "-o",
+                  "a.exr", "--background", "wide.png"});
+    const PngFile wide = read_png(room.path("wide.png"));
+    const PngFile shown = read_png(room.path("a.png"));
+    const std::vector<float> alpha = read_exr_channel(room.path("a.exr"), "A");
+    int compared = 0;
+    for (std::size_t y = 0; y < 16; ++y) {
+        for (std::size_t x = 0; x < 16; ++x) {
+            if (alpha[16 * y + x] > 0.0f) {
+                continue;
+            }
+            // A tent over 4 x 4 pixels lies between the darkest and the brightest of them.
+            int least = 255;
+            int most = 0;
+            for (std::size_t i = 0; i < 16; ++i) {
+                const long row = std::clamp(static_cast<long>(2 * y + i / 4) - 1, 0L, 31L);
+                const auto column = static_cast<long>(2 * x + i % 4) - 1 + 16;
+                const int code = wide.rgb[static_cast<std::size_t>(3 * (64 * row + column))];
+                least = std::min(least, code);
+                most = std::max(most, code);
+            }
+            CHECK(shown.rgb[3 * (16 * y + x)] >= least);
+            CHECK(shown.rgb[3 * (16 * y + x)] <= most);
+            ++compared;
+        }
+    }
+    CHECK(compared > 20);
+}
+
 TEST_CASE("a picture without a name is that of the image", "[develop]")
 {
     const Darkroom room;
@@ -159,6 +240,10 @@ TEST_CASE("what cannot be developed is refused", "[develop]")
     refused({"none.exr", "-o", "a.png"}, 3, "none.exr: no such file");
     refused({"text.exr", "-o", "a.png"}, 5, "text.exr: neither OpenEXR");
     refused({"cut.exr", "-o", "a.png"}, 4, "cut.exr: OpenEXR");
+    refused({"clear.exr", "-o", "a.png", "--background", "none.png"}, 3, "none.png: no such file");
+    refused({"clear.exr", "-o", "a.png", "--background", "text.exr"}, 5, "text.exr: neither");
+    refused({"clear.exr", "-o", "a.png", "--background", "a.png"}, 2, "a.png");
+    refused({"clear.exr", "-o", "a.png", "--background", "whitish"}, 2, "--background \"whitish\"");
     refused({}, 2, "file is required");
 }
 

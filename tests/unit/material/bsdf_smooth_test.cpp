@@ -185,4 +185,24 @@ TEST_CASE("total reflection keeps its energy where specular is low")
     CHECK(sampled->weight == Rgb{1.0f});
 }
 
+TEST_CASE("metal in a solid body reflects by the angle that it is seen at, from both sides")
+{
+    const SpecularAlbedo albedo(ior);
+    const Rgb gold{1.0f, 0.7f, 0.3f};
+    const MetallicRoughness metal({gold, 1, 0, 1, Rgb{1.0f}, 1, Body::solid}, albedo);
+    // From within, 0.5 is beyond the critical angle of glass, where metal reflects no more than
+    // elsewhere.
+    for (const float z : {0.9f, 0.5f, 0.1f, -0.9f, -0.5f, -0.1f}) {
+        const Vec3 wo{std::sqrt(1.0f - z * z), 0.0f, z};
+        const auto mirror = metal.sample(wo, 0.5f, {}, TransportMode::radiance);
+        REQUIRE(mirror);
+        CAPTURE(z);
+        for (int channel = 0; channel < 3; ++channel) {
+            const float schlick =
+                gold[channel] + (1.0f - gold[channel]) * std::pow(1.0f - std::abs(z), 5.0f);
+            CHECK(mirror->weight[channel] == Approx(schlick).epsilon(1e-5));
+        }
+    }
+}
+
 }  // namespace bdpt::test::bsdf_smooth_test

@@ -67,11 +67,17 @@ std::optional<Backdrop> parse_backdrop(std::string_view given)
         text.find(',') != std::string::npos
             ? parse_parts(text)
             : parse_hexadecimal(std::string_view(text).substr(has_sign ? 1 : 0));
-    return color ? std::optional(Backdrop{.color = color}) : std::nullopt;
+    if (color) {
+        return Backdrop{.color = color};
+    }
+    return type_of(given) ? std::optional(Backdrop{.color = {}, .photo = given}) : std::nullopt;
 }
 
 std::string backdrop_text(const Backdrop& backdrop)
 {
+    if (!backdrop.photo.empty()) {
+        return backdrop.photo.string();
+    }
     return backdrop.color ? fmt::format("#{:02x}{:02x}{:02x}", (*backdrop.color)[0],
                                         (*backdrop.color)[1], (*backdrop.color)[2])
                           : "transparent";
@@ -81,7 +87,8 @@ void check_transparency(const DisplayArguments& display,
                         std::span<const std::filesystem::path> outputs)
 {
     for (const std::filesystem::path& output : outputs) {
-        if (display.backdrop && !display.backdrop->color && type_of(output) == ImageType::jpeg) {
+        if (display.backdrop && display.backdrop->is_transparent() &&
+            type_of(output) == ImageType::jpeg) {
             throw OptionError(fmt::format(
                 "{}: JPEG has no alpha for --background transparent: name it .png or .webp",
                 output.string()));
@@ -112,14 +119,16 @@ void add_display_options(OptionList& options, DisplayArguments& display)
                 "grey light, best with --exposure), agx, or none (clamps)",
                 display.curve, curves.type());
     Option& background = options.add(
-        "--background", "transparent|black|white|#RRGGBB",
+        "--background", "transparent|black|white|#RRGGBB|FILE",
         "Leave out the environment where the camera sees it directly; it still lights the scene. "
         ".exr gets alpha (colours are premultiplied), .png and .webp get alpha (transparent) or "
         "that "
-        "sRGB colour there",
+        "sRGB colour there, or a photograph (.png, .jpg, .webp, .exr, .hdr) that fills the frame",
         display.backdrop,
-        parsed_by([](const std::string& text) { return parse_backdrop(text); },
-                  "transparent, black, white, or a colour like #f0f0f0, #fff or 0.9,0.9,0.9"));
+        parsed_by(
+            [](const std::string& text) { return parse_backdrop(text); },
+            "transparent, black, white, a colour like #f0f0f0, #fff or 0.9,0.9,0.9, or the name "
+            "of a .png, .jpg, .webp, .exr or .hdr file"));
     background.info.separator = ',';
     background.uses.plan_render = true;    // merging needs its alpha
     background.uses.python_render = true;  // as does save()

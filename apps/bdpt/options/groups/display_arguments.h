@@ -16,7 +16,10 @@ namespace bdpt::app {
 
 /// What is seen in place of the environment.
 struct Backdrop {
-    std::optional<io::SrgbColor> color{};  ///< none: images are transparent there
+    std::optional<io::SrgbColor> color{};
+    std::filesystem::path photo{};  ///< a file with an image, in place of a colour; empty: none
+
+    [[nodiscard]] bool is_transparent() const { return !color && photo.empty(); }
 };
 
 /// How images look on a screen.
@@ -28,7 +31,8 @@ struct DisplayArguments {
     std::optional<Backdrop> backdrop{};  ///< none: the environment is seen
 };
 
-/// "transparent", "black", "white", "#rrggbb", "#rgb" or sRGB-encoded "r,g,b" from 0 to 1.
+/// "transparent", "black", "white", "#rrggbb", "#rgb" sRGB-encoded "r,g,b" from 0 to 1, or
+/// the name of an image: .png, .jpg, .webp, .exr or .hdr.
 [[nodiscard]] std::optional<Backdrop> parse_backdrop(std::string_view text);
 
 /// Its inverse; black is "#000000".

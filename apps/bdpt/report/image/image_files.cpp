@@ -10,6 +10,7 @@
 
 #include "options/values/output_files.h"
 #include "options/values/pipes.h"
+#include "report/image/backplate.h"
 #include "report/image/denoised.h"
 #include "report/image/matte.h"
 #include "report/image/shown_exposure.h"
@@ -24,6 +25,7 @@ namespace {
 struct Picture {
     const Image& image;
     Matte matte;
+    std::optional<Image> backplate{};
 };
 
 /// The pixels of files of that type.
@@ -37,6 +39,7 @@ TexelImage texels_of(const Picture& picture, ImageType type, float exposure,
          .curve = display.curve,
          .type = type == ImageType::png ? display.type : TexelType::unorm8,
          .background = has_backdrop ? display.backdrop->color : std::nullopt,
+         .backplate = picture.backplate ? &*picture.backplate : nullptr,
          .shadow = has_backdrop ? std::span(picture.matte.shadow) : std::span<const float>()});
 }
 
@@ -109,8 +112,14 @@ WrittenImages write_image_files(std::span<const fs::path> outputs, const Image& 
                                 ImageFileOptions options, Attempts& attempts)
 {
     const Matte noisy = matte_of(options.layers);
+    const bool is_shown = std::any_of(outputs.begin(), outputs.end(), [](const fs::path& output) {
+        return is_for_screens(*type_of(output));
+    });
+    std::optional<Image> behind =
+        is_shown ? backplate(options.display, image, options.exr.placement) : std::nullopt;
     if (options.denoiser == nullptr || outputs.empty()) {
-        return write_as_they_are(outputs, image, {image, noisy}, options, attempts);
+        return write_as_they_are(outputs, image, {image, noisy, std::move(behind)}, options,
+                                 attempts);
     }
     const Image clean = clean_image(image, noisy, options);
     const Matte clean_matte = denoised(*options.denoiser, noisy, options.layers);
@@ -123,8 +132,8 @@ WrittenImages write_image_files(std::span<const fs::path> outputs, const Image& 
             options.layers);
         options.layers.push_back(layer_of(clean, "denoised"));
     }
-    return write_as_they_are(outputs, clean_first ? clean : image, {clean, clean_matte}, options,
-                             attempts);
+    return write_as_they_are(outputs, clean_first ? clean : image,
+                             {clean, clean_matte, std::move(behind)}, options, attempts);
 }
 
 TexelImage screen_image(const Image& image, const ImageFileOptions& options)
@@ -135,10 +144,11 @@ TexelImage screen_image(const Image& image, const ImageFileOptions& options)
             shown_exposure(options.display.exposure, options.exr.metadata, picture.image);
         return texels_of(picture, ImageType::png, exposure, options.display);
     };
+    std::optional<Image> behind = backplate(options.display, image, options.exr.placement);
     return options.denoiser == nullptr
-               ? texels({image, noisy})
+               ? texels({image, noisy, std::move(behind)})
                : texels({clean_image(image, noisy, options),
-                         denoised(*options.denoiser, noisy, options.layers)});
+                         denoised(*options.denoiser, noisy, options.layers), std::move(behind)});
 }
 
 }  // namespace bdpt::app

@@ -133,7 +133,12 @@ std::optional<Backdrop> backdrop_of(const io::ImageMetadata& metadata, bool has_
 LayeredImage read_layered_image(const fs::path& file, Wanted wanted)
 {
     io::LoadedImage main = io::read_image(file);
+    const io::ExrPlacement placement{.x = main.filled.x0,
+                                     .y = main.filled.y0,
+                                     .full_width = main.image.width,
+                                     .full_height = main.image.height};
     LayeredImage result{.image = cropped(std::move(main.image), main.filled),
+                        .placement = placement,
                         .layers = {},
                         .metadata = metadata_in(main.attributes),
                         .warnings = std::move(main.warnings)};

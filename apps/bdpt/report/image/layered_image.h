@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bdpt/image.h>
+#include <bdpt/io/exr.h>
 #include <bdpt/io/image_metadata.h>
 
 #include <cstdint>
@@ -15,9 +16,10 @@ namespace bdpt::app {
 
 /// What an EXR file has that pictures are made from.
 struct LayeredImage {
-    Image image;                ///< where the file has data
-    std::vector<Layer> layers;  ///< alpha, shadow, albedo and normal, as far as there are any
-    bool is_denoised = false;   ///< or else it is as it was rendered
+    Image image;                 ///< where the file has data
+    io::ExrPlacement placement;  ///< where in the whole that is
+    std::vector<Layer> layers;   ///< alpha, shadow, albedo and normal, as far as there are any
+    bool is_denoised = false;    ///< or else it is as it was rendered
     std::optional<Backdrop> backdrop{};  ///< none: the environment is seen
     io::ImageMetadata metadata;
     std::vector<std::string> warnings;  ///< one line each, without the file's name

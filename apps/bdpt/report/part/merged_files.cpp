@@ -93,6 +93,9 @@ void check_merged_files(std::span<const MergeArguments> images)
         if (image.denoise && image.denoise->library) {
             inputs.add(*image.denoise->library);
         }
+        if (image.display.backdrop && !image.display.backdrop->photo.empty()) {
+            inputs.add(image.display.backdrop->photo);
+        }
     }
     for (const MergeArguments& image : images) {
         check_outputs(image.outputs, inputs);

@@ -52,6 +52,12 @@ void check(const Image& image, std::span<const float> coverage, const DisplayOpt
         throw Error(ErrorCode::usage, fmt::format("an image of {} pixels with {} values of alpha",
                                                   image.pixels.size(), coverage.size()));
     }
+    const Image* plate = options.backplate;
+    if (plate != nullptr && (plate->width != image.width || plate->height != image.height)) {
+        throw Error(ErrorCode::usage,
+                    fmt::format("an image of {} x {} pixels before a backplate of {} x {}",
+                                image.width, image.height, plate->width, plate->height));
+    }
     if (type != TexelType::unorm8 && type != TexelType::unorm16) {
         throw Error(ErrorCode::usage, "images for screens have integers of 8 or 16 bits");
     }
@@ -74,7 +80,7 @@ TexelImage to_display(const Image& image, std::span<const float> coverage,
         return apply(options.curve, pixel);
     };
     const bool opaque = coverage.empty();
-    const bool has_alpha = !opaque && !options.background;
+    const bool has_alpha = !opaque && !options.background && options.backplate == nullptr;
     Rgb background(0.0f);
     for (std::size_t channel = 0; channel < 3 && options.background; ++channel) {
         background[static_cast<int>(channel)] =
@@ -97,7 +103,9 @@ TexelImage to_display(const Image& image, std::span<const float> coverage,
             codes.add_color(own > 0.0f ? own / alpha * color : color);
             codes.add(alpha);
         } else {
-            codes.add_color(opaque ? color : own * color + (1.0f - alpha) * background);
+            const Rgb behind =
+                options.backplate != nullptr ? options.backplate->pixels[i] : background;
+            codes.add_color(opaque ? color : own * color + (1.0f - alpha) * behind);
         }
     }
     return result;

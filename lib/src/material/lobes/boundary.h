@@ -65,12 +65,19 @@ struct Boundary {
     /// Of a microfacet with this cosine on the side of `z`.
     [[nodiscard]] float reflect_choice(float cos_microfacet, float z) const noexcept
     {
-        return transmits() ? shares(cos_outer(cos_microfacet, z)).reflect_choice : 1.0f;
+        return transmits() ? shares(cos_microfacet, z).reflect_choice : 1.0f;
     }
 
-    /// Metal follows the cosine on the outer side too, so that light sees the same microfacet
-    /// whichever way it comes.
-    [[nodiscard]] BoundaryShares shares(float cos_outer) const noexcept
+    /// Of a microfacet with this cosine on the side of `z`.
+    [[nodiscard]] BoundaryShares shares(float cos_microfacet, float z) const noexcept
+    {
+        return shares(cos_outer(cos_microfacet, z), cos_microfacet, z);
+    }
+    /// With the cosine on the outer side: of which the dielectric's reflectance and all
+    /// probabilities are, so that they are equal whichever way light comes. Metal reflects by the
+    /// angle in the medium that it is seen through.
+    [[nodiscard]] BoundaryShares shares(float cos_outer, float cos_microfacet,
+                                        float z) const noexcept
     {
         const float dielectric = 1.0f - metallic;
         Rgb reflectance{1.0f};
@@ -80,17 +87,26 @@ struct Boundary {
             reflectance = film.over(reflectance, f0, cos_outer);
             reflected = dielectric * reflectance;
         }
+        Rgb expected = reflected;  // for the probability
         if (metallic > 0.0f) {
-            const Rgb bare = base_color + (1.0f - base_color) * schlick_weight(cos_outer);
-            reflected += metallic * film.over(bare, base_color, std::max(cos_outer, 0.0f));
+            expected += metallic * metal(std::max(cos_outer, 0.0f));
+            reflected = is_inside(z) ? reflected + metallic * metal(cos_microfacet) : expected;
         }
         if (transmission == 0.0f) {
             return {reflected, Rgb{0.0f}, 1.0f};
         }
         const Rgb transmitted = transmission * base_color * (1.0f - reflectance);
-        const float reflected_max = max_component(reflected);
+        const float reflected_max = max_component(expected);
         const float sum = reflected_max + max_component(transmitted);
         return {reflected, transmitted, sum > 0.0f ? reflected_max / sum : 1.0f};
+    }
+
+private:
+    /// The reflectance of metal at this cosine.
+    [[nodiscard]] Rgb metal(float cosine) const noexcept
+    {
+        const Rgb bare = base_color + (1.0f - base_color) * schlick_weight(cosine);
+        return film.over(bare, base_color, cosine);
     }
 };
 

@@ -30,6 +30,17 @@ float EvenCoat::reflected(float cosine) const noexcept
     return weight_ * std::min(1.0f, albedo_->normal_reflectance() * split.f0 + split.f90);
 }
 
+CoatInterreflection EvenCoat::interreflection(const CoatedBase& base,
+                                              const CoatLoss* loss) const noexcept
+{
+    if (!exists()) {
+        return {};
+    }
+    const SpecularAlbedo::Split average = albedo_->average(roughness_);
+    const float reflected = albedo_->normal_reflectance() * average.f0 + average.f90;
+    return {base, weight_, reflected, roughness_, *loss};
+}
+
 BsdfEval EvenCoat::eval(Vec3 wo, Vec3 wi, TransportMode) const noexcept
 {
     if (is_delta() || wo.z <= 0.0f || wi.z <= 0.0f) {

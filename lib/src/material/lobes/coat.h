@@ -1,5 +1,6 @@
 #pragma once
 
+#include "material/lobes/coat_interreflection.h"
 #include "material/lobes/lobe.h"
 #include "material/specular_albedo.h"
 #include "material/tilted_facet.h"
@@ -19,6 +20,9 @@ public:
     /// The share of light from a direction with this cosine that is reflected.
     [[nodiscard]] float reflected(float cosine) const noexcept;
     [[nodiscard]] bool exists() const noexcept { return weight_ > 0.0f; }
+    /// What it sends back to the base, which lies even below it. The table must outlive the result.
+    [[nodiscard]] CoatInterreflection interreflection(const CoatedBase& base,
+                                                      const CoatLoss* loss) const noexcept;
 
     /// Grey, and the same in both modes.
     [[nodiscard]] BsdfEval eval(Vec3 wo, Vec3 wi, TransportMode mode) const noexcept;
@@ -48,6 +52,12 @@ public:
     [[nodiscard]] bool is_delta() const noexcept { return even_.is_delta(); }
     /// The share of light from `w` that the coat reflects; the base gets no more than the rest.
     [[nodiscard]] float reflected(Vec3 w) const noexcept;
+    /// What it sends back to the base; none where it has a normal of its own.
+    [[nodiscard]] CoatInterreflection interreflection(const CoatedBase& base,
+                                                      const CoatLoss* loss) const noexcept
+    {
+        return tilted_ ? CoatInterreflection() : even_.interreflection(base, loss);
+    }
 
     /// Grey.
     [[nodiscard]] BsdfEval eval(Vec3 wo, Vec3 wi, TransportMode mode) const noexcept;

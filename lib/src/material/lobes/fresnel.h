@@ -32,5 +32,7 @@ namespace bdpt {
     const float x2 = x * x;
     return x2 * x2 * x;
 }
+/// Its cosine-weighted average over the hemisphere.
+inline constexpr float mean_schlick_weight = 1.0f / 21.0f;
 
 }  // namespace bdpt

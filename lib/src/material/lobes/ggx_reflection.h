@@ -21,7 +21,7 @@ public:
         const Vec3 o = wo.z > 0.0f ? wo : mirrored(wo);
         const Vec3 i = wo.z > 0.0f ? wi : mirrored(wi);
         const ggx::Lobe lobe = ggx::reflect(o, i, alpha_);
-        const BoundaryShares share = boundary_.shares(boundary_.cos_outer(lobe.cos_outer, wo.z));
+        const BoundaryShares share = boundary_.shares(lobe.cos_outer, wo.z);
         return {share.reflected * lobe.f_cos, SolidAnglePdf{share.reflect_choice * lobe.pdf_fwd},
                 SolidAnglePdf{share.reflect_choice * lobe.pdf_rev}};
     }

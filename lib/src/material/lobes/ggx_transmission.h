@@ -26,7 +26,7 @@ public:
         const float n_i = boundary_.index_at(wi.z);
         const ggx::Lobe lobe = boundary_.is_solid ? ggx::refract(o, i, n_o, n_i, alpha_)
                                                   : ggx::reflect(o, mirrored(i), alpha_);
-        const BoundaryShares share = boundary_.shares(lobe.cos_outer);
+        const BoundaryShares share = boundary_.shares(lobe.cos_outer, lobe.cos_outer, 1.0f);
         const float choice = 1.0f - share.reflect_choice;
         return {share.transmitted * (lobe.f_cos * compression(n_o, n_i, mode)),
                 SolidAnglePdf{choice * lobe.pdf_fwd}, SolidAnglePdf{choice * lobe.pdf_rev}};

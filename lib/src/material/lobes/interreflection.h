@@ -1,6 +1,7 @@
 #pragma once
 
 #include "material/lobes/diffuse_reflection.h"
+#include "material/lobes/fresnel.h"
 #include "math/elementary.h"
 #include "math/rgb.h"
 
@@ -18,8 +19,7 @@ public:
     /// microfacets reflect at once, in [0, 1]. `share`: of the surface that is metal.
     Interreflection(Rgb f0, float average, float share)
     {
-        // 1/21 is the cosine-weighted average of Schlick's (1 - cos)^5.
-        const Rgb reflectance = f0 + (1.0f - f0) * (1.0f / 21.0f);
+        const Rgb reflectance = f0 + (1.0f - f0) * mean_schlick_weight;
         const float missing = std::max(1.0f - average, least_missing);
         // Light is reflected once, as often again as microfacets mask it, and leaves.
         albedo_ = share * reflectance * reflectance * average /

@@ -29,6 +29,11 @@ public:
     [[nodiscard]] float alpha() const { return alpha_; }
     [[nodiscard]] bool is_rough() const { return alpha_ >= smooth_alpha; }
     void make_smooth() { alpha_ = 0.0f; }
+    /// The row of the smoothest direction.
+    [[nodiscard]] SpecularAlbedo::Roughness least() const
+    {
+        return is_rough() ? row_ : SpecularAlbedo::Roughness{};
+    }
 
     template <typename Reflected>
     [[nodiscard]] float directional(const Reflected& reflected) const
@@ -71,6 +76,11 @@ public:
     [[nodiscard]] Vec2 alpha() const { return alpha_; }
     [[nodiscard]] bool is_rough() const { return alpha_.x >= smooth_alpha; }
     void make_smooth() { alpha_ = Vec2(0.0f); }
+    /// The row of the smoothest direction.
+    [[nodiscard]] SpecularAlbedo::Roughness least() const
+    {
+        return is_rough() ? across_ : SpecularAlbedo::Roughness{};
+    }
 
     template <typename Reflected>
     [[nodiscard]] float directional(const Reflected& reflected) const

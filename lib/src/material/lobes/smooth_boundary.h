@@ -22,7 +22,7 @@ public:
                                                    TransportMode mode) const noexcept
     {
         const float cos_o = std::abs(wo.z);
-        const BoundaryShares share = boundary_.shares(boundary_.cos_outer(cos_o, wo.z));
+        const BoundaryShares share = boundary_.shares(cos_o, wo.z);
         const float n_o = boundary_.index_at(wo.z);
         if (u_lobe < share.reflect_choice) {
             const float choice = choice_ * share.reflect_choice;

@@ -1,6 +1,7 @@
 #include "material/models/coated_facet.h"
 
 #include "material/mapped_bsdf.h"
+#include "math/warp.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -25,6 +26,7 @@ CoatedFacet::CoatedFacet(const TiltedFacet& facet, const LayeredParameters& para
       coat_(parameters.coat.value(), parameters.coat_roughness.value(),
             local_coat_normal(parameters.coat_normal.value()),
             parameters.constants->tables->coat.get()),
+      again_(below_.interreflection(coat_, parameters.constants->tables->coat_loss.get())),
       color_(clamp(parameters.base_color, 0.0f, 1.0f)),
       solid_(parameters.body == Body::solid)
 {}
@@ -47,7 +49,14 @@ CoatedFacet::Side CoatedFacet::side(Vec3 w) const noexcept
     if (side.covered) {
         const float reflected = coat_.reflected(side.w);
         side.below_coat = 1.0f - reflected;
-        side.coat_choice = reflected / (reflected + side.below_coat * below_.base_weight());
+        float again = 0.0f;
+        if (again_.exists()) {
+            side.lost = below_.lost(again_, side.w.z);
+            again = again_.weight() * side.lost;
+        }
+        const float inverse = 1.0f / (reflected + again + side.below_coat * below_.base_weight());
+        side.coat_choice = reflected * inverse;
+        side.again_choice = again * inverse;
     }
     return side;
 }
@@ -57,10 +66,17 @@ BsdfEval CoatedFacet::eval_lobes(const Side& from, Vec3 wo, Vec3 wi,
 {
     const Side to = side(wi);
     BsdfEval sum = chosen(MappedBsdf(facet_, below_, color_).eval(wo, wi, mode),
-                          1.0f - from.coat_choice, 1.0f - to.coat_choice);
+                          from.below_choice(), to.below_choice());
     sum.f_cos *= std::min(from.below_coat, to.below_coat);
-    if (coat_.has_smooth_lobe() && from.covered && from.above == to.above) {
+    if (!from.covered || from.above != to.above) {
+        return sum;
+    }
+    if (coat_.has_smooth_lobe()) {
         add(sum, chosen(coat_.eval(from.w, to.w, mode), from.coat_choice, to.coat_choice));
+    }
+    if (again_.exists()) {
+        add(sum, chosen(again_.lobe(from.lost, to.lost).eval(from.w, to.w, mode), from.again_choice,
+                        to.again_choice));
     }
     return sum;
 }
@@ -97,10 +113,10 @@ std::optional<BsdfSample> CoatedFacet::sample_below(const Side& from, Vec3 wo, f
         return sampled;
     }
     const Side to = side(sampled->wi);
-    const float choice = 1.0f - from.coat_choice;
+    const float choice = from.below_choice();
     sampled->weight *= std::min(from.below_coat, to.below_coat) / choice;
     sampled->pdf_fwd.value *= choice;
-    sampled->pdf_rev.value *= 1.0f - to.coat_choice;
+    sampled->pdf_rev.value *= to.below_choice();
     return sampled;
 }
 
@@ -112,8 +128,12 @@ std::optional<BsdfSample> CoatedFacet::sample(Vec3 wo, float u_lobe, Vec2 u,
         return std::nullopt;
     }
     const Choice coat = choose(u_lobe, from.coat_choice);
+    const Choice again = choose(coat.u, from.again_choice / (1.0f - from.coat_choice));
     const std::optional<BsdfSample> sampled =
-        coat.taken ? sample_coat(from, coat.u, u, mode) : sample_below(from, wo, coat.u, u, mode);
+        coat.taken ? sample_coat(from, coat.u, u, mode)
+        : again.taken
+            ? std::optional(towards(from_surface(square_to_cosine_hemisphere(u), from.above)))
+            : sample_below(from, wo, again.u, u, mode);
     if (!sampled || sampled->delta || grazes(surface_.to_local(sampled->wi))) {
         return sampled && sampled->delta ? sampled : std::nullopt;
     }

@@ -29,7 +29,12 @@ private:
         bool above = true;
         bool covered = true;
         float below_coat = 1.0f;  ///< what the coat leaves of light
+        float lost = 0.0f;        ///< share of light between coat and facet
+        // Probabilities of the lobes.
         float coat_choice = 0.0f;
+        float again_choice = 0.0f;
+
+        [[nodiscard]] float below_choice() const { return 1.0f - coat_choice - again_choice; }
     };
 
     [[nodiscard]] Vec3 local_coat_normal(Vec3 normal) const;
@@ -49,6 +54,7 @@ private:
     Frame surface_;  ///< local to the facet
     LayeredBsdf below_;
     Coat coat_;
+    CoatInterreflection again_;
     Rgb color_;
     bool solid_;
 };

@@ -48,6 +48,7 @@ LayeredBsdf::LayeredBsdf(const LayeredParameters& parameters)
             parameters.coat_normal.value(), parameters.constants->tables->coat.get()),
       sheen_(parameters.sheen.value(), parameters.sheen_roughness.value(),
              parameters.constants->tables->sheen.get()),
+      again_(interreflection(coat_, parameters.constants->tables->coat_loss.get())),
       base_weight_(weight_of(parameters)),
       solid_(parameters.body == Body::solid)
 {}
@@ -69,9 +70,15 @@ LayeredBsdf::Side LayeredBsdf::side(Vec3 w) const noexcept
     side.below_sheen = 1.0f - sheen;
     const float sheen_weight = side.below_coat * sheen;
     const float base_weight = side.below_coat * side.below_sheen * base_weight_;
-    const float inverse = 1.0f / (coat + sheen_weight + base_weight);
+    float again = 0.0f;
+    if (again_.exists()) {
+        side.lost = lost(again_, w.z, side.base);
+        again = again_.weight() * side.lost;
+    }
+    const float inverse = 1.0f / (coat + sheen_weight + again + base_weight);
     side.coat_choice = coat * inverse;
     side.sheen_choice = sheen_weight * inverse;
+    side.again_choice = again * inverse;
     side.base_choice = base_weight * inverse;
     return side;
 }
@@ -82,7 +89,8 @@ BsdfEval LayeredBsdf::eval_lobes(const Side& from, Vec3 wo, Vec3 wi,
     const Side to = side(wi);
     const float below_coat = passed(from.below_coat, to.below_coat);
     BsdfEval sum = chosen(base_.eval(from.base, wo, wi, mode), from.base_choice, to.base_choice);
-    sum.f_cos *= below_coat * passed(from.below_sheen, to.below_sheen);
+    const float below_sheen = passed(from.below_sheen, to.below_sheen);
+    sum.f_cos *= below_coat * below_sheen;
     const bool above = wo.z > 0.0f;
     if (above != (wi.z > 0.0f) || !is_covered(wo)) {
         return sum;
@@ -96,6 +104,12 @@ BsdfEval LayeredBsdf::eval_lobes(const Side& from, Vec3 wo, Vec3 wi,
         BsdfEval sheen = chosen(sheen_.eval(o, i, mode), from.sheen_choice, to.sheen_choice);
         sheen.f_cos *= below_coat;
         add(sum, sheen);
+    }
+    if (again_.exists()) {
+        BsdfEval again = chosen(again_.lobe(from.lost, to.lost).eval(o, i, mode), from.again_choice,
+                                to.again_choice);
+        again.f_cos *= below_sheen;
+        add(sum, again);
     }
     return sum;
 }
@@ -145,11 +159,14 @@ std::optional<BsdfSample> LayeredBsdf::sample(Vec3 wo, float u_lobe, Vec2 u,
     }
     constexpr float below_one = 1.0f - 0x1p-24f;
     const Side from = side(wo);
-    const float above_base = from.coat_choice + from.sheen_choice;
+    const float above_again = from.coat_choice + from.sheen_choice;
+    const float above_base = above_again + from.again_choice;
     std::optional<BsdfSample> sampled;
     if (u_lobe < from.coat_choice) {
         sampled = sample_coat(from, wo, u_lobe / from.coat_choice, u, mode);
-    } else if (u_lobe < above_base) {
+    } else if (u_lobe >= above_again && u_lobe < above_base) {
+        sampled = again_.lobe(0.0f, 0.0f).sample(wo, 0.0f, u, mode);
+    } else if (u_lobe < above_again) {
         const bool above = wo.z > 0.0f;
         sampled = sheen_.sample(from_above(wo, above), u_lobe, u, mode);
         sampled->wi = from_above(sampled->wi, above);

@@ -5,6 +5,7 @@
 #include "material/lobes/sheen.h"
 #include "material/models/metallic_roughness.h"
 
+#include <cmath>
 #include <optional>
 
 namespace bdpt {
@@ -16,7 +17,8 @@ namespace bdpt {
 ///
 /// What lies below a layer is multiplied by min(T(wo), T(wi)), where T is what the layer does not
 /// reflect: so no energy is made, and the way of light does not matter. That is the rule that
-/// KHR_materials_sheen gives for its layer.
+/// KHR_materials_sheen gives for its layer. What this takes from a base below a coat is given back
+/// as diffuse light (`CoatInterreflection`).
 class LayeredBsdf {
 public:
     explicit LayeredBsdf(const LayeredParameters& parameters);
@@ -29,6 +31,17 @@ public:
     [[nodiscard]] bool has_smooth_lobe() const noexcept;
     /// Roughly the albedo of the base, > 0.
     [[nodiscard]] float base_weight() const noexcept { return base_weight_; }
+    /// What a coat above all sends back.
+    [[nodiscard]] CoatInterreflection interreflection(const Coat& coat,
+                                                      const CoatLoss* loss) const noexcept
+    {
+        return coat.interreflection(base_.coated(), loss);
+    }
+    /// The share of light from a direction with this z, on a covered side, that is lost without it.
+    [[nodiscard]] float lost(const CoatInterreflection& again, float z) const noexcept
+    {
+        return lost(again, z, base_.side(z));
+    }
 
 private:
     /// What follows from one direction alone.
@@ -38,12 +51,19 @@ private:
         float coat_choice = 0.0f;
         float sheen_choice = 0.0f;
         float base_choice = 1.0f;
+        float again_choice = 0.0f;
+        float lost = 0.0f;  ///< share of light between coat and base
         // What is left of light below each layer.
         float below_coat = 1.0f;
         float below_sheen = 1.0f;
     };
 
     [[nodiscard]] Side side(Vec3 w) const noexcept;
+    [[nodiscard]] float lost(const CoatInterreflection& again, float z,
+                             const LayerBase::Side& base) const noexcept
+    {
+        return again.lost(std::abs(z), {base.base_transmitted, base_.metal_unreflected(z)});
+    }
     [[nodiscard]] bool is_covered(Vec3 w) const noexcept { return !solid_ || w.z > 0.0f; }
     [[nodiscard]] BsdfEval eval_lobes(const Side& from, Vec3 wo, Vec3 wi,
                                       TransportMode mode) const noexcept;
@@ -55,6 +75,7 @@ private:
     LayerBase base_;
     Coat coat_;
     Sheen sheen_;
+    CoatInterreflection again_;
     float base_weight_;
     bool solid_;
 };

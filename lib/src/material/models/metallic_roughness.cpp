@@ -43,16 +43,41 @@ BasicMetallicRoughness<Film, Roughness, Base>::BasicMetallicRoughness(
             boundary_.ior = least_refraction;
         }
     }
-    constexpr float least_loss = 1e-6f;  // a base below a perfect mirror gets no light at all
-    const float average = roughness_.average(
-        [&](SpecularAlbedo::Roughness row) { return boundary_.reflected(albedo.average(row)); });
     const float diffuse = dielectric * (1.0f - transmission);
-    base_weight_ = base_.set_up(boundary_.base_color, diffuse, std::max(1.0f - average, least_loss),
-                                parameters);
+    base_weight_ = base_.set_up(boundary_.base_color, diffuse, reaches_base(), parameters);
     const float base_max = max_component(boundary_.base_color);
     transmission_weight_ = boundary_.transmission * base_max;
-    // 1/21 is the cosine-weighted average of Schlick's (1 - cos)^5.
-    metal_weight_ = metallic * (base_max + (1.0f - base_max) / 21.0f);
+    metal_weight_ = metallic * (base_max + (1.0f - base_max) * mean_schlick_weight);
+}
+
+template <typename Film, typename Roughness, typename Base>
+float BasicMetallicRoughness<Film, Roughness, Base>::reaches_base() const noexcept
+{
+    constexpr float least_loss = 1e-6f;  // a base below a perfect mirror gets no light at all
+    const float average = roughness_.average([&](SpecularAlbedo::Roughness row) {
+        return boundary_.reflected(boundary_.albedo->average(row));
+    });
+    return std::max(1.0f - average, least_loss);
+}
+
+template <typename Film, typename Roughness, typename Base>
+CoatedBase BasicMetallicRoughness<Film, Roughness, Base>::coated() const noexcept
+{
+    const float metallic = boundary_.metallic;
+    const float passes = boundary_.exists ? reaches_base() : 1.0f;
+    const float diffuse = base_weight_ > 0.0f
+                              ? (1.0f - metallic - boundary_.transmission) * base_.reflected_share()
+                              : 0.0f;
+    const Rgb metal = boundary_.base_color + (1.0f - boundary_.base_color) * mean_schlick_weight;
+    return {.metallic = metallic,
+            .f0 = max_component(boundary_.f0),
+            .f90 = boundary_.f90,
+            .diffuse = diffuse / passes,
+            .unreflected = interreflects() ? average_unreflected() : 0.0f,
+            .roughness = roughness_.least(),
+            .fresnel_rise = boundary_.albedo->average({}).f90,
+            .color = metallic * metal + (1.0f - metallic) * (1.0f - passes) +
+                     diffuse * passes * boundary_.base_color};
 }
 
 template <typename Film, typename Roughness, typename Base>
@@ -60,7 +85,7 @@ auto BasicMetallicRoughness<Film, Roughness, Base>::side(float z) const noexcept
 {
     const bool inside = boundary_.is_inside(z);
     const bool repeats = refracts_repeatedly();
-    if (!repeats && (inside || (base_weight_ == 0.0f && !interreflects()))) {
+    if (!repeats && !interreflects() && (inside || base_weight_ == 0.0f)) {
         return {.boundary_choice = boundary_.exists ? 1.0f : 0.0f};
     }
     if (!boundary_.exists) {
@@ -68,8 +93,12 @@ auto BasicMetallicRoughness<Film, Roughness, Base>::side(float z) const noexcept
     }
     const float lost_share = repeats ? lost(z) : 0.0f;
     const float again = boundary_.transmission * lost_share;
+    const float missing = interreflects() ? unreflected(z) : 0.0f;
+    const float interreflected = interreflects() ? interreflection().weight() * missing : 0.0f;
     if (inside) {
-        return {.boundary_choice = 1.0f - again, .refraction_choice = again};
+        return {.boundary_choice = 1.0f - again - interreflected,
+                .interreflection_choice = interreflected,
+                .refraction_choice = again};
     }
     const float cosine = std::abs(z);
     const float bare = roughness_.directional([&](SpecularAlbedo::Roughness row) {
@@ -77,8 +106,6 @@ auto BasicMetallicRoughness<Film, Roughness, Base>::side(float z) const noexcept
     });
     const float reflected = boundary_.film.greatest_over(bare, cosine, boundary_.f0);
     const float rest = std::max(0.0f, 1.0f - reflected);
-    const float missing = interreflects() ? unreflected(z) : 0.0f;
-    const float interreflected = interreflects() ? interreflection().weight() * missing : 0.0f;
     const float specular = (1.0f - boundary_.metallic) * reflected +
                            transmission_weight_ * std::max(0.0f, rest - lost_share) +
                            metal_weight_ * (1.0f - missing);
@@ -93,14 +120,20 @@ auto BasicMetallicRoughness<Film, Roughness, Base>::side(float z) const noexcept
 template <typename Film, typename Roughness, typename Base>
 float BasicMetallicRoughness<Film, Roughness, Base>::unreflected(float z) const noexcept
 {
-    if (boundary_.is_inside(z)) {
-        return 0.0f;
-    }
     const float reflected = roughness_.directional([&](SpecularAlbedo::Roughness row) {
         const SpecularAlbedo::Split split = boundary_.albedo->directional(std::abs(z), row);
         return split.f0 + split.f90;
     });
     return std::max(0.0f, 1.0f - reflected);
+}
+
+template <typename Film, typename Roughness, typename Base>
+float BasicMetallicRoughness<Film, Roughness, Base>::average_unreflected() const noexcept
+{
+    return 1.0f - roughness_.average([&](SpecularAlbedo::Roughness row) {
+        const SpecularAlbedo::Split split = boundary_.albedo->average(row);
+        return split.f0 + split.f90;
+    });
 }
 
 template <typename Film, typename Roughness, typename Base>
@@ -145,11 +178,7 @@ RepeatedRefraction BasicMetallicRoughness<Film, Roughness, Base>::repeated_refra
 template <typename Film, typename Roughness, typename Base>
 Interreflection BasicMetallicRoughness<Film, Roughness, Base>::interreflection() const noexcept
 {
-    const float average = roughness_.average([&](SpecularAlbedo::Roughness row) {
-        const SpecularAlbedo::Split split = boundary_.albedo->average(row);
-        return split.f0 + split.f90;
-    });
-    return {boundary_.base_color, average, boundary_.metallic};
+    return {boundary_.base_color, 1.0f - average_unreflected(), boundary_.metallic};
 }
 
 /// The probability of the base.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "material/lobes/boundary.h"
+#include "material/lobes/coated_base.h"
 #include "material/lobes/diffuse_reflection.h"
 #include "material/lobes/diffuse_transmission.h"
 #include "material/lobes/interreflection.h"
@@ -63,6 +64,7 @@ public:
         const DiffuseReflection lobe(base_color * per_color_, coupling);
         add(sum, chosen(lobe.eval(wo, wi, mode), choice_fwd, choice_rev));
     }
+    [[nodiscard]] float reflected_share() const noexcept { return 1.0f; }
     [[nodiscard]] std::optional<BsdfSample> sample(Vec3 wo, float u_base, Vec2 u,
                                                    TransportMode mode) const noexcept
     {
@@ -94,6 +96,7 @@ public:
         const Rgb color = glm::clamp(transmitted_, 0.0f, 1.0f);
         transmitted_ = color * (share * diffuse * inv_pi / reaches_base);
         reflected_ *= 1.0f - share;
+        reflected_share_ = 1.0f - share;
         const float transmitted = share * diffuse * max_component(color);
         const float weight = (1.0f - share) * all + transmitted;
         transmitted_choice_ = weight > 0.0f ? transmitted / weight : 0.0f;
@@ -110,6 +113,8 @@ public:
                             transmitted_choice_ * choice_fwd, transmitted_choice_ * choice_rev));
         }
     }
+    /// Of the light that a white base scatters: what stays on the side that it came from.
+    [[nodiscard]] float reflected_share() const noexcept { return reflected_share_; }
     [[nodiscard]] std::optional<BsdfSample> sample(Vec3 wo, float u_base, Vec2 u,
                                                    TransportMode mode) const noexcept
     {
@@ -122,6 +127,7 @@ private:
     Rgb reflected_{0.0f};              ///< f [1/sr]
     Rgb transmitted_{0.0f};            ///< f on the other side [1/sr]
     float transmitted_choice_ = 0.0f;  ///< probability of the other side
+    float reflected_share_ = 1.0f;
 };
 
 /// The scattering model of glTF 2.0 metallic-roughness with KHR_materials_{ior, specular,
@@ -156,6 +162,15 @@ public:
     };
     /// `z` is that of the direction.
     [[nodiscard]] Side side(float z) const noexcept;
+
+    /// What a coat above it needs to know.
+    [[nodiscard]] CoatedBase coated() const noexcept;
+    /// The share of light from a direction with this z that white microfacets do not reflect at
+    /// once; 0 where they are smooth, or no metal.
+    [[nodiscard]] float metal_unreflected(float z) const noexcept
+    {
+        return interreflects() ? unreflected(z) : 0.0f;
+    }
 
     /// `from` is the side of wo.
     [[nodiscard]] BsdfEval eval(const Side& from, Vec3 wo, Vec3 wi,
@@ -194,9 +209,12 @@ private:
                (!boundary_.is_solid || boundary_.albedo->refraction_loss() != nullptr);
     }
     [[nodiscard]] RepeatedRefraction repeated_refraction() const noexcept;
+    /// The average of what the boundary lets through to the base.
+    [[nodiscard]] float reaches_base() const noexcept;
     // Shares of light from a direction with this z.
     /// That white microfacets do not reflect at once.
     [[nodiscard]] float unreflected(float z) const noexcept;
+    [[nodiscard]] float average_unreflected() const noexcept;
     /// That transparent microfacets do not scatter out at once.
     [[nodiscard]] float lost(float z) const noexcept;
     [[nodiscard]] BsdfEval eval_lobes(const Side& from, Vec3 wo, Vec3 wi,

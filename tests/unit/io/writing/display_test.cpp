@@ -3,6 +3,7 @@
 #include <bdpt/io/png.h>
 #include <bdpt/io/tone_map.h>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -77,6 +78,42 @@ TEST_CASE("images are composed over a background in light")
     CHECK(shown.bytes[0] == encode_srgb(0.4f));
     CHECK(shown.bytes[3] == encode_srgb(0.5f * 0.4f + 0.5f));
     CHECK(shown.bytes[5] == encode_srgb(0.5f * 0.1f + 0.5f));
+}
+
+TEST_CASE("a backplate keeps its codes where nothing covers it, and lies behind in light")
+{
+    for (int code = 0; code < 256; ++code) {
+        const float part = static_cast<float>(code) / 255.0f;
+        const float value =
+            part <= 0.04045f ? part / 12.92f : std::pow((part + 0.055f) / 1.055f, 2.4f);
+        const Image plate{3, 1, {Rgb(0.9f), Rgb(1.0f, 0.0f, 0.5f), Rgb(value, 1.0f, 0.0f)}};
+        DisplayOptions options = plain;
+        options.exposure = 3.0f;  // of the image alone
+        options.backplate = &plate;
+        const TexelImage shown = to_display(image, coverage, options);
+        REQUIRE(shown.channels == 3);
+        CHECK(shown.bytes[6] == code);
+        CHECK(shown.bytes[7] == 255);
+        CHECK(shown.bytes[3] == encode_srgb(0.5f * 1.0f + 0.5f));
+        CHECK(shown.bytes[5] == encode_srgb(0.5f * 0.8f + 0.25f));
+    }
+    const Image small{2, 1, {Rgb(0.0f), Rgb(0.0f)}};
+    DisplayOptions options = plain;
+    options.backplate = &small;
+    CHECK_THROWS_AS(to_display(image, coverage, options), Error);
+}
+
+TEST_CASE("a shadow darkens the backplate")
+{
+    const Image plate{3, 1, {Rgb(0.5f), Rgb(0.5f), Rgb(0.8f, 0.4f, 0.2f)}};
+    const std::vector<float> alpha{1.0f, 0.5f, 0.25f};
+    const std::vector<float> shadow{0.0f, 0.0f, 0.25f};
+    DisplayOptions options = plain;
+    options.shadow = shadow;
+    options.backplate = &plate;
+    const TexelImage shown = to_display(image, alpha, options);
+    CHECK(shown.bytes[6] == encode_srgb(0.75f * 0.8f));
+    CHECK(shown.bytes[8] == encode_srgb(0.75f * 0.2f));
 }
 
 TEST_CASE("colours are tone-mapped as if they covered all of a pixel")

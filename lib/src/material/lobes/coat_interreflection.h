@@ -1,0 +1,101 @@
+#pragma once
+
+#include "material/coat_loss.h"
+#include "material/lobes/coated_base.h"
+#include "material/lobes/diffuse_reflection.h"
+#include "math/elementary.h"
+#include "math/rgb.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bdpt {
+
+/// The light that a coat sends back to its base, and that leaves after all. As `Interreflection`,
+/// it is diffuse light in proportion to what is lost without it, of wo and of wi [Kulla and Conty
+/// 2017]: reciprocal, and a white base below any coat reflects all light.
+class CoatInterreflection {
+public:
+    /// Shares of light from one direction that reach a Lambertian base below the boundary, and that
+    /// white microfacets do not reflect at once.
+    struct FromBase {
+        float transmitted;
+        float unreflected;
+    };
+
+    CoatInterreflection() = default;  ///< none
+    /// `weight`: the share of the surface that is coated; `reflected`: the average albedo of a full
+    /// coat. `loss` must outlive this.
+    CoatInterreflection(const CoatedBase& base, float weight, float reflected,
+                        SpecularAlbedo::Roughness coat, const CoatLoss& loss)
+        : base_(base), loss_(&loss), coat_(coat), weight_(weight)
+    {
+        // The table has the course of Fresnel's equations from F0 to F90 of the coat's index.
+        base_.f90 *= base.fresnel_rise / loss.fresnel_rise();
+        const CoatLoss::Average mean = loss.average(base_.roughness, coat);
+        const float f0 = base_.f0;
+        const float f90 = base_.f90;
+        const float below = mean.below - f0 * mean.below_f0 - f90 * mean.below_f90 +
+                            f0 * f0 * mean.below_f0_f0 + f0 * f90 * mean.below_f0_f90 +
+                            f90 * f90 * mean.below_f90_f90;
+        const float below_metal = mean.below - mean.below_f0 - mean.below_f90 + mean.below_f0_f0 +
+                                  mean.below_f0_f90 + mean.below_f90_f90;
+        const float average = lost_of(mean, scattered_again(below_metal), below);
+        if (!(average > least_average)) {
+            weight_ = 0.0f;  // what has no width loses nothing
+            return;
+        }
+        // Light is scattered by the base, comes back from the coat, is scattered again, and leaves
+        // or comes back once more.
+        const float again = weight * reflected;
+        albedo_ = base.color * base.color * ((1.0f - again) / (Rgb(1.0f) - base.color * again));
+        per_coupling_ = inv_pi / (weight * average);
+    }
+
+    [[nodiscard]] bool exists() const noexcept { return weight_ > 0.0f; }
+    /// The largest channel of the share of what is lost that leaves after all.
+    [[nodiscard]] float weight() const noexcept { return max_component(albedo_); }
+
+    /// The share of light with this cosine that is lost without this lobe.
+    [[nodiscard]] float lost(float cosine, FromBase from) const noexcept
+    {
+        const CoatLoss::Directional part =
+            loss_->directional(std::clamp(cosine, 0.0f, 1.0f), base_.roughness, coat_);
+        const float below_metal = part.below - part.below_f0 - part.below_f90;
+        const float below = part.below - base_.f0 * part.below_f0 - base_.f90 * part.below_f90;
+        return weight_ * lost_of(part, from.unreflected * scattered_again(below_metal),
+                                 from.transmitted * below);
+    }
+
+    /// Between directions that lose these shares.
+    [[nodiscard]] DiffuseReflection lobe(float lost_o, float lost_i) const noexcept
+    {
+        return DiffuseReflection(albedo_ * per_coupling_, lost_o * lost_i);
+    }
+
+private:
+    static constexpr float least_average = 1e-5f;
+
+    /// What rough metal scatters after more than one reflection.
+    [[nodiscard]] float scattered_again(float below_metal) const
+    {
+        return base_.unreflected > 1e-6f ? below_metal / base_.unreflected : 0.0f;
+    }
+    template <typename Loss>
+    [[nodiscard]] float lost_of(const Loss& loss, float metal_again, float below) const
+    {
+        const float metal = loss.f0 + loss.f90 + metal_again;
+        const float boundary = base_.f0 * loss.f0 + base_.f90 * loss.f90;
+        return std::max(0.0f, base_.metallic * metal + (1.0f - base_.metallic) * boundary +
+                                  base_.diffuse * below);
+    }
+
+    CoatedBase base_{};
+    const CoatLoss* loss_ = nullptr;
+    SpecularAlbedo::Roughness coat_{};
+    float weight_ = 0.0f;
+    Rgb albedo_{0.0f};
+    float per_coupling_ = 0.0f;
+};
+
+}  // namespace bdpt

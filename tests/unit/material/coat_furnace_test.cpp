@@ -1,0 +1,135 @@
+#include "material/coat_loss.h"
+
+#include "bsdf_cases.h"
+#include "catch.hpp"
+#include "mapped_cases.h"
+#include "math/elementary.h"
+#include "statistics.h"
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace bdpt::test::coat_furnace_test {
+namespace {
+
+/// The share of light from `wo` that is scattered at all.
+test::Moments albedo_of(const test::TestedBsdf& bsdf, Vec3 wo)
+{
+    test::Moments moments;
+    test::Random random(59);
+    for (int i = 0; i < 50000; ++i) {
+        const float u_lobe = random.next();
+        const auto sampled = bsdf.sample(wo, u_lobe, random.next_2d(), TransportMode::importance);
+        moments.add(sampled ? static_cast<double>(sampled->weight.g) : 0.0);
+    }
+    return moments;
+}
+
+Vec3 at_cosine(float cosine)
+{
+    return {std::sqrt(1.0f - cosine * cosine), 0.0f, cosine};
+}
+
+/// White below a full coat of this roughness.
+std::vector<test::BsdfCase> white_cases(float coat)
+{
+    const Rgb white{1.0f};
+    std::vector<test::BsdfCase> cases;
+    for (const float base : {0.1f, 0.3f, 0.6f, 1.0f}) {
+        const std::string name = " " + std::to_string(base);
+        cases.push_back({"metal" + name, {white, 1, base}, 1.5f, test::coated(1, coat)});
+        cases.push_back({"plastic" + name, {white, 0, base}, 1.5f, test::coated(1, coat)});
+    }
+    cases.push_back({"lambert", {white, 0, 1, 0}, 1.5f, test::coated(1, coat)});
+    cases.push_back({"half a coat", {white, 1, 0.6f}, 1.5f, test::coated(0.5f, coat)});
+    cases.push_back({"half metal", {white, 0.5f, 0.4f}, 1.5f, test::coated(1, coat)});
+    cases.push_back({"index 2.4", {white, 0, 0.3f}, 2.4f, test::coated(1, coat)});
+    cases.push_back({"index 1", {white, 0, 0.3f}, 1.0f, test::coated(1, coat)});
+    cases.push_back({"half specular", {white, 0, 0.3f, 0.5f}, 1.5f, test::coated(1, coat)});
+    return cases;
+}
+
+}  // namespace
+
+TEST_CASE("a white surface below any coat is invisible in a white furnace")
+{
+    const float coat = GENERATE(0.0f, 0.2f, 0.5f, 1.0f);
+    for (const test::BsdfCase& bsdf_case : white_cases(coat)) {
+        const test::TestedBsdf bsdf(bsdf_case);
+        for (const float cosine : {1.0f, 0.7f, 0.4f, 0.15f, -0.6f}) {
+            CAPTURE(coat, bsdf_case.name, cosine);
+            const test::Moments sum = albedo_of(bsdf, at_cosine(cosine));
+            CHECK(sum.standard_error() < 0.0025);
+            CHECK(std::abs(sum.mean() - 1.0) < 0.005 + 3.0 * sum.standard_error());
+        }
+    }
+}
+
+TEST_CASE("light between a coat and a darker base gets darker and more saturated")
+{
+    // A share a of what arrives leaves a Lambertian base; the coat returns what it reflects.
+    const Rgb color{0.9f, 0.5f, 0.0f};
+    const Vec3 up{0.0f, 0.0f, 1.0f};
+    const auto straight = [&](float share) {
+        const test::TestedBsdf bsdf({"lambert", {color, 0, 1, 0}, 1.5f, test::coated(share, 0)});
+        return bsdf.eval(up, up, TransportMode::radiance).f_cos;
+    };
+    const SpecularAlbedo coat(1.5f);
+    const auto smooth = SpecularAlbedo::at_roughness(0.0f);
+    const float r0 = coat.normal_reflectance();
+    const SpecularAlbedo::Split average = coat.average(smooth);
+    const float returned = r0 * average.f0 + average.f90;
+    // Straight down nothing else comes between: f = T a / pi + a^2 (1 - r) / (1 - a r) L^2 / (pi
+    // Lavg) with the loss L of white.
+    const CoatLoss loss(coat);
+    const float lost = loss.directional(1.0f, smooth, smooth).below;
+    const float lost_average = loss.average(smooth, smooth).below;
+    CHECK(lost == Approx(returned - r0).epsilon(5e-3));
+    const Rgb f = straight(1.0f);
+    for (int channel = 0; channel < 3; ++channel) {
+        const float a = color[channel];
+        const float again = a * a * (1.0f - returned) / (1.0f - a * returned);
+        CHECK(
+            f[channel] ==
+            Approx(inv_pi * ((1.0f - r0) * a + again * lost * lost / lost_average)).epsilon(2e-3));
+    }
+}
+
+TEST_CASE("a coat over the facets of a normal map gives back what the map's mean loses at most")
+{
+    const Rgb white{1.0f};
+    for (const float base : {0.3f, 0.6f, 1.0f}) {
+        for (const float lean : test::leans()) {
+            const Frame facet =
+                Frame::from_normal({std::sin(lean) * 0.8f, std::sin(lean) * 0.6f, std::cos(lean)});
+            const Vec3 even = facet.to_local({0.0f, 0.0f, 1.0f});
+            const float specular = base == 1.0f ? 0.0f : 1.0f;
+            const test::MappedSurface surface({"below a coat",
+                                               {white, base == 1.0f ? 0.0f : 1.0f, base, specular},
+                                               1.5f,
+                                               test::coated(1, 0.1f, even)},
+                                              lean);
+            double sum = 0.0;
+            constexpr int eyes = 4000;
+            test::Random random(71);
+            for (int i = 0; i < eyes; ++i) {
+                // Every azimuth for one height, so that all leans of a real map are there.
+                const SinCos around = sin_cos(2.0f * pi * random.next());
+                const Vec3 eye{0.8f * around.cos, 0.8f * around.sin, 0.6f};
+                const Bsdf bsdf = surface.seen_from(eye);
+                for (int k = 0; k < 10; ++k) {
+                    const float u_lobe = random.next();
+                    const auto got = bsdf.sample(u_lobe, random.next_2d(), TransportMode::radiance);
+                    sum += got ? static_cast<double>(got->weight.g) / (10.0 * eyes) : 0.0;
+                }
+            }
+            CAPTURE(base, lean, sum);
+            CHECK(sum < 1.005);
+            // Maps that hardly lean hardly change what an even surface reflects.
+            CHECK((lean > 10.0f * test::degrees || base < 0.5f || sum > 0.985));
+        }
+    }
+}
+
+}  // namespace bdpt::test::coat_furnace_test

@@ -175,7 +175,8 @@ TEST_CASE("an input is never overwritten by the output")
     const std::string scene = write_cube(folder, "cube", {}).string();
     const std::string sky = (folder / "sky.exr").string();
     write_text(sky, "precious");
-    check_error(folder, {"render", scene, "--env", sky, "-o", sky}, 2, "is an input");
+    check_error(folder, {"render", scene, "--env", sky, "-o", sky}, 2,
+                "cannot be both an input and an output");
     CHECK(read_text(sky) == "precious");
 }
 

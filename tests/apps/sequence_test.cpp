@@ -263,7 +263,7 @@ TEST_CASE("words about several images that make no sense are refused", "[sequenc
     refused({"--frames", "1:2", "--fps", "0", "-o", many}, "--fps \"0\"");
     refused({"--fps", "24", "-o", one}, "--fps needs --frames or --orbit");
     refused({"--same-noise", "-o", one}, "--same-noise");
-    refused({"--orbit", "3", "-o", one}, one + ": expected #### in the name");
+    refused({"--orbit", "3", "-o", one}, one + ": several frames need #### in the name");
     refused({"--orbit", "3", "-o", many, "--stats", (folder / "s.json").string()}, "s.json");
     refused({"--orbit", "3", "-o", many, "--part", (folder / "p.part.exr").string()}, "p.part");
     refused({"--orbit", "0", "-o", many}, "--orbit");

@@ -170,7 +170,7 @@ TEST_CASE("wrong words for images of strategies are refused before anything is r
         rejects({"--strategies", file, "--integrator", integrator}, 2,
                 std::string("--strategies needs --integrator bdpt or lt, not ") + integrator);
     }
-    rejects({"--strategies", "all.png"}, 2, "--strategies \"all.png\": expected a file that is");
+    rejects({"--strategies", "all.png"}, 2, "--strategies \"all.png\": expected a file name");
     rejects({"--strategies", ""}, 2, "--strategies \"\"");
     rejects({"--strategy-depth", "3"}, 2, "--strategy-depth needs --strategies or --part");
     rejects({"--strategies", file, "--strategy-depth", "0"}, 2, "--strategy-depth");

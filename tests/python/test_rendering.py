@@ -269,7 +269,7 @@ def test_an_image_is_not_saved_over_what_its_scene_is_made_of(tmp_path):
     (tmp_path / "link.part.exr").hardlink_to(tmp_path / "buffer.exr")
     render = bdpt.render(bdpt.load(tmp_path / "scene.gltf"), spp=1, **SMALL)
     for name in ("buffer.exr", "link.part.exr"):
-        with pytest.raises(bdpt.Error, match="is an input") as raised:
+        with pytest.raises(bdpt.Error, match="both an input and an output") as raised:
             render.save(tmp_path / name)
         assert raised.value.code == 2
     assert (tmp_path / "buffer.exr").read_bytes() == data

@@ -172,7 +172,7 @@ TEST_CASE("parts of machines merge to the pixels of one render", "[part]")
     check_refused(run({"merge", ab, path(folder, "g.part.exr"), "-o", out}), 4,
                   {"g.part.exr: is of another render than", "option: seed (5, not 0)"});
     check_refused(run({"merge", ab, path(folder, "cube.bin"), "-o", out}), 4, {"cube.bin"});
-    check_refused(run({"merge", ab, "-o", ab}), 2, {"is an input"});
+    check_refused(run({"merge", ab, "-o", ab}), 2, {"cannot be both an input and an output"});
 }
 
 TEST_CASE("a render that is killed, whenever, goes on to the same pixels", "[part]")

@@ -101,7 +101,8 @@ TEST_CASE("what two scenes would write is refused before anything is rendered", 
     refused({"a.gltf", "b.gltf", "-o", "out/x.png"}, "out/x.png: several scenes would write it");
     refused({"a.gltf", "more/a.gltf", "-o", "out/{name}.png"}, "out/a.png: several scenes");
     refused({"a.gltf", "a.gltf"}, "a.png: several scenes would write it");
-    refused({"a.gltf", "b.gltf", "-o", "{name}.gltf"}, "a.gltf: is an input");
+    refused({"a.gltf", "b.gltf", "-o", "{name}.gltf"},
+            "a.gltf: cannot be both an input and an output");
     refused({"a.gltf", "b.gltf", "--stats", "s.json"}, "s.json: several scenes would write it");
     refused({"a.gltf", "b.gltf", "-o", "-"}, "-: several scenes would write it");
     refused({"a.gltf", "-", "-o", "out/{name}.png"}, "-: only files of scenes");

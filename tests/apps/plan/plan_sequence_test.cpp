@@ -245,7 +245,8 @@ TEST_CASE("words about plans of frames that make no sense are refused", "[plan]"
     const ScratchFolder folder;
     const Words what = frames_of(folder);
     const Words place{"-o", path(folder, "a.##.exr")};
-    checked(plan(folder, what, 2, {"-o", path(folder, "a.exr")}), 2, {"a.exr: expected ####"});
+    checked(plan(folder, what, 2, {"-o", path(folder, "a.exr")}), 2,
+            {"a.exr: several frames need ####"});
     checked(plan(folder, what, 13, place), 2, {"--parts \"13\"", "12 samples of 3 images"});
     checked(plan(folder, joined(what, {"--cameras", "all"}), 2, place), 2, {"{camera}"});
     checked(plan(folder, joined(what, {"--part", "p.#.exr"}), 2, place), 2, {"--part"});
@@ -259,7 +260,7 @@ TEST_CASE("words about plans of frames that make no sense are refused", "[plan]"
             {"one.exr: expected #### in the name, because the plan has 3 images"});
     checked(
         run({"render", "--plan", path(folder, "job/plan.json"), "--task", "0", "--frames", "1:1"}),
-        2, {"--plan", "\"--frames\""});
+        2, {"--plan", "combined with --frames"});
     const auto broken = [&](const json& change) {
         json there = plan_of(folder);
         there.merge_patch(change);

@@ -372,7 +372,7 @@ TEST_CASE("words about plans that make no sense are refused, and nothing is writ
     const std::string file = path(folder, "job/plan.json");
     check_refused(render_task(folder, "3"), 2, {"--task \"3\"", "0 to 2", "bdpt render --help"});
     check_refused(run({"render", "--plan", file}), 2, {"--task N"});
-    check_refused(render_task(folder, "0", {"--seed", "5"}), 2, {"--plan", "\"--seed\""});
+    check_refused(render_task(folder, "0", {"--seed", "5"}), 2, {"--plan", "combined with --seed"});
     check_refused(run({"merge", "--plan", file, "--spp", "5"}), 2,
                   {"--spp cannot be combined with --plan"});
     check_refused(run({"merge", "--plan", file, "--wait=soon"}), 2, {"--wait \"soon\""});

@@ -137,7 +137,7 @@ std::optional<Sequence> checked(Sequence sequence, const OptionList& options)
     if (sequence.frames && sequence.orbit > 0 &&
         (sequence.frames->first < 1 || sequence.frames->last > sequence.orbit)) {
         options.reject_value("--frames",
-                             fmt::format("views of --orbit, from 1 to {}", sequence.orbit));
+                             fmt::format("views from 1 to {} of --orbit", sequence.orbit));
     }
     if (!sequence.frames && sequence.orbit > 0) {
         sequence.frames = FrameRange{.first = 1, .last = sequence.orbit};

@@ -2,6 +2,8 @@
 
 #include "scene_builder.h"
 
+#include <bdpt/scene.h>
+
 #include <cstddef>
 #include <utility>
 

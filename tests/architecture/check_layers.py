@@ -11,7 +11,7 @@ import pathlib
 import re
 import sys
 
-LAYERS = {"math": 1, "threads": 1, "film": 2, "identity": 2, "profile": 2, "rates": 2, "texture": 2, "geometry": 3, "material": 3, "light": 4, "camera": 4,
+LAYERS = {"math": 1, "memory": 1, "threads": 1, "film": 2, "identity": 2, "profile": 2, "rates": 2, "texture": 2, "geometry": 3, "material": 3, "light": 4, "camera": 4,
           "scene": 5, "path": 6, "integrator": 7, "pilot": 8, "render": 9, "inspect": 10}
 COMMAND_LAYERS = {"terminal": 1, "options": 2, "plan": 3, "stage": 3, "report": 4, "view": 5, "commands": 6}
 # The same of lib/io/src. Headers are named by their folder there too.
@@ -37,6 +37,7 @@ ALLOWED = {
     "lib/src/pilot": [r"glm/", r"(oneapi/)?tbb/"],
     "lib/src/render": [r"glm/", r"(oneapi/)?tbb/"],
     "lib/io/include": [r"glm/"],
+    "lib/src/memory": [r"(sys/mman|unistd)\.h"],
     "lib/io/src": [r"glm/", FILE_LIBRARIES, POSIX],
     "lib/io/src/gltf": [r"glm/", FILE_LIBRARIES, r"draco/", r"meshoptimizer\.h", r"(oneapi/)?tbb/"],
     "lib/io/src/oiio_module": [r"OpenImageIO/"],
@@ -56,13 +57,13 @@ ALLOWED = {
 }
 # Area -> what it may include of our own by <bdpt/...>.
 OWN = {
-    "lib/include": r"bdpt/(film/|light/|options/|part/)?[a-z0-9_]+\.h",
-    "lib/src": r"bdpt/(film/|light/|options/|part/)?[a-z0-9_]+\.h",
-    "lib/io": r"bdpt/(io/|film/|light/|options/|part/)?[a-z0-9_]+\.h",
-    "lib/eval": r"bdpt/(io/|film/|light/|options/|part/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
-    "apps": r"bdpt/(io/|film/|light/|options/|part/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
-    "tests": r"bdpt/(io/|film/|light/|options/|part/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
-    "benchmarks": r"bdpt/(io/|film/|light/|options/|part/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
+    "lib/include": r"bdpt/(film/|light/|memory/|options/|part/)?[a-z0-9_]+\.h",
+    "lib/src": r"bdpt/(film/|light/|memory/|options/|part/)?[a-z0-9_]+\.h",
+    "lib/io": r"bdpt/(io/|film/|light/|memory/|options/|part/)?[a-z0-9_]+\.h",
+    "lib/eval": r"bdpt/(io/|film/|light/|memory/|options/|part/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
+    "apps": r"bdpt/(io/|film/|light/|memory/|options/|part/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
+    "tests": r"bdpt/(io/|film/|light/|memory/|options/|part/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
+    "benchmarks": r"bdpt/(io/|film/|light/|memory/|options/|part/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
 }
 STANDARD = re.compile(r"[a-z_]+")  # <vector>; the C headers with .h are not ours to use
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"]+)"|<([^>]+)>)', re.MULTILINE)

@@ -1,8 +1,8 @@
 #include "light/environment_light.h"
 
+#include "light/environment/cell_weights.h"
 #include "light/parallel_rays.h"
 #include "math/elementary.h"
-#include "math/rgb.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <span>
 #include <vector>
 
 namespace bdpt {
@@ -27,64 +29,30 @@ std::vector<float> row_cosines(int height)
     return cosines;
 }
 
-/// How much each texel is sampled: by its own luminance and that of its neighbours, for bilinear
-/// lookups carry light over the edge, times its solid angle (up to a constant).
-std::vector<float> sampling_weights(const Image& image, const std::vector<float>& cosines)
+/// Of each row, of the sphere.
+std::vector<float> row_shares(const std::vector<float>& cosines)
 {
-    std::vector<float> weights;
-    weights.reserve(image.pixels.size());
-    for (int y = 0; y < image.height; ++y) {
-        const auto row_index = static_cast<std::size_t>(y);
-        const float solid_angle = cosines[row_index] - cosines[row_index + 1];
-        for (int x = 0; x < image.width; ++x) {
-            float sum = 0.0f;
-            for (int dy = -1; dy <= 1; ++dy) {
-                const int row = std::clamp(y + dy, 0, image.height - 1);
-                for (int dx = -1; dx <= 1; ++dx) {
-                    const int column = (x + dx + image.width) % image.width;
-                    sum += luminance(image.at(column, row)) * (dx == 0 && dy == 0 ? 4.0f : 1.0f);
-                }
-            }
-            weights.push_back(sum * solid_angle);
-        }
+    std::vector<float> shares;
+    for (std::size_t y = 0; y + 1 < cosines.size(); ++y) {
+        shares.push_back(0.5f * (cosines[y] - cosines[y + 1]));
     }
-    return weights;
-}
-
-/// What is left of the weights above half of their mean, after Karlik et al. (2019), who take off
-/// all of it; docs/decisions/0023 says why half. A constant image keeps its shape.
-std::vector<float> compensated(const std::vector<float>& weights, int width,
-                               const std::vector<float>& cosines)
-{
-    double sum = 0.0;
-    for (const float weight : weights) {
-        sum += static_cast<double>(weight);
-    }
-    // The solid angles of all texels, in the unit of the weights, add up to 2 for each column.
-    const double mean = sum / (2.0 * static_cast<double>(width));
-    std::vector<float> excess;
-    excess.reserve(weights.size());
-    for (std::size_t i = 0; i < weights.size(); ++i) {
-        const std::size_t row = i / static_cast<std::size_t>(width);
-        const double solid_angle = static_cast<double>(cosines[row] - cosines[row + 1]);
-        const double above = static_cast<double>(weights[i]) - 0.5 * mean * solid_angle;
-        excess.push_back(static_cast<float>(std::max(above, 0.0)));
-    }
-    return excess;
+    return shares;
 }
 
 }  // namespace
 
 EnvironmentLight::EnvironmentLight(const EnvironmentLightDesc& desc, const BoundingSphere& bounds)
-    : image_(desc.radiance),
-      world_from_environment_(desc.world_from_environment),
+    : world_from_environment_(desc.world_from_environment),
       bounds_(bounds),
-      row_cosines_(row_cosines(image_.height))
+      texels_(std::make_unique<const EnvironmentTexels>(desc.radiance))
 {
-    const std::vector<float> weights = sampling_weights(image_, row_cosines_);
-    plain_ = std::make_unique<const EnvironmentTiles>(weights, image_.width, image_.height);
-    compensated_ = std::make_unique<const EnvironmentTiles>(
-        compensated(weights, image_.width, row_cosines_), image_.width, image_.height);
+    CellWeights weights(*texels_, row_shares(row_cosines(height())));
+    row_cosines_ = row_cosines(weights.rows());
+    tiles_ = std::make_unique<const EnvironmentTiles>(EnvironmentWeights{
+        .width = weights.columns(),
+        .height = weights.rows(),
+        .of_row = [&weights](int row, std::span<float> of_cells) { weights.of_row(row, of_cells); },
+        .row_shares = row_shares(row_cosines_)});
 }
 
 /// Row 0 is around +y; the centre column is at -z and columns to the right turn towards +x.
@@ -94,24 +62,23 @@ Vec2 EnvironmentLight::uv_of(Vec3 to_light) const
     return {0.5f + atan2_exact(d.x, -d.z) * (0.5f * inv_pi), acos_exact(d.y) * inv_pi};
 }
 
-const Rgb& EnvironmentLight::texel(int x, int y) const
-{
-    const int column = x < 0 ? x + image_.width : x >= image_.width ? x - image_.width : x;
-    return image_.at(column, std::clamp(y, 0, image_.height - 1));
-}
-
 Rgb EnvironmentLight::lookup(Vec2 uv) const
 {
-    const float x = uv.x * static_cast<float>(image_.width) - 0.5f;
-    const float y = uv.y * static_cast<float>(image_.height) - 0.5f;
+    const EnvironmentTexels& texels = *texels_;
+    const float x = uv.x * static_cast<float>(width()) - 0.5f;
+    const float y = uv.y * static_cast<float>(height()) - 0.5f;
     const float x0 = std::floor(x);
     const float y0 = std::floor(y);
     const float fx = x - x0;
     const float fy = y - y0;
-    const int ix = std::clamp(static_cast<int>(x0), -1, image_.width - 1);
+    const int ix = std::clamp(static_cast<int>(x0), -1, width() - 1);
     const int iy = static_cast<int>(y0);
-    return (1.0f - fy) * ((1.0f - fx) * texel(ix, iy) + fx * texel(ix + 1, iy)) +
-           fy * ((1.0f - fx) * texel(ix, iy + 1) + fx * texel(ix + 1, iy + 1));
+    const int left = ix < 0 ? width() - 1 : ix;
+    const int right = ix + 1 < width() ? ix + 1 : 0;
+    const int upper = std::clamp(iy, 0, height() - 1);
+    const int lower = std::clamp(iy + 1, 0, height() - 1);
+    return (1.0f - fy) * ((1.0f - fx) * texels(left, upper) + fx * texels(right, upper)) +
+           fy * ((1.0f - fx) * texels(left, lower) + fx * texels(right, lower));
 }
 
 Rgb EnvironmentLight::radiance(Vec3 to_light) const
@@ -119,13 +86,12 @@ Rgb EnvironmentLight::radiance(Vec3 to_light) const
     return lookup(uv_of(to_light));
 }
 
-/// From the unit square, where all texels are equal, to directions: uniform in each texel.
+/// From the unit square, where all cells are equal, to directions: uniform in each cell.
 SolidAnglePdf EnvironmentLight::to_solid_angle(float pdf_square, int row) const
 {
     const auto y = static_cast<std::size_t>(row);
-    const float height =
-        (row_cosines_[y] - row_cosines_[y + 1]) * static_cast<float>(image_.height);
-    return {pdf_square / (2.0f * pi * height)};
+    const float rise = (row_cosines_[y] - row_cosines_[y + 1]) * static_cast<float>(tiles_->rows());
+    return {pdf_square / (2.0f * pi * rise)};
 }
 
 std::optional<Vec3> EnvironmentLight::in_image(const std::optional<Vec3>& normal) const
@@ -139,22 +105,22 @@ EnvironmentLight::Cell EnvironmentLight::cell_to(Vec3 to_light) const
         return std::clamp(static_cast<int>(at * static_cast<float>(size)), 0, size - 1);
     };
     const Vec2 uv = uv_of(to_light);
-    return {.column = index(uv.x, plain_->columns()), .row = index(uv.y, image_.height)};
+    return {.column = index(uv.x, tiles_->columns()), .row = index(uv.y, tiles_->rows())};
 }
 
 std::size_t EnvironmentLight::tile_to(Vec3 to_light) const
 {
     const Cell cell = cell_to(to_light);
-    return plain_->tile_of(cell.column, cell.row);
+    return tiles_->tile_of(cell.column, cell.row);
 }
 
 SolidAnglePdf EnvironmentLight::pdf_direction_to(Vec3 to_light, const LightSampleContext& receiver,
                                                  EnvironmentSampling sampling) const
 {
     const Cell cell = cell_to(to_light);
-    return to_solid_angle(
-        tiles(sampling).pdf(cell.column, cell.row, in_image(receiver.normal), receiver.visibility),
-        cell.row);
+    return to_solid_angle(tiles_->pdf(cell.column, cell.row, in_image(receiver.normal),
+                                      receiver.visibility, sampling),
+                          cell.row);
 }
 
 AreaPdf EnvironmentLight::pdf_incident(const LightSampleContext& receiver, const LightPoint& x0,
@@ -171,8 +137,7 @@ AreaPdf EnvironmentLight::pdf_position(const LightPoint& x0) const
 std::optional<EnvironmentLight::Direction> EnvironmentLight::sample_direction(
     Vec2 u, const LightSampleContext& receiver, EnvironmentSampling sampling) const
 {
-    const EnvironmentTiles& tiles = this->tiles(sampling);
-    const auto cell = tiles.sample(u, in_image(receiver.normal), receiver.visibility);
+    const auto cell = tiles_->sample(u, in_image(receiver.normal), receiver.visibility, sampling);
     if (!cell) {
         return std::nullopt;
     }
@@ -180,11 +145,11 @@ std::optional<EnvironmentLight::Direction> EnvironmentLight::sample_direction(
     const float cosine = row_cosines_[y] + cell->offset.y * (row_cosines_[y + 1] - row_cosines_[y]);
     const float sine = std::sqrt(std::max(0.0f, 1.0f - cosine * cosine));
     const float across =
-        (static_cast<float>(cell->column) + cell->offset.x) / static_cast<float>(tiles.columns());
+        (static_cast<float>(cell->column) + cell->offset.x) / static_cast<float>(tiles_->columns());
     const SinCos phi = sin_cos(2.0f * pi * (across - 0.5f));
     const Vec3 local(sine * phi.sin, cosine, -sine * phi.cos);
     return Direction{.to_light = normalize(world_from_environment_ * local),
-                     .radiance = lookup({across, acos_exact(cosine) * inv_pi}),
+                     .uv = {across, acos_exact(cosine) * inv_pi},
                      .pdf = to_solid_angle(cell->pdf, cell->row)};
 }
 
@@ -197,7 +162,7 @@ std::optional<EmissionSample> EnvironmentLight::sample_emission(Vec2 u_position,
     }
     return EmissionSample{.end = {.p = sample_entry(bounds_, -from->to_light, u_position)},
                           .direction = -from->to_light,
-                          .weight = from->radiance / (from->pdf.value * bounds_.pdf_disk().value),
+                          .weight = lookup(from->uv) / (from->pdf.value * bounds_.pdf_disk().value),
                           .pdf_position = {from->pdf.value},
                           .pdf_direction = {}};
 }
@@ -212,9 +177,10 @@ std::optional<IncidentSample> EnvironmentLight::sample_incident(const LightSampl
         return std::nullopt;
     }
     return IncidentSample{.end = {},
+                          .barycentrics = from->uv,
                           .wi = from->to_light,
                           .distance = std::numeric_limits<float>::infinity(),
-                          .weight = from->radiance / from->pdf.value,
+                          .weight = Rgb(1.0f / from->pdf.value),
                           .pdf = {from->pdf.value},
                           .pdf_solid_angle = from->pdf};
 }
@@ -222,15 +188,16 @@ std::optional<IncidentSample> EnvironmentLight::sample_incident(const LightSampl
 Rgb EnvironmentLight::power() const
 {
     Rgb integral(0.0f);
-    for (int y = 0; y < image_.height; ++y) {
+    const std::vector<float> cosines = row_cosines(height());
+    for (int y = 0; y < height(); ++y) {
         const auto row_index = static_cast<std::size_t>(y);
         Rgb row(0.0f);
-        for (int x = 0; x < image_.width; ++x) {
-            row += image_.at(x, y);
+        for (int x = 0; x < width(); ++x) {
+            row += (*texels_)(x, y);
         }
-        integral += (row_cosines_[row_index] - row_cosines_[row_index + 1]) * row;
+        integral += (cosines[row_index] - cosines[row_index + 1]) * row;
     }
-    const float texel_width = 2.0f * pi / static_cast<float>(image_.width);
+    const float texel_width = 2.0f * pi / static_cast<float>(width());
     return texel_width * integral / bounds_.pdf_disk().value;
 }
 

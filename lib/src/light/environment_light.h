@@ -1,6 +1,7 @@
 #pragma once
 
 #include "light/bounding_sphere.h"
+#include "light/environment/environment_texels.h"
 #include "light/environment/environment_tiles.h"
 #include "light/light_model.h"
 #include "light/light_sample_context.h"
@@ -23,7 +24,7 @@ class EnvironmentLight : public InfiniteLight {
 public:
     static constexpr bool is_delta = false;
 
-    /// The image is copied; negative values have been refused before.
+    /// Negative values have been refused before.
     EnvironmentLight(const EnvironmentLightDesc& desc, const BoundingSphere& bounds);
 
     /// `to_light`: unit, from the scene towards infinity.
@@ -41,26 +42,27 @@ public:
                                                                 Vec2 u,
                                                                 EnvironmentSampling sampling,
                                                                 float time) const;
+    /// Radiance over density of what `sample_incident` has sampled.
+    [[nodiscard]] Rgb incident_weight(const IncidentSample& incident) const
+    {
+        return lookup(incident.barycentrics) / incident.pdf.value;
+    }
     /// The tile of `EnvironmentTiles` that the direction is in.
     [[nodiscard]] std::size_t tile_to(Vec3 to_light) const;
     /// Luminous flux into the scene's bounding sphere [lm].
     [[nodiscard]] Rgb power() const;
 
     // The image's size [texels].
-    [[nodiscard]] int width() const { return image_.width; }
-    [[nodiscard]] int height() const { return image_.height; }
+    [[nodiscard]] int width() const { return texels_->width(); }
+    [[nodiscard]] int height() const { return texels_->height(); }
 
 private:
     struct Direction {
         Vec3 to_light;
-        Rgb radiance;
+        Vec2 uv;
         SolidAnglePdf pdf;
     };
-    [[nodiscard]] const EnvironmentTiles& tiles(EnvironmentSampling sampling) const
-    {
-        return sampling == EnvironmentSampling::plain ? *plain_ : *compensated_;
-    }
-    /// A texel, or a part of it where images are narrow.
+    /// Of `EnvironmentTiles`.
     struct Cell {
         int column;
         int row;
@@ -75,15 +77,13 @@ private:
     [[nodiscard]] std::optional<Vec3> in_image(const std::optional<Vec3>& normal) const;
     [[nodiscard]] Vec2 uv_of(Vec3 to_light) const;
     [[nodiscard]] Rgb lookup(Vec2 uv) const;
-    [[nodiscard]] const Rgb& texel(int x, int y) const;
     [[nodiscard]] SolidAnglePdf to_solid_angle(float pdf_square, int row) const;
 
-    Image image_;
     Mat3 world_from_environment_;
     BoundingSphere bounds_;
     std::vector<float> row_cosines_;
-    std::unique_ptr<const EnvironmentTiles> plain_;
-    std::unique_ptr<const EnvironmentTiles> compensated_;
+    std::unique_ptr<const EnvironmentTexels> texels_;
+    std::unique_ptr<const EnvironmentTiles> tiles_;
 };
 
 }  // namespace bdpt

@@ -26,6 +26,13 @@ public:
                                                                 EnvironmentSampling sampling,
                                                                 float time) const;
 
+    /// The whole `weight` of what `sample_incident` has sampled, wherever its light is kept.
+    [[nodiscard]] Rgb incident_weight(const IncidentSample& incident) const
+    {
+        const auto* environment = std::get_if<EnvironmentLight>(&model_);
+        return environment != nullptr ? environment->incident_weight(incident) : incident.weight;
+    }
+
     /// Of x_0 as the start of a light path: on the surface, or for an infinite light of the
     /// direction; 1 for a delta light.
     [[nodiscard]] AreaPdf pdf_position(const LightPoint& x0) const;

@@ -45,11 +45,13 @@ struct EmissionSample {
 /// Light arriving at a point from a sampled point of a light: next-event estimation, s = 1.
 struct IncidentSample {
     SegmentEnd end;           ///< on the light; not set for infinite lights
-    Vec2 barycentrics{0.0f};  ///< of triangles
+    Vec2 barycentrics{0.0f};  ///< of triangles; environments: the place in the image
     Vec3 wi{0.0f};            ///< unit, from the receiver towards the light
     float distance = 0.0f;    ///< infinite lights: infinity
-    Rgb weight{0.0f};  ///< incident radiance over the density of wi, to be multiplied by f_cos
-    AreaPdf pdf;       ///< of x_0 given the receiver (EmissionSample::pdf_position's measure)
+    /// Incident radiance over the density of wi, to be multiplied by f_cos; environments: one over
+    /// the density, for most of their light is blocked. `Light::incident_weight` looks it up.
+    Rgb weight{0.0f};
+    AreaPdf pdf;  ///< of x_0 given the receiver (EmissionSample::pdf_position's measure)
     SolidAnglePdf pdf_solid_angle;  ///< of wi at the receiver; 1 for a delta light
 };
 

@@ -41,7 +41,7 @@ TriangleEmission measure_emission(const PlacedMesh& mesh, const Material& materi
         return {.mean = material.mean_emission(), .spread = nullptr};
     }
     const float edge = longest_edge(mesh, material, triangle);
-    const int cells = clamped(edge, 1, most_cells);
+    const int cells = clamped(edge, 1, std::clamp(most_samples / 2, 1, most_cells));
     constexpr float samples_per_texel = 3.0f;
     const int samples_per_cell = clamped(samples_per_texel * edge / static_cast<float>(cells), 2,
                                          std::max(2, most_samples / cells));
@@ -80,7 +80,7 @@ TriangleEmission measure_emission(const PlacedMesh& mesh, const Material& materi
     const auto [least, greatest] = std::minmax_element(weights.begin(), weights.end());
     constexpr float hardly_more = 1.05f;
     if (*greatest > hardly_more * *least) {
-        result.spread = std::make_unique<const Distribution2D>(weights, cells, cells);
+        result.spread = std::make_shared<const Distribution2D>(weights, cells, cells);
     }
     return result;
 }

@@ -19,7 +19,7 @@ namespace bdpt {
 struct TriangleEmission {
     Rgb mean{0.0f};  ///< expected radiance, averaged over the triangle [nit]
     /// By luminance over the unit square that `square_to_triangle` maps; null: evenly.
-    std::unique_ptr<const Distribution2D> spread;
+    std::shared_ptr<const Distribution2D> spread;
 };
 
 /// Reads the emission and its textures on a regular grid, fine enough for their texels but of at

@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include <cmath>
+#include <utility>
 
 namespace bdpt {
 
@@ -21,13 +22,13 @@ TriangleLight::Facing TriangleLight::facing_of(Vec3 area_normal)
 }
 
 TriangleLight::TriangleLight(const PlacedMesh& mesh, const Material& material,
-                             std::uint32_t triangle, int most_samples)
+                             std::uint32_t triangle, TriangleEmission emission)
     : mesh_(&mesh),
       material_(&material),
       triangle_(triangle),
       first_(facing_of(mesh.area_normal(triangle, 0.0f))),
       mean_area_(mean_area()),
-      emission_(measure_emission(mesh, material, triangle, most_samples))
+      emission_(std::move(emission))
 {
     const bool colored = !mesh.mesh().colors.empty() && material.emission_needs_color();
     if (!material.emission_needs_texture() && !colored) {

@@ -18,9 +18,9 @@ public:
     static constexpr bool is_delta = false;
     static constexpr bool is_infinite = false;
 
-    /// `most_samples`: as for `measure_emission`.
+    /// `emission`: as `measure_emission` finds it.
     TriangleLight(const PlacedMesh& mesh, const Material& material, std::uint32_t triangle,
-                  int most_samples);
+                  TriangleEmission emission);
 
     [[nodiscard]] std::optional<EmissionSample> sample_emission(Vec2 u_position, Vec2 u_direction,
                                                                 float time) const;

@@ -58,18 +58,20 @@ std::optional<Flight> joining_flight(const SampleContext& sample, std::span<cons
                                           : sample.world.flight(z.end, y.end, segment);
 }
 
-/// Joins the ends of a light and a camera path: `value` is what comes through if nothing is in the
-/// way, `densities()` are those of the join, without the flight between its ends.
-template <typename Densities>
-std::optional<Contribution> join(const SampleContext& sample, std::span<const PathVertex> light,
-                                 std::span<const PathVertex> camera, Rgb value,
-                                 PathWeigher& weigher, const Densities& densities)
+/// Joins the ends of a light and a camera path unless something is in the way: `value_of()` comes
+/// through, `densities()` are those of the join, without the flight between its ends.
+template <typename Value, typename Densities>
+std::optional<Contribution> join_if_open(const SampleContext& sample,
+                                         std::span<const PathVertex> light,
+                                         std::span<const PathVertex> camera, const Value& value_of,
+                                         PathWeigher& weigher, const Densities& densities)
 {
-    if (is_black(value)) {
+    const auto flight = joining_flight(sample, light, camera);
+    if (!flight) {
         return std::nullopt;
     }
-    const auto flight = joining_flight(sample, light, camera);
-    if (!flight || is_black(value *= flight->transmittance)) {
+    const Rgb value = value_of() * flight->transmittance;
+    if (is_black(value)) {
         return std::nullopt;
     }
     sample.enter(Phase::weigh);
@@ -81,6 +83,18 @@ std::optional<Contribution> join(const SampleContext& sample, std::span<const Pa
     return Contribution{.unweighted = value,
                         .weight = weigher.weight(light, camera, join),
                         .dispersed = y.dispersed || z.dispersed};
+}
+
+/// The same with a value that is known.
+template <typename Densities>
+std::optional<Contribution> join(const SampleContext& sample, std::span<const PathVertex> light,
+                                 std::span<const PathVertex> camera, Rgb value,
+                                 PathWeigher& weigher, const Densities& densities)
+{
+    return is_black(value)
+               ? std::nullopt
+               : join_if_open(
+                     sample, light, camera, [value] { return value; }, weigher, densities);
 }
 
 /// The vertex at a fresh point of light `id`.
@@ -161,12 +175,16 @@ std::optional<Contribution> connect_to_light(SampleContext& sample,
     }
     const IncidentSample& incident = *found.incident;
     const BsdfEval f = z.bsdf->eval(incident.wi, TransportMode::radiance);
-    const Rgb value = z.beta * f.f_cos * incident.weight / found.probability;
-    if (is_black(value)) {
+    const Rgb scattered = z.beta * f.f_cos;
+    if (is_black(scattered * incident.weight / found.probability)) {
         return std::nullopt;
     }
+    const auto value = [&] {
+        const Light& light = sample.world.lights()[found.light];
+        return scattered * light.incident_weight(incident) / found.probability;
+    };
     PathVertex x0 = light_vertex(sample.world, found.light, incident);
-    return join(sample, std::span(&x0, 1), camera, value, weigher, [&] {
+    return join_if_open(sample, std::span(&x0, 1), camera, value, weigher, [&] {
         const LightDensities densities = light_densities(sample, x0, z.end);
         x0.pdf_fwd = densities.emit;
         return JoinDensities{
@@ -201,7 +219,8 @@ std::optional<Contribution> connect_light_to_lens(SampleContext& sample, PathWei
     }
     PathVertex x0 = light_vertex(sample.world, sampled.light, incident);
     const PathVertex lens = lens_vertex(*to_lens);
-    const Rgb value = incident.weight * (to_lens->pdf_direction.value / sampled.probability);
+    const Rgb value = lights[sampled.light].incident_weight(incident) *
+                      (to_lens->pdf_direction.value / sampled.probability);
     auto found = join(sample, std::span(&x0, 1), std::span(&lens, 1), value, weigher, [&] {
         const LightDensities densities = light_densities(sample, x0, lens.end);
         x0.pdf_fwd = densities.emit;

@@ -197,8 +197,7 @@ private:
         }
         const Light& light = world_.lights()[next.light];
         const BsdfEval f = point.bsdf.eval(incident->wi, TransportMode::radiance);
-        const Rgb value = f.f_cos * incident->weight;
-        if (is_black(value)) {
+        if (is_black(f.f_cos * incident->weight)) {
             return Rgb(0.0f);
         }
         const SegmentKey segment = sample.segment(1, vertices);
@@ -210,6 +209,7 @@ private:
         }
         const float by_light = incident->pdf_solid_angle.value * next.probability;
         const float by_ray = light.is_delta() ? 0.0f : f.pdf_fwd.value;
+        const Rgb value = f.f_cos * light.incident_weight(*incident);
         return value * flight->transmittance / next.probability * (by_light / (by_light + by_ray));
     }
 

@@ -1,9 +1,9 @@
 #include "scene/light_set.h"
 
 #include "math/rgb.h"
+#include "scene/measured_emission.h"
 
 #include <algorithm>
-#include <cmath>
 #include <concepts>
 #include <cstdint>
 
@@ -63,27 +63,13 @@ std::vector<Sphere> light_spheres(std::span<const LightDesc> lights)
     return spheres;
 }
 
-int most_emission_samples(std::span<const MaterialId> material_ids,
-                          std::span<const PlacedMesh> placed, std::span<const Material> materials)
-{
-    constexpr double budget = 0x1p24;
-    std::size_t textured = 0;
-    for (std::size_t i = 0; i < material_ids.size(); ++i) {
-        const bool counts =
-            materials[static_cast<std::size_t>(material_ids[i])].emission_needs_texture();
-        textured += counts ? placed[i].triangle_count() : 0U;
-    }
-    const double each = budget / static_cast<double>(std::max<std::size_t>(textured, 1));
-    return static_cast<int>(std::clamp(std::sqrt(each), 8.0, 1024.0));
-}
-
 LightSet::LightSet(std::span<const MaterialId> material_ids, std::span<const PlacedMesh> placed,
                    std::span<const Material> materials, std::span<const LightDesc> lights,
                    std::span<const IntensityProfile> profiles, const BoundingSphere& bounds,
                    std::span<const MediumId> media)
     : first_of_instance_(material_ids.size())
 {
-    const int most_samples = most_emission_samples(material_ids, placed, materials);
+    const MeasuredEmission emission(material_ids, placed, materials);
     lights_.reserve(lights.size() + emissive_triangles(material_ids, placed, materials));
     for (std::size_t i = 0; i < material_ids.size(); ++i) {
         const Material& material = materials[static_cast<std::size_t>(material_ids[i])];
@@ -92,7 +78,7 @@ LightSet::LightSet(std::span<const MaterialId> material_ids, std::span<const Pla
         }
         first_of_instance_[i] = static_cast<std::uint32_t>(lights_.size());
         for (std::uint32_t t = 0; t < placed[i].triangle_count(); ++t) {
-            lights_.emplace_back(TriangleLight(placed[i], material, t, most_samples));
+            lights_.emplace_back(TriangleLight(placed[i], material, t, emission.of(i, t)));
         }
     }
     for (std::size_t i = 0; i < lights.size(); ++i) {

@@ -18,12 +18,6 @@ namespace bdpt {
 /// them.
 [[nodiscard]] std::vector<Sphere> light_spheres(std::span<const LightDesc> lights);
 
-/// How many samples of its emission texture a triangle may take along each side, so that all
-/// together stay in the range of a second; arguments as for `LightSet`.
-[[nodiscard]] int most_emission_samples(std::span<const MaterialId> material_ids,
-                                        std::span<const PlacedMesh> placed,
-                                        std::span<const Material> materials);
-
 /// All lights of a scene and how one of them is chosen. Starting a light path and next-event
 /// estimation are two choices with two densities: the first knows no receiver, the second does.
 class LightSet {

@@ -5,6 +5,7 @@
 #include "math/rgb.h"
 #include "scene/checks/check_powers.h"
 #include "scene/checks/validate.h"
+#include "scene/measured_emission.h"
 #include "scene/precision.h"
 
 #include <tbb/parallel_for.h>

@@ -2,6 +2,8 @@
 
 #include "texture/texel_access.h"
 
+#include <bdpt/memory/huge_pages.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -91,7 +93,8 @@ TexelImage half_size(const TexelImage& image, Encoding encoding, const ForRows& 
                     .type = image.type};
     const std::size_t texel_bytes = static_cast<std::size_t>(image.channels) * size_of(image.type);
     const auto row_length = static_cast<std::size_t>(copy.width);
-    copy.bytes.resize(row_length * static_cast<std::size_t>(copy.height) * texel_bytes);
+    resize_in_huge_pages(copy.bytes,
+                         row_length * static_cast<std::size_t>(copy.height) * texel_bytes);
     const std::vector<Taps> columns = make_taps(image.width, copy.width);
     const std::vector<Taps> rows = make_taps(image.height, copy.height);
     // What is above 1 stays so: what it counts as is decided when it is looked up.

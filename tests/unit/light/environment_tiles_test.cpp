@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -43,9 +44,19 @@ std::vector<float> weights_with_sun(Size size, std::uint64_t seed)
     return weights;
 }
 
+EnvironmentWeights weights_of(Size size, const std::vector<float>& weights)
+{
+    return {.width = size.width,
+            .height = size.height,
+            .of_row = [size, &weights](int y, std::span<float> row) {
+                std::copy_n(weights.begin() + std::ptrdiff_t{y} * size.width, row.size(),
+                            row.begin());
+            }};
+}
+
 EnvironmentTiles tiles_of(Size size, const std::vector<float>& weights)
 {
-    return {weights, size.width, size.height};
+    return EnvironmentTiles(weights_of(size, weights));
 }
 
 /// Of a point of the image: its left edge is at +z, its top at +y.
@@ -320,7 +331,8 @@ TEST_CASE("environment: for a receiver, a density of directions that is that of 
             // Rounding can move a direction into the next texel.
             const float pdf = light.pdf_incident(receiver, {.p = incident->wi}, sampling).value;
             elsewhere += pdf == incident->pdf.value ? 0 : 1;
-            sampled.add(static_cast<double>(luminance(incident->weight) * seen(incident->wi)));
+            sampled.add(static_cast<double>(luminance(light.incident_weight(*incident)) *
+                                            seen(incident->wi)));
         }
         CHECK(elsewhere < samples / 1000);
         const double error = std::hypot(sampled.standard_error(), irradiance.standard_error());

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace bdpt::environment_visibility_test {
@@ -132,7 +133,10 @@ TEST_CASE("visibility: samples of tiles have the density that is told", "[light]
     for (int i = 0; i < width * height; ++i) {
         weights.push_back(i == 700 ? 300.0f : random.next());
     }
-    const EnvironmentTiles tiles(weights, width, height);
+    const EnvironmentTiles tiles(
+        {.width = width, .height = height, .of_row = [&weights](int y, std::span<float> row) {
+             std::copy_n(weights.begin() + std::ptrdiff_t{y} * width, row.size(), row.begin());
+         }});
     std::vector<TileFactors> tables(3);
     for (std::size_t tile = 0; tile < tile_count; ++tile) {
         tables[0].of[tile] = EnvironmentVisibility::smallest_factor;

@@ -116,7 +116,7 @@ TEST_CASE("environment: the density integrates to one and is that of the samples
         REQUIRE(incident.has_value());
         REQUIRE(light.pdf_incident({}, {.p = incident->wi}, sampling).value ==
                 Approx(incident->pdf_solid_angle.value).epsilon(2e-3));
-        sampled.add(static_cast<double>(luminance(incident->weight)));
+        sampled.add(static_cast<double>(luminance(light.incident_weight(*incident))));
     }
     const double error = std::hypot(sampled.standard_error(), radiance.standard_error());
     CHECK(std::abs(sampled.mean() - radiance.mean()) < 4.0 * error);
@@ -293,7 +293,8 @@ TEST_CASE("light paths bring to a surface what next-event estimation finds there
                                       EnvironmentSampling::plain, 0.0f);
             const bool above = incident && incident->wi.y > 0.0f;
             by_light_samples.add(
-                above ? static_cast<double>(luminance(incident->weight) * dot(incident->wi, normal))
+                above ? static_cast<double>(luminance(light.incident_weight(*incident)) *
+                                            dot(incident->wi, normal))
                       : 0.0);
         }
         INFO("light " << id);

@@ -19,8 +19,8 @@ constexpr std::uint64_t traced_triangle = 150;
 /// Where its mesh is placed, and Embree's part of it.
 constexpr std::uint64_t placed_instance = 500;
 
-/// A pixel of an environment: in the description and in the light, in the tables that it is sampled
-/// by, and while these are made.
-constexpr std::uint64_t environment_pixel = 2 * sizeof(Rgb) + 4 * sizeof(float);
+/// A pixel of an environment: in the description, in the light, where halves take less than this,
+/// and in the table that it is sampled by.
+constexpr std::uint64_t environment_pixel = sizeof(Rgb) + 2 * sizeof(float) + sizeof(std::uint16_t);
 
 }  // namespace bdpt::io

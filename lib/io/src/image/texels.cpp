@@ -1,5 +1,7 @@
 #include "image/texels.h"
 
+#include <bdpt/memory/huge_pages.h>
+
 #include "image/image_size.h"
 
 #include <algorithm>
@@ -70,7 +72,7 @@ EncodedImage::EncodedImage(ByteView bytes, const ReadLimits& limits, Ktx2Decoder
 DecodedImage EncodedImage::decode() &&
 {
     DecodedImage decoded{.image = layout_of(file_)};
-    decoded.image.bytes.resize(decoded_bytes_);
+    resize_in_huge_pages(decoded.image.bytes, decoded_bytes_);
     std::visit([&](auto& image) { image.read(decoded.image.bytes.data()); }, file_);
     if (const auto* const jpeg = std::get_if<JpegImage>(&file_)) {
         decoded.damage = jpeg->damage();

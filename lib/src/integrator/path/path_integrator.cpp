@@ -341,8 +341,7 @@ std::optional<PathIntegrator::LightConnection> PathIntegrator::connect(
         return std::nullopt;
     }
     const BsdfEval f = point.bsdf.eval(incident.wi, TransportMode::radiance);
-    const Rgb value = f.f_cos * incident.weight;
-    if (is_black(value)) {
+    if (is_black(f.f_cos * incident.weight)) {
         return std::nullopt;
     }
     ++sample.rays.shadow;
@@ -354,9 +353,10 @@ std::optional<PathIntegrator::LightConnection> PathIntegrator::connect(
         return std::nullopt;
     }
     const bool can_be_hit = options_.integrator == IntegratorKind::mis && !light.is_delta();
-    return LightConnection{.value = value * flight->transmittance,
-                           .light_pdf = incident.pdf_solid_angle.value,
-                           .bsdf_pdf = can_be_hit ? f.pdf_fwd.value * flight->pass : 0.0f};
+    return LightConnection{
+        .value = f.f_cos * light.incident_weight(incident) * flight->transmittance,
+        .light_pdf = incident.pdf_solid_angle.value,
+        .bsdf_pdf = can_be_hit ? f.pdf_fwd.value * flight->pass : 0.0f};
 }
 
 }  // namespace bdpt

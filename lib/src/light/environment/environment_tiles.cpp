@@ -8,10 +8,18 @@
 namespace bdpt {
 namespace {
 
+constexpr float below_one = 0x1.fffffep-1f;
+
 /// Part `i` of `count` among `size` things; none is empty if there are no more parts than things.
 std::uint32_t begin_of_part(std::uint32_t i, std::uint32_t count, std::uint32_t size)
 {
     return static_cast<std::uint32_t>(std::uint64_t{size} * i / count);
+}
+
+/// Part `i` of them.
+EnvironmentTiles::Range part(std::uint32_t i, std::uint32_t count, std::uint32_t size)
+{
+    return {begin_of_part(i, count, size), begin_of_part(i + 1, count, size)};
 }
 
 /// The part that `thing` is in.
@@ -70,7 +78,6 @@ struct Pick {
 template <std::size_t Stride>
 Pick pick(const float* numbers, std::size_t count, float sum, float u)
 {
-    constexpr float below_one = 0x1.fffffep-1f;
     Pick picked;
     float left = u * sum;
     float before = left;
@@ -91,52 +98,118 @@ Pick pick(const float* numbers, std::size_t count, float sum, float u)
     return picked;
 }
 
+/// How many parts a side of a tile has, for its dim weights.
+std::uint32_t parts_of(std::uint32_t cells)
+{
+    constexpr std::uint32_t most = 16;
+    return std::min(cells, most);
+}
+
+/// The weights of a tile's cells, added up by its parts.
+std::vector<float> sums_of_parts(std::span<const float> weights, std::uint32_t columns,
+                                 std::uint32_t rows)
+{
+    const std::uint32_t across = parts_of(columns);
+    std::vector<double> sums(std::size_t{across} * parts_of(rows), 0.0);
+    for (std::uint32_t y = 0; y < rows; ++y) {
+        const std::size_t first = std::size_t{part_of(y, parts_of(rows), rows)} * across;
+        for (std::uint32_t i = 0; i < across; ++i) {
+            const std::uint32_t end = begin_of_part(i + 1, across, columns);
+            for (std::uint32_t x = begin_of_part(i, across, columns); x < end; ++x) {
+                sums[first + i] += static_cast<double>(weights[std::size_t{y} * columns + x]);
+            }
+        }
+    }
+    return {sums.begin(), sums.end()};
+}
+
+/// Rows of weights and what of them counts as dim.
+class WeightRows {
+public:
+    explicit WeightRows(const EnvironmentWeights& weights)
+        : weights_(weights), row_(static_cast<std::size_t>(weights.width))
+    {
+        for (int y = 0; y < weights.height; ++y) {
+            for (const float weight : row(y)) {
+                total_ += static_cast<double>(weight);
+            }
+        }
+    }
+
+    [[nodiscard]] double total() const { return total_; }
+    [[nodiscard]] std::span<const float> row(int y)
+    {
+        weights_.of_row(y, row_);
+        return row_;
+    }
+    /// The most that a texel of this row has of it: half of what it would have if all weight were
+    /// even over the sphere.
+    [[nodiscard]] float most_dim(int y) const
+    {
+        return weights_.row_shares.empty()
+                   ? 0.0f
+                   : static_cast<float>(
+                         0.5 * total_ *
+                         static_cast<double>(weights_.row_shares[static_cast<std::size_t>(y)]) /
+                         weights_.width);
+    }
+
+private:
+    const EnvironmentWeights& weights_;
+    std::vector<float> row_;
+    double total_ = 0.0;
+};
+
 }  // namespace
 
-EnvironmentTiles::EnvironmentTiles(std::span<const float> weights, int width, int height)
-    : cells_of_texel_((tile_columns - 1) / static_cast<std::uint32_t>(width) + 1),
-      width_(static_cast<std::uint32_t>(width) * cells_of_texel_),
-      height_(static_cast<std::uint32_t>(height)),
+EnvironmentTiles::EnvironmentTiles(const EnvironmentWeights& weights)
+    : cells_of_weight_((tile_columns - 1) / static_cast<std::uint32_t>(weights.width) + 1),
+      width_(static_cast<std::uint32_t>(weights.width) * cells_of_weight_),
+      height_(static_cast<std::uint32_t>(weights.height)),
       rows_(std::min(height_, most_rows)),
-      all_{}
+      all_{},
+      bright_{}
 {
-    double total = 0.0;
-    for (const float weight : weights) {
-        total += static_cast<double>(weight);
-    }
     for (std::uint32_t i = 0; i <= tile_columns; ++i) {
         column_begins_[i] = begin_of_part(i, tile_columns, width_);
     }
     for (std::uint32_t j = 0; j <= rows_; ++j) {
         row_begins_[j] = begin_of_part(j, rows_, height_);
     }
-    cells_.reserve(std::size_t{tile_columns} * rows_);
-    for (std::uint32_t i = 0; i < tile_columns; ++i) {
-        for (std::uint32_t j = 0; j < rows_; ++j) {
-            add_tile(i * most_rows + j, {column_begins_[i], column_begins_[i + 1]},
-                     {row_begins_[j], row_begins_[j + 1]}, weights, total);
+    cells_.reserve(std::size_t{width_} * height_, std::size_t{tile_columns} * height_);
+    WeightRows rows(weights);
+    std::array<std::vector<float>, tile_columns> bright;
+    std::array<std::vector<float>, tile_columns> dim;
+    for (std::uint32_t j = 0; j < rows_; ++j) {
+        for (std::uint32_t i = 0; i < tile_columns; ++i) {
+            bright[i].clear();
+            dim[i].clear();
+        }
+        for (std::uint32_t y = row_begins_[j]; y < row_begins_[j + 1]; ++y) {
+            const std::span<const float> row = rows.row(static_cast<int>(y));
+            const float most_dim = rows.most_dim(static_cast<int>(y));
+            for (std::uint32_t i = 0; i < tile_columns; ++i) {
+                for (std::uint32_t x = column_begins_[i]; x < column_begins_[i + 1]; ++x) {
+                    const float weight = row[x / cells_of_weight_];
+                    const float below = std::min(weight, most_dim);
+                    bright[i].push_back(weight - below);
+                    dim[i].push_back(below);
+                }
+            }
+        }
+        for (std::uint32_t i = 0; i < tile_columns; ++i) {
+            const std::size_t tile = i * most_rows + j;
+            add_shape(tile, {column_begins_[i], column_begins_[i + 1]},
+                      {row_begins_[j], row_begins_[j + 1]});
+            add_tile(tile, bright[i], dim[i], rows.total());
         }
     }
     all_.sum_up();
+    bright_.sum_up();
 }
 
-void EnvironmentTiles::add_tile(std::size_t tile, Range columns, Range rows,
-                                std::span<const float> weights, double total)
+void EnvironmentTiles::add_shape(std::size_t tile, Range columns, Range rows)
 {
-    const std::uint32_t texels = width_ / cells_of_texel_;
-    std::vector<float> own;
-    own.reserve(std::size_t{columns.size()} * rows.size());
-    double sum = 0.0;
-    for (std::uint32_t y = rows.begin; y < rows.end; ++y) {
-        for (std::uint32_t x = columns.begin; x < columns.end; ++x) {
-            own.push_back(weights[std::size_t{y} * texels + x / cells_of_texel_]);
-            sum += static_cast<double>(own.back());
-        }
-    }
-    cells_.emplace_back(own, static_cast<int>(columns.size()), static_cast<int>(rows.size()));
-    all_.of[tile] = total > 0.0
-                        ? static_cast<float>(sum / (total * static_cast<double>(cells_of_texel_)))
-                        : 0.0f;
     const Vec2 size(width_, height_);
     const TileCone cone =
         cone_around(Vec2(columns.begin, rows.begin) / size, Vec2(columns.end, rows.end) / size);
@@ -146,6 +219,28 @@ void EnvironmentTiles::add_tile(std::size_t tile, Range columns, Range rows,
     reach_[tile] = cone.reach;
     tiles_in_image_[tile] =
         size.x * size.y / (static_cast<float>(columns.size()) * static_cast<float>(rows.size()));
+}
+
+void EnvironmentTiles::add_tile(std::size_t tile, std::span<const float> bright,
+                                std::span<const float> dim, double total)
+{
+    const auto sum_of = [](std::span<const float> weights) {
+        double sum = 0.0;
+        for (const float weight : weights) {
+            sum += static_cast<double>(weight);
+        }
+        return sum;
+    };
+    const double light = sum_of(bright);
+    const double rest = sum_of(dim);
+    const double of_total =
+        total > 0.0 ? 1.0 / (total * static_cast<double>(cells_of_weight_)) : 0.0;
+    all_.of[tile] = static_cast<float>((light + rest) * of_total);
+    bright_.of[tile] = static_cast<float>(light * of_total);
+    bright_in_tile_[tile] = rest > 0.0 ? static_cast<float>(light / (light + rest)) : 1.0f;
+    grid_of_tile_[tile] = grids_++;
+    cells_.add(bright, columns_of(tile));
+    parts_.add(sums_of_parts(dim, columns_of(tile), rows_of(tile)), parts_of(columns_of(tile)));
 }
 
 void EnvironmentTiles::Worth::sum_up() noexcept
@@ -163,7 +258,8 @@ void EnvironmentTiles::Worth::sum_up() noexcept
     sum = (sums[0] + sums[2]) + (sums[1] + sums[3]);
 }
 
-EnvironmentTiles::Worth EnvironmentTiles::worth(const std::optional<Vec3>& normal,
+EnvironmentTiles::Worth EnvironmentTiles::worth(const Worth& shares,
+                                                const std::optional<Vec3>& normal,
                                                 const TileFactors* factors) const noexcept
 {
     Worth result;
@@ -171,10 +267,10 @@ EnvironmentTiles::Worth EnvironmentTiles::worth(const std::optional<Vec3>& norma
         for (std::size_t tile = 0; tile < result.of.size(); ++tile) {
             const float height = normal->x * axis_x_[tile] + normal->y * axis_y_[tile] +
                                  normal->z * axis_z_[tile] + reach_[tile];
-            result.of[tile] = (height > 0.0f ? height : 0.0f) * all_.of[tile];
+            result.of[tile] = (height > 0.0f ? height : 0.0f) * shares.of[tile];
         }
     } else {
-        result.of = all_.of;
+        result.of = shares.of;
     }
     if (factors != nullptr) {
         for (std::size_t tile = 0; tile < result.of.size(); ++tile) {
@@ -190,8 +286,29 @@ float EnvironmentTiles::density(std::size_t tile, const Worth& worth, float cell
     return worth.of[tile] / worth.sum * (cell_pdf * tiles_in_image_[tile]);
 }
 
-std::optional<EnvironmentTiles::Sample> EnvironmentTiles::sample(Vec2 u,
-                                                                 const Worth& worth) const noexcept
+float EnvironmentTiles::cell_pdf(std::size_t tile, std::uint32_t column, std::uint32_t row,
+                                 EnvironmentSampling sampling) const noexcept
+{
+    const std::uint32_t columns = columns_of(tile);
+    const std::uint32_t rows = rows_of(tile);
+    const std::size_t grid = grid_of_tile_[tile];
+    const float bright = cells_.probability(grid, column, row) *
+                         (static_cast<float>(columns) * static_cast<float>(rows));
+    if (sampling != EnvironmentSampling::plain || !(bright_in_tile_[tile] < 1.0f)) {
+        return bright;
+    }
+    const std::uint32_t i = part_of(column, parts_of(columns), columns);
+    const std::uint32_t j = part_of(row, parts_of(rows), rows);
+    const Range part_columns = part(i, parts_of(columns), columns);
+    const Range part_rows = part(j, parts_of(rows), rows);
+    const float dim = parts_.probability(grid, i, j) *
+                      (static_cast<float>(columns) / static_cast<float>(part_columns.size()) *
+                       (static_cast<float>(rows) / static_cast<float>(part_rows.size())));
+    return bright_in_tile_[tile] * bright + (1.0f - bright_in_tile_[tile]) * dim;
+}
+
+std::optional<EnvironmentTiles::Sample> EnvironmentTiles::sample(
+    Vec2 u, const Worth& worth, EnvironmentSampling sampling) const noexcept
 {
     if (!(worth.sum > 0.0f)) {
         return std::nullopt;
@@ -200,22 +317,53 @@ std::optional<EnvironmentTiles::Sample> EnvironmentTiles::sample(Vec2 u,
     const Pick column =
         pick<most_rows>(&worth.of[row.index], tile_columns, worth.row_sums[row.index], u.x);
     const std::size_t tile = column.index * most_rows + row.index;
-    const Distribution2D::Cell cell =
-        cells_[column.index * rows_ + row.index].sample_cell({column.u, row.u});
-    const float pdf = density(tile, worth, cell.pdf);
+    const CellTables::Cell cell = sample_cell(tile, {column.u, row.u}, sampling);
+    const float pdf = density(tile, worth, cell_pdf(tile, cell.column, cell.row, sampling));
     if (!(pdf > 0.0f)) {
         return std::nullopt;
     }
-    return Sample{.column = static_cast<int>(column_begins_[column.index]) + cell.column,
-                  .row = static_cast<int>(row_begins_[row.index]) + cell.row,
+    return Sample{.column = static_cast<int>(column_begins_[column.index] + cell.column),
+                  .row = static_cast<int>(row_begins_[row.index] + cell.row),
                   .offset = cell.offset,
                   .pdf = pdf};
 }
 
-std::optional<EnvironmentTiles::Sample> EnvironmentTiles::sample(
-    Vec2 u, const std::optional<Vec3>& normal, const TileFactors* factors) const noexcept
+CellTables::Cell EnvironmentTiles::sample_cell(std::size_t tile, Vec2 u,
+                                               EnvironmentSampling sampling) const noexcept
 {
-    return normal || factors != nullptr ? sample(u, worth(normal, factors)) : sample(u, all_);
+    const std::size_t grid = grid_of_tile_[tile];
+    const float bright = bright_in_tile_[tile];
+    if (sampling != EnvironmentSampling::plain || !(bright < 1.0f)) {
+        return cells_.sample(grid, u);
+    }
+    if (u.y < bright) {
+        return cells_.sample(grid, {u.x, std::min(u.y / bright, below_one)});
+    }
+    const float left = std::min((u.y - bright) / (1.0f - bright), below_one);
+    const CellTables::Cell of_parts = parts_.sample(grid, {u.x, left});
+    // A part is even: the cell is where the point lies in it.
+    const auto place = [](Range cells, float offset, std::uint32_t& cell, float& in_cell) {
+        const float at = offset * static_cast<float>(cells.size());
+        const std::uint32_t whole = std::min(static_cast<std::uint32_t>(at), cells.size() - 1);
+        cell = cells.begin + whole;
+        in_cell = std::min(at - static_cast<float>(whole), below_one);
+    };
+    const std::uint32_t columns = columns_of(tile);
+    const std::uint32_t rows = rows_of(tile);
+    CellTables::Cell cell;
+    place(part(of_parts.column, parts_of(columns), columns), of_parts.offset.x, cell.column,
+          cell.offset.x);
+    place(part(of_parts.row, parts_of(rows), rows), of_parts.offset.y, cell.row, cell.offset.y);
+    return cell;
+}
+
+std::optional<EnvironmentTiles::Sample> EnvironmentTiles::sample(
+    Vec2 u, const std::optional<Vec3>& normal, const TileFactors* factors,
+    EnvironmentSampling sampling) const noexcept
+{
+    return normal || factors != nullptr
+               ? sample(u, worth(shares(sampling), normal, factors), sampling)
+               : sample(u, shares(sampling), sampling);
 }
 
 std::size_t EnvironmentTiles::tile_of(int column, int row) const noexcept
@@ -225,23 +373,21 @@ std::size_t EnvironmentTiles::tile_of(int column, int row) const noexcept
 }
 
 float EnvironmentTiles::pdf(int column, int row, const std::optional<Vec3>& normal,
-                            const TileFactors* factors) const noexcept
+                            const TileFactors* factors, EnvironmentSampling sampling) const noexcept
 {
-    const auto x = static_cast<std::uint32_t>(column);
-    const auto y = static_cast<std::uint32_t>(row);
-    const std::uint32_t i = part_of(x, tile_columns, width_);
-    const std::uint32_t j = part_of(y, rows_, height_);
-    const std::size_t tile = i * most_rows + j;
-    if (!(all_.of[tile] > 0.0f)) {
+    const std::size_t tile = tile_of(column, row);
+    const Worth& known = shares(sampling);
+    if (!(known.of[tile] > 0.0f)) {
         return 0.0f;
     }
-    const float cell_pdf = cells_[i * rows_ + j].cell_pdf(static_cast<int>(x - column_begins_[i]),
-                                                          static_cast<int>(y - row_begins_[j]));
-    if ((!normal && factors == nullptr) || !(cell_pdf > 0.0f)) {
-        return density(tile, all_, cell_pdf);
+    const float of_cell =
+        cell_pdf(tile, static_cast<std::uint32_t>(column) - column_begins_[tile / most_rows],
+                 static_cast<std::uint32_t>(row) - row_begins_[tile % most_rows], sampling);
+    if ((!normal && factors == nullptr) || !(of_cell > 0.0f)) {
+        return density(tile, known, of_cell);
     }
-    const Worth seen = worth(normal, factors);
-    return seen.of[tile] > 0.0f ? density(tile, seen, cell_pdf) : 0.0f;
+    const Worth seen = worth(known, normal, factors);
+    return seen.of[tile] > 0.0f ? density(tile, seen, of_cell) : 0.0f;
 }
 
 }  // namespace bdpt

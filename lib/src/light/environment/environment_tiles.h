@@ -1,12 +1,14 @@
 #pragma once
 
-#include "math/distribution_2d.h"
+#include "light/environment/cell_tables.h"
 
+#include <bdpt/render_options.h>
 #include <bdpt/types.h>
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -16,13 +18,28 @@ namespace bdpt {
 /// A number of each tile of an environment.
 struct TileFactors;
 
+/// What cells of an environment are sampled by.
+struct EnvironmentWeights {
+    int width = 0;  ///< [texels]
+    int height = 0;
+    /// Writes the weights of a row's cells, >= 0 and finite. Each row is asked for twice.
+    std::function<void(int row, std::span<float> weights)> of_row;
+    /// Of each row, of the solid angle of the sphere. If it is empty, no weight is dim.
+    std::vector<float> row_shares{};
+};
+
 /// Density of the directions of an environment for a receiver: an equirectangular image in tiles,
 /// of which those come first that stand high above the receiver's surface, and those below never
 /// (docs/decisions/0060-environment-tiles.md). Normals are in the frame of the image.
+///
+/// Weights have two parts: what is above half of their mean for the solid angle, which is all that
+/// compensated sampling takes, and the dim rest. Plain sampling takes both. Bright cells have each
+/// their own density, dim ones one for each of 16 x 16 parts of a tile
+/// (docs/decisions/0070-compact-environments.md).
 class EnvironmentTiles {
 public:
-    /// A cell, and a point in it. Cells are texels; those of a narrow image are so wide that all
-    /// surfaces see some of each, so that each of them is several cells side by side.
+    /// A cell, and a point in it. Cells are those of the weights; where these are so wide that all
+    /// surfaces see some of each, each of them is several cells side by side.
     struct Sample {
         int column = 0;
         int row = 0;
@@ -30,22 +47,35 @@ public:
         float pdf = 0.0f;   ///< on the unit square that the image fills
     };
 
+    /// The cells from `begin` on, before `end`.
+    struct Range {
+        std::uint32_t begin;
+        std::uint32_t end;
+        [[nodiscard]] std::uint32_t size() const { return end - begin; }
+    };
+
     static constexpr std::size_t tile_count = 128;
 
-    /// `weights` of texels, >= 0, row-major. Where all are zero there is nothing to sample.
-    EnvironmentTiles(std::span<const float> weights, int width, int height);
+    /// Where all weights are zero there is nothing to sample.
+    explicit EnvironmentTiles(const EnvironmentWeights& weights);
 
     /// Of cells, in each row.
     [[nodiscard]] int columns() const noexcept { return static_cast<int>(width_); }
+    [[nodiscard]] int rows() const noexcept { return static_cast<int>(height_); }
     /// Nothing where all that has weight is below the surface. Without a normal all weights count.
-    /// `factors`, positive, multiply the weights of tiles; null: none.
-    [[nodiscard]] std::optional<Sample> sample(Vec2 u, const std::optional<Vec3>& normal,
-                                               const TileFactors* factors = nullptr) const noexcept;
+    /// `factors`, positive, multiply the weights of tiles; null: none. `sampling`: plain or not.
+    [[nodiscard]] std::optional<Sample> sample(
+        Vec2 u, const std::optional<Vec3>& normal, const TileFactors* factors = nullptr,
+        EnvironmentSampling sampling = EnvironmentSampling::compensated) const noexcept;
     /// Of `sample` taking a point in this cell, on the unit square; zero if it never does.
-    [[nodiscard]] float pdf(int column, int row, const std::optional<Vec3>& normal,
-                            const TileFactors* factors = nullptr) const noexcept;
+    [[nodiscard]] float pdf(
+        int column, int row, const std::optional<Vec3>& normal,
+        const TileFactors* factors = nullptr,
+        EnvironmentSampling sampling = EnvironmentSampling::compensated) const noexcept;
     /// The tile that the cell is in, in [0, tile_count).
     [[nodiscard]] std::size_t tile_of(int column, int row) const noexcept;
+    /// What the tables of cells take.
+    [[nodiscard]] std::size_t bytes() const noexcept { return cells_.bytes() + parts_.bytes(); }
 
 private:
     static constexpr std::uint32_t tile_columns = 16;
@@ -62,35 +92,55 @@ private:
         /// Sets the sums.
         void sum_up() noexcept;
     };
-    /// The cells from `begin` on, before `end`.
-    struct Range {
-        std::uint32_t begin;
-        std::uint32_t end;
-        [[nodiscard]] std::uint32_t size() const { return end - begin; }
-    };
-
-    void add_tile(std::size_t tile, Range columns, Range rows, std::span<const float> weights,
+    void add_shape(std::size_t tile, Range columns, Range rows);
+    /// `bright` and `dim` weights of the tile's cells.
+    void add_tile(std::size_t tile, std::span<const float> bright, std::span<const float> dim,
                   double total);
-    [[nodiscard]] Worth worth(const std::optional<Vec3>& normal,
+    [[nodiscard]] Worth worth(const Worth& shares, const std::optional<Vec3>& normal,
                               const TileFactors* factors) const noexcept;
-    [[nodiscard]] std::optional<Sample> sample(Vec2 u, const Worth& worth) const noexcept;
+    [[nodiscard]] std::optional<Sample> sample(Vec2 u, const Worth& worth,
+                                               EnvironmentSampling sampling) const noexcept;
+    [[nodiscard]] CellTables::Cell sample_cell(std::size_t tile, Vec2 u,
+                                               EnvironmentSampling sampling) const noexcept;
     [[nodiscard]] float density(std::size_t tile, const Worth& worth,
                                 float cell_pdf) const noexcept;
+    /// In the tile's own unit square.
+    [[nodiscard]] float cell_pdf(std::size_t tile, std::uint32_t column, std::uint32_t row,
+                                 EnvironmentSampling sampling) const noexcept;
+    [[nodiscard]] const Worth& shares(EnvironmentSampling sampling) const noexcept
+    {
+        return sampling == EnvironmentSampling::plain ? all_ : bright_;
+    }
+    // Numbers of cells in the tile.
+    [[nodiscard]] std::uint32_t columns_of(std::size_t tile) const noexcept
+    {
+        return column_begins_[tile / most_rows + 1] - column_begins_[tile / most_rows];
+    }
+    [[nodiscard]] std::uint32_t rows_of(std::size_t tile) const noexcept
+    {
+        return row_begins_[tile % most_rows + 1] - row_begins_[tile % most_rows];
+    }
 
-    std::uint32_t cells_of_texel_;
+    std::uint32_t cells_of_weight_;
     std::uint32_t width_;  // in cells
     std::uint32_t height_;
     std::uint32_t rows_;                                           // of tiles
     std::array<std::uint32_t, tile_columns + 1> column_begins_{};  // first cells of tiles
     std::array<std::uint32_t, most_rows + 1> row_begins_{};
-    Worth all_;  // the share of each tile in all weights
+    // The share of each tile in all weights.
+    Worth all_;
+    Worth bright_;
+    PerTile bright_in_tile_{};                              // how much of its own weight is bright
+    std::array<std::uint16_t, tile_count> grid_of_tile_{};  // in the tables
+    std::uint16_t grids_ = 0;
     // A tile is worth its share times n.axis + reach, if that is positive.
     alignas(16) PerTile axis_x_{};
     alignas(16) PerTile axis_y_{};
     alignas(16) PerTile axis_z_{};
     alignas(16) PerTile reach_{};
     PerTile tiles_in_image_{};  // area of the image over that of the tile
-    std::vector<Distribution2D> cells_;
+    CellTables cells_;          // bright weights
+    CellTables parts_;          // dim weights
 };
 
 struct TileFactors {

@@ -158,11 +158,16 @@ struct OwnCheck {
                  image.pixels.size(), " pixels");
         }
         for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+            const Rgb& pixel = image.pixels[i];
+            const float least = std::min({pixel.r, pixel.g, pixel.b});
+            if (least >= 0.0f && pixel.r + pixel.g + pixel.b <= any_positive) {
+                continue;  // texts of places take longer than all else
+            }
             const auto column = i % static_cast<std::size_t>(image.width);
             const auto row = i / static_cast<std::size_t>(image.width);
             check_color(
                 item + ": pixel (" + std::to_string(column) + ", " + std::to_string(row) + ")",
-                "radiance", image.pixels[i], any_positive);
+                "radiance", pixel, any_positive);
         }
         if (!all_finite(&light.world_from_environment[0][0], 9)) {
             fail(item, ": rotation is not finite");

@@ -1,0 +1,164 @@
+#include "light/environment/cell_tables.h"
+
+#include <bdpt/memory/huge_pages.h>
+
+#include <algorithm>
+
+namespace bdpt {
+namespace {
+
+/// Cumulative sums of a row of numbers, which add up to `total`. They follow a guide: for each of
+/// 16 equal parts of the total, the number that its begin is in.
+template <typename Word, std::uint32_t total>
+struct Steps {
+    static constexpr std::uint32_t guides = 16;
+    /// Rounded up, so that no sum lies beyond the last part.
+    static constexpr std::uint32_t guided = total / guides + 1;
+
+    struct Place {
+        std::uint32_t index = 0;
+        float offset = 0.0f;  ///< within the number, in [0, 1)
+    };
+
+    /// `weights` with a sum above zero. Each that is not zero gets one, and its share of the rest.
+    static void append(std::span<const float> weights, std::vector<Word>& to)
+    {
+        double sum = 0.0;
+        std::uint32_t positive = 0;
+        for (const float weight : weights) {
+            sum += static_cast<double>(weight);
+            positive += weight > 0.0f ? 1U : 0U;
+        }
+        const std::uint32_t rest = total - positive;
+        constexpr double rounding = 0x1p-20;  // of sums of equal numbers
+        const double scale = static_cast<double>(rest) / sum;
+        const std::size_t begin = to.size();
+        to.resize(begin + guides + weights.size());
+        Word* const steps = to.data() + begin + guides;
+        double before = 0.0;
+        std::uint32_t count = 0;
+        for (std::size_t i = 0; i < weights.size(); ++i) {
+            steps[i] = static_cast<Word>(
+                count + std::min(static_cast<std::uint32_t>(before * scale + rounding), rest));
+            before += static_cast<double>(weights[i]);
+            count += weights[i] > 0.0f ? 1U : 0U;
+        }
+        // What follows the last that is not zero begins at the end, whatever rounding says.
+        for (std::size_t i = weights.size(); i > 0 && !(weights[i - 1] > 0.0f); --i) {
+            steps[i - 1] = static_cast<Word>(total);
+        }
+        std::size_t at = 0;
+        for (std::uint32_t guide = 0; guide < guides; ++guide) {
+            while (at + 1 < weights.size() && steps[at + 1] <= guide * guided) {
+                ++at;
+            }
+            to[begin + guide] = static_cast<Word>(at);
+        }
+    }
+
+    [[nodiscard]] static std::uint32_t width(const Word* row, std::uint32_t count,
+                                             std::uint32_t i) noexcept
+    {
+        const Word* const steps = row + guides;
+        return (i + 1 < count ? steps[i + 1] : total) - steps[i];
+    }
+
+    /// The last number that begins at u or before: one without width is never it.
+    [[nodiscard]] static Place find(const Word* row, std::uint32_t count, float u) noexcept
+    {
+        constexpr float below_one = 0x1.fffffep-1f;
+        const Word* const steps = row + guides;
+        const float at = u * static_cast<float>(total);
+        const auto whole = static_cast<std::uint32_t>(at);
+        const std::uint32_t guide = whole / guided;
+        std::uint32_t first = row[guide];
+        std::uint32_t beyond = guide + 1 < guides ? row[guide + 1] + 1U : count;
+        while (beyond - first > 1) {
+            const std::uint32_t middle = first + (beyond - first) / 2;
+            const bool is_before = steps[middle] <= whole;
+            first = is_before ? middle : first;
+            beyond = is_before ? beyond : middle;
+        }
+        const float offset =
+            (at - static_cast<float>(steps[first])) / static_cast<float>(width(row, count, first));
+        return {first, std::min(offset, below_one)};
+    }
+};
+
+/// A multiple of 128, so that even rows of up to 128 cells in powers of two stay even.
+constexpr std::uint32_t parts_of_row = 511 * 128;
+using CellSteps = Steps<std::uint16_t, parts_of_row>;
+using RowSteps = Steps<std::uint32_t, 0x1000000>;
+
+}  // namespace
+
+void CellTables::reserve(std::size_t cells, std::size_t rows)
+{
+    reserve_in_huge_pages(cells_, cells_.size() + cells + rows * CellSteps::guides);
+}
+
+void CellTables::add(std::span<const float> weights, std::size_t columns)
+{
+    const std::size_t rows = weights.size() / columns;
+    grids_.push_back({.cells = cells_.size(),
+                      .rows = rows_.size(),
+                      .columns = static_cast<std::uint32_t>(columns),
+                      .row_count = static_cast<std::uint32_t>(rows)});
+    std::vector<float> sums;
+    bool any = false;
+    for (std::size_t y = 0; y < rows; ++y) {
+        const auto row = weights.subspan(y * columns, columns);
+        double sum = 0.0;
+        for (const float weight : row) {
+            sum += static_cast<double>(weight);
+        }
+        sums.push_back(static_cast<float>(sum));
+        any = any || sum > 0.0;
+        if (sum > 0.0) {
+            CellSteps::append(row, cells_);
+        } else {
+            cells_.resize(cells_.size() + CellSteps::guides + columns);
+        }
+    }
+    if (any) {
+        RowSteps::append(sums, rows_);
+    } else {
+        rows_.resize(rows_.size() + RowSteps::guides + rows, 0x1000000);
+    }
+}
+
+const std::uint16_t* CellTables::steps_of_row(const Grid& grid, std::uint32_t row) const noexcept
+{
+    return cells_.data() + grid.cells +
+           std::size_t{row} * (CellSteps::guides + std::size_t{grid.columns});
+}
+
+CellTables::Cell CellTables::sample(std::size_t grid, Vec2 u) const noexcept
+{
+    const Grid& of = grids_[grid];
+    const auto row = RowSteps::find(rows_.data() + of.rows, of.row_count, u.y);
+    const auto column = CellSteps::find(steps_of_row(of, row.index), of.columns, u.x);
+    return {.column = column.index, .row = row.index, .offset = {column.offset, row.offset}};
+}
+
+float CellTables::probability(std::size_t grid, std::uint32_t column,
+                              std::uint32_t row) const noexcept
+{
+    const Grid& of = grids_[grid];
+    const auto of_row =
+        static_cast<float>(RowSteps::width(rows_.data() + of.rows, of.row_count, row));
+    if (!(of_row > 0.0f)) {
+        return 0.0f;
+    }
+    const auto of_cell =
+        static_cast<float>(CellSteps::width(steps_of_row(of, row), of.columns, column));
+    return of_row * 0x1p-24f * (of_cell / static_cast<float>(parts_of_row));
+}
+
+std::size_t CellTables::bytes() const noexcept
+{
+    return cells_.size() * sizeof(cells_[0]) + rows_.size() * sizeof(rows_[0]) +
+           grids_.size() * sizeof(grids_[0]);
+}
+
+}  // namespace bdpt

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <bdpt/image.h>
+#include <bdpt/types.h>
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace bdpt {
+
+/// The radiance of an environment's texels, as halves times a power of two: 6 bytes a texel, and no
+/// rounding of what files of halves and Radiance files hold. Where an image has a wider range than
+/// that, its texels stay floats (docs/decisions/0070-compact-environments.md).
+class EnvironmentTexels {
+public:
+    /// Finite, not negative.
+    explicit EnvironmentTexels(const Image& image);
+
+    [[nodiscard]] int width() const noexcept { return width_; }
+    [[nodiscard]] int height() const noexcept { return height_; }
+    [[nodiscard]] Rgb operator()(int x, int y) const noexcept
+    {
+        const std::size_t first =
+            3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+                 static_cast<std::size_t>(x));
+        if (!halves_.empty()) [[likely]] {
+            const std::uint16_t* const texel = halves_.data() + first;
+            return Rgb(decoded(texel[0]), decoded(texel[1]), decoded(texel[2])) * scale_;
+        }
+        const float* const texel = floats_.data() + first;
+        return {texel[0], texel[1], texel[2]};
+    }
+    /// Of all channels of all texels.
+    [[nodiscard]] float greatest() const noexcept { return greatest_; }
+    /// Are texels halves?
+    [[nodiscard]] bool are_halves() const noexcept { return !halves_.empty(); }
+    /// What the texels take.
+    [[nodiscard]] std::size_t bytes() const noexcept
+    {
+        return halves_.size() * sizeof(halves_[0]) + floats_.size() * sizeof(floats_[0]);
+    }
+
+private:
+    /// Of a positive half, by whole numbers where it is subnormal: threads that render flush
+    /// subnormal floats to zero.
+    [[nodiscard]] static float decoded(std::uint16_t half) noexcept
+    {
+        constexpr std::uint32_t least_normal = 0x400;
+        constexpr std::uint32_t exponent_offset = 112U << 23U;
+        return half >= least_normal
+                   ? std::bit_cast<float>((std::uint32_t{half} << 13U) + exponent_offset)
+                   : static_cast<float>(half) * 0x1p-24f;
+    }
+    [[nodiscard]] bool encode(const Image& image);
+
+    int width_;
+    int height_;
+    float greatest_ = 0.0f;
+    float scale_ = 1.0f;
+    std::vector<std::uint16_t> halves_;
+    std::vector<float> floats_;  // in place of halves
+};
+
+}  // namespace bdpt

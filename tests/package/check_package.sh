@@ -175,7 +175,7 @@ use_pkg_config() {
     compile "${program%.cpp}" "$program" bdpt_io
     "./${program%.cpp}"
   done
-  for image in out growing edited; do
+  for image in out growing edited built; do
     [[ -s $image.exr ]] || fail "no program in the documentation wrote $image.exr"
   done
 }

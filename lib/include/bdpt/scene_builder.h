@@ -21,7 +21,7 @@ namespace bdpt {
 /// Puts the description of a scene together, and keeps its indices right.
 ///
 ///     bdpt::SceneBuilder builder;
-///     const bdpt::MaterialId grey = builder.add(bdpt::MaterialDesc{.metallic = 0.0f});
+///     const bdpt::MaterialId grey = builder.add(bdpt::MaterialDesc{});
 ///     builder.place(builder.add(bdpt::sphere_mesh(0.5f)), grey);
 ///     builder.place(builder.add(bdpt::box_mesh({-2, -1, -2}, {2, -0.5f, 2})), grey);
 ///     builder.add(bdpt::default_environment());

@@ -60,16 +60,7 @@ void Session::run()
 {
     tell(true);
     watch_.watch({words_.text("file")});
-    scene_.load(words_);
-    watch_.watch(scene_.files());
-    coarse_.restart(scene_.stage().size);
-    ++generation_;
-    for (const std::string& note : scene_.stage().notes) {
-        console_.note(note);
-    }
-    for (const std::string& warning : scene_.stage().warnings) {
-        console_.warning(warning);
-    }
+    load_first();
     tell(true);
     bool busy = true;
     while (mailbox_.work_off(!busy)) {
@@ -83,6 +74,30 @@ void Session::run()
         if (is_untold_) {
             tell(!busy);
         }
+    }
+}
+
+void Session::load_first()
+{
+    try {
+        scene_.load(words_);
+    } catch (const Error& error) {
+        static_cast<void>(mailbox_.work_off(false));  // pages that were opened meanwhile
+        if (clients_.empty()) {
+            throw;
+        }
+        file_message_ = one_line(error.what());
+        console_.warning(file_message_, Repeat::always);
+        return;
+    }
+    watch_.watch(scene_.files());
+    coarse_.restart(scene_.stage().size);
+    ++generation_;
+    for (const std::string& note : scene_.stage().notes) {
+        console_.note(note);
+    }
+    for (const std::string& warning : scene_.stage().warnings) {
+        console_.warning(warning);
     }
 }
 

@@ -62,6 +62,8 @@ private:
     void set_environment(const std::string& name);
     [[nodiscard]] std::string inspected(const PixelSample& pixel);
     [[nodiscard]] Download saved(const std::string& name, int slot);
+    /// Throws `Error` if the scene cannot be loaded, unless a page is open to show why.
+    void load_first();
     void load();
     /// Does what was asked for since, and begins anew.
     void restart();

@@ -101,9 +101,13 @@ private:
 /// `bdpt view` of a cube without its server.
 class Viewing {
 public:
-    explicit Viewing(const Words& more, const std::string& cameras = two_cameras)
+    explicit Viewing(const Words& more, const std::string& cameras = two_cameras,
+                     const std::function<void(const fs::path&)>& spoil = {})
     {
         write_cube(folder_, "cube", {.cameras = cameras});
+        if (spoil) {
+            spoil(path("cube.gltf"));
+        }
         Words words{path("cube.gltf"), "--size=48x24", "--threads=2"};
         words.insert(words.end(), more.begin(), more.end());
         app::ViewRequest request;
@@ -328,4 +332,29 @@ TEST_CASE("a file that changes is loaded again, and a broken one keeps the pictu
 }
 
 }  // namespace
+TEST_CASE("a page shows why its scene cannot be loaded, and the scene once it can", "[live_view]")
+{
+    const auto shows_message = [](const json& state) { return !state.at("message").is_null(); };
+    SECTION("it does not fit into memory")
+    {
+        Viewing viewing({"--max-memory=20000"});
+        const json state = viewing.listener().state(shows_message);
+        CHECK(state.at("message").get<std::string>().find("--max-memory") != std::string::npos);
+        CHECK_FALSE(state.at("loading").get<bool>());
+        CHECK(viewing.ask({{"move", {{"orbit", {0.1, 0.0}}, {"dolly", 1.0}}}}).contains("error"));
+    }
+    SECTION("it is broken, and then mended")
+    {
+        std::string text;
+        Viewing viewing({"--spp=2"}, two_cameras, [&](const fs::path& file) {
+            text = text_of(file);
+            std::ofstream(file) << text.substr(0, text.size() / 2);
+        });
+        const json state = viewing.listener().state(shows_message);
+        CHECK(state.at("message").get<std::string>().find("cube.gltf") != std::string::npos);
+        std::ofstream(viewing.path("cube.gltf")) << text;
+        CHECK(viewing.finished().at("slots").at(0).at("samples") == 2);
+    }
+}
+
 }  // namespace bdpt::test::live_view_session_test

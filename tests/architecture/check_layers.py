@@ -57,13 +57,13 @@ ALLOWED = {
 }
 # Area -> what it may include of our own by <bdpt/...>.
 OWN = {
-    "lib/include": r"bdpt/(film/|light/|memory/|options/|part/)?[a-z0-9_]+\.h",
-    "lib/src": r"bdpt/(film/|light/|memory/|options/|part/)?[a-z0-9_]+\.h",
-    "lib/io": r"bdpt/(io/|film/|light/|memory/|options/|part/)?[a-z0-9_]+\.h",
-    "lib/eval": r"bdpt/(io/|film/|light/|memory/|options/|part/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
-    "apps": r"bdpt/(io/|film/|light/|memory/|options/|part/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
-    "tests": r"bdpt/(io/|film/|light/|memory/|options/|part/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
-    "benchmarks": r"bdpt/(io/|film/|light/|memory/|options/|part/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
+    "lib/include": r"bdpt/(film/|light/|memory/|options/|part/|tools/)?[a-z0-9_]+\.h",
+    "lib/src": r"bdpt/(film/|light/|memory/|options/|part/|tools/)?[a-z0-9_]+\.h",
+    "lib/io": r"bdpt/(io/|film/|light/|memory/|options/|part/|tools/)?[a-z0-9_]+\.h",
+    "lib/eval": r"bdpt/(io/|film/|light/|memory/|options/|part/|tools/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
+    "apps": r"bdpt/(io/|film/|light/|memory/|options/|part/|tools/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
+    "tests": r"bdpt/(io/|film/|light/|memory/|options/|part/|tools/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
+    "benchmarks": r"bdpt/(io/|film/|light/|memory/|options/|part/|tools/|eval/[a-z_]+/)?[a-z0-9_]+\.h",
 }
 STANDARD = re.compile(r"[a-z_]+")  # <vector>; the C headers with .h are not ours to use
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"]+)"|<([^>]+)>)', re.MULTILINE)

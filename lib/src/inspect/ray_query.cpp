@@ -2,8 +2,8 @@
 #include "scene/world.h"
 
 #include <bdpt/error.h>
-#include <bdpt/ray_query.h>
 #include <bdpt/scene.h>
+#include <bdpt/tools/ray_query.h>
 
 #include <glm/geometric.hpp>
 

@@ -1,7 +1,7 @@
 #include "math/elementary.h"
 
 #include <bdpt/error.h>
-#include <bdpt/scene_builder.h>
+#include <bdpt/tools/scene_builder.h>
 
 #include <glm/geometric.hpp>
 

@@ -1,7 +1,7 @@
 #include <bdpt/error.h>
 #include <bdpt/render.h>
 #include <bdpt/scene.h>
-#include <bdpt/scene_builder.h>
+#include <bdpt/tools/scene_builder.h>
 
 #include "catch.hpp"
 

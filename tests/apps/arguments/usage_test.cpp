@@ -156,8 +156,8 @@ TEST_CASE("an error image must be a PNG file, and nothing else is offered")
         const std::string message =
             usage_error({"compare", (folder / "a.exr").string(), (folder / "a.exr").string(),
                          "--error-image", (folder / name).string()});
-        CHECK(contains(message, "name it .png"));
-        CHECK_FALSE(contains(message, "name it .exr"));
+        CHECK(contains(message, "expected a file name that ends in .png"));
+        CHECK_FALSE(contains(message, "ends in .exr"));
     }
 }
 

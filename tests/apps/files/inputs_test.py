@@ -102,7 +102,7 @@ with tempfile.TemporaryDirectory() as name:
         done = bdpt(*words, cwd=FOLDER)
         message = done.stderr.decode()
         refused = done.returncode == 2 and message.count("\n") == 1 and any(
-            text in message for text in ("both an input and an output", "named twice"))
+            text in message for text in ("both an input and an output", "an input or another output", "named twice"))
         if not refused or contents(FOLDER) != before:
             changed = [file for file, data in contents(FOLDER).items() if before.get(file) != data]
             failed.append((" ".join(words), f"exit code {done.returncode}, changed {changed}: {message}"))

@@ -164,7 +164,7 @@ def check_refusals(folder, scene):
     outcome = subprocess.run([folder.bdpt, "render", scene, "-o", folder.path / "a.png", "--aov", "object"], capture_output=True, text=True)
     expect(outcome.returncode == 2 and ".exr" in outcome.stderr, "ids want an .exr file")
     outcome = subprocess.run([folder.bdpt, "render", scene, "-o", folder.path / "a.exr", "--aov", "objects"], capture_output=True, text=True)
-    expect(outcome.returncode == 2 and "object, material" in outcome.stderr, "the names of AOVs are told")
+    expect(outcome.returncode == 2 and "object and material" in outcome.stderr, "the names of AOVs are told")
     # Whoever gives the same things other names makes another render.
     renamed = json.loads(scene.read_text())
     renamed["nodes"][1]["name"] = "renamed"

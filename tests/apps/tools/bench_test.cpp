@@ -96,7 +96,7 @@ TEST_CASE("words of a benchmark that make no sense")
 {
     const ScratchFolder folder;
     const auto [words, expected] = GENERATE(table<std::vector<std::string>, std::string>(
-        {{{"--integrators", "pt,path"}, "--integrators \"pt,path\": expected pt, nee, mis, lt"},
+        {{{"--integrators", "pt,path"}, "--integrators \"pt,path\": expected a comma-separated list of pt, nee, mis, lt"},
          {{"--integrators", "pt,"}, "--integrators \"pt,\""},
          {{"--time", "fast"}, "--time \"fast\""},
          {{"--reference-time", "-1"}, "--reference-time"},

@@ -14,7 +14,7 @@ BDPT_EXPORT void prefer_huge_pages(void* begin, std::size_t bytes) noexcept;
 
 /// Reserves room for `size` values; where that is new memory, it has large pages if it can.
 template <typename T>
-void reserve_in_huge_pages(std::vector<T>& values, std::size_t size)
+inline void reserve_in_huge_pages(std::vector<T>& values, std::size_t size)
 {
     if (values.capacity() < size) {
         values.reserve(size);
@@ -25,7 +25,7 @@ void reserve_in_huge_pages(std::vector<T>& values, std::size_t size)
 
 /// Resizes the vector in such memory.
 template <typename T>
-void resize_in_huge_pages(std::vector<T>& values, std::size_t size)
+inline void resize_in_huge_pages(std::vector<T>& values, std::size_t size)
 {
     reserve_in_huge_pages(values, size);
     values.resize(size);

@@ -267,14 +267,19 @@ inline constexpr auto fields<RenderOptions> = all_fields(
 /// Is `T` a group of options, and not the value of one?
 template <typename T>
 inline constexpr bool is_option_group = false;
+/// `FilmOptions` is a group.
 template <>
 inline constexpr bool is_option_group<FilmOptions> = true;
+/// `SamplingOptions` is a group.
 template <>
 inline constexpr bool is_option_group<SamplingOptions> = true;
+/// `TransportOptions` is a group.
 template <>
 inline constexpr bool is_option_group<TransportOptions> = true;
+/// `BidirectionalOptions` is a group.
 template <>
 inline constexpr bool is_option_group<BidirectionalOptions> = true;
+/// `SystemOptions` is a group.
 template <>
 inline constexpr bool is_option_group<SystemOptions> = true;
 

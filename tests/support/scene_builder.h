@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bdpt/scene_desc.h>
+#include <bdpt/tools/scene_builder.h>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -66,11 +67,7 @@ public:
     /// Corners counter-clockwise from the front.
     SceneBuilder& quad(Vec3 a, Vec3 b, Vec3 c, Vec3 d, const MaterialDesc& material)
     {
-        MeshDesc mesh;
-        mesh.positions = {a, b, c, d};
-        mesh.uvs[0] = {{0.0f, 1.0f}, {1.0f, 1.0f}, {1.0f, 0.0f}, {0.0f, 0.0f}};
-        mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-        return place(add_mesh(std::move(mesh)), material, Mat4(1.0f));
+        return place(add_mesh(quad_mesh(a, b, c, d)), material, Mat4(1.0f));
     }
 
     /// Unit sphere with smooth normals.
@@ -89,18 +86,7 @@ public:
             }
         }
         mesh.normals = mesh.positions;
-        for (unsigned ring = 0; ring < rings; ++ring) {
-            for (unsigned i = 0; i < segments; ++i) {
-                const unsigned a = ring * (segments + 1) + i;
-                const unsigned b = a + segments + 1;
-                if (ring > 0) {
-                    mesh.triangles.emplace_back(a, b, a + 1);
-                }
-                if (ring + 1 < rings) {
-                    mesh.triangles.emplace_back(a + 1, b, b + 1);
-                }
-            }
-        }
+        mesh.triangles = bdpt::sphere_mesh(1.0f, segments).triangles;
         return add_mesh(std::move(mesh));
     }
 
@@ -131,15 +117,8 @@ public:
     /// The closed surface of a cube, seen from outside, with flat faces.
     SceneBuilder& cube(Vec3 center, float half_width, const MaterialDesc& material)
     {
-        MeshDesc mesh;
-        for (unsigned i = 0; i < 8; ++i) {
-            const Vec3 corner((i & 1U) != 0 ? 1 : -1, (i & 2U) != 0 ? 1 : -1,
-                              (i & 4U) != 0 ? 1 : -1);
-            mesh.positions.push_back(center + half_width * corner);
-        }
-        mesh.triangles = {{4, 5, 7}, {4, 7, 6}, {1, 0, 2}, {1, 2, 3}, {5, 1, 3}, {5, 3, 7},
-                          {0, 4, 6}, {0, 6, 2}, {6, 7, 3}, {6, 3, 2}, {0, 1, 5}, {0, 5, 4}};
-        return place(add_mesh(std::move(mesh)), material, Mat4(1.0f));
+        return place(add_mesh(box_mesh(center - half_width, center + half_width)), material,
+                     Mat4(1.0f));
     }
 
     /// The inside of the cube [-1, 1]^3 without its front (+z) and its ceiling.

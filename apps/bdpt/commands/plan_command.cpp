@@ -290,9 +290,8 @@ int run_plan(const PlanArguments& arguments)
     check_patterns(asked);
     if (asked.display.backdrop && !asked.display.backdrop->photo.empty()) {
         throw OptionError(
-            fmt::format("--background \"{}\": a plan has no photographs; plan with --background "
-                        "transparent and "
-                        "name it to bdpt merge",
+            fmt::format("--background \"{}\": a plan cannot contain a photograph: use --background "
+                        "transparent, and give the photograph to bdpt merge",
                         backdrop_text(*asked.display.backdrop)));
     }
     check_files(arguments, input_files(asked));

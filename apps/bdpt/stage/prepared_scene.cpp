@@ -145,30 +145,22 @@ void add_lights(LitScene& lit, DefaultLights missing, const FramedView& framed,
 }
 
 /// Builds the scene, with the default lights that it turns out to want.
-Scene build(LitScene& lit, const RenderArguments& arguments, float aspect,
-            const std::function<void(const SceneDesc&)>& look)
+Scene build(LitScene& lit, const RenderArguments& arguments, float aspect)
 {
-    const auto show = [&] {
-        if (look) {
-            look(lit.desc);
-        }
-    };
     if (!is_undecided(lit)) {
         change_environment(lit, arguments);
-        show();
         return Scene(std::move(lit.desc), arguments.isa);
     }
     Scene scene(lit.desc, arguments.isa);
     const FramedView framed = frame_scene(scene, aspect);
     add_lights(lit, missing_lights(scene, framed, aspect), framed, arguments.file.string());
     change_environment(lit, arguments);
-    show();
     const bool is_lit = !lit.desc.lights.empty();
     return is_lit ? scene.with_lights(std::move(lit.desc.lights)) : std::move(scene);
 }
 
-/// The camera that shows all of the scene, in the way that was asked for. A view that is asked for
-/// in full is not looked for: that would take longer than a coarse picture.
+/// The camera that shows all of the scene, in the way that was asked for. A complete view (--from,
+/// --look-at and --fov) needs no framing, which takes longer than a coarse picture.
 CameraDesc framed(const Scene& scene, float aspect, const RenderArguments& arguments)
 {
     const ViewOverrides& view = arguments.view;
@@ -232,8 +224,7 @@ std::vector<VolumeDesc> load_volumes(const RenderArguments& arguments)
 
 }  // namespace
 
-PreparedScene prepare_scene(const RenderArguments& asked,
-                            const std::function<void(const SceneDesc&)>& look)
+PreparedScene prepare_scene(const RenderArguments& asked)
 {
     RenderArguments arguments = asked;
     if (!arguments.scene.memory) {
@@ -273,7 +264,7 @@ PreparedScene prepare_scene(const RenderArguments& asked,
     spend_building(*arguments.scene.memory, lit.desc,
                    is_undecided(lit) ? Copies::two : Copies::one);
     const auto loading_end = std::chrono::steady_clock::now();
-    Scene scene = build(lit, arguments, aspect, look);
+    Scene scene = build(lit, arguments, aspect);
     const auto building_end = std::chrono::steady_clock::now();
     for (const std::string& warning : scene.warnings()) {
         warnings.push_back(fmt::format("{}: {}", file, warning));

@@ -5,7 +5,6 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -44,9 +43,8 @@ struct Viewpoint {
 
 /// Loads the file, and fills in what it lacks by the rules that `bdpt render --help` states.
 /// What that takes is taken from `arguments.scene.memory`, or from `arguments.memory` if there is
-/// none. `look` is shown what the scene will be built from. Throws `Error`.
-[[nodiscard]] PreparedScene prepare_scene(const RenderArguments& arguments,
-                                          const std::function<void(const SceneDesc&)>& look = {});
+/// none. Throws `Error`.
+[[nodiscard]] PreparedScene prepare_scene(const RenderArguments& arguments);
 
 /// Camera `index` of the scene, as `arguments` change its view and its lens. Throws `Error`.
 [[nodiscard]] Viewpoint viewpoint(const PreparedScene& stage, std::size_t index,

@@ -30,7 +30,7 @@ private:
     [[nodiscard]] double seconds(int divisor) const;
 
     Size size_{};
-    double seconds_a_pixel_ = 5e-6;  ///< measured; before the first picture, that of a room
+    double seconds_a_pixel_ = 5e-6;  ///< measured; a guess until the first picture is done
     std::optional<int> divisor_{};
     bool is_first_ = false;
 };

@@ -233,7 +233,7 @@ void Session::change_camera(const PageRequest& request)
     }
     const bool is_framed = arguments.view.frames() || scene_.stage().is_framed;
     if (is_framed && !words_.has("--fov") && !words_.has("--focal-length")) {
-        // A view that is told in full needs no look at the whole scene.
+        // With a field of view the view is complete, and the scene need not be framed.
         words_.set("--fov", fmt::format("{}", degrees(camera.vertical_fov)));
     }
     words_.set("--from", point_text(pose.from));

@@ -36,14 +36,14 @@ bool light_moves(const LightDesc& light)
         light);
 }
 
-/// May light that meets it leave it by many ways?
+/// Is its boundary rough, so that microfacets mask a part of the light?
 bool is_rough(const MaterialDesc& desc)
 {
     return desc.roughness > 0.0f || desc.anisotropy.strength != 0.0f ||
            desc.glossiness_texture.has_value();
 }
 
-/// The tables of red, green and blue.
+/// The keys of the tables of red, green and blue.
 std::array<std::pair<float, SpecularAlbedo::Below>, 3> albedo_keys(const MaterialDesc& desc,
                                                                    const Exterior& exterior)
 {
@@ -178,7 +178,7 @@ ChannelAlbedos WorldBuilder::albedos_of(const MaterialDesc& desc, const Exterior
     return {albedo_of(red), albedo_of(green), albedo_of(blue)};
 }
 
-/// The tables of all materials in this surrounding: side by side, as each takes some milliseconds.
+/// Makes the tables of all materials in this surrounding in parallel: each takes milliseconds.
 void WorldBuilder::make_albedos(const Exterior& exterior)
 {
     std::vector<World::AlbedoKey> missing;
@@ -199,7 +199,7 @@ void WorldBuilder::make_albedos(const Exterior& exterior)
     }
 }
 
-/// Of this scene, or of the one that it is like; null: it has to be made.
+/// The table of this scene or of the scene that it was edited from; null if neither has it.
 std::shared_ptr<const SpecularAlbedo> WorldBuilder::known_albedo(const World::AlbedoKey& key) const
 {
     for (const World* world : {static_cast<const World*>(&world_), like_}) {

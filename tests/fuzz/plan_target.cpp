@@ -5,9 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "commands/command_line.h"
 #include "fuzz_target.h"
 #include "input_file.h"
+#include "options/command_parser.h"
+#include "options/part_arguments.h"
+#include "options/render_arguments.h"
 #include "plan/plan_file.h"
 #include "plan/planned_words.h"
 #include "promises.h"
@@ -17,13 +19,11 @@ using namespace bdpt::app;
 
 namespace {
 
-using Words = std::vector<std::string>;
-
-/// The options of the command in `line` that `typed` names, with those of the plan.
-const OptionList& parsed(CommandLine& line, const Words& typed)
+/// Parses `typed`, a command line of one command, and the words of its plan into `options`.
+void parse_with_plan(OptionList& options, const std::vector<std::string>& typed)
 {
-    const Words words = with_planned_words(typed);
-    return parse(line.program, Words(words.begin() + 1, words.end())).command->options;
+    const std::vector<std::string> words = with_planned_words(typed);
+    parse(options, {words.begin() + 2, words.end()});
 }
 
 bool is_in(const std::filesystem::path& file, const std::filesystem::path& folder)
@@ -35,9 +35,11 @@ bool is_in(const std::filesystem::path& file, const std::filesystem::path& folde
 /// A task writes its part, and nothing else.
 void check_render(const std::string& file)
 {
-    CommandLine line;
-    const OptionList& options = parsed(line, {"bdpt", "render", "--plan", file, "--task", "0"});
-    const RenderArguments asked = checked(line.render, options);
+    RenderRequest request;
+    OptionList options;
+    add_render_options(options, request);
+    parse_with_plan(options, {"bdpt", "render", "--plan", file, "--task", "0"});
+    const RenderArguments asked = checked(request, options);
     fuzz::promise(asked.outputs.empty() && !asked.stats && !asked.viewer,
                   "a task writes no files that its plan names");
     fuzz::promise(!asked.denoise || !asked.denoise->library, "a plan loads no code");
@@ -47,9 +49,11 @@ void check_render(const std::string& file)
 
 void check_merge(const std::string& file)
 {
-    CommandLine line;
-    const OptionList& options = parsed(line, {"bdpt", "merge", "--plan", file});
-    const MergeArguments asked = checked(line.merge, options);
+    MergeRequest request;
+    OptionList options;
+    add_merge_options(options, request);
+    parse_with_plan(options, {"bdpt", "merge", "--plan", file});
+    const MergeArguments asked = checked(request, options);
     fuzz::promise(!asked.denoise || !asked.denoise->library, "a plan loads no code");
 }
 

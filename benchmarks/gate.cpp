@@ -16,7 +16,7 @@ using namespace bdpt;
 /// A scene and how many times more error `mis` must have at least.
 struct Demand {
     const char* file;
-    double least_ratio;
+    double min_ratio;
 };
 
 constexpr std::array demands{Demand{"cornell-box-hidden.gltf", 4.0}, Demand{"lamp-box.gltf", 10.0},
@@ -39,14 +39,14 @@ bool measure(const Demand& demand, const Settings& settings)
     const auto scores =
         compare_at_equal_time(subject.bench_scene(), reference, variants, settings.contest);
     const double ratio = scores[1].error.median / scores[0].error.median;
-    const bool met = ratio >= demand.least_ratio;
+    const bool met = ratio >= demand.min_ratio;
     std::printf("  relMSE: bdpt %.2e (%.2e .. %.2e), mis %.2e (%.2e .. %.2e)\n",
                 scores[0].error.median, scores[0].error.least, scores[0].error.greatest,
                 scores[1].error.median, scores[1].error.least, scores[1].error.greatest);
     std::printf("  samples: bdpt %lld, mis %lld\n", static_cast<long long>(scores[0].samples),
                 static_cast<long long>(scores[1].samples));
     std::printf("  mis has %.2f times the relMSE of bdpt; at least %.2f is asked for: %s\n", ratio,
-                demand.least_ratio, met ? "met" : "NOT MET");
+                demand.min_ratio, met ? "met" : "NOT MET");
     return met;
 }
 

@@ -109,9 +109,9 @@ RayThroughput measure_throughput(const Subject& subject, const RenderOptions& op
 
 LoopThroughput measure_loop(const AllTriangles& triangles, const RayLogs& logs)
 {
-    constexpr std::uint64_t most_tests = 400'000'000;  // a second or two
-    const std::uint64_t most_rays = std::max<std::uint64_t>(most_tests / triangles.size(), 64);
-    const std::uint64_t step = totals_of(logs).rays / most_rays + 1;
+    constexpr std::uint64_t max_tests = 400'000'000;  // a second or two
+    const std::uint64_t max_rays = std::max<std::uint64_t>(max_tests / triangles.size(), 64);
+    const std::uint64_t step = totals_of(logs).rays / max_rays + 1;
     std::vector<const RecordedRay*> rays;
     std::vector<bool> expected;
     std::uint64_t number = 0;

@@ -47,7 +47,7 @@ void limit(int resource, const std::optional<rlim_t>& value)
 }
 
 /// So that a command that never ends fails its test; far beyond what any test takes.
-constexpr unsigned longest_run = 300;  // [s]
+constexpr unsigned max_run_seconds = 300;  // [s]
 
 /// In the child.
 [[noreturn]] void become_command(const Launch& launch, const Channel& out, const Channel& err)
@@ -61,7 +61,7 @@ constexpr unsigned longest_run = 300;  // [s]
     for (const auto& [name, value] : launch.environment) {
         ::setenv(name.c_str(), value.c_str(), 1);
     }
-    ::alarm(longest_run);
+    ::alarm(max_run_seconds);
     if (!launch.folder.empty() && ::chdir(launch.folder.c_str()) != 0) {
         ::_exit(98);
     }

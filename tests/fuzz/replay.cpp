@@ -26,7 +26,7 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr unsigned seconds_for_one = 10;
-constexpr std::size_t most_bytes = 1u << 20;
+constexpr std::size_t max_bytes = 1u << 20;
 constexpr const char* crash_file = "crash-input";
 
 /// What the target works on, for the signal handler.
@@ -110,7 +110,7 @@ int replay(const std::vector<std::string>& words)
     std::uint64_t done = 0;
     for (; runs ? done < *runs : Clock::now() < end; ++done) {
         const Bytes& origin = corpus[done % corpus.size()];
-        run(bdpt::fuzz::mutate(origin, (seed << 32) + done, most_bytes));
+        run(bdpt::fuzz::mutate(origin, (seed << 32) + done, max_bytes));
     }
     std::printf("%zu files and %llu mutants: nothing broke\n", corpus.size(),
                 static_cast<unsigned long long>(done));

@@ -89,8 +89,9 @@ TEST_CASE("point and sphere lights that move: the mean of their irradiances",
 TEST_CASE("a sun that turns: the mean of its cosines", "[closed-form][motion]")
 {
     SceneBuilder sun = lambertian_floor();
-    sun.light(DirectionalLightDesc{
-        .direction = {0.0f, -1.0f, 0.0f}, .illuminance = Rgb(2.0f), .turn = {{2.0f, -1.0f, 0.0f}}});
+    sun.light(DirectionalLightDesc{.direction = {0.0f, -1.0f, 0.0f},
+                                   .illuminance = Rgb(2.0f),
+                                   .later_directions = {{2.0f, -1.0f, 0.0f}}});
     check_irradiance(std::move(sun), [](double t) { return 2.0 / std::sqrt(1.0 + 4.0 * t * t); });
 }
 

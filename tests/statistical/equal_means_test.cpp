@@ -56,7 +56,7 @@ TEST_CASE("each tile counts, not only that with the greatest z", "[statistics]")
     TileMeans means = means_of(half);
     const MeanComparison result = compare_means(means, 1.0, quick);
     CHECK_FALSE(result.equal);
-    CHECK(result.greatest_bias == Approx(1.0));
+    CHECK(result.max_bias == Approx(1.0));
     CHECK(result.found_bias == Approx(1.0));
     const Scene little = square_of(Rgb(1.0f - 1e-4f), 9.0f);
     TileMeans near = means_of(little);

@@ -32,7 +32,7 @@ EqualityCase moving_lights()
                                 .inner_cone_angle = 0.2f,
                                 .outer_cone_angle = 0.7f,
                                 .motion = {{0.1f, 0.6f, 0.3f}},
-                                .turn = {{-0.2f, -1.0f, 0.4f}, {-0.8f, -0.7f, 0.0f}}});
+                                .later_directions = {{-0.2f, -1.0f, 0.4f}, {-0.8f, -0.7f, 0.0f}}});
     builder.light(PointLightDesc{.position = {-0.5f, -0.5f, 0.2f},
                                  .intensity = {0.4f, 0.8f, 0.3f},
                                  .radius = 0.2f,
@@ -44,10 +44,10 @@ EqualityCase moving_lights()
                                 .outer_cone_angle = 1.1f,
                                 .radius = 0.25f,
                                 .motion = {{0.5f, 0.5f, -0.4f}},
-                                .turn = {{0.4f, -1.0f, 0.6f}}});
+                                .later_directions = {{0.4f, -1.0f, 0.6f}}});
     builder.light(DirectionalLightDesc{.direction = {0.3f, -1.0f, -0.4f},
                                        .illuminance = Rgb(0.6f),
-                                       .turn = {{-0.6f, -1.0f, -0.3f}}});
+                                       .later_directions = {{-0.6f, -1.0f, -0.3f}}});
     EqualityCase result{.name = "lights that move",
                         .scene = std::move(builder.desc),
                         .camera = moving(room_camera())};

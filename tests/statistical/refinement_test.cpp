@@ -53,7 +53,7 @@ TEST_CASE("batches go where they help most for their work", "[statistics]")
         .variance = {0.9, 0.1, 0.2, 0.5}, .batches = some, .work = 1.0, .cells = a_cells};
     const BatchEvidence b{
         .variance = {0.04, 0.02, 0.02, 0.08}, .batches = some, .work = 3.0, .cells = b_cells};
-    const BatchPlan plan = least_work(a, b, error);
+    const BatchPlan plan = min_work(a, b, error);
     for (std::size_t i = 0; i < compared_cells; ++i) {
         INFO("cell " << i << ": " << plan.a[i] << " and " << plan.b[i]);
         CHECK(variance_after(a, b, plan, i) <= error * error * (1.0 + 1e-9));
@@ -63,7 +63,7 @@ TEST_CASE("batches go where they help most for their work", "[statistics]")
     }
     CHECK(plan.a[0] > 2 * plan.b[0]);
     CHECK(work_of(a, b, plan) < 0.6 * work_of(a, b, equal_shares(a, b)));
-    const BatchPlan swapped = least_work(b, a, error);
+    const BatchPlan swapped = min_work(b, a, error);
     CHECK(work_of(b, a, swapped) == Approx(work_of(a, b, plan)).epsilon(0.02));
 }
 
@@ -74,7 +74,7 @@ TEST_CASE("the least work of one cell is where its derivatives are zero", "[stat
     BatchEvidence b{.work = 4.0};
     a.variance.fill(0.09);
     b.variance.fill(0.16);
-    const BatchPlan plan = least_work(a, b, error);
+    const BatchPlan plan = min_work(a, b, error);
     // (0.3 + 0.8) 0.3 and (0.3 + 0.8) 0.4 / 2 over the error squared.
     CHECK(plan.a[2] == Approx(3300).epsilon(0.06));
     CHECK(plan.b[2] == Approx(2200).epsilon(0.06));
@@ -87,12 +87,12 @@ TEST_CASE("batches that are there are used, and a known mean needs none", "[stat
     BatchEvidence b{.batches = some, .work = 1.0};
     a.variance.fill(0.01);
     b.variance.fill(0.01);
-    const BatchPlan plan = least_work(a, b, error);
+    const BatchPlan plan = min_work(a, b, error);
     CHECK(plan.a[1] == 5000);
     CHECK(plan.b[1] == 103);  // 1 / (1 - 100 / 5000), in hundreds
     CHECK(plan.a[0] == Approx(200).epsilon(0.06));
-    CHECK(least_work(b, a, error).b[1] == 5000);
-    const BatchPlan alone = least_work(a, BatchEvidence{}, error);
+    CHECK(min_work(b, a, error).b[1] == 5000);
+    const BatchPlan alone = min_work(a, BatchEvidence{}, error);
     CHECK(alone.a[0] == Approx(100).margin(1));
     CHECK(alone.a[1] == 5000);
 }

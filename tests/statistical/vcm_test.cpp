@@ -132,7 +132,7 @@ TEST_CASE("merging alone finds all light of two edges and more", "[equality][vcm
         const MeanComparison result =
             compare(test, "mis = merging alone", mis, vcm, {.detectable_bias = 0.05});
         CHECK(result.sharp_enough);
-        CHECK(result.greatest_bias < 0.05);
+        CHECK(result.max_bias < 0.05);
     }
 }
 

@@ -21,7 +21,7 @@ struct ChiSquare {
     /// The smallest relative error of the probabilities (up by it in half of the bins' mass, down
     /// in the other half) that a test of this `significance` finds with probability 0.998. A test
     /// that cannot see what matters has to fail.
-    [[nodiscard]] double least_detectable(double significance) const
+    [[nodiscard]] double min_detectable(double significance) const
     {
         double low = 0.0;
         double high = 100.0 * degrees + 1000.0;
@@ -51,7 +51,7 @@ struct ChiSquare {
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(),
               [&](std::size_t a, std::size_t b) { return probabilities[a] < probabilities[b]; });
-    constexpr double least_expected = 5.0;
+    constexpr double min_expected = 5.0;
     ChiSquare result;
     result.samples = total;
     double pooled_count = 0.0;
@@ -63,7 +63,7 @@ struct ChiSquare {
         }
         pooled_count += counts[i];
         pooled_expected += std::max(0.0, probabilities[i]) * total;
-        if (pooled_expected < least_expected) {
+        if (pooled_expected < min_expected) {
             continue;
         }
         const double difference = pooled_count - pooled_expected;

@@ -66,7 +66,7 @@ MeanComparison compare_cells(const std::function<Cell(std::size_t)>& cell,
             ++black;
             continue;
         }
-        result.greatest_bias = std::max(result.greatest_bias, std::abs(c.difference) / c.size);
+        result.max_bias = std::max(result.max_bias, std::abs(c.difference) / c.size);
         if (c.error == 0.0 && c.difference == 0.0) {
             continue;
         }
@@ -162,7 +162,7 @@ MeanComparison compare_means(TileMeans& a, TileMeans& b, const Sharpness& sharpn
         }
         const auto means = common_means(a, b);
         const BatchPlan plan =
-            least_work(a.evidence(means), b.evidence(means), wanted_error(result, sharpness));
+            min_work(a.evidence(means), b.evidence(means), wanted_error(result, sharpness));
         const bool more_of_a = refine(a, plan.a, sharpness.max_batches);
         const bool more_of_b = refine(b, plan.b, sharpness.max_batches);
         if (!more_of_a && !more_of_b) {
@@ -188,7 +188,7 @@ MeanComparison compare_means(TileMeans& a, double expected, const Sharpness& sha
             sharpness);
         result.batches = a.batches();
         const BatchPlan plan =
-            least_work(a.evidence(means), BatchEvidence{}, wanted_error(result, sharpness));
+            min_work(a.evidence(means), BatchEvidence{}, wanted_error(result, sharpness));
         if (result.sharp_enough || !refine(a, plan.a, sharpness.max_batches)) {
             return result;
         }

@@ -21,11 +21,11 @@ struct Sharpness {
 struct MeanComparison {
     bool equal = false;
     bool sharp_enough = false;
-    double worst_bias = 0.0;     ///< relative difference of the tile with the greatest z
-    double worst_z = 0.0;        ///< in standard errors
-    double critical_z = 0.0;     ///< the greatest of a tile that is not black
-    double found_bias = 0.0;     ///< greatest relative difference of tiles that are not equal
-    double greatest_bias = 0.0;  ///< ... of all tiles
+    double worst_bias = 0.0;  ///< relative difference of the tile with the greatest z
+    double worst_z = 0.0;     ///< in standard errors
+    double critical_z = 0.0;  ///< the greatest of a tile that is not black
+    double found_bias = 0.0;  ///< greatest relative difference of tiles that are not equal
+    double max_bias = 0.0;    ///< ... of all tiles
     double detectable_bias =
         0.0;          ///< of the noisiest tile that is not black; 1 at least if all are
     int batches = 0;  ///< the fewest of a tile and a renderer

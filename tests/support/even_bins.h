@@ -40,7 +40,7 @@ inline void check_counts(const std::vector<double>& counts,
     const ChiSquare result = chi_square(counts, probabilities);
     INFO("chi^2 " << result.statistic << " of " << result.degrees);
     CHECK(result.p_value > significance);
-    CHECK(result.least_detectable(significance) < visible_error);
+    CHECK(result.min_detectable(significance) < visible_error);
 }
 
 inline void check_uniform(const std::vector<double>& counts)

@@ -8,12 +8,12 @@
 namespace bdpt::test {
 namespace {
 
-constexpr int most_batches = 1 << 24;
+constexpr int max_batches = 1 << 24;
 
 /// Rounds up.
 int batches_of(double wanted)
 {
-    return static_cast<int>(std::min(std::ceil(wanted), static_cast<double>(most_batches)));
+    return static_cast<int>(std::min(std::ceil(wanted), static_cast<double>(max_batches)));
 }
 
 /// What `other` needs in a cell when the error that is left has the variance `rest`.
@@ -27,7 +27,7 @@ int needed(const BatchEvidence& other, std::size_t cell, double rest)
 
 /// Numbers of batches of the cells `which`, and what they cost.
 struct Choice {
-    int first = most_batches;  ///< of the first renderer, in each of those cells
+    int first = max_batches;  ///< of the first renderer, in each of those cells
     std::array<int, compared_cells> second{};
     double work = std::numeric_limits<double>::infinity();
 };
@@ -61,7 +61,7 @@ Choice cheapest(const BatchEvidence& a, const BatchEvidence& b, double variance,
         first = std::max({first, static_cast<double>(a.batches[i]), a.variance[i] / variance});
     }
     Choice best = with_first(a, b, variance, which, batches_of(first));
-    for (int step = 0; step < 80 && first < most_batches; ++step) {
+    for (int step = 0; step < 80 && first < max_batches; ++step) {
         first *= 1.1;
         const Choice choice = with_first(a, b, variance, which, batches_of(first));
         if (choice.work < best.work) {
@@ -73,10 +73,10 @@ Choice cheapest(const BatchEvidence& a, const BatchEvidence& b, double variance,
 
 }  // namespace
 
-BatchPlan least_work(const BatchEvidence& a, const BatchEvidence& b, double error)
+BatchPlan min_work(const BatchEvidence& a, const BatchEvidence& b, double error)
 {
     if (a.cells == CellBatches::separate && b.cells == CellBatches::common) {
-        const BatchPlan swapped = least_work(b, a, error);
+        const BatchPlan swapped = min_work(b, a, error);
         return {.a = swapped.b, .b = swapped.a};
     }
     constexpr std::array<std::size_t, compared_cells> all{0, 1, 2, 3};

@@ -29,6 +29,6 @@ struct BatchPlan {
 /// The least work by which the difference of the means of `a` and `b` has no greater standard error
 /// than `error`, relative to the mean, in any of the cells that count. Where one renderer is
 /// noisier or cheaper it gets more batches than the other. None has fewer than it has already.
-[[nodiscard]] BatchPlan least_work(const BatchEvidence& a, const BatchEvidence& b, double error);
+[[nodiscard]] BatchPlan min_work(const BatchEvidence& a, const BatchEvidence& b, double error);
 
 }  // namespace bdpt::test

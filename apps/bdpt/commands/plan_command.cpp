@@ -96,7 +96,7 @@ Identity identity_of_tasks(Plan plan, const fs::path& file, const PreparedScene&
 }
 
 /// That ranges of samples are multiples of.
-std::int64_t least_samples_of_task(const RenderOptions& options)
+std::int64_t min_samples_of_task(const RenderOptions& options)
 {
     return options.sampling.rates ? SampleRates::group : 1;
 }
@@ -105,13 +105,13 @@ std::int64_t least_samples_of_task(const RenderOptions& options)
 std::int64_t measured_tasks(const PlanArguments& arguments, RenderOptions options,
                             std::size_t images, const PreparedScene& stage, Console& console)
 {
-    constexpr std::int64_t most_samples = 64;
-    constexpr double most_seconds = 10.0;
+    constexpr std::int64_t max_samples = 64;
+    constexpr double max_seconds = 10.0;
     constexpr double minute = 60.0;  // [s]
     const SampleRange samples = options.sampling.samples;
-    options.sampling.samples.end = std::min(samples.end, samples.begin + most_samples);
+    options.sampling.samples.end = std::min(samples.end, samples.begin + max_samples);
     RenderControl control;
-    control.time_limit = most_seconds;
+    control.time_limit = max_seconds;
     const RenderResult result = render(stage.scene, stage.camera, options, control);
     const auto done = static_cast<double>(result.samples.end - result.samples.begin);
     const double seconds = result.seconds / done;
@@ -121,7 +121,7 @@ std::int64_t measured_tasks(const PlanArguments& arguments, RenderOptions option
                     "start",
                     seconds, start));
     return tasks_of_time(images, samples, arguments.minutes * minute, seconds, start,
-                         least_samples_of_task(options));
+                         min_samples_of_task(options));
 }
 
 /// Number of tasks. Throws `OptionError` for more than there is to be rendered.
@@ -133,7 +133,7 @@ std::int64_t number_of_tasks(const PlanArguments& arguments, const RenderOptions
     }
     const SampleRange samples = options.sampling.samples;
     const std::int64_t all = static_cast<std::int64_t>(images) * (samples.end - samples.begin);
-    const std::int64_t least = least_samples_of_task(options);
+    const std::int64_t least = min_samples_of_task(options);
     if (*arguments.parts > all / least) {
         reject("--parts", fmt::format("{}", *arguments.parts),
                fmt::format("at most one for each {}of the {} samples{}{}",
@@ -315,7 +315,7 @@ int run_plan(const PlanArguments& arguments)
     }
     plan.tasks = split_plan(plan, options.sampling.samples,
                             number_of_tasks(arguments, options, views.size(), stage, console),
-                            least_samples_of_task(options));
+                            min_samples_of_task(options));
     identify(plan, folder / "plan.json", first, asked, stage, console);
     const std::vector<EngineFile> files = engine_files(arguments.engine, plan, folder);
     for (const EngineFile& file : files) {

@@ -10,8 +10,8 @@
 namespace bdpt::app {
 namespace {
 
-constexpr std::int64_t most_parts = 100'000;  // as many as Kubernetes indexes
-constexpr double most_minutes = 1e6;          // two years
+constexpr std::int64_t max_parts = 100'000;  // as many as Kubernetes indexes
+constexpr double max_minutes = 1e6;          // two years
 
 Choices<Engine> engines()
 {
@@ -40,9 +40,9 @@ void check_parts(const PlanArguments& arguments, const OptionList& options)
         throw OptionError("either --parts or --minutes is required");
     }
     // AWS Batch has no arrays of one task, and none of more than 10,000.
-    constexpr std::int64_t longest_array = 10'000;
+    constexpr std::int64_t max_array_tasks = 10'000;
     if (arguments.engine == Engine::aws_batch && arguments.parts &&
-        (*arguments.parts < 2 || *arguments.parts > longest_array)) {
+        (*arguments.parts < 2 || *arguments.parts > max_array_tasks)) {
         options.reject_value("--parts", "2 to 10000 for aws-batch");
     }
 }
@@ -92,12 +92,12 @@ void add_plan_options(OptionList& options, PlanRequest& request)
     options.add("--parts", "N",
                 "Number of tasks in all. Each makes a part of the samples of all pixels; of fewer "
                 "tasks than frames each makes some frames",
-                arguments.parts, whole_number(1, most_parts));
+                arguments.parts, whole_number(1, max_parts));
     options.add("--minutes", "M",
                 "In place of --parts: as many tasks as take about so long on a machine like this "
                 "one (--threads). Renders for some seconds to find out",
                 arguments.minutes,
-                number_above(0.0, most_minutes, "a number above 0 and up to 1000000"));
+                number_above(0.0, max_minutes, "a number above 0 and up to 1000000"));
     options
         .add("--for", choice_text(engines().words()), "What starts the tasks", arguments.engine,
              engines().type())

@@ -30,10 +30,10 @@ void add_how(OptionList& options, RenderRequest& request)
     RenderArguments& arguments = request.arguments;
     RenderOptions& render = arguments.options;
     options.section("How to render", of_render);
-    constexpr std::int64_t most_samples = std::int64_t{1} << 31;
+    constexpr std::int64_t max_samples = std::int64_t{1} << 31;
     options
         .add("--spp", "N", "Samples per pixel. Default: 64", request.spp,
-             whole_number(1, most_samples))
+             whole_number(1, max_samples))
         .uses.plan_render = false;  // a plan says which samples tasks render
     add_size_option(options, request,
                     "Image size. Default: the largest with the camera's aspect ratio within "

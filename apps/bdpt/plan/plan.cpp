@@ -120,16 +120,16 @@ ImageLabel label_of(const Plan& plan, std::size_t image)
 
 std::string images_text(const Plan& plan, const std::vector<std::size_t>& images)
 {
-    constexpr std::size_t most_runs = 8;
+    constexpr std::size_t max_runs = 8;
     const std::vector<Run> runs = runs_of(images);
     std::string text;
-    for (std::size_t i = 0; i < std::min(runs.size(), most_runs); ++i) {
+    for (std::size_t i = 0; i < std::min(runs.size(), max_runs); ++i) {
         text += (text.empty() ? "" : ", ") + image_text(plan.images[runs[i].first]);
         if (runs[i].first != runs[i].last) {
             text += " to " + image_text(plan.images[runs[i].last]);
         }
     }
-    return runs.size() > most_runs ? text + ", ..." : text;
+    return runs.size() > max_runs ? text + ", ..." : text;
 }
 
 std::string numbers_text(const std::vector<std::size_t>& numbers)

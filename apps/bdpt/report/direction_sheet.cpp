@@ -69,7 +69,7 @@ io::DisplayImage heat(const Image& density, double greatest)
     return result;
 }
 
-double greatest_of(const Image& density)
+double max_value(const Image& density)
 {
     float greatest = 0.0f;
     for (const Rgb& value : density.pixels) {
@@ -135,8 +135,8 @@ io::DisplayImage direction_sheet(const DirectionMaps& maps, int light_samples)
 {
     const Image ideal = ideal_density(maps.product);
     const Image mean = mean_density(maps, light_samples);
-    const double greatest = std::max(
-        {greatest_of(ideal), greatest_of(maps.bsdf_pdf), greatest_of(maps.light_pdf), 1e-30});
+    const double greatest =
+        std::max({max_value(ideal), max_value(maps.bsdf_pdf), max_value(maps.light_pdf), 1e-30});
     io::DisplayImage sheet = empty_sheet(ideal);
     const auto mapped = [](const Image& map) {
         return io::tone_map(map, io::automatic_exposure(map));

@@ -19,7 +19,7 @@ void save_rates(const std::filesystem::path& file, const SampleRates& rates,
     for (const std::int8_t exponent : rates.exponents()) {
         map.values.push_back(SampleRates::rate_of(exponent));
     }
-    const float most = SampleRates::rate_of(SampleRates::greatest_exponent);
+    const float most = SampleRates::rate_of(SampleRates::max_exponent);
     io::write_png(file, eval::false_color(map, {.scale = most, .title = "samples per round"}),
                   {.metadata = metadata});
 }

@@ -41,12 +41,12 @@ public:
     }
     void add_list(std::string_view name, const std::vector<std::string>& values)
     {
-        constexpr std::size_t longest_list = 20;
-        for (std::size_t i = 0; i < std::min(values.size(), longest_list); ++i) {
+        constexpr std::size_t max_listed = 20;
+        for (std::size_t i = 0; i < std::min(values.size(), max_listed); ++i) {
             add(i == 0 ? name : "", values[i]);
         }
-        if (values.size() > longest_list) {
-            add("", fmt::format("... and {} more (--json has all)", values.size() - longest_list));
+        if (values.size() > max_listed) {
+            add("", fmt::format("... and {} more (--json has all)", values.size() - max_listed));
         }
     }
     [[nodiscard]] const std::string& text() const { return text_; }

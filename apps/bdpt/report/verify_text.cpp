@@ -202,14 +202,14 @@ std::string noisiest(const VerifyReport& report)
 std::string verdict_text(const VerifyReport& report, const eval::VerifyOptions& options)
 {
     if (report.verdict == eval::Verdict::fail) {
-        constexpr std::size_t most_lines = 20;
+        constexpr std::size_t max_lines = 20;
         const std::vector<std::string> lines = failures(report);
         std::string result = "\n";
-        for (std::size_t i = 0; i < std::min(lines.size(), most_lines); ++i) {
+        for (std::size_t i = 0; i < std::min(lines.size(), max_lines); ++i) {
             result += lines[i] + "\n";
         }
-        if (lines.size() > most_lines) {
-            result += fmt::format("and {} more\n", lines.size() - most_lines);
+        if (lines.size() > max_lines) {
+            result += fmt::format("and {} more\n", lines.size() - max_lines);
         }
         return result + "FAIL: the estimators disagree\n";
     }
@@ -235,7 +235,7 @@ std::string verdict_text(const VerifyReport& report, const eval::VerifyOptions& 
                       "of merging only an error by {} of what it brings would have been found",
                       percent(report.detectable_of_merging))
                 : "nothing else finds what is merged here",
-            percent(eval::most_error_of_merging));
+            percent(eval::max_error_of_merging));
     }
     if (report.verdict == eval::Verdict::inconclusive) {
         return fmt::format(

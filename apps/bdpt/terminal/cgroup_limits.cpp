@@ -101,7 +101,7 @@ double memory_in(const fs::path& folder)
 CgroupLimits cgroup_limits(const fs::path& root)
 {
     constexpr double no_machine = 0x1p60;  // [bytes]: version 1 has a huge number for no limit
-    constexpr double most_processors = 4096.0;
+    constexpr double max_processors = 4096.0;
     const fs::path mounts = root / "sys/fs/cgroup";
     double processors = unlimited;
     double memory = unlimited;
@@ -121,7 +121,7 @@ CgroupLimits cgroup_limits(const fs::path& root)
         }
     }
     CgroupLimits result;
-    if (processors < most_processors) {
+    if (processors < max_processors) {
         result.processors = std::max(1, static_cast<int>(std::ceil(processors)));
     }
     if (memory < no_machine) {

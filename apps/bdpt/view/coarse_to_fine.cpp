@@ -47,7 +47,7 @@ void CoarseToFine::done(double seconds_taken)
     seconds_a_pixel_ += 0.5 * (measured - seconds_a_pixel_);
     is_first_ = false;
     const int next = *divisor_ / 2;
-    if (next > 1 && seconds(next) <= most_seconds) {
+    if (next > 1 && seconds(next) <= max_seconds) {
         divisor_ = next;
     } else {
         divisor_.reset();

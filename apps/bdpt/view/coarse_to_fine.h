@@ -23,7 +23,7 @@ public:
     void skip() { divisor_.reset(); }
 
     static constexpr double first_seconds = 0.04;
-    static constexpr double most_seconds = 0.25;  ///< of any of them
+    static constexpr double max_seconds = 0.25;  ///< of any of them
 
 private:
     /// What one with that divisor will probably take [s].

@@ -8,7 +8,7 @@
 namespace bdpt::app {
 namespace {
 
-constexpr double least_noise = 1e-3;  // at the left end of the scale
+constexpr double min_noise = 1e-3;  // at the left end of the scale
 constexpr double decades = 3.0;
 
 double luminance(Rgb color)
@@ -56,13 +56,12 @@ Image noise_image(const Film& film)
             // Of a pixel, root mean square.
             const double error = std::sqrt(block.variance / block.pixels);
             const double noise = error / std::max(block.sum / block.pixels, darkest);
-            const double place =
-                noise > 0.0 ? std::log10(noise / least_noise) / decades : 0.0;
+            const double place = noise > 0.0 ? std::log10(noise / min_noise) / decades : 0.0;
             for (int y = top; y < bottom; ++y) {
                 for (int x = left; x < right; ++x) {
-                    result.pixels[static_cast<std::size_t>(y) *
-                                      static_cast<std::size_t>(mean.width) +
-                                  static_cast<std::size_t>(x)] =
+                    result
+                        .pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(mean.width) +
+                                static_cast<std::size_t>(x)] =
                         Rgb(static_cast<float>(std::clamp(place, 0.0, 1.0)), 0.0f, 0.0f);
                 }
             }
@@ -73,22 +72,18 @@ Image noise_image(const Film& film)
 
 Scale noise_scale()
 {
-    return {.label = "noise of a pixel, by blocks of 8 x 8",
-            .ticks = {{0.0, "0.1 %"},
-                      {1.0 / decades, "1 %"},
-                      {2.0 / decades, "10 %"},
-                      {1.0, "100 %"}}};
+    return {
+        .label = "noise of a pixel, by blocks of 8 x 8",
+        .ticks = {{0.0, "0.1 %"}, {1.0 / decades, "1 %"}, {2.0 / decades, "10 %"}, {1.0, "100 %"}}};
 }
 
 Image rates_image(const SampleRates& rates, const PixelRect& region)
 {
-    constexpr auto span =
-        static_cast<float>(SampleRates::greatest_exponent - SampleRates::least_exponent);
+    constexpr auto span = static_cast<float>(SampleRates::max_exponent - SampleRates::min_exponent);
     Image result{.width = region.width(), .height = region.height(), .pixels = {}};
     for (int y = region.y0; y < region.y1; ++y) {
         for (int x = region.x0; x < region.x1; ++x) {
-            const auto steps =
-                static_cast<float>(rates.exponent(x, y) - SampleRates::least_exponent);
+            const auto steps = static_cast<float>(rates.exponent(x, y) - SampleRates::min_exponent);
             result.pixels.emplace_back(steps / span, 0.0f, 0.0f);
         }
     }

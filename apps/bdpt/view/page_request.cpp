@@ -31,8 +31,8 @@ double number(const Json& value, std::string_view key, double least, double most
 
 std::int64_t whole(const Json& value, std::string_view key, std::int64_t most)
 {
-    const bool is_whole = value.is_number_unsigned() && value.get<std::uint64_t>() <=
-                                                            static_cast<std::uint64_t>(most);
+    const bool is_whole = value.is_number_unsigned() &&
+                          value.get<std::uint64_t>() <= static_cast<std::uint64_t>(most);
     if (!is_whole) {
         fail(key, fmt::format("a whole number from 0 to {}", most));
     }
@@ -193,7 +193,7 @@ std::optional<std::uint32_t> sequence_of(std::string_view text)
 
 PageRequest parse_request(std::string_view message)
 {
-    constexpr std::int64_t greatest_index = (std::int64_t{1} << 32) - 2;
+    constexpr std::int64_t max_index = (std::int64_t{1} << 32) - 2;
     const Json value = Json::parse(message, nullptr, false);
     if (!value.is_object()) {
         throw Error(ErrorCode::usage, "a request is a JSON object");
@@ -216,7 +216,7 @@ PageRequest parse_request(std::string_view message)
             const auto [x, y] = pair_of_wholes(member, key);
             request.inspect = PixelSample{.x = x, .y = y, .index = 0};
         } else if (key == "sample") {
-            sample = whole(member, key, greatest_index);
+            sample = whole(member, key, max_index);
         } else {
             throw Error(ErrorCode::usage, fmt::format("\"{}\": is no request", key));
         }

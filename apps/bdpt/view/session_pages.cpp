@@ -35,13 +35,13 @@ std::vector<Strategy> strategies_up_to(int edges)
 std::vector<Strategy> Session::known_strategies() const
 {
     return strategies_ ? strategies_->renderer().part().strategies.strategies()
-                       : strategies_up_to(std::min(
-                             strategy_edges, scene_.arguments().options.transport.max_depth));
+                       : strategies_up_to(std::min(strategy_edges,
+                                                   scene_.arguments().options.transport.max_depth));
 }
 
 void Session::begin_strategies()
 {
-    constexpr std::uint64_t most_bytes = std::uint64_t{256} << 20U;
+    constexpr std::uint64_t max_bytes = std::uint64_t{256} << 20U;
     constexpr std::int64_t samples = 64;
     RenderArguments arguments = words_of_slot(0).arguments();
     RenderOptions& options = arguments.options;
@@ -58,7 +58,7 @@ void Session::begin_strategies()
         options.film.width = size.width;
         options.film.height = size.height;
         if (size.width * size.height == 1 ||
-            strategy_image_bytes(options, scene_.stage().camera) <= most_bytes) {
+            strategy_image_bytes(options, scene_.stage().camera) <= max_bytes) {
             break;
         }
     }
@@ -128,8 +128,8 @@ void Session::send(std::size_t slot, const Image& image, const Cover& cover, con
     frame->y = static_cast<std::uint32_t>(region.y0);
     frame->width = static_cast<std::uint32_t>(image.width);
     frame->height = static_cast<std::uint32_t>(image.height);
-    frame->samples = static_cast<std::uint32_t>(std::min<std::int64_t>(
-        samples, std::numeric_limits<std::uint32_t>::max()));
+    frame->samples = static_cast<std::uint32_t>(
+        std::min<std::int64_t>(samples, std::numeric_limits<std::uint32_t>::max()));
     frame->channels = cover.alpha.empty() ? 3 : 5;
     frame->pixels = half_pixels(image, cover);
     frame->sequences = clients_;
@@ -196,8 +196,8 @@ ViewState Session::state()
     const std::optional<Exposure>& exposure = arguments.display.exposure;
     state.exposure_is_automatic = !(exposure && exposure->base == ExposureBase::radiance);
     state.automatic_exposure = static_cast<double>(automatic_exposure_);
-    state.exposure = static_cast<double>(state.exposure_is_automatic ? automatic_exposure_
-                                                                     : exposure->value);
+    state.exposure =
+        static_cast<double>(state.exposure_is_automatic ? automatic_exposure_ : exposure->value);
     state.curve = io::tone_curve_name(arguments.display.curve);
     if (arguments.display.backdrop) {
         state.background = backdrop_text(*arguments.display.backdrop);

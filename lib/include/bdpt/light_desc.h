@@ -14,7 +14,7 @@ namespace bdpt {
 
 /// The greatest luminous flux [lm] that a light may have, emissive triangles included, in each
 /// channel: what is computed from it stays in the range of floats. The sun has 4e28 lm.
-inline constexpr float greatest_light_power = 1e36f;
+inline constexpr float max_light_power = 1e36f;
 
 /// Shines alike in all directions; intensity over distance squared [KHR_lights_punctual].
 struct PointLightDesc {
@@ -42,8 +42,8 @@ struct SpotLightDesc {
     /// [m] As for point lights; the falloff is that of the direction in which light leaves the
     /// sphere.
     float radius = 0.0f;
-    std::vector<Vec3> motion{};  ///< of the position
-    std::vector<Vec3> turn{};    ///< of the direction, by less than 90 degrees a step
+    std::vector<Vec3> motion{};            ///< of the position
+    std::vector<Vec3> later_directions{};  ///< of the direction, by less than 90 degrees a step
 };
 
 /// The intensities of a luminaire by direction, on a grid of two angles: the polar angle from -z,
@@ -72,9 +72,9 @@ struct DirectionalLightDesc {
     static constexpr std::string_view kind = "directional light";  ///< for people
 
     std::string name{};
-    Vec3 direction{0.0f, 0.0f, -1.0f};  ///< the way the light travels; of any length but 0
-    Rgb illuminance{1.0f};              ///< [lx] on a surface that faces the light
-    std::vector<Vec3> turn{};           ///< of the direction, by less than 90 degrees a step
+    Vec3 direction{0.0f, 0.0f, -1.0f};     ///< the way the light travels; of any length but 0
+    Rgb illuminance{1.0f};                 ///< [lx] on a surface that faces the light
+    std::vector<Vec3> later_directions{};  ///< of the direction, by less than 90 degrees a step
 };
 
 /// Light from infinity. `radiance` is equirectangular [nit]: its top row is +y, its centre column
@@ -104,7 +104,7 @@ inline constexpr auto fields<SpotLightDesc> =
                Field{"inner cone angle", &SpotLightDesc::inner_cone_angle},
                Field{"outer cone angle", &SpotLightDesc::outer_cone_angle},
                Field{"radius", &SpotLightDesc::radius}, Field{"motion", &SpotLightDesc::motion},
-               Field{"turn", &SpotLightDesc::turn});
+               Field{"later_directions", &SpotLightDesc::later_directions});
 /// Fields of `LightProfile`, with names and limits.
 template <>
 inline constexpr auto fields<LightProfile> = all_fields(
@@ -123,7 +123,7 @@ inline constexpr auto fields<DirectionalLightDesc> =
     all_fields(Field{"name", &DirectionalLightDesc::name},
                Field{"direction", &DirectionalLightDesc::direction},
                Number{"illuminance", &DirectionalLightDesc::illuminance, Limits::at_least(0.0f)},
-               Field{"turn", &DirectionalLightDesc::turn});
+               Field{"later_directions", &DirectionalLightDesc::later_directions});
 /// Fields of `EnvironmentLightDesc`, with names and limits.
 template <>
 inline constexpr auto fields<EnvironmentLightDesc> =

@@ -183,7 +183,7 @@ template <>
 inline constexpr auto fields<VolumeScatterDesc> =
     all_fields(Number{"multi-scatter colour", &VolumeScatterDesc::color, Limits::unit()},
                Number{"scatter anisotropy", &VolumeScatterDesc::anisotropy,
-                      Limits{-most_anisotropy, most_anisotropy}});
+                      Limits{-max_anisotropy, max_anisotropy}});
 /// Fields of `MaterialDesc`, with names and limits.
 template <>
 inline constexpr auto fields<MaterialDesc> = all_fields(

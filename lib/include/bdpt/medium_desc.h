@@ -7,7 +7,7 @@ namespace bdpt {
 
 /// How far the anisotropy of scattering may be from 0; the phase functions of -1 and 1 have all of
 /// their light in one direction.
-inline constexpr float most_anisotropy = 0.9999f;
+inline constexpr float max_anisotropy = 0.9999f;
 
 /// A homogeneous medium that absorbs and scatters light, such as fog [Pharr et al. 2023, Physically
 /// Based Rendering, ch. 11].
@@ -21,6 +21,6 @@ template <>
 inline constexpr auto fields<MediumDesc> = all_fields(
     Number{"extinction", &MediumDesc::extinction, Limits::at_least(0.0f)},
     Number{"albedo", &MediumDesc::albedo, Limits::unit()},
-    Number{"anisotropy", &MediumDesc::anisotropy, Limits{-most_anisotropy, most_anisotropy}});
+    Number{"anisotropy", &MediumDesc::anisotropy, Limits{-max_anisotropy, max_anisotropy}});
 
 }  // namespace bdpt

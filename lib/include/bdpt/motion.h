@@ -14,7 +14,7 @@ namespace bdpt {
 
 /// Most values that a `motion` or `turn` of a `SceneDesc` or `CameraDesc` may have. [Embree takes
 /// 129 with the first one.]
-inline constexpr std::size_t most_time_steps = 128;
+inline constexpr std::size_t max_time_steps = 128;
 
 /// Can things go from one transform to the other along a straight line of matrices: do all on the
 /// way have an inverse, and does none mirror that the ends do not? A turn of less than 120 degrees

@@ -30,6 +30,6 @@ inline constexpr auto fields<VolumeDesc> = all_fields(
     Field{"density", &VolumeDesc::density}, Field{"transform", &VolumeDesc::world_from_grid},
     Number{"extinction", &VolumeDesc::extinction, Limits::at_least(0.0f)},
     Number{"albedo", &VolumeDesc::albedo, Limits::unit()},
-    Number{"anisotropy", &VolumeDesc::anisotropy, Limits{-most_anisotropy, most_anisotropy}});
+    Number{"anisotropy", &VolumeDesc::anisotropy, Limits{-max_anisotropy, max_anisotropy}});
 
 }  // namespace bdpt

@@ -13,10 +13,10 @@ double mean_of(const std::vector<std::int8_t>& exponents)
 {
     std::int64_t quarters = 0;
     for (const std::int8_t exponent : exponents) {
-        quarters += std::int64_t{1} << (exponent - SampleRates::least_exponent);
+        quarters += std::int64_t{1} << (exponent - SampleRates::min_exponent);
     }
     return static_cast<double>(quarters) /
-           static_cast<double>(exponents.size() << -SampleRates::least_exponent);
+           static_cast<double>(exponents.size() << -SampleRates::min_exponent);
 }
 
 }  // namespace
@@ -32,7 +32,7 @@ SampleRates::SampleRates(int width, int height, std::vector<std::int8_t> exponen
                         std::to_string(width) + "x" + std::to_string(height) + " pixels");
     }
     for (const std::int8_t exponent : exponents_) {
-        if (exponent < least_exponent || exponent > greatest_exponent) {
+        if (exponent < min_exponent || exponent > max_exponent) {
             throw Error(ErrorCode::usage, "a rate of samples is 2^" + std::to_string(exponent) +
                                               ", not from 1/4 to 4");
         }

@@ -31,7 +31,7 @@ float coordinate_limit_of(std::span<const InstanceDesc> instances, std::size_t m
         int& count = uses[static_cast<std::size_t>(instance.mesh)];
         count = std::min(count + 1, 2);
     }
-    double reach = static_cast<double>(greatest_coordinate);
+    double reach = static_cast<double>(max_coordinate);
     const auto bring_within = [&reach](double most) {
         reach = most * reach <= in_object_space ? reach : in_object_space / most;
     };

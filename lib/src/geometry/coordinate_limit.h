@@ -9,10 +9,10 @@ namespace bdpt {
 
 /// The farthest from the origin that anything may be [m], in each coordinate: products of four such
 /// numbers overflow, but what is computed from two stays finite.
-inline constexpr float greatest_coordinate = 1e15f;
+inline constexpr float max_coordinate = 1e15f;
 
 /// How far from the origin surfaces and lights of a scene may be [m]. At most
-/// `greatest_coordinate`, and less when a mesh that several instances share, or one that moves, is
+/// `max_coordinate`, and less when a mesh that several instances share, or one that moves, is
 /// scaled down very much: Embree takes rays to the space of such a mesh, and ends the process when
 /// a coordinate is above 1.8e18 there.
 [[nodiscard]] float coordinate_limit_of(std::span<const InstanceDesc> instances,

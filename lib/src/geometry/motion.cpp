@@ -46,27 +46,27 @@ MotionBounds motion_bounds(const Mat4& from, const Mat4& to)
     const glm::dmat3 a(from);
     const glm::dmat3 b(to);
     const std::array<double, 4> coefficients = determinants(a, b);
-    MotionBounds bounds{.least_determinant = std::abs(coefficients[0])};
+    MotionBounds bounds{.min_determinant = std::abs(coefficients[0])};
     for (const double coefficient : coefficients) {
         const bool same_side = coefficient * coefficients[0] > 0.0;  // false for NaN
         if (!same_side || !std::isnormal(static_cast<float>(coefficient))) {
             return {};
         }
-        bounds.least_determinant = std::min(bounds.least_determinant, std::abs(coefficient));
+        bounds.min_determinant = std::min(bounds.min_determinant, std::abs(coefficient));
     }
     // The inverse is the transposed matrix of cofactors over the determinant, so its rows are the
     // columns of the cofactors.
     const glm::dmat3 cofactors = cofactor_bounds(a, b);
     for (int i = 0; i < 3; ++i) {
         const double sum = cofactors[i].x + cofactors[i].y + cofactors[i].z;
-        bounds.inverse_stretch = std::max(bounds.inverse_stretch, sum / bounds.least_determinant);
+        bounds.inverse_stretch = std::max(bounds.inverse_stretch, sum / bounds.min_determinant);
     }
     return bounds;
 }
 
 bool can_move(const Mat4& from, const Mat4& to)
 {
-    return motion_bounds(from, to).least_determinant > 0.0;
+    return motion_bounds(from, to).min_determinant > 0.0;
 }
 
 bool can_move(const Mat4& first, std::span<const Mat4> motion)
@@ -84,8 +84,8 @@ bool can_turn(Vec3 from, Vec3 to)
     const glm::dvec3 a(from);
     const glm::dvec3 b(to);
     const double cosine = dot(a, b) / std::sqrt(dot(a, a) * dot(b, b));
-    constexpr double least_cosine = 1e-6;
-    return cosine > least_cosine;
+    constexpr double min_cosine = 1e-6;
+    return cosine > min_cosine;
 }
 
 }  // namespace bdpt

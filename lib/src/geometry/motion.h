@@ -48,8 +48,8 @@ template <typename T>
 
 /// Bounds of the matrices between two that `can_move`.
 struct MotionBounds {
-    double least_determinant = 0.0;  ///< magnitude; 0: some may have none
-    double inverse_stretch = 0.0;    ///< greatest sum of a row of the inverses, by magnitude
+    double min_determinant = 0.0;  ///< magnitude; 0: some may have none
+    double inverse_stretch = 0.0;  ///< greatest sum of a row of the inverses, by magnitude
 };
 
 [[nodiscard]] MotionBounds motion_bounds(const Mat4& from, const Mat4& to);

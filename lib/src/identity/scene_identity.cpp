@@ -11,13 +11,13 @@ namespace bdpt {
 namespace {
 
 /// Longer lists have one hash for all, so that an identity stays short.
-constexpr std::size_t most_items_by_themselves = 64;
+constexpr std::size_t max_items_hashed_alone = 64;
 
 template <typename T>
 void add_component(std::vector<IdentityComponent>& result, const std::string& name,
                    const SharedList<T>& list)
 {
-    if (list.size() > most_items_by_themselves) {
+    if (list.size() > max_items_hashed_alone) {
         result.push_back({.name = name, .value = hash_text(list.values())});
         return;
     }

@@ -89,7 +89,7 @@ bool is_visible(const Scene& scene, Vec3 from, Vec3 to, float time)
     const SegmentKey key = checked_key(time);
     const SegmentEnd a = checked_end(world, "first point", from);
     const SegmentEnd b = checked_end(world, "second point", to);
-    return from == to || world.flight(a, b, key).has_value();
+    return from == to || world.transmission(a, b, key).has_value();
 }
 
 }  // namespace bdpt

@@ -16,10 +16,10 @@ Rgb unweighted_of(const SampleContext& sample, const Contribution& found)
 }  // namespace
 
 ContributionSink::ContributionSink(const Films& films, const PixelFilter& filter,
-                                   PathWeigher* weigher, std::size_t most_splats)
+                                   PathWeigher* weigher, std::size_t max_splats)
     : films_(films), filter_(filter), weigher_(weigher)
 {
-    splats_.reserve(most_splats);
+    splats_.reserve(max_splats);
 }
 
 void ContributionSink::begin_sample(int x, int y, const ScheduledSample& sample)

@@ -16,9 +16,9 @@ namespace bdpt {
 class ContributionSink {
 public:
     /// `weigher` tells observers the shares of strategies; null if the integrator has none. At most
-    /// `most_splats` come in one sample. All must outlive this.
+    /// `max_splats` come in one sample. All must outlive this.
     ContributionSink(const Films& films, const PixelFilter& filter, PathWeigher* weigher,
-                     std::size_t most_splats);
+                     std::size_t max_splats);
 
     /// Contributions until `end_sample` belong to this sample of pixel (x, y).
     void begin_sample(int x, int y, const ScheduledSample& sample);

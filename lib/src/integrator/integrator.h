@@ -42,7 +42,7 @@ class Integrator {
 public:
     virtual ~Integrator() = default;
     /// Sample indices that a pass may have at most.
-    [[nodiscard]] virtual std::int64_t most_samples_in_pass() const
+    [[nodiscard]] virtual std::int64_t max_samples_in_pass() const
     {
         return std::numeric_limits<std::int64_t>::max();
     }
@@ -51,13 +51,13 @@ public:
     [[nodiscard]] virtual std::int64_t begin_pass(SampleRange /*samples*/) { return 0; }
     /// One of these parts; all are done before any tile, by any threads. It may keep what tiles
     /// need, and add to `films` what belongs to none of them. Returns the work that it was.
-    [[nodiscard]] virtual RenderStats do_part(std::int64_t /*part*/, SampleRange /*samples*/,
-                                              const Films& /*films*/)
+    [[nodiscard]] virtual RenderStats render_chunk(std::int64_t /*part*/, SampleRange /*samples*/,
+                                                   const Films& /*films*/)
     {
         return {};
     }
     /// Called on one thread between the last part of a pass and its tiles.
-    virtual void end_parts() {}
+    virtual void end_chunks() {}
     /// Adds the samples of all pixels of `tile` that are in the film's region to `films`, and what
     /// the light paths of all of its pixels splat anywhere. Tiles of an integrator without splats
     /// lie inside of the region. Returns the work that it was.

@@ -15,9 +15,9 @@ struct SampleScale {
 
 /// A sample of a pixel, as the schedule has it.
 struct ScheduledSample {
-    std::int64_t index = 0;  ///< of its random numbers; even in the one half, odd in the other
-    std::int64_t round = 0;  ///< of the light paths that all pixels share
-    std::uint32_t turn = 0;  ///< spreads the samples that a pixel takes in a round [2^-32]
+    std::int64_t index = 0;       ///< of its random numbers; even in the one half, odd in the other
+    std::int64_t round = 0;       ///< of the light paths that all pixels share
+    std::uint32_t sub_index = 0;  ///< spreads the samples that a pixel takes in a round [2^-32]
     SampleScale scale{};
 };
 
@@ -49,9 +49,11 @@ public:
         for (std::int64_t k = rounds.begin; k < rounds.end; ++k) {
             const std::int64_t half = k & 1;
             const std::int64_t m = k >> 1;
-            const auto sample = [&](std::int64_t of_half, std::uint32_t turn) {
-                visit(ScheduledSample{
-                    .index = 2 * of_half + half, .round = k, .turn = turn, .scale = scale});
+            const auto sample = [&](std::int64_t of_half, std::uint32_t sub_index) {
+                visit(ScheduledSample{.index = 2 * of_half + half,
+                                      .round = k,
+                                      .sub_index = sub_index,
+                                      .scale = scale});
             };
             if (e <= 0) {
                 if ((m & ((std::int64_t{1} << -e) - 1)) == 0) {

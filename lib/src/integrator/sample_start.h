@@ -10,16 +10,17 @@
 namespace bdpt {
 
 /// The shutter time and the wavelength, which both ends of a path must share.
-struct SampleMoment {
+struct TimeAndWavelength {
     float time = 0.0f;
     Wavelength wavelength = Wavelength::green;
 };
 
 /// Draws both where they matter.
-[[nodiscard]] inline SampleMoment draw_moment(Sampler& sampler, const World& world,
-                                              const MovingCamera& camera)
+[[nodiscard]] inline TimeAndWavelength draw_time_and_wavelength(Sampler& sampler,
+                                                                const World& world,
+                                                                const MovingCamera& camera)
 {
-    SampleMoment moment;
+    TimeAndWavelength moment;
     if (world.disperses()) {
         moment.wavelength = choose_wavelength(sampler.next_1d());
     }
@@ -33,7 +34,7 @@ struct SampleMoment {
 struct SampleStart {
     Sampler sampler;
     Vec2 raster;  ///< where its camera path goes through the film [pixels]
-    SampleMoment moment;
+    TimeAndWavelength moment;
 
     SampleStart(const RenderOptions& options, const PixelFilter& filter, const World& world,
                 const MovingCamera& camera, int x, int y, std::int64_t index)
@@ -41,7 +42,7 @@ struct SampleStart {
     {
         sampler.start(SampleUse::film);
         raster = filter.sample_raster(x, y, sampler.next_2d());
-        moment = draw_moment(sampler, world, camera);
+        moment = draw_time_and_wavelength(sampler, world, camera);
     }
 };
 

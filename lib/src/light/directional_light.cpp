@@ -14,7 +14,7 @@ DirectionalLight::DirectionalLight(const DirectionalLightDesc& desc, const Bound
       illuminance_(desc.illuminance),
       bounds_(bounds),
       axis_(desc.direction),
-      turn_(desc.turn)
+      turn_(desc.later_directions)
 {}
 
 Vec3 DirectionalLight::direction(float time) const

@@ -13,7 +13,7 @@ constexpr float turn = 2.0f * pi;
 // Angles that come from degrees are off by their rounding.
 constexpr float rounding = 1e-5f;  // [rad]
 // Cells are so narrow that intensities do not vary much within one, even in a coarse grid.
-constexpr float highest_cell = 2.0f * pi / 180.0f;
+constexpr float max_cell_height = 2.0f * pi / 180.0f;
 constexpr float widest_cell = 6.0f * pi / 180.0f;
 // As many as fit in some megabytes; a grid that is fine in one angle only would get too many.
 constexpr std::size_t usual_cells = std::size_t{1} << 18;
@@ -106,13 +106,13 @@ IntensityProfile::Cells IntensityProfile::cut(const LightProfile& profile)
 {
     Cells cells;
     std::vector<float> rows;
-    const std::size_t most_cells = std::max(usual_cells, 2 * profile.intensities.size());
+    const std::size_t max_cells = std::max(usual_cells, 2 * profile.intensities.size());
     for (float wider = 1.0f; wider < 256.0f; wider *= 2.0f) {
-        rows = refine(profile.polar_angles, wider * highest_cell);
+        rows = refine(profile.polar_angles, wider * max_cell_height);
         cells.azimuths = profile.azimuths.size() == 1
                              ? std::vector<float>{0.0f, turn}
                              : refine(profile.azimuths, wider * widest_cell);
-        if (rows.size() * cells.azimuths.size() <= most_cells) {
+        if (rows.size() * cells.azimuths.size() <= max_cells) {
             break;
         }
     }

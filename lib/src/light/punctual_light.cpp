@@ -16,7 +16,7 @@ PunctualLight::PunctualLight(const SpotLightDesc& desc)
       cone_(desc.direction, desc.inner_cone_angle, desc.outer_cone_angle),
       axis_(desc.direction),
       motion_(desc.motion),
-      turn_(desc.turn)
+      turn_(desc.later_directions)
 {}
 
 Vec3 PunctualLight::position(float time) const

@@ -77,7 +77,7 @@ SphereLight::SphereLight(const SpotLightDesc& desc, std::uint32_t number)
       intensity_(desc.intensity),
       cone_(desc.direction, desc.inner_cone_angle, desc.outer_cone_angle),
       axis_(desc.direction),
-      turn_(desc.turn)
+      turn_(desc.later_directions)
 {}
 
 SpotCone SphereLight::cone(float time) const

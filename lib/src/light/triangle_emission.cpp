@@ -10,7 +10,7 @@
 namespace bdpt {
 namespace {
 
-constexpr int most_cells = 32;              // a side
+constexpr int max_cells = 32;               // a side
 constexpr float floor_of_triangle = 0.01f;  // of the texture's mean
 constexpr float floor_of_cell = 0.1f;       // of the mean of the cells
 
@@ -34,17 +34,17 @@ int clamped(float wanted, int least, int most)
 }  // namespace
 
 TriangleEmission measure_emission(const PlacedMesh& mesh, const Material& material,
-                                  std::uint32_t triangle, int most_samples)
+                                  std::uint32_t triangle, int max_samples)
 {
     const bool colored = !mesh.mesh().colors.empty() && material.emission_needs_color();
     if (!material.emission_needs_texture() && !colored) {
         return {.mean = material.mean_emission(), .spread = nullptr};
     }
     const float edge = longest_edge(mesh, material, triangle);
-    const int cells = clamped(edge, 1, std::clamp(most_samples / 2, 1, most_cells));
+    const int cells = clamped(edge, 1, std::clamp(max_samples / 2, 1, max_cells));
     constexpr float samples_per_texel = 3.0f;
     const int samples_per_cell = clamped(samples_per_texel * edge / static_cast<float>(cells), 2,
-                                         std::max(2, most_samples / cells));
+                                         std::max(2, max_samples / cells));
     const int samples = cells * samples_per_cell;
 
     Rgb total(0.0f);
@@ -73,9 +73,9 @@ TriangleEmission measure_emission(const PlacedMesh& mesh, const Material& materi
             static_cast<float>(std::sqrt(square / static_cast<double>(cell_samples))));
         sum += weights.back();
     }
-    const float least_weight = floor_of_cell * sum / static_cast<float>(weights.size());
+    const float min_weight = floor_of_cell * sum / static_cast<float>(weights.size());
     for (float& weight : weights) {
-        weight += least_weight;
+        weight += min_weight;
     }
     const auto [least, greatest] = std::minmax_element(weights.begin(), weights.end());
     constexpr float hardly_more = 1.05f;

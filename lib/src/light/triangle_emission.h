@@ -23,9 +23,9 @@ struct TriangleEmission {
 };
 
 /// Reads the emission and its textures on a regular grid, fine enough for their texels but of at
-/// most `most_samples` a side. What the grid may have missed keeps a small share, so that no point
+/// most `max_samples` a side. What the grid may have missed keeps a small share, so that no point
 /// that emits has a density of zero.
 [[nodiscard]] TriangleEmission measure_emission(const PlacedMesh& mesh, const Material& material,
-                                                std::uint32_t triangle, int most_samples);
+                                                std::uint32_t triangle, int max_samples);
 
 }  // namespace bdpt

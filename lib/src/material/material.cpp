@@ -120,8 +120,8 @@ void Material::measure_alpha()
     }
     const auto [least, greatest] =
         base_color_map_ ? base_color_map_->alpha_range() : std::pair(1.0f, 1.0f);
-    least_opacity_ = opacity_of(alpha_ * least);
-    mean_opacity_ = 0.5f * (least_opacity_ + opacity_of(alpha_ * greatest));
+    min_opacity_ = opacity_of(alpha_ * least);
+    mean_opacity_ = 0.5f * (min_opacity_ + opacity_of(alpha_ * greatest));
 }
 
 void Material::measure_emission()

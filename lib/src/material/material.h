@@ -48,7 +48,7 @@ public:
     /// The share of rays that meet the surface, in [0, 1]; the others pass as if it were not there.
     [[nodiscard]] float opacity(const TexturePoint& point) const noexcept;
     /// A bound of `opacity` from below where vertex colours have no alpha.
-    [[nodiscard]] float least_opacity() const noexcept { return least_opacity_; }
+    [[nodiscard]] float min_opacity() const noexcept { return min_opacity_; }
     [[nodiscard]] AlphaMode alpha_mode() const noexcept { return alpha_mode_; }
 
     /// Emitted radiance [nit] that a ray finds which meets the surface, equal in all directions of
@@ -120,7 +120,7 @@ private:
     AlphaMode alpha_mode_;
     float alpha_;  ///< the factor
     float alpha_cutoff_;
-    float least_opacity_ = 1.0f;
+    float min_opacity_ = 1.0f;
     float mean_opacity_ = 1.0f;  ///< roughly
     ChannelAlbedos albedos_;
     std::array<bool, wavelengths> turned_;

@@ -11,17 +11,17 @@ namespace {
 /// The coefficient that leaves the attenuation colour after the attenuation distance.
 [[nodiscard]] Rgb extinction_of(const MaterialDesc& desc)
 {
-    constexpr float least_color = 1e-20f;     // black keeps a finite coefficient
-    constexpr float most_extinction = 1e30f;  // [1/m]
+    constexpr float min_color = 1e-20f;      // black keeps a finite coefficient
+    constexpr float max_extinction = 1e30f;  // [1/m]
     if (!has_inside(desc) || std::isinf(desc.attenuation_distance)) {
         return Rgb{0.0f};
     }
     Rgb extinction{0.0f};
     for (int channel = 0; channel < 3; ++channel) {
-        const float color = std::clamp(desc.attenuation_color[channel], least_color, 1.0f);
+        const float color = std::clamp(desc.attenuation_color[channel], min_color, 1.0f);
         const float depth = std::max(0.0f, -log_exact(color));
         extinction[channel] =
-            depth == 0.0f ? 0.0f : std::min(depth / desc.attenuation_distance, most_extinction);
+            depth == 0.0f ? 0.0f : std::min(depth / desc.attenuation_distance, max_extinction);
     }
     return extinction;
 }

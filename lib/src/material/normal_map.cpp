@@ -10,9 +10,9 @@ namespace {
 /// `normal`, turned towards `above` no further than it takes to lie clearly on its side.
 [[nodiscard]] Vec3 kept_on_side(Vec3 normal, Vec3 above)
 {
-    constexpr float least_cosine = 0.01f;
+    constexpr float min_cosine = 0.01f;
     const float cosine = dot(normal, above);
-    if (cosine >= least_cosine) {
+    if (cosine >= min_cosine) {
         return normal;
     }
     const Vec3 along = normal - cosine * above;
@@ -20,8 +20,8 @@ namespace {
     if (length < 1e-6f) {
         return above;  // straight from below: no way to turn is shorter than another
     }
-    return normalize(along * (std::sqrt(1.0f - least_cosine * least_cosine) / length) +
-                     least_cosine * above);
+    return normalize(along * (std::sqrt(1.0f - min_cosine * min_cosine) / length) +
+                     min_cosine * above);
 }
 
 }  // namespace

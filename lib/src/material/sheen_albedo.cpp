@@ -13,7 +13,7 @@ namespace bdpt {
 namespace {
 
 /// The masking functions of the paper end at the horizon, where its fit grows without bound.
-constexpr float least_cosine = 1e-5f;
+constexpr float min_cosine = 1e-5f;
 
 /// x^y for x > 0.
 [[nodiscard]] float power(float x, float y)
@@ -39,23 +39,23 @@ constexpr float least_cosine = 1e-5f;
     if (cosine < 0.5f) {
         return exp_exact(fitted(cosine, alpha));
     }
-    const float rest = std::max(least_cosine, 1.0f - cosine);
+    const float rest = std::max(min_cosine, 1.0f - cosine);
     return exp_exact(2.0f * fitted(0.5f, alpha) - fitted(rest, alpha));
 }
 
 /// D(h) of a half vector of any length.
 [[nodiscard]] float distribution(Vec3 h, float alpha)
 {
-    constexpr float least_sine2 = 1e-30f;
+    constexpr float min_sine2 = 1e-30f;
     const float sine2 = (h.x * h.x + h.y * h.y) / dot(h, h);
     const float exponent = 1.0f / alpha;
     return (2.0f + exponent) * 0.5f * inv_pi *
-           power(std::clamp(sine2, least_sine2, 1.0f), 0.5f * exponent);
+           power(std::clamp(sine2, min_sine2, 1.0f), 0.5f * exponent);
 }
 
 [[nodiscard]] float alpha_of(float roughness)
 {
-    const float used = std::clamp(roughness, SheenAlbedo::least_roughness, 1.0f);
+    const float used = std::clamp(roughness, SheenAlbedo::min_roughness, 1.0f);
     return used * used;
 }
 
@@ -66,13 +66,13 @@ template <typename Factor>
 {
     constexpr int heights = 40;
     constexpr int azimuths = 24;
-    const float cos_o = std::max(cosine, least_cosine);
+    const float cos_o = std::max(cosine, min_cosine);
     const Vec3 wo{std::sqrt(1.0f - cos_o * cos_o), 0.0f, cos_o};
     const float lambda_o = lambda(cos_o, alpha);
     float sum = 0.0f;
     for (int i = 0; i < heights; ++i) {
         const float root = (static_cast<float>(i) + 0.5f) / heights;
-        const float cos_i = std::max(root * root, least_cosine);
+        const float cos_i = std::max(root * root, min_cosine);
         const float sine = std::sqrt(1.0f - cos_i * cos_i);
         float around = 0.0f;
         for (int j = 0; j < azimuths; ++j) {
@@ -94,7 +94,7 @@ SheenAlbedo::SheenAlbedo()
     const auto for_each_node = [&](const auto& visit) {
         for (int row = 0; row < roughness_nodes; ++row) {
             const float share = static_cast<float>(row) / (roughness_nodes - 1);
-            const float alpha = alpha_of(glm::mix(least_roughness, 1.0f, share));
+            const float alpha = alpha_of(glm::mix(min_roughness, 1.0f, share));
             for (int column = 0; column < cosine_nodes; ++column) {
                 const float x = static_cast<float>(column) / (cosine_nodes - 1);
                 visit(row, static_cast<std::size_t>(row * cosine_nodes + column), x * x, alpha);
@@ -115,7 +115,7 @@ SheenAlbedo::SheenAlbedo()
 
 SheenAlbedo::Rows SheenAlbedo::rows_at(float roughness)
 {
-    const float share = (roughness - least_roughness) / (1.0f - least_roughness);
+    const float share = (roughness - min_roughness) / (1.0f - min_roughness);
     const float scaled = std::clamp(share, 0.0f, 1.0f) * (roughness_nodes - 1);
     const int lower = std::min(static_cast<int>(scaled), roughness_nodes - 2);
     return {lower, scaled - static_cast<float>(lower)};
@@ -143,8 +143,8 @@ float SheenAlbedo::excess(Rows rows, float cos_o, float cos_i) const noexcept
 float SheenAlbedo::value(Vec3 wo, Vec3 wi, float roughness) const noexcept
 {
     const float alpha = alpha_of(roughness);
-    const float cos_o = std::max(wo.z, least_cosine);
-    const float cos_i = std::max(wi.z, least_cosine);
+    const float cos_o = std::max(wo.z, min_cosine);
+    const float cos_i = std::max(wi.z, min_cosine);
     return distribution(wo + wi, alpha) /
            (4.0f * cos_o * cos_i * (1.0f + lambda(cos_o, alpha) + lambda(cos_i, alpha)) *
             excess(rows_at(roughness), cos_o, cos_i));

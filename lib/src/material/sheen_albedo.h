@@ -14,7 +14,7 @@ class SheenAlbedo {
 public:
     /// Perceptual roughness below which fibres do not get straighter: the lobe would be narrower
     /// than anything but luck finds.
-    static constexpr float least_roughness = 0.1f;
+    static constexpr float min_roughness = 0.1f;
 
     /// Integrates the tables, which takes some ten milliseconds.
     SheenAlbedo();

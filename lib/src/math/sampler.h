@@ -22,7 +22,7 @@ enum class SampleUse : std::uint32_t {
     light_walk,   ///< scattering at a vertex of the light subpath
     lens,         ///< a lens point: of the camera subpath (0), for a vertex of the light subpath
     ground,       ///< a light (even numbers) or a direction (odd) for the ground under the scene
-    flight,       ///< where a medium scatters a camera path (even) or a light path (odd)
+    scatter_distance,  ///< where a medium scatters a camera path (even) or a light path (odd)
     /// A light, and a point of the fog for it, on a segment of the camera path. Path tracing alone
     /// has it: its numbers at a vertex are those of `film` at the next, which only splats have.
     fog,

@@ -26,23 +26,25 @@ AreaPdf at_end(SolidAnglePdf pdf, const SegmentEnd& end, Vec3 w, float distance_
     return to_area(pdf, abs_cosine(end, w), distance_squared);
 }
 
-/// The flight between a vertex and the one that a walk went on to, or a light at infinity.
-Flight walked_flight(const World& world, const PathVertex& vertex, const PathVertex& other)
+/// The transmission between a vertex and the one that a walk went on to, or a light at infinity.
+SegmentTransmission walked_transmission(const World& world, const PathVertex& vertex,
+                                        const PathVertex& other)
 {
     if (!world.media().any()) {
         return {};
     }
     if (other.kind == VertexKind::infinite) {
-        return world.media().flight(vertex.end, other.end, other.end.p,
-                                    std::numeric_limits<float>::max());
+        return world.media().transmission(vertex.end, other.end, other.end.p,
+                                          std::numeric_limits<float>::max());
     }
     const Vec3 along = other.end.p - vertex.end.p;
-    return world.media().flight(vertex.end, other.end, along, std::sqrt(dot(along, along)));
+    return world.media().transmission(vertex.end, other.end, along, std::sqrt(dot(along, along)));
 }
 
-/// The flight between the ends of a join, unless something is in the way.
-std::optional<Flight> joining_flight(const SampleContext& sample, std::span<const PathVertex> light,
-                                     std::span<const PathVertex> camera)
+/// The transmission between the ends of a join, unless something is in the way.
+std::optional<SegmentTransmission> joining_transmission(const SampleContext& sample,
+                                                        std::span<const PathVertex> light,
+                                                        std::span<const PathVertex> camera)
 {
     const PathVertex& y = light.back();
     const PathVertex& z = camera.back();
@@ -51,26 +53,27 @@ std::optional<Flight> joining_flight(const SampleContext& sample, std::span<cons
     ++sample.rays.shadow;
     if (camera.size() == 1) {
         sample.rays.shadow_to_lens += light.size() > 1 ? 1U : 0U;
-        return sample.world.flight(y.end, z.end, segment);
+        return sample.world.transmission(y.end, z.end, segment);
     }
     sample.rays.shadow_interior += light.size() > 1 ? 1U : 0U;
-    return y.kind == VertexKind::infinite ? sample.world.flight_to_infinity(z.end, y.end.p, segment)
-                                          : sample.world.flight(z.end, y.end, segment);
+    return y.kind == VertexKind::infinite
+               ? sample.world.transmission_to_infinity(z.end, y.end.p, segment)
+               : sample.world.transmission(z.end, y.end, segment);
 }
 
 /// Joins the ends of a light and a camera path unless something is in the way: `value_of()` comes
-/// through, `densities()` are those of the join, without the flight between its ends.
+/// through, `densities()` are those of the join, without the transmission between its ends.
 template <typename Value, typename Densities>
 std::optional<Contribution> join_if_open(const SampleContext& sample,
                                          std::span<const PathVertex> light,
                                          std::span<const PathVertex> camera, const Value& value_of,
                                          PathWeigher& weigher, const Densities& densities)
 {
-    const auto flight = joining_flight(sample, light, camera);
-    if (!flight) {
+    const auto transmission = joining_transmission(sample, light, camera);
+    if (!transmission) {
         return std::nullopt;
     }
-    const Rgb value = value_of() * flight->transmittance;
+    const Rgb value = value_of() * transmission->transmittance;
     if (is_black(value)) {
         return std::nullopt;
     }
@@ -78,8 +81,8 @@ std::optional<Contribution> join_if_open(const SampleContext& sample,
     const PathVertex& y = light.back();
     const PathVertex& z = camera.back();
     JoinDensities join = densities();
-    join.light_at_camera_end = join.light_at_camera_end * probability_to(z, *flight);
-    join.camera_at_light_end = join.camera_at_light_end * probability_to(y, *flight);
+    join.light_at_camera_end = join.light_at_camera_end * pdf_of_end(z, *transmission);
+    join.camera_at_light_end = join.camera_at_light_end * pdf_of_end(y, *transmission);
     return Contribution{.unweighted = value,
                         .weight = weigher.weight(light, camera, join),
                         .dispersed = y.dispersed || z.dispersed};
@@ -142,7 +145,7 @@ std::optional<Contribution> hit_light(const SampleContext& sample,
     sample.enter(Phase::weigh);
     const PathVertex& x1 = camera[camera.size() - 2];
     const LightDensities densities = light_densities(sample, x0, x1.end);
-    const float arrival = probability_to(x1, walked_flight(sample.world, x1, x0));
+    const float arrival = pdf_of_end(x1, walked_transmission(sample.world, x1, x0));
     const float weight = weigher.weight(
         {}, camera,
         {.light_at_camera_end = densities.emit,

@@ -34,19 +34,19 @@ std::optional<FogSampling::Angles> FogSampling::angles(const FogSegment& fog,
                                                        LightId light) const noexcept
 {
     // What a float tells of angles, and of tangents near a right angle, ends about here.
-    constexpr float least_angle = 1e-3f;
-    constexpr float least_away = 1e-3f;
+    constexpr float min_angle = 1e-3f;
+    constexpr float min_offset = 1e-3f;
     const Ball& ball = balls_[static_cast<std::size_t>(light)];
     const Vec3 to_light = ball.center - fog.origin;
     Angles seen{};
     seen.along = dot(to_light, fog.direction);
     const Vec3 across = to_light - seen.along * fog.direction;
     seen.away = std::max(std::sqrt(dot(across, across) + ball.radius * ball.radius),
-                         least_away * (fog.span.end - fog.span.begin));
+                         min_offset * (fog.span.end - fog.span.begin));
     seen.begin = atan2_exact(fog.span.begin - seen.along, seen.away);
     seen.end = atan2_exact(fog.span.end - seen.along, seen.away);
     // Not so for a light at infinity, whose angles are zero.
-    return seen.end - seen.begin > least_angle ? std::optional(seen) : std::nullopt;
+    return seen.end - seen.begin > min_angle ? std::optional(seen) : std::nullopt;
 }
 
 float FogSampling::sample_distance(const FogSegment& fog, LightId light, float u) const noexcept

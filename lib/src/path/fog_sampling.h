@@ -1,6 +1,6 @@
 #pragma once
 
-#include "path/encounter.h"
+#include "path/segment_sample.h"
 
 #include <optional>
 #include <vector>

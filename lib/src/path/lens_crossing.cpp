@@ -19,25 +19,25 @@ void look_for_lens(const SampleContext& sample, const WalkStep& step, float free
     const float distance_squared = hit->distance * hit->distance;
     const float cosine = std::abs(dot(hit->lens.ng, step.direction));
     const PathVertex& last = path.back();
-    const Flight flight =
-        sample.world.media().flight(*step.origin, hit->lens, step.direction, hit->distance);
+    const SegmentTransmission transmission =
+        sample.world.media().transmission(*step.origin, hit->lens, step.direction, hit->distance);
     LensCrossing crossing;
     crossing.light_vertices = path.size();
     crossing.raster = hit->raster;
     crossing.importance = hit->importance;
     crossing.camera_at_light_end =
         last.kind == VertexKind::infinite
-            ? AreaPdf{hit->pdf_direction.value * flight.pass}
+            ? AreaPdf{hit->pdf_direction.value * transmission.p_unscattered}
             : AreaPdf{hit->pdf_direction.value * abs_cosine(last.end, step.direction) /
-                      distance_squared * probability_to(last, flight)};
+                      distance_squared * pdf_of_end(last, transmission)};
     PathVertex& lens = crossing.lens;
     lens.kind = VertexKind::camera;
     lens.end = hit->lens;
-    lens.beta = step.beta * (flight.transmittance / flight.pass) *
+    lens.beta = step.beta * (transmission.transmittance / transmission.p_unscattered) *
                 sample.world.volumes().weight_of_passing(step.origin->p, step.direction,
                                                          hit->distance, segment);
     // Both densities of the lens: as the walk found it, and as a camera path starts.
-    lens.pdf_rev = step.pdf_of_point(cosine, distance_squared) * flight.pass;
+    lens.pdf_rev = step.pdf_of_point(cosine, distance_squared) * transmission.p_unscattered;
     lens.pdf_fwd = hit->pdf_lens;
     path.add_crossing(crossing);
 }

@@ -68,9 +68,10 @@ static_assert(std::is_trivially_copyable_v<PathVertex> && sizeof(PathVertex) <= 
 }
 
 /// Probability that a walk reaches the vertex along this segment; a factor of its density.
-[[nodiscard]] inline float probability_to(const PathVertex& vertex, const Flight& flight)
+[[nodiscard]] inline float pdf_of_end(const PathVertex& vertex,
+                                      const SegmentTransmission& transmission)
 {
-    return flight.to(vertex.kind == VertexKind::medium);
+    return transmission.pdf_of_end(vertex.kind == VertexKind::medium);
 }
 
 }  // namespace bdpt

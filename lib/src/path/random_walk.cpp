@@ -2,8 +2,8 @@
 
 #include "math/rgb.h"
 #include "path/densities.h"
-#include "path/encounter.h"
 #include "path/lens_crossing.h"
+#include "path/segment_sample.h"
 
 #include <glm/geometric.hpp>
 
@@ -15,7 +15,7 @@ namespace bdpt {
 namespace {
 
 /// Camera walks end on the environment, which light walks cannot see.
-void append_environment(const World& world, const WalkStep& step, const Encounter& met,
+void append_environment(const World& world, const WalkStep& step, const SegmentSample& event,
                         Subpath& path)
 {
     const auto id = world.lights().environment();
@@ -29,19 +29,19 @@ void append_environment(const World& world, const WalkStep& step, const Encounte
     vertex.light = id;
     vertex.dispersed = dispersed;
     vertex.end.p = step.direction;
-    vertex.beta = step.beta * met.weight();
+    vertex.beta = step.beta * event.weight();
     vertex.emission = light.radiance(step.direction);
-    vertex.pdf_fwd = {step.pdf.value * met.probability()};
+    vertex.pdf_fwd = {step.pdf.value * event.probability()};
 }
 
 void append_point(const SurfacePoint& point, float distance_squared, const WalkStep& step,
-                  const Encounter& met, Subpath& path)
+                  const SegmentSample& event, Subpath& path)
 {
     PathVertex& previous = path.back();
     PathVertex& vertex = path.append();
     vertex.end = point.end;
-    vertex.kind = met.kind();
-    vertex.beta = step.beta * met.weight();
+    vertex.kind = event.kind();
+    vertex.beta = step.beta * event.weight();
     vertex.emission = point.emission;
     vertex.light = point.light;
     vertex.barycentrics = point.barycentrics;
@@ -50,12 +50,12 @@ void append_point(const SurfacePoint& point, float distance_squared, const WalkS
     vertex.dispersed = previous.dispersed || point.disperses;
     vertex.opacity = point.opacity;
     const float cosine = abs_cosine(point.end, step.direction);
-    vertex.pdf_fwd = step.pdf_of_point(cosine, distance_squared) * met.probability();
+    vertex.pdf_fwd = step.pdf_of_point(cosine, distance_squared) * event.probability();
     const float cosine_before = abs_cosine(previous.end, step.direction);
     previous.area_per_solid_angle =
         previous.kind == VertexKind::infinite
-            ? met.flight.pass
-            : cosine_before / distance_squared * probability_to(previous, met.flight);
+            ? event.transmission.p_unscattered
+            : cosine_before / distance_squared * pdf_of_end(previous, event.transmission);
 }
 
 /// Everything of a walk that does not change on its way.
@@ -86,15 +86,15 @@ bool survives(Rgb& beta, Rgb full, float least, Sampler& sampler)
 
 /// The interaction at the end of the segment, stored as the next vertex of `path`; null if there is
 /// none.
-const SurfacePoint* shade(const SampleContext& sample, const WalkStep& step, const Encounter& met,
-                          SegmentKey segment, Subpath& path)
+const SurfacePoint* shade(const SampleContext& sample, const WalkStep& step,
+                          const SegmentSample& event, SegmentKey segment, Subpath& path)
 {
-    if (met.is_nothing()) {
+    if (event.is_nothing()) {
         return nullptr;
     }
     const PhaseScope scope(sample.clock, Phase::shade);
     return &path.emplace_surface(
-        [&] { return point_of(sample, met, *step.origin, step.direction, segment); });
+        [&] { return make_interaction(sample, event, *step.origin, step.direction, segment); });
 }
 
 /// Goes on from the first vertex until the path is full, leaves the scene or is absorbed.
@@ -110,9 +110,10 @@ void walk(SampleContext& sample, const Walk& rules, WalkStep step, Subpath& path
             rules.from_camera() ? sample.segment(0, path.size()) : sample.segment(path.size(), 0);
         // It may take the place of the vertex after the last, which the lens alone is looked for
         // from.
-        const Encounter met = follow(sample, *step.origin, step.direction, segment,
-                                     {.from_camera = rules.from_camera(), .vertices = path.size()});
-        const SurfacePoint* hit = shade(sample, step, met, segment, path);
+        const SegmentSample event =
+            sample_segment(sample, *step.origin, step.direction, segment,
+                           {.from_camera = rules.from_camera(), .vertices = path.size()});
+        const SurfacePoint* hit = shade(sample, step, event, segment, path);
         if (watches_lens) {
             look_for_lens(sample, step,
                           hit ? glm::distance(hit->end.p, step.origin->p)
@@ -124,7 +125,7 @@ void walk(SampleContext& sample, const Walk& rules, WalkStep step, Subpath& path
         }
         if (!hit) {
             if (rules.from_camera()) {
-                append_environment(sample.world, step, met, path);
+                append_environment(sample.world, step, event, path);
             }
             return;
         }
@@ -133,7 +134,7 @@ void walk(SampleContext& sample, const Walk& rules, WalkStep step, Subpath& path
         if (distance_squared < coincident) {
             return;
         }
-        append_point(*hit, distance_squared, step, met, path);
+        append_point(*hit, distance_squared, step, event, path);
         if (path.size() == max_vertices && !watches_lens) {
             return;
         }

@@ -2,10 +2,10 @@
 
 #include "geometry/flush_denormals.h"
 #include "integrator/bidirectional/bidirectional_integrator.h"
-#include "pilot/merged_finds.h"
+#include "pilot/cost_model.h"
+#include "pilot/merging_errors.h"
 #include "pilot/pilot_errors.h"
-#include "pilot/prices.h"
-#include "pilot/seen_lamps.h"
+#include "pilot/visible_lights.h"
 
 #include <tbb/parallel_for.h>
 
@@ -30,14 +30,14 @@ RenderOptions pilot_options(RenderOptions options, const PilotGrid& grid)
 {
     constexpr std::uint64_t seed = 0x70696c6f74;  // one that nobody will choose
     // Longer paths bring little, and would cost a pilot more time and memory than it is worth.
-    constexpr int longest_path = 32;  // [edges]
+    constexpr int max_path_length = 32;  // [edges]
     const std::uint64_t memory = options.bidirectional.light_path_memory;
     options.integrator = IntegratorKind::vcm;
     options.film.crop.reset();
     options.sampling.sampler = SamplerKind::independent;
     options.sampling.seed = seed;
-    options.transport.max_depth =
-        std::min(options.transport.max_depth, std::max(longest_path, options.transport.min_depth));
+    options.transport.max_depth = std::min(options.transport.max_depth,
+                                           std::max(max_path_length, options.transport.min_depth));
     // By which it tells what merging finds; candidates have that which was asked for.
     options.transport.heuristic = Heuristic::balance;
     options.bidirectional = {};
@@ -74,8 +74,8 @@ RenderOptions with_candidate(RenderOptions options, const Candidate& candidate, 
 double error_of(const PilotResult& pilot, std::size_t candidate, bool sees_lamps)
 {
     constexpr double least = 1e-4;
-    return std::max(least, pilot.errors[candidate] +
-                               (sees_lamps ? pilot.seen_lamps.by_both : pilot.seen_lamps.by_hits));
+    return std::max(least, pilot.errors[candidate] + (sees_lamps ? pilot.visible_lights.by_both
+                                                                 : pilot.visible_lights.by_hits));
 }
 
 bool fits(const RenderOptions& options, const PilotResult& pilot)
@@ -95,29 +95,29 @@ bool fits(const RenderOptions& options, const PilotResult& pilot)
 /// Traces the light paths of sample `index`, and then the camera paths that meet them; some of them
 /// once `abandon` is requested.
 void add_sample(std::int64_t index, Heuristic heuristic, BidirectionalIntegrator& integrator,
-                PilotFinds& finds, const std::stop_token& abandon)
+                PilotContributions& contributions, const std::stop_token& abandon)
 {
     const std::int64_t parts = integrator.begin_pass({.begin = index, .end = index + 1});
-    finds.parts.resize(static_cast<std::size_t>(parts));
+    contributions.parts.resize(static_cast<std::size_t>(parts));
     tbb::parallel_for(std::int64_t{0}, parts, [&](std::int64_t part) {
         if (abandon.stop_requested()) {
             return;
         }
         const FlushDenormals flush;
-        finds.parts[static_cast<std::size_t>(part)].trace(integrator, part, index, finds.grid,
-                                                          heuristic, finds.light_paths);
+        contributions.parts[static_cast<std::size_t>(part)].trace(
+            integrator, part, index, contributions.grid, heuristic, contributions.light_paths);
     });
     if (abandon.stop_requested()) {
         return;
     }
-    integrator.end_parts();
-    tbb::parallel_for(0, finds.grid.rows(), [&](int row) {
+    integrator.end_chunks();
+    tbb::parallel_for(0, contributions.grid.rows(), [&](int row) {
         if (abandon.stop_requested()) {
             return;
         }
         const FlushDenormals flush;
-        finds.rows[static_cast<std::size_t>(row)].render(integrator, finds.grid, heuristic, row,
-                                                         index, finds.light_paths);
+        contributions.rows[static_cast<std::size_t>(row)].render(
+            integrator, contributions.grid, heuristic, row, index, contributions.light_paths);
     });
 }
 
@@ -129,29 +129,30 @@ PilotResult run_pilot(const World& world, const MovingCamera& camera, const Rend
     const PilotGrid grid(asked.film.width, asked.film.height);
     const RenderOptions options = pilot_options(asked, grid);
     BidirectionalIntegrator integrator(world, camera, options, visibility);
-    PilotFinds finds{.grid = grid,
-                     .light_paths = LightPathCounts(options).per_camera_path,
-                     .rows = std::vector<PilotRow>(static_cast<std::size_t>(grid.rows())),
-                     .parts = {}};
+    PilotContributions contributions{
+        .grid = grid,
+        .light_paths = LightPathCounts(options).per_camera_path,
+        .rows = std::vector<PilotRow>(static_cast<std::size_t>(grid.rows())),
+        .parts = {}};
     for (std::int64_t index = 0; index < PilotRow::samples_of_cell; ++index) {
-        add_sample(index, asked.transport.heuristic, integrator, finds, abandon);
+        add_sample(index, asked.transport.heuristic, integrator, contributions, abandon);
         if (abandon.stop_requested()) {
             return {};
         }
     }
-    const PilotBrightness brightness(finds);
-    PilotResult result{.errors = predicted_errors(finds, brightness),
-                       .seen_lamps = seen_lamp_errors(finds, brightness),
+    const PilotBrightness brightness(contributions);
+    PilotResult result{.errors = predicted_errors(contributions, brightness),
+                       .visible_lights = visible_light_errors(contributions, brightness),
                        .costs = {},
-                       .merging_alone = share_of_merging_alone(finds, brightness),
+                       .merging_alone = share_of_merging_alone(contributions, brightness),
                        .stats = {}};
     // Rays to lamps that are seen are none of next-event estimation.
     std::uint64_t to_lamps = 0;
-    for (const PilotRow& row : finds.rows) {
+    for (const PilotRow& row : contributions.rows) {
         result.stats += row.stats();
         to_lamps += row.lamps().size();
     }
-    for (const PilotSplats& part : finds.parts) {
+    for (const PilotSplats& part : contributions.parts) {
         result.stats += part.stats();
     }
     RenderStats without_lamps = result.stats;
@@ -172,7 +173,7 @@ RenderOptions with_best(const PilotResult& pilot, const RenderOptions& asked)
                 continue;  // path tracing does not
             }
             const double product = error_of(pilot, k, sees_lamps) *
-                                   (pilot.costs[k] + (sees_lamps ? seen_lamp_cost : 0.0));
+                                   (pilot.costs[k] + (sees_lamps ? visible_light_cost : 0.0));
             RenderOptions options = with_candidate(asked, candidates[k], sees_lamps);
             if ((!best || product < least) && fits(options, pilot)) {
                 best = std::move(options);

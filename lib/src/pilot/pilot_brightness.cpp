@@ -30,14 +30,15 @@ std::vector<double> averaged(const PilotGrid& grid, const std::vector<double>& v
 
 }  // namespace
 
-PilotBrightness::PilotBrightness(const PilotFinds& finds)
-    : share_of_splat_(static_cast<double>(finds.grid.cells()) / (finds.splatted_pixels() * around))
+PilotBrightness::PilotBrightness(const PilotContributions& contributions)
+    : share_of_splat_(static_cast<double>(contributions.grid.cells()) /
+                      (contributions.splatted_pixels() * around))
 {
-    const PilotGrid& grid = finds.grid;
+    const PilotGrid& grid = contributions.grid;
     std::vector<double> camera;
     camera.reserve(grid.cells());
     std::vector<double> splats(grid.cells());
-    for (const PilotRow& row : finds.rows) {
+    for (const PilotRow& row : contributions.rows) {
         for (const PilotCell& cell : row.cells()) {
             camera.push_back(cell.mean);
         }
@@ -45,8 +46,8 @@ PilotBrightness::PilotBrightness(const PilotFinds& finds)
             splats[lamp.cell] += lamp.mean / PilotRow::samples_of_cell;
         }
     }
-    for (const PilotSplats& part : finds.parts) {
-        for (const PilotFind& splat : part.finds()) {
+    for (const PilotSplats& part : contributions.parts) {
+        for (const PilotContribution& splat : part.contributions()) {
             splats[splat.cell] += splat.shares.splat_mean() * share_of_splat_ * around;
         }
     }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pilot/pilot_finds.h"
+#include "pilot/pilot_contributions.h"
 
 #include <vector>
 
@@ -11,13 +11,13 @@ namespace bdpt {
 /// splats bring would count far too much.
 class PilotBrightness {
 public:
-    explicit PilotBrightness(const PilotFinds& finds);
+    explicit PilotBrightness(const PilotContributions& contributions);
 
     /// What relMSE multiplies a square of an error by [1/nit^2]; 0 in black images.
     [[nodiscard]] double scale(std::size_t cell) const { return scale_of(cell, 0.0); }
     /// The same for an error that comes from that splat of a light path. What it brings itself does
     /// not count: rare splats would hide their own error.
-    [[nodiscard]] double scale(const PilotFind& splat) const
+    [[nodiscard]] double scale(const PilotContribution& splat) const
     {
         return scale_of(splat.cell, splat.shares.splat_mean() * share_of_splat_);
     }

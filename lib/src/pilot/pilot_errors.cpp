@@ -1,8 +1,8 @@
 #include "pilot/pilot_errors.h"
 
 #include "geometry/flush_denormals.h"
-#include "pilot/left_by_sobol.h"
-#include "pilot/merged_finds.h"
+#include "pilot/merging_errors.h"
+#include "pilot/qmc_variance_factor.h"
 
 #include <tbb/parallel_for.h>
 
@@ -21,18 +21,19 @@ void add(const PerCandidate<double>& errors, double times, PerCandidate<double>&
 }
 
 /// Of a row of the grid.
-PerCandidate<double> errors_of(const PilotRow& row, std::size_t first_cell, const PilotFinds& finds,
+PerCandidate<double> errors_of(const PilotRow& row, std::size_t first_cell,
+                               const PilotContributions& contributions,
                                const PilotBrightness& brightness)
 {
     PerCandidate<double> errors{};
-    for (const PilotFind& find : row.joined()) {
-        add(remaining_errors(find.shares, brightness.scale(find.cell)), 1.0 / finds.camera_paths(),
-            errors);
+    for (const PilotContribution& contribution : row.joined()) {
+        add(remaining_errors(contribution.shares, brightness.scale(contribution.cell)),
+            1.0 / contributions.camera_paths(), errors);
     }
     for (std::size_t i = 0; i < row.cells().size(); ++i) {
         const PilotCell& cell = row.cells()[i];
         const double scale =
-            brightness.scale(first_cell + i) / static_cast<double>(finds.grid.cells());
+            brightness.scale(first_cell + i) / static_cast<double>(contributions.grid.cells());
         for (std::size_t k = 0; k < candidates.size(); ++k) {
             constexpr int samples = PilotRow::samples_of_cell;
             errors[k] += scale * (left_of_direct_sums * cell.direct.variance(k, samples) +
@@ -42,29 +43,31 @@ PerCandidate<double> errors_of(const PilotRow& row, std::size_t first_cell, cons
     return errors;
 }
 
-PerCandidate<double> errors_of(const PilotSplats& part, const PilotFinds& finds,
+PerCandidate<double> errors_of(const PilotSplats& part, const PilotContributions& contributions,
                                const PilotBrightness& brightness)
 {
     PerCandidate<double> errors{};
-    for (const PilotFind& splat : part.finds()) {
-        add(remaining_errors(splat.shares, brightness.scale(splat)), 1.0 / finds.splatted_pixels(),
-            errors);
+    for (const PilotContribution& splat : part.contributions()) {
+        add(remaining_errors(splat.shares, brightness.scale(splat)),
+            1.0 / contributions.splatted_pixels(), errors);
     }
     return errors;
 }
 
 /// Summed up in the same order by any threads, so that sums have the same bits.
-PerCandidate<double> errors_of(const PilotFinds& finds, const PilotBrightness& brightness)
+PerCandidate<double> errors_of(const PilotContributions& contributions,
+                               const PilotBrightness& brightness)
 {
-    const std::size_t rows = finds.rows.size();
-    std::vector<PerCandidate<double>> errors(rows + finds.parts.size());
+    const std::size_t rows = contributions.rows.size();
+    std::vector<PerCandidate<double>> errors(rows + contributions.parts.size());
     tbb::parallel_for(std::size_t{0}, errors.size(), [&](std::size_t i) {
         const FlushDenormals flush;
-        errors[i] = i < rows ? errors_of(finds.rows[i], finds.grid.index(0, static_cast<int>(i)),
-                                         finds, brightness)
-                             : errors_of(finds.parts[i - rows], finds, brightness);
+        errors[i] = i < rows ? errors_of(contributions.rows[i],
+                                         contributions.grid.index(0, static_cast<int>(i)),
+                                         contributions, brightness)
+                             : errors_of(contributions.parts[i - rows], contributions, brightness);
     });
-    PerCandidate<double> sum = merged_errors(finds, brightness);
+    PerCandidate<double> sum = merged_errors(contributions, brightness);
     for (const PerCandidate<double>& part : errors) {
         add(part, 1.0, sum);
     }
@@ -88,9 +91,10 @@ PerCandidate<double> with_unseen(PerCandidate<double> errors)
 
 }  // namespace
 
-PerCandidate<double> predicted_errors(const PilotFinds& finds, const PilotBrightness& brightness)
+PerCandidate<double> predicted_errors(const PilotContributions& contributions,
+                                      const PilotBrightness& brightness)
 {
-    return with_unseen(errors_of(finds, brightness));
+    return with_unseen(errors_of(contributions, brightness));
 }
 
 }  // namespace bdpt

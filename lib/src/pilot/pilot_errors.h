@@ -5,7 +5,7 @@
 namespace bdpt {
 
 /// relMSE of one sample per pixel, but for light that is seen directly.
-[[nodiscard]] PerCandidate<double> predicted_errors(const PilotFinds& finds,
+[[nodiscard]] PerCandidate<double> predicted_errors(const PilotContributions& contributions,
                                                     const PilotBrightness& brightness);
 
 }  // namespace bdpt

@@ -19,7 +19,7 @@ public:
     {
         const double pixels = static_cast<double>(width) * static_cast<double>(height);
         const double cells =
-            std::clamp(share_of_pixels * pixels, std::min(fewest_cells, pixels), most_cells);
+            std::clamp(share_of_pixels * pixels, std::min(min_cells, pixels), max_cells);
         const double side = std::sqrt(pixels / cells);
         columns_ = std::clamp(static_cast<int>(std::lround(width / side)), 1, width);
         rows_ = std::clamp(static_cast<int>(std::lround(height / side)), 1, height);
@@ -53,8 +53,8 @@ public:
 
 private:
     static constexpr double share_of_pixels = 1.0 / 16.0;
-    static constexpr double fewest_cells = 512.0;
-    static constexpr double most_cells = 8192.0;
+    static constexpr double min_cells = 512.0;
+    static constexpr double max_cells = 8192.0;
 
     static int place(int cell, int cells, int pixels, std::uint32_t random)
     {

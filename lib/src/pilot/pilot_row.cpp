@@ -31,8 +31,8 @@ void PilotRow::render(const Integrator& integrator, const PilotGrid& grid, Heuri
     cells_.resize(static_cast<std::size_t>(grid.columns()));
     PilotCell* cell = nullptr;
     std::size_t cell_index = 0;
-    SampleMoments direct;
-    SampleMoments indirect;
+    CandidateMoments direct;
+    CandidateMoments indirect;
     const std::function<void(const PathContribution&)> observer =
         [&](const PathContribution& path) {
             const PathShares shares(path, heuristic, light_paths);

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "pilot/candidate_moments.h"
 #include "pilot/pilot_splats.h"
-#include "pilot/sample_moments.h"
 
 #include <vector>
 
@@ -39,16 +39,16 @@ public:
 
     [[nodiscard]] const std::vector<PilotCell>& cells() const { return cells_; }
     /// Paths of two edges and more.
-    [[nodiscard]] const std::vector<PilotFind>& joined() const { return joined_; }
+    [[nodiscard]] const std::vector<PilotContribution>& joined() const { return joined_; }
     /// Paths that were found by merging.
-    [[nodiscard]] const std::vector<PilotFind>& merged() const { return merged_; }
+    [[nodiscard]] const std::vector<PilotContribution>& merged() const { return merged_; }
     [[nodiscard]] const std::vector<PilotLamp>& lamps() const { return lamps_; }
     [[nodiscard]] const RenderStats& stats() const { return stats_; }
 
 private:
     std::vector<PilotCell> cells_;
-    std::vector<PilotFind> joined_;
-    std::vector<PilotFind> merged_;
+    std::vector<PilotContribution> joined_;
+    std::vector<PilotContribution> merged_;
     std::vector<PilotLamp> lamps_;
     RenderStats stats_;
 };

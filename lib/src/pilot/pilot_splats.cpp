@@ -9,12 +9,12 @@ void PilotSplats::trace(Integrator& integrator, std::int64_t part, std::int64_t 
 {
     const std::function<void(const PathContribution&)> observer =
         [&](const PathContribution& path) {
-            finds_.push_back({.cell = grid.cell_at(path.raster),
-                              .shares = PathShares(path, heuristic, light_paths)});
+            contributions_.push_back({.cell = grid.cell_at(path.raster),
+                                      .shares = PathShares(path, heuristic, light_paths)});
         };
     StrategyFilm no_strategies(PixelRect{}, {});
     const Films films{.film = nullptr, .strategies = no_strategies, .on_path = observer};
-    stats_ += integrator.do_part(part, {.begin = index, .end = index + 1}, films);
+    stats_ += integrator.render_chunk(part, {.begin = index, .end = index + 1}, films);
 }
 
 }  // namespace bdpt

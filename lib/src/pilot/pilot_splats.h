@@ -11,7 +11,7 @@
 namespace bdpt {
 
 /// A path that a pilot found, for the pixels of a cell.
-struct PilotFind {
+struct PilotContribution {
     std::size_t cell;
     PathShares shares;
 };
@@ -24,11 +24,14 @@ public:
     void trace(Integrator& integrator, std::int64_t part, std::int64_t index, const PilotGrid& grid,
                Heuristic heuristic, double light_paths);
 
-    [[nodiscard]] const std::vector<PilotFind>& finds() const { return finds_; }
+    [[nodiscard]] const std::vector<PilotContribution>& contributions() const
+    {
+        return contributions_;
+    }
     [[nodiscard]] const RenderStats& stats() const { return stats_; }
 
 private:
-    std::vector<PilotFind> finds_;
+    std::vector<PilotContribution> contributions_;
     RenderStats stats_;
 };
 

@@ -76,7 +76,7 @@ public:
             const Vec2 raster =
                 (Vec2(column, row) + in_cell) *
                 (Vec2(options_.film.width, options_.film.height) / static_cast<float>(side));
-            const SampleMoment moment = draw_moment(sampler, world_, camera_);
+            const TimeAndWavelength moment = draw_time_and_wavelength(sampler, world_, camera_);
             const TimedCamera camera(camera_, moment.time);
             SampleContext sample{.world = world_,
                                  .camera = camera.get(),
@@ -122,7 +122,8 @@ private:
             return;
         }
         note(vertex, incident->wi,
-             world_.flight_to_infinity(vertex.end, incident->wi, sample.segment(1, t)).has_value());
+             world_.transmission_to_infinity(vertex.end, incident->wi, sample.segment(1, t))
+                 .has_value());
     }
 
     void note(const PathVertex& vertex, Vec3 direction, bool visible)

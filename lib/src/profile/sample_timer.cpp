@@ -46,12 +46,12 @@ void SampleTimer::finish() noexcept
     const double lost = elapsed > sheet_->suspicious_ticks ? sheet_->wait.lost_ticks() : 0.0;
     const double ticks = std::max(elapsed - lost, 0.0);
     // What is lost to the clocks themselves and to interrupts is far less.
-    constexpr double least_interruption = 0.1;
+    constexpr double min_interruption = 0.1;
     SampleTicks& samples = sheet_->samples;
     if (!clock_) {
         samples.others.ticks += static_cast<std::uint64_t>(ticks);
         ++samples.others.pieces;
-    } else if (lost > least_interruption * elapsed) {
+    } else if (lost > min_interruption * elapsed) {
         ++samples.interrupted;
     } else {
         note_phases();

@@ -13,9 +13,9 @@ namespace {
 // A few samples tell little of one pixel, so that variances are those of a neighbourhood; and rare
 // bright samples are missed in one neighbourhood that the next one has found, so that the greatest
 // of near ones counts. Wider ones blur the borders of small glossy parts.
-constexpr int mean_radius = 3;      // 7 x 7 pixels
-constexpr int greatest_radius = 1;  // 3 x 3 pixels
-constexpr double dark = 0.01;       // of the image's mean luminance, as in noise_of()
+constexpr int mean_radius = 3;  // 7 x 7 pixels
+constexpr int max_radius = 1;   // 3 x 3 pixels
+constexpr double dark = 0.01;   // of the image's mean luminance, as in noise_of()
 /// Of the mean error: what each pixel has beside what the pilot has seen there. Rare bright paths
 /// are where it has not found them, too; and where they are most of the error, this makes rates
 /// even.
@@ -90,7 +90,7 @@ Plane wanted_rates(const RateEvidence& evidence)
         const double scale = brightness[i] * brightness[i] + eps * eps;
         relative[i] = scale > 0.0 ? evidence.variance[i] / scale : 0.0;
     }
-    Plane wanted = local_greatest(local_mean(relative, size, mean_radius), size, greatest_radius);
+    Plane wanted = local_greatest(local_mean(relative, size, mean_radius), size, max_radius);
     const double unseen = unseen_share * mean_of(relative);
     for (std::size_t i = 0; i < wanted.size(); ++i) {
         wanted[i] = std::sqrt((wanted[i] + unseen) / evidence.cost[i]);
@@ -103,7 +103,7 @@ std::int8_t exponent_of(double rate)
 {
     constexpr double root = 1.4142135623730951;
     constexpr std::array borders{0.25 * root, 0.5 * root, root, 2.0 * root};
-    int exponent = SampleRates::least_exponent;
+    int exponent = SampleRates::min_exponent;
     for (const double border : borders) {
         exponent += rate >= border ? 1 : 0;
     }
@@ -115,7 +115,7 @@ std::int64_t quarters(const Plane& wanted, double scale)
 {
     std::int64_t sum = 0;
     for (const double rate : wanted) {
-        sum += std::int64_t{1} << (exponent_of(scale * rate) - SampleRates::least_exponent);
+        sum += std::int64_t{1} << (exponent_of(scale * rate) - SampleRates::min_exponent);
     }
     return sum;
 }
@@ -125,7 +125,7 @@ std::pair<double, double> borders_of_scale(const Plane& wanted)
 {
     constexpr double widest = 0x1p40;
     constexpr int halvings = 60;
-    const auto most = static_cast<std::int64_t>(wanted.size()) << -SampleRates::least_exponent;
+    const auto most = static_cast<std::int64_t>(wanted.size()) << -SampleRates::min_exponent;
     const double mean = mean_of(wanted);
     double low = 1.0 / (widest * mean);
     double high = widest / mean;
@@ -163,10 +163,10 @@ SampleRates rates_for(const RateEvidence& evidence)
     // Of pixels that want the same, only some can have more: spread over the image.
     std::sort(ties.begin(), ties.end(),
               [](std::size_t a, std::size_t b) { return spread(a) < spread(b); });
-    std::int64_t left = (static_cast<std::int64_t>(wanted.size()) << -SampleRates::least_exponent) -
+    std::int64_t left = (static_cast<std::int64_t>(wanted.size()) << -SampleRates::min_exponent) -
                         quarters(wanted, low);
     for (const std::size_t i : ties) {
-        const std::int64_t more = std::int64_t{1} << (exponents[i] - SampleRates::least_exponent);
+        const std::int64_t more = std::int64_t{1} << (exponents[i] - SampleRates::min_exponent);
         if (more > left) {
             break;
         }

@@ -106,12 +106,12 @@ void AovPass::add_sample(int x, int y, std::int64_t sample_index, AovFilm& film,
 
 float AovPass::opacity_along(const CameraRay& ray, SegmentKey segment, RayCounts& rays) const
 {
-    constexpr int most_surfaces = 64;
+    constexpr int max_surfaces = 64;
     constexpr float nothing = 1e-4f;
     const SegmentKey key = segment.without_chance();
     SegmentEnd from = ray.lens;
     float transmittance = 1.0f;
-    for (int i = 0; i < most_surfaces; ++i) {
+    for (int i = 0; i < max_surfaces; ++i) {
         ++rays.aov;
         const auto hit = world_.first_hit(from, ray.direction, key);
         if (!hit) {

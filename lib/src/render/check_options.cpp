@@ -64,7 +64,7 @@ void check_rates(const RenderOptions& options)
     check_takes_rates(options.integrator);
     const SampleRange& samples = options.sampling.samples;
     check_range("last round with rates of samples", samples.end, 1,
-                std::int64_t{1} << (32 - SampleRates::greatest_exponent));
+                std::int64_t{1} << (32 - SampleRates::max_exponent));
     for (const std::int64_t border : {samples.begin, samples.end}) {
         if (border % SampleRates::group != 0) {
             throw Error(
@@ -121,7 +121,7 @@ void check_value(std::string_view name, const Range& range, const T& value)
 
 void check_within_limit(const std::string& item, const char* what, float value)
 {
-    if (!(std::abs(value) <= greatest_coordinate)) {
+    if (!(std::abs(value) <= max_coordinate)) {
         throw Error(ErrorCode::invalid_input, item + ": " + what + " is " + std::to_string(value) +
                                                   " m, beyond what rays reach");
     }
@@ -148,10 +148,10 @@ void check_pose(const std::string& item, const Mat4& world_from_camera)
 
 void check_motion(const std::string& item, const CameraDesc& camera)
 {
-    if (camera.motion.size() > most_time_steps) {
+    if (camera.motion.size() > max_time_steps) {
         throw Error(ErrorCode::invalid_input,
                     item + ": motion of " + std::to_string(camera.motion.size()) + " steps, but " +
-                        std::to_string(most_time_steps) + " is the most");
+                        std::to_string(max_time_steps) + " is the most");
     }
     for (std::size_t i = 0; i < camera.motion.size(); ++i) {
         const std::string step = item + ": motion, step " + std::to_string(i);

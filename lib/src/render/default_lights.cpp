@@ -49,8 +49,8 @@ bool is_lit_by_emitters(const Scene& scene, const FramedView& framed, float aspe
     // Of the 1 nit that the default sky or lamp would give white cards [nit]. Scenes that were made
     // for their emitters are well above, models that glow here and there well below: found by
     // trying both kinds (docs/decisions/0059-light-of-scenes-without-lights.md).
-    constexpr double least_outside = 0.03;
-    constexpr double least_inside = 0.001;
+    constexpr double min_outside = 0.03;
+    constexpr double min_inside = 0.001;
     std::vector<double> cards = white_cards(scene, framed.camera, {.aspect = aspect});
     if (cards.empty()) {
         return false;
@@ -58,11 +58,11 @@ bool is_lit_by_emitters(const Scene& scene, const FramedView& framed, float aspe
     if (!framed.enclosed) {
         const auto middle = cards.begin() + static_cast<std::ptrdiff_t>(cards.size() / 2);
         std::nth_element(cards.begin(), middle, cards.end());
-        return *middle >= least_outside;
+        return *middle >= min_outside;
     }
     // The mean, as a room may be dark but for a beam of light.
     const double sum = std::accumulate(cards.begin(), cards.end(), 0.0);
-    return sum >= least_inside * static_cast<double>(cards.size());
+    return sum >= min_inside * static_cast<double>(cards.size());
 }
 
 }  // namespace

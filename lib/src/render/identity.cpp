@@ -114,7 +114,7 @@ Identity identity(const Scene& scene, const CameraDesc& camera, const RenderOpti
 
 std::optional<std::string> difference(const Identity& here, const Identity& there)
 {
-    constexpr std::size_t most_named = 3;
+    constexpr std::size_t max_named = 3;
     const auto values_here = values_by_name(here);
     const auto values_there = values_by_name(there);
     std::vector<std::string> names;
@@ -136,11 +136,11 @@ std::optional<std::string> difference(const Identity& here, const Identity& ther
         return here == there ? std::nullopt : std::optional<std::string>("the order of components");
     }
     std::string result;
-    for (std::size_t i = 0; i < std::min(names.size(), most_named); ++i) {
+    for (std::size_t i = 0; i < std::min(names.size(), max_named); ++i) {
         result += (i > 0 ? "; " : "") + names[i];
     }
-    return names.size() > most_named
-               ? result + "; and " + std::to_string(names.size() - most_named) + " more"
+    return names.size() > max_named
+               ? result + "; and " + std::to_string(names.size() - max_named) + " more"
                : result;
 }
 

@@ -22,7 +22,7 @@ namespace {
 
 constexpr int default_depth = TransportOptions{}.max_depth;
 /// Whoever asks for longer paths knows why [edges].
-constexpr int longest_path = 512;
+constexpr int max_path_length = 512;
 constexpr int samples_of_cell = 2;
 
 /// Sums of luminance by the length of paths.
@@ -56,7 +56,7 @@ RenderOptions with_longer_paths(const RenderOptions& asked)
     options.transport.background = asked.transport.background;
     options.transport.min_depth = 2;
     options.transport.max_depth =
-        std::clamp(factor * asked.transport.max_depth, default_depth, longest_path);
+        std::clamp(factor * asked.transport.max_depth, default_depth, max_path_length);
     return options;
 }
 
@@ -85,9 +85,9 @@ LightByLength light_of_row(const Integrator& integrator, const PilotGrid& grid, 
 /// tell that leave out one part each (jackknife).
 double share_beyond(const std::vector<LightByLength>& rows)
 {
-    constexpr std::size_t most_groups = 16;
-    const std::size_t groups = std::min(most_groups, rows.size());
-    std::array<LightByLength, most_groups> without{};
+    constexpr std::size_t max_groups = 16;
+    const std::size_t groups = std::min(max_groups, rows.size());
+    std::array<LightByLength, max_groups> without{};
     LightByLength all;
     for (std::size_t row = 0; row < rows.size(); ++row) {
         all += rows[row];
@@ -116,7 +116,7 @@ double light_beyond_max_depth(const Scene& scene, const CameraDesc& camera,
     check_camera(camera);
     check_camera_distance(camera, scene.world().farthest_origin());
     const int limit = asked.transport.max_depth;
-    if (limit >= longest_path ||
+    if (limit >= max_path_length ||
         (limit >= default_depth && !scene.world().media().any_scatters())) {
         return 0.0;
     }

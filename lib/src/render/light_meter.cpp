@@ -5,7 +5,7 @@
 #include "integrator/sample_start.h"
 #include "math/frame.h"
 #include "math/rgb.h"
-#include "path/encounter.h"
+#include "path/segment_sample.h"
 #include "render/check_options.h"
 #include "render/open_camera.h"
 #include "threads/threads.h"
@@ -25,9 +25,9 @@ namespace {
 
 constexpr int side_of_grid = 32;  // of a square view [cards]
 constexpr int paths_of_card = 32;
-constexpr int longest_walk = 12;   // [vertices] what comes later is next to nothing
-constexpr int roulette_start = 4;  // [vertices]
-constexpr float survival = 0.75f;  // of each vertex from there on
+constexpr int max_walk_vertices = 12;  // [vertices] what comes later is next to nothing
+constexpr int roulette_start = 4;      // [vertices]
+constexpr float survival = 0.75f;      // of each vertex from there on
 constexpr NextEventSampling next_event_sampling{.environments = EnvironmentSampling::plain,
                                                 .lights = LightSampling::automatic};
 
@@ -111,7 +111,7 @@ private:
             if (samples_lights) {
                 light += beta * sampled_light(sample, point, vertices);
             }
-            if (vertices == longest_walk) {
+            if (vertices == max_walk_vertices) {
                 return light;
             }
             sampler.start(SampleUse::camera_walk, static_cast<std::uint32_t>(vertices));
@@ -131,13 +131,13 @@ private:
                 from.receiver = {.p = origin.p, .normal = point.bsdf.opaque_normal()};
             }
             const SegmentKey segment = sample.segment(0, vertices);
-            const Encounter met = follow(sample, origin, scattered->wi, segment,
-                                         {.from_camera = true, .vertices = vertices});
+            const SegmentSample met = sample_segment(sample, origin, scattered->wi, segment,
+                                                     {.from_camera = true, .vertices = vertices});
             beta *= met.weight();
             if (met.is_nothing()) {
                 return light + beta * sky(from, scattered->wi);
             }
-            point = point_of(sample, met, origin, scattered->wi, segment);
+            point = make_interaction(sample, met, origin, scattered->wi, segment);
             if (point.light) {
                 const LightPoint at{.p = point.end.p,
                                     .ng = point.end.ng,
@@ -201,16 +201,17 @@ private:
             return Rgb(0.0f);
         }
         const SegmentKey segment = sample.segment(1, vertices);
-        const auto flight = light.is_infinite()
-                                ? world_.flight_to_infinity(point.end, incident->wi, segment)
-                                : world_.flight(point.end, incident->end, segment);
-        if (!flight) {
+        const auto transmission =
+            light.is_infinite() ? world_.transmission_to_infinity(point.end, incident->wi, segment)
+                                : world_.transmission(point.end, incident->end, segment);
+        if (!transmission) {
             return Rgb(0.0f);
         }
         const float by_light = incident->pdf_solid_angle.value * next.probability;
         const float by_ray = light.is_delta() ? 0.0f : f.pdf_fwd.value;
         const Rgb value = f.f_cos * light.incident_weight(*incident);
-        return value * flight->transmittance / next.probability * (by_light / (by_light + by_ray));
+        return value * transmission->transmittance / next.probability *
+               (by_light / (by_light + by_ray));
     }
 
     const World& world_;

@@ -17,7 +17,7 @@ constexpr int tile_side = 16;            // [pixels], about
 constexpr double share_of_tiles = 0.95;  // that are not above the noise
 constexpr double dark = 0.01;            // of the image's mean luminance
 constexpr std::int64_t first_look = 16;
-constexpr std::int64_t most_samples = std::int64_t{1} << 31;
+constexpr std::int64_t max_samples = std::int64_t{1} << 31;
 
 /// Where the tiles of `length` pixels begin, and the end: none is much smaller than the others.
 std::vector<int> borders(int length)
@@ -114,8 +114,8 @@ std::int64_t samples_for_noise(double noise, std::int64_t samples, double goal)
 {
     const double ratio = noise / goal;
     const double wanted = static_cast<double>(samples) * ratio * ratio;
-    if (!(wanted < static_cast<double>(most_samples))) {
-        return most_samples;
+    if (!(wanted < static_cast<double>(max_samples))) {
+        return max_samples;
     }
     return next_noise_look(static_cast<std::int64_t>(std::ceil(wanted)) - 1);
 }

@@ -55,12 +55,12 @@ void render_parts(const Work& work, SampleRange samples, RenderPart& result,
             return;
         }
         const FlushDenormals flush;
-        stats_of_threads.local() += work.integrator.do_part(
+        stats_of_threads.local() += work.integrator.render_chunk(
             part, samples,
             {.film = &result.film, .strategies = result.strategies, .on_path = work.on_path});
     });
     if (!work.abandon.stop_requested()) {
-        work.integrator.end_parts();
+        work.integrator.end_chunks();
     }
 }
 
@@ -112,7 +112,7 @@ void render_at_once(const Work& work, const RenderOptions& options, SampleRange 
 void render_pass(const Work& work, const RenderOptions& options, SampleRange samples,
                  RenderPart& result)
 {
-    const std::int64_t most = work.integrator.most_samples_in_pass();
+    const std::int64_t most = work.integrator.max_samples_in_pass();
     for (SampleRange some = samples; some.begin < samples.end; some.begin = some.end) {
         some.end = samples.end - some.begin > most ? some.begin + most : samples.end;
         render_at_once(work, options, some, result);

@@ -31,7 +31,7 @@ namespace {
 
 /// A pass is one unit of progress and of stopping: it grows until it takes about this long.
 constexpr double pass_seconds = 0.5;
-constexpr std::int64_t most_samples_in_pass = 64;
+constexpr std::int64_t max_samples_in_pass = 64;
 
 double seconds_since(std::chrono::steady_clock::time_point start)
 {
@@ -43,10 +43,10 @@ double seconds_since(std::chrono::steady_clock::time_point start)
 class PassSize {
 public:
     PassSize(const Integrator& integrator, const RenderOptions& options)
-        : most_(std::min(most_samples_in_pass, integrator.most_samples_in_pass()))
+        : most_(std::min(max_samples_in_pass, integrator.max_samples_in_pass()))
     {
         if (options.sampling.rates) {
-            most_ = most_samples_in_pass;
+            most_ = max_samples_in_pass;
             samples_ = SampleRates::group;
         }
     }

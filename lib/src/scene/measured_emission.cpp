@@ -10,8 +10,8 @@
 
 namespace bdpt {
 
-int most_emission_samples(std::span<const MaterialId> material_ids,
-                          std::span<const PlacedMesh> placed, std::span<const Material> materials)
+int max_emission_samples(std::span<const MaterialId> material_ids,
+                         std::span<const PlacedMesh> placed, std::span<const Material> materials)
 {
     constexpr double budget = 0x1p22;
     std::set<std::pair<const MeshDesc*, MaterialId>> counted;
@@ -31,7 +31,7 @@ MeasuredEmission::MeasuredEmission(std::span<const MaterialId> material_ids,
                                    std::span<const Material> materials)
     : of_instance_(material_ids.size(), nullptr)
 {
-    const int most_samples = most_emission_samples(material_ids, placed, materials);
+    const int max_samples = max_emission_samples(material_ids, placed, materials);
     for (std::size_t i = 0; i < material_ids.size(); ++i) {
         const Material& material = materials[static_cast<std::size_t>(material_ids[i])];
         if (is_black(material.mean_emission())) {
@@ -44,7 +44,7 @@ MeasuredEmission::MeasuredEmission(std::span<const MaterialId> material_ids,
             const PlacedMesh& mesh = placed[i];
             all.resize(mesh.triangle_count());
             tbb::parallel_for(std::uint32_t{0}, mesh.triangle_count(), [&](std::uint32_t t) {
-                all[t] = measure_emission(mesh, material, t, most_samples);
+                all[t] = measure_emission(mesh, material, t, max_samples);
             });
         }
     }

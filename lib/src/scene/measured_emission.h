@@ -17,9 +17,9 @@ namespace bdpt {
 
 /// How many samples of its emission texture a triangle may take along each side, so that all
 /// together stay in the range of a second. `placed[i]` is of material `material_ids[i]`.
-[[nodiscard]] int most_emission_samples(std::span<const MaterialId> material_ids,
-                                        std::span<const PlacedMesh> placed,
-                                        std::span<const Material> materials);
+[[nodiscard]] int max_emission_samples(std::span<const MaterialId> material_ids,
+                                       std::span<const PlacedMesh> placed,
+                                       std::span<const Material> materials);
 
 /// What the emissive triangles of a scene emit. It depends on textures and vertex colours, not on
 /// places, so a mesh that is placed often is measured once for each of its materials.

@@ -98,8 +98,8 @@ FogSpan Media::filled(MediumId medium, Vec3 from, Vec3 w, float distance) const 
             static_cast<float>(std::clamp(middle + half, 0.0, most))};
 }
 
-Flight Media::flight_through(const SegmentEnd& a, const SegmentEnd& b, Vec3 w,
-                             float distance) const noexcept
+SegmentTransmission Media::transmission_through(const SegmentEnd& a, const SegmentEnd& b, Vec3 w,
+                                                float distance) const noexcept
 {
     const auto depth = [&](MediumId medium) {
         const FogSpan span = filled(medium, a.p, w, distance);
@@ -111,7 +111,9 @@ Flight Media::flight_through(const SegmentEnd& a, const SegmentEnd& b, Vec3 w,
                     attenuate(max(depth(medium_towards(a, w)), depth(medium_towards(b, -w))))};
     }
     const Rgb left = attenuate(depth(id));
-    return {.transmittance = left, .pass = mean(left), .stop = mean((*this)[id].extinction * left)};
+    return {.transmittance = left,
+            .p_unscattered = mean(left),
+            .pdf_scatter = mean((*this)[id].extinction * left)};
 }
 
 std::optional<FogSpan> Media::fog_between(const SegmentEnd& a, const SegmentEnd& b, Vec3 w,

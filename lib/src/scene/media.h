@@ -13,13 +13,17 @@ namespace bdpt {
 /// What becomes of light on a segment that no surface stops. A walk that scatters light in a medium
 /// chooses where in proportion to the mean of the colours' densities, so no colour is preferred
 /// [Wilkie et al. 2014, "Hero Wavelength Spectral Sampling"].
-struct Flight {
+struct SegmentTransmission {
     Rgb transmittance{1.0f};
-    float pass = 1.0f;  ///< probability that a walk gets to the end without being scattered
-    float stop = 1.0f;  ///< density of its being scattered there, in length [1/m]
+    float p_unscattered =
+        1.0f;                  ///< probability that a walk gets to the end without being scattered
+    float pdf_scatter = 1.0f;  ///< density of its being scattered there, in length [1/m]
 
     /// Of a walk coming to the end, which is a point of a medium or not.
-    [[nodiscard]] float to(bool in_medium) const { return in_medium ? stop : pass; }
+    [[nodiscard]] float pdf_of_end(bool in_medium) const
+    {
+        return in_medium ? pdf_scatter : p_unscattered;
+    }
 };
 
 /// Where a ray is scattered in a medium.
@@ -56,11 +60,11 @@ public:
     [[nodiscard]] bool any_scatters() const { return any_scatters_; }
 
     /// From `a` to `b` in direction `w`, of any length; the segment is `distance` long.
-    [[nodiscard]] Flight flight(const SegmentEnd& a, const SegmentEnd& b, Vec3 w,
-                                float distance) const noexcept
+    [[nodiscard]] SegmentTransmission transmission(const SegmentEnd& a, const SegmentEnd& b, Vec3 w,
+                                                   float distance) const noexcept
     {
         const bool clear = a.media.are_clear() && b.media.are_clear();
-        return clear ? Flight{} : flight_through(a, b, w, distance);
+        return clear ? SegmentTransmission{} : transmission_through(a, b, w, distance);
     }
     /// Of the segment: one that scatters, or else one that absorbs.
     [[nodiscard]] MediumId along(const SegmentEnd& a, const SegmentEnd& b, Vec3 w) const noexcept;
@@ -80,8 +84,8 @@ public:
                                                         Vec2 u) const noexcept;
 
 private:
-    [[nodiscard]] Flight flight_through(const SegmentEnd& a, const SegmentEnd& b, Vec3 w,
-                                        float distance) const noexcept;
+    [[nodiscard]] SegmentTransmission transmission_through(const SegmentEnd& a, const SegmentEnd& b,
+                                                           Vec3 w, float distance) const noexcept;
     [[nodiscard]] MediumId scatterer(const SegmentEnd& a, const SegmentEnd& b,
                                      Vec3 w) const noexcept;
     /// What part of the way a medium fills.

@@ -84,14 +84,14 @@ std::string known_to(const Placed& placed)
 std::vector<std::string> precision_warnings(const SharedSceneDesc& desc,
                                             const SceneGeometry& geometry)
 {
-    constexpr float least_exact = 0.1f;  // of its size
+    constexpr float min_exact = 0.1f;  // of its size
     std::vector<std::string> warnings;
     const std::vector<Placed> all = place(desc, geometry.boxes);
     const Placed* coarsest = nullptr;
     const Placed* vaguest = nullptr;  // of those that are small
     std::size_t vague = 0;
     for (const Placed& placed : all) {
-        if (placed.error > least_exact * placed.size()) {
+        if (placed.error > min_exact * placed.size()) {
             ++vague;
             vaguest = vaguest == nullptr || placed.error > vaguest->error ? &placed : vaguest;
         }

@@ -56,8 +56,8 @@ MeshDesc box_mesh(Vec3 min, Vec3 max)
 
 MeshDesc sphere_mesh(float radius, unsigned segments)
 {
-    constexpr unsigned most_segments = 4096;
-    if (!(radius > 0.0f) || !std::isfinite(radius) || segments < 4 || segments > most_segments) {
+    constexpr unsigned max_segments = 4096;
+    if (!(radius > 0.0f) || !std::isfinite(radius) || segments < 4 || segments > max_segments) {
         throw Error(ErrorCode::usage, "sphere mesh: radius " + std::to_string(radius) + " with " +
                                           std::to_string(segments) +
                                           " segments; expected a radius above 0 and 4 to 4096");

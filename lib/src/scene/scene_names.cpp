@@ -15,7 +15,7 @@ namespace bdpt {
 namespace {
 
 /// Of all names that images show [bytes]: as JSON they still fit the header of a part's file.
-constexpr std::size_t most_text = std::size_t{4} << 20;
+constexpr std::size_t max_text_bytes = std::size_t{4} << 20;
 
 std::string name_or_place(const std::string& name, std::string_view kind, std::size_t index)
 {
@@ -88,11 +88,11 @@ IdNames SceneNames::names(AovSet aovs) const
             text += name.name.size();
         }
     }
-    if (text > most_text) {
+    if (text > max_text_bytes) {
         throw Error(ErrorCode::invalid_input, "the names of objects and materials have " +
                                                   std::to_string(text) +
                                                   " bytes, but images of ids (Cryptomatte) hold " +
-                                                  std::to_string(most_text));
+                                                  std::to_string(max_text_bytes));
     }
     return result;
 }

@@ -16,8 +16,8 @@ Volume::Volume(const VolumeDesc& desc)
     : desc_(desc),
       grid_from_world_(glm::inverse(desc.world_from_grid)),
       blocks_((desc.size + (block - 1)) / block),
-      most_extinction_(max_component(desc.extinction)),
-      channel_shares_(most_extinction_ > 0.0f ? desc.extinction / most_extinction_ : Rgb(1.0f))
+      max_extinction_(max_component(desc.extinction)),
+      channel_shares_(max_extinction_ > 0.0f ? desc.extinction / max_extinction_ : Rgb(1.0f))
 {
     majorants_.resize(std::size_t{blocks_.x} * blocks_.y * blocks_.z);
     // Between centres a density belongs to voxels on both sides.
@@ -129,7 +129,7 @@ void Volume::for_each_collision(Vec3 origin, Vec3 direction, float distance, Vol
                                            static_cast<std::size_t>(cell[1])) *
                                               blocks_.x +
                                           static_cast<std::size_t>(cell[0])];
-        const float rate = majorant * most_extinction_;
+        const float rate = majorant * max_extinction_;
         // What is left to the next collision is as long whatever came before: each block draws
         // anew.
         // In double, for a step may be less than a float can tell so far from the origin.
@@ -167,19 +167,21 @@ std::optional<VolumeEvent> Volume::draw_event(Vec3 origin, Vec3 direction, float
     return event;
 }
 
-Rgb Volume::pass_odds(Vec3 origin, Vec3 direction, float distance, VolumeNoise noise) const noexcept
+Rgb Volume::relative_pass_probability(Vec3 origin, Vec3 direction, float distance,
+                                      VolumeNoise noise) const noexcept
 {
-    Rgb odds(1.0f);
+    Rgb probability(1.0f);
     for_each_collision(origin, direction, distance, noise, [&](const VolumeEvent& at, Rgb share) {
         static_cast<void>(noise.next());  // what `draw_event` decides by
         if (at.distance >= distance) {
             return false;
         }
-        odds *= max(1.0f - share, Rgb(0.0f));
-        odds /= max_component(odds);  // or many of them would leave the range of floats
+        probability *= max(1.0f - share, Rgb(0.0f));
+        probability /=
+            max_component(probability);  // or many of them would leave the range of floats
         return true;
     });
-    return odds;
+    return probability;
 }
 
 Rgb Volume::transmittance(Vec3 origin, Vec3 direction, float distance,
@@ -235,13 +237,14 @@ Rgb Volumes::colour_weight(Vec3 origin, Vec3 direction, float distance,
                            const std::optional<VolumeEvent>& event,
                            SegmentKey segment) const noexcept
 {
-    Rgb odds(1.0f);
+    Rgb probability(1.0f);
     for (std::uint32_t i = 0; i < volumes_.size(); ++i) {
-        odds *= volumes_[i].pass_odds(origin, direction, event ? event->distance : distance,
-                                      VolumeNoise(segment, i));
+        probability *= volumes_[i].relative_pass_probability(
+            origin, direction, event ? event->distance : distance, VolumeNoise(segment, i));
     }
-    const Rgb found = event ? odds * volumes_[event->volume].extinction(event->density) : odds;
-    return odds * (3.0f / (found.r + found.g + found.b));
+    const Rgb found =
+        event ? probability * volumes_[event->volume].extinction(event->density) : probability;
+    return probability * (3.0f / (found.r + found.g + found.b));
 }
 
 Rgb Volumes::transmittance(Vec3 origin, Vec3 direction, float distance,

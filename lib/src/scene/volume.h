@@ -63,8 +63,8 @@ public:
                                                         VolumeNoise noise) const noexcept;
     /// For each channel the probability that a walk with the same noise is not scattered before
     /// `distance`; their ratios are what counts.
-    [[nodiscard]] Rgb pass_odds(Vec3 origin, Vec3 direction, float distance,
-                                VolumeNoise noise) const noexcept;
+    [[nodiscard]] Rgb relative_pass_probability(Vec3 origin, Vec3 direction, float distance,
+                                                VolumeNoise noise) const noexcept;
     /// Ratio tracking: an unbiased estimate of what gets through, >= 0.
     [[nodiscard]] Rgb transmittance(Vec3 origin, Vec3 direction, float distance,
                                     VolumeNoise noise) const noexcept;
@@ -90,7 +90,7 @@ private:
     const VolumeDesc& desc_;
     Mat4 grid_from_world_;
     UVec3 blocks_;
-    float most_extinction_;         // of the channels [1/m], where the density is 1
+    float max_extinction_;          // of the channels [1/m], where the density is 1
     Rgb channel_shares_;            // of it
     std::vector<float> majorants_;  // of the density, by block, x fastest
 };

@@ -79,7 +79,7 @@ bool World::may_be_passed(std::uint32_t instance) const noexcept
 {
     const Material& material = material_of(instance);
     return material.alpha_mode() != AlphaMode::opaque &&
-           (material.least_opacity() < 1.0f || !placed_[instance].mesh().colors.empty());
+           (material.min_opacity() < 1.0f || !placed_[instance].mesh().colors.empty());
 }
 
 bool World::is_passed(const AnyHit& crossing) const noexcept
@@ -231,8 +231,8 @@ SurfacePoint World::volume_point(const SegmentEnd& from, Vec3 direction, const V
         HenyeyGreenstein(volume.extinction(event.density) * volume.albedo(), volume.anisotropy()));
 }
 
-std::optional<Flight> World::flight(const SegmentEnd& a, const SegmentEnd& b,
-                                    SegmentKey segment) const noexcept
+std::optional<SegmentTransmission> World::transmission(const SegmentEnd& a, const SegmentEnd& b,
+                                                       SegmentKey segment) const noexcept
 {
     // Both ends are moved to their own side of their surfaces, so the whole segment between them is
     // tested; the factor only keeps rounding of the end from reaching through.
@@ -249,18 +249,19 @@ std::optional<Flight> World::flight(const SegmentEnd& a, const SegmentEnd& b,
         return std::nullopt;
     }
     if (!media_.any() && !volumes_.any()) {
-        return Flight{};
+        return SegmentTransmission{};
     }
     const float distance = std::sqrt(dot(to_b, to_b));
-    Flight flight = media_.flight(a, b, to_b, distance);
+    SegmentTransmission transmission = media_.transmission(a, b, to_b, distance);
     if (volumes_.any()) {
-        flight.transmittance *= volumes_.transmittance(a.p, to_b / distance, distance, segment);
+        transmission.transmittance *=
+            volumes_.transmittance(a.p, to_b / distance, distance, segment);
     }
-    return flight;
+    return transmission;
 }
 
-std::optional<Flight> World::flight_to_infinity(const SegmentEnd& a, Vec3 direction,
-                                                SegmentKey segment) const noexcept
+std::optional<SegmentTransmission> World::transmission_to_infinity(
+    const SegmentEnd& a, Vec3 direction, SegmentKey segment) const noexcept
 {
     if (embree_->occluded({.origin = offset_origin(a.p, a.error, a.ng, direction),
                            .direction = direction,
@@ -268,24 +269,24 @@ std::optional<Flight> World::flight_to_infinity(const SegmentEnd& a, Vec3 direct
         return std::nullopt;
     }
     constexpr float infinite = std::numeric_limits<float>::max();
-    Flight flight = media_.flight(a, {}, direction, infinite);
+    SegmentTransmission transmission = media_.transmission(a, {}, direction, infinite);
     if (volumes_.any()) {
-        flight.transmittance *= volumes_.transmittance(a.p, direction, infinite, segment);
+        transmission.transmittance *= volumes_.transmittance(a.p, direction, infinite, segment);
     }
-    return flight;
+    return transmission;
 }
 
 Rgb World::transmittance(const SegmentEnd& a, const SegmentEnd& b,
                          SegmentKey segment) const noexcept
 {
-    const auto free = flight(a, b, segment);
+    const auto free = transmission(a, b, segment);
     return free ? free->transmittance : Rgb(0.0f);
 }
 
 Rgb World::transmittance_to_infinity(const SegmentEnd& a, Vec3 direction,
                                      SegmentKey segment) const noexcept
 {
-    const auto free = flight_to_infinity(a, direction, segment);
+    const auto free = transmission_to_infinity(a, direction, segment);
     return free ? free->transmittance : Rgb(0.0f);
 }
 

@@ -87,11 +87,11 @@ public:
                                             const VolumeEvent& event,
                                             MediumId around) const noexcept;
     /// What becomes of light between two points; nothing when it meets a surface in between.
-    [[nodiscard]] std::optional<Flight> flight(const SegmentEnd& a, const SegmentEnd& b,
-                                               SegmentKey segment) const noexcept;
+    [[nodiscard]] std::optional<SegmentTransmission> transmission(
+        const SegmentEnd& a, const SegmentEnd& b, SegmentKey segment) const noexcept;
     /// The same from a point to infinity in the unit direction `direction`.
-    [[nodiscard]] std::optional<Flight> flight_to_infinity(const SegmentEnd& a, Vec3 direction,
-                                                           SegmentKey segment) const noexcept;
+    [[nodiscard]] std::optional<SegmentTransmission> transmission_to_infinity(
+        const SegmentEnd& a, Vec3 direction, SegmentKey segment) const noexcept;
     /// What is left of light between two points: zero when it meets a surface in between, else what
     /// the medium lets through.
     [[nodiscard]] Rgb transmittance(const SegmentEnd& a, const SegmentEnd& b,
@@ -166,8 +166,8 @@ private:
     SharedSceneDesc desc_;
     using AlbedoKey = std::pair<float, SpecularAlbedo::Below>;  ///< the first: index of refraction
     std::map<AlbedoKey, std::shared_ptr<const SpecularAlbedo>> albedos_;
-    std::shared_ptr<const LayerTables> layer_tables_;                 // if any material needs them
-    MipMaps mip_maps_;                                                // if textures have any
+    std::shared_ptr<const LayerTables> layer_tables_;  // if any material needs them
+    MipMaps mip_maps_;                                 // if textures have any
     Media media_;
     MediumId fog_ = MediumId::clear;
     Volumes volumes_;

@@ -28,8 +28,8 @@ bool light_moves(const LightDesc& light)
             if constexpr (requires { l.motion; }) {
                 moves = moves || !l.motion.empty();
             }
-            if constexpr (requires { l.turn; }) {
-                moves = moves || !l.turn.empty();
+            if constexpr (requires { l.later_directions; }) {
+                moves = moves || !l.later_directions.empty();
             }
             return moves;
         },
@@ -244,8 +244,8 @@ bool WorldBuilder::emission_stays() const
 {
     const World& w = world_;
     if (like_ == nullptr || w.geometry_ != like_->geometry_ ||
-        most_emission_samples(w.material_ids_, w.placed_, w.materials_) !=
-            most_emission_samples(like_->material_ids_, like_->placed_, like_->materials_)) {
+        max_emission_samples(w.material_ids_, w.placed_, w.materials_) !=
+            max_emission_samples(like_->material_ids_, like_->placed_, like_->materials_)) {
         return false;
     }
     for (std::size_t i = 0; i < w.placed_.size(); ++i) {

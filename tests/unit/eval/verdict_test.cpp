@@ -333,32 +333,31 @@ TEST_CASE("the tests of a family are corrected for their number")
     ToyFault fault;
     fault.factors[2] = 1.1;
     const VerifyReport report = judge_toy(fault, 40);
-    const MeanComparison* least_whole = nullptr;
-    const MeanComparison* least_tile = nullptr;
+    const MeanComparison* min_whole = nullptr;
+    const MeanComparison* min_tile = nullptr;
     std::size_t wholes = 0;
     std::size_t tiles = 0;
     const auto look = [&](const auto& finding) {
         wholes += 1 + finding.channels.size();
         tiles += finding.tiles.size();
-        if (least_whole == nullptr || finding.whole.p < least_whole->p) {
-            least_whole = &finding.whole;
+        if (min_whole == nullptr || finding.whole.p < min_whole->p) {
+            min_whole = &finding.whole;
         }
         for (const MeanComparison& channel : finding.channels) {
-            least_whole = channel.p < least_whole->p ? &channel : least_whole;
+            min_whole = channel.p < min_whole->p ? &channel : min_whole;
         }
         for (const MeanComparison& tile : finding.tiles) {
-            least_tile = least_tile == nullptr || tile.p < least_tile->p ? &tile : least_tile;
+            min_tile = min_tile == nullptr || tile.p < min_tile->p ? &tile : min_tile;
         }
     };
     std::for_each(report.strategies.begin(), report.strategies.end(), look);
     std::for_each(report.integrators.begin(), report.integrators.end(), look);
     CHECK(wholes == 60);  // the mean and three channels
     CHECK(tiles == 60);
-    CHECK(least_whole->p_adjusted ==
-          Approx(std::min(1.0, least_whole->p * static_cast<double>(wholes))));
-    CHECK(least_tile->p_adjusted ==
-          Approx(std::min(1.0, least_tile->p * static_cast<double>(tiles))));
-    CHECK(least_tile->p < least_tile->p_adjusted);
+    CHECK(min_whole->p_adjusted ==
+          Approx(std::min(1.0, min_whole->p * static_cast<double>(wholes))));
+    CHECK(min_tile->p_adjusted == Approx(std::min(1.0, min_tile->p * static_cast<double>(tiles))));
+    CHECK(min_tile->p < min_tile->p_adjusted);
 }
 
 TEST_CASE("false alarms are as rare as promised")

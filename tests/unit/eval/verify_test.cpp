@@ -42,7 +42,7 @@ VerifyOptions options(std::int64_t batches = 8)
     result.height = 6;
     result.grid = 2;
     result.max_depth = 4;
-    result.most_batches = batches;
+    result.max_batches = batches;
     result.seconds = 1e6;
     result.seed = 1;
     return result;
@@ -179,7 +179,7 @@ TEST_CASE("verify refuses options out of range")
     CHECK(refused([](VerifyOptions& o) { o.false_alarm = 0.0; }));
     CHECK(refused([](VerifyOptions& o) { o.detectable_bias = -1.0; }));
     CHECK(refused([](VerifyOptions& o) { o.seconds = 0.0; }));
-    CHECK(refused([](VerifyOptions& o) { o.most_batches = 1; }));
+    CHECK(refused([](VerifyOptions& o) { o.max_batches = 1; }));
     CHECK(refused([](VerifyOptions& o) { o.threads = -1; }));
     CHECK(refused([](VerifyOptions& o) { o.merge_radius = 1.1; }));
     CHECK(refused([](VerifyOptions& o) { o.merge_radius = -0.1; }));

@@ -99,7 +99,7 @@ TEST_CASE("camera samples of a pixel follow its filter", "[filter]")
         const test::ChiSquare result = test::chi_square(counts, expected);
         CAPTURE(static_cast<int>(options.kind), radius, result.statistic, result.degrees);
         CHECK(result.p_value > 1e-4);
-        CHECK(result.least_detectable(1e-4) < 0.05);
+        CHECK(result.min_detectable(1e-4) < 0.05);
     }
 }
 

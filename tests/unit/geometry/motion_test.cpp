@@ -165,7 +165,7 @@ TEST_CASE("bounds of inverses hold on the way", "[motion]")
         const Mat4 a = any();
         const Mat4 b = any();
         const MotionBounds bounds = motion_bounds(a, b);
-        if (bounds.least_determinant == 0.0) {
+        if (bounds.min_determinant == 0.0) {
             CHECK_FALSE(can_move(a, b));
             continue;
         }
@@ -173,7 +173,7 @@ TEST_CASE("bounds of inverses hold on the way", "[motion]")
         for (int k = 0; k <= 64; ++k) {
             const double u = k / 64.0;
             const glm::dmat3 m = (1.0 - u) * glm::dmat3(a) + u * glm::dmat3(b);
-            REQUIRE(std::abs(determinant(m)) >= 0.999999 * bounds.least_determinant);
+            REQUIRE(std::abs(determinant(m)) >= 0.999999 * bounds.min_determinant);
             const glm::dmat3 n = inverse(m);
             const glm::dvec3 rows = abs(n[0]) + abs(n[1]) + abs(n[2]);
             REQUIRE(std::max({rows.x, rows.y, rows.z}) <= 1.000001 * bounds.inverse_stretch);

@@ -112,7 +112,7 @@ SceneDesc everything()
                                 .direction = {0.3f, -1.0f, -0.4f},
                                 .intensity = Rgb(2.0f),
                                 .motion = {{-0.3f, 0.8f, 0.6f}},
-                                .turn = {{0.0f, -1.0f, 0.0f}}});
+                                .later_directions = {{0.0f, -1.0f, 0.0f}}});
     builder.light(
         DirectionalLightDesc{.direction = {0.2f, -0.3f, -1.0f}, .illuminance = Rgb(1.0f)});
     builder.desc.profiles.push_back({.polar_angles = {0.0f, 0.5f, 1.5f},
@@ -184,9 +184,9 @@ void check(const World& world, const CameraDesc& desc, const RenderOptions& opti
     // What tiles share; here the samples of all indices do.
     const std::int64_t parts = integrator->begin_pass({.begin = 0, .end = 1});
     for (std::int64_t part = 0; part < parts; ++part) {
-        static_cast<void>(integrator->do_part(part, {.begin = 0, .end = 1}, films));
+        static_cast<void>(integrator->render_chunk(part, {.begin = 0, .end = 1}, films));
     }
-    integrator->end_parts();
+    integrator->end_chunks();
     check_costs_nothing_a_sample([&](std::int64_t samples) {
         rays = integrator->render_tile(whole, {.begin = 0, .end = samples}, films).rays.total();
     });

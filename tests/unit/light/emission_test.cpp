@@ -18,7 +18,7 @@ namespace bdpt::emission_test {
 namespace {
 
 using test::bin_of;
-using test::turn;
+using test::later_directions;
 
 constexpr int samples = 200000;
 constexpr int steps = 8;

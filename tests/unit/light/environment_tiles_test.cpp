@@ -150,7 +150,7 @@ TEST_CASE("environment tiles: samples have the density that is told", "[light][t
                 ++several;
                 CHECK(result.p_value > test::sidak(significance, tests));
                 if (result.degrees < 1000) {
-                    CHECK(result.least_detectable(test::sidak(significance, tests)) < 0.1);
+                    CHECK(result.min_detectable(test::sidak(significance, tests)) < 0.1);
                 }
             }
         }

@@ -80,7 +80,7 @@ TEST_CASE("visibility: cells know places", "[light][visibility]")
         const float share = static_cast<float>(tile) / tile_count;
         const float expected = p.x > 0.0f ? share : 1.0f - share;
         const float found = visibility.at(p).of[tile];
-        REQUIRE(found >= EnvironmentVisibility::smallest_factor);
+        REQUIRE(found >= EnvironmentVisibility::min_factor);
         REQUIRE(found <= 1.0f);
         error += static_cast<double>(std::abs(found * found - expected)) / points;
     }
@@ -94,7 +94,7 @@ TEST_CASE("visibility: what was never visible keeps a share", "[light][visibilit
         trials.push_back({.p = Vec3(static_cast<float>(i % 10)), .tile = 3, .visible = false});
     }
     const EnvironmentVisibility visibility(trials);
-    CHECK(visibility.at(Vec3(0.0f)).of[3] == EnvironmentVisibility::smallest_factor);
+    CHECK(visibility.at(Vec3(0.0f)).of[3] == EnvironmentVisibility::min_factor);
 }
 
 TEST_CASE("visibility: the order of trials does not matter", "[light][visibility]")
@@ -139,9 +139,9 @@ TEST_CASE("visibility: samples of tiles have the density that is told", "[light]
          }});
     std::vector<TileFactors> tables(3);
     for (std::size_t tile = 0; tile < tile_count; ++tile) {
-        tables[0].of[tile] = EnvironmentVisibility::smallest_factor;
-        tables[1].of[tile] = std::max(EnvironmentVisibility::smallest_factor, random.next());
-        tables[2].of[tile] = tile == 20 ? 1.0f : EnvironmentVisibility::smallest_factor;
+        tables[0].of[tile] = EnvironmentVisibility::min_factor;
+        tables[1].of[tile] = std::max(EnvironmentVisibility::min_factor, random.next());
+        tables[2].of[tile] = tile == 20 ? 1.0f : EnvironmentVisibility::min_factor;
     }
     const std::vector<std::optional<Vec3>> normals{std::nullopt, Vec3(0.0f, 1.0f, 0.0f),
                                                    random.direction()};

@@ -31,7 +31,7 @@ World lights_that_move()
                              .inner_cone_angle = 0.2f,
                              .outer_cone_angle = 0.6f,
                              .motion = {{0.9f, 0.5f, 0.3f}},
-                             .turn = {{1.0f, -1.0f, 0.0f}, {1.0f, 0.5f, 0.0f}}};
+                             .later_directions = {{1.0f, -1.0f, 0.0f}, {1.0f, 0.5f, 0.0f}}};
     builder.light(point).light(spot);
     PointLightDesc ball = point;
     ball.radius = 0.2f;
@@ -40,7 +40,7 @@ World lights_that_move()
     builder.light(ball).light(spot_sphere);
     builder.light(DirectionalLightDesc{.direction = {0.0f, -1.0f, -0.5f},
                                        .illuminance = Rgb(0.5f),
-                                       .turn = {{0.9f, -1.0f, -0.5f}}});
+                                       .later_directions = {{0.9f, -1.0f, -0.5f}}});
     builder.desc.profiles.push_back(
         {.polar_angles = {0.0f, 3.0f}, .azimuths = {0.0f}, .intensities = {1.0f, 0.5f}});
     builder.light(
@@ -62,7 +62,7 @@ TEST_CASE("densities of lights that move are those of their time", "[motion][lig
 {
     const World world = lights_that_move();
     test::Random random(4);
-    constexpr int least_incident = 20;
+    constexpr int min_incident = 20;
     for (std::uint32_t i = 0; i < world.lights().size(); ++i) {
         const Light& light = world.lights()[LightId{i}];
         if (light.is_infinite()) {
@@ -101,7 +101,7 @@ TEST_CASE("densities of lights that move are those of their time", "[motion][lig
         }
         // One-sided triangles and spots light less than half of all points.
         CAPTURE(i);
-        CHECK(incident_samples >= least_incident);
+        CHECK(incident_samples >= min_incident);
         CHECK(emitted_samples == 300);
     }
 }

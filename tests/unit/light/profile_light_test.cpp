@@ -196,9 +196,10 @@ TEST_CASE("profile light: light leaves by its densities, which follow the intens
         const ProfileLight light({.world_from_light = some_rotation(), .scale = Rgb(2.0f)},
                                  profile);
         const auto bin_of_direction = [](Vec3 w) {
-            return test::bin_of<2>({0.5 + 0.5 * static_cast<double>(w.z),
-                                    test::turn(static_cast<double>(w.x), static_cast<double>(w.y))},
-                                   steps);
+            return test::bin_of<2>(
+                {0.5 + 0.5 * static_cast<double>(w.z),
+                 test::later_directions(static_cast<double>(w.x), static_cast<double>(w.y))},
+                steps);
         };
         std::vector<double> expected(steps * steps);
         constexpr int fine = 1536;

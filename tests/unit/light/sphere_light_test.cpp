@@ -19,7 +19,7 @@ namespace {
 
 using test::bin_of;
 using test::check_uniform;
-using test::turn;
+using test::later_directions;
 
 PointLightDesc bulb(float radius)
 {

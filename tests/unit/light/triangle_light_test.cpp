@@ -109,7 +109,7 @@ TEST_CASE("textured emitter: points have the density that is claimed", "[light]"
             const test::ChiSquare result = test::chi_square(counts, expected);
             INFO("triangle " << id << ", chi^2 " << result.statistic << " of " << result.degrees);
             CHECK(result.p_value > 1e-4);
-            CHECK(result.least_detectable(1e-4) < 0.05);
+            CHECK(result.min_detectable(1e-4) < 0.05);
         }
     }
 }

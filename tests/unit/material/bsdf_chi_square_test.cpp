@@ -35,7 +35,7 @@ TEST_CASE("samples of every BSDF are distributed by its density")
             CAPTURE(test.statistic, test.degrees, expected.back());
             CHECK(test.p_value > significance);
             CHECK(test.degrees >= 10);
-            CHECK(test.least_detectable(significance) < 0.05);
+            CHECK(test.min_detectable(significance) < 0.05);
             ++tested;
         }
     }

@@ -130,14 +130,14 @@ TEST_CASE("layers take from what lies below no more than they give, and not much
         {{"sheen on a mirror", {white, 1, 0}, 1.5f, test::sheen(white, 0.5f)}, 0.01},
         {{"sheen 0.5 on lambert", {white, 0, 1, 0}, 1.5f, test::sheen(white, 0.5f)}, 0.25},
     };
-    for (const auto& [bsdf_case, most_lost] : cases) {
+    for (const auto& [bsdf_case, max_lost] : cases) {
         const test::TestedBsdf bsdf(bsdf_case);
         for (const Vec3 wo : test::bsdf_directions()) {
             CAPTURE(bsdf_case.name, wo.z);
             const test::Moments sum = albedo_of(bsdf, wo, 40000)[0];
             CHECK(sum.standard_error() < 0.01);
             CHECK(sum.mean() < 1.001 + 4.0 * sum.standard_error());
-            CHECK(sum.mean() > 1.0 - most_lost - 4.0 * sum.standard_error());
+            CHECK(sum.mean() > 1.0 - max_lost - 4.0 * sum.standard_error());
         }
     }
 }

@@ -91,7 +91,7 @@ TEST_CASE("the sharpest phase functions have the density that they sample with",
 {
     // Nearly all light stays within a hundredth of a degree.
     const Vec3 wo(0.0f, 0.0f, 1.0f);
-    for (const float g : {-most_anisotropy, 0.999f, most_anisotropy}) {
+    for (const float g : {-max_anisotropy, 0.999f, max_anisotropy}) {
         const HenyeyGreenstein phase(Rgb(1.0f), g);
         double inverse = 0.0;  // the mean of 1 / density is the solid angle of all directions
         constexpr int count = 100000;

@@ -137,7 +137,7 @@ TEST_CASE("samples of every lobe are distributed by its density")
         CAPTURE(chi_square.statistic, chi_square.degrees, expected.back());
         CHECK(chi_square.p_value > significance);
         CHECK(chi_square.degrees >= 10);
-        CHECK(chi_square.least_detectable(significance) < 0.1);
+        CHECK(chi_square.min_detectable(significance) < 0.1);
         ++tested;
     });
     CHECK(tested >= 60);

@@ -103,7 +103,7 @@ TEST_CASE("samples over normal maps are distributed by their density, from both 
                     const test::ChiSquare test = test::chi_square(counts, expected);
                     CAPTURE(test.statistic, test.degrees, expected.back());
                     CHECK(test.p_value > significance);
-                    CHECK(test.least_detectable(significance) < 0.06);
+                    CHECK(test.min_detectable(significance) < 0.06);
                 }
             }
         }

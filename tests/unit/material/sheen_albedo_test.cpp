@@ -69,7 +69,7 @@ TEST_CASE("sheen has the values worked out by hand")
     CHECK(sheen.value(up, up, 0.5f) < 1e-6f);
     CHECK(sheen.directional(0.7f, 0.2f) < sheen.directional(0.7f, 0.9f));
     // The least roughness.
-    CHECK(sheen.value(w, w, 0.0f) == sheen.value(w, w, SheenAlbedo::least_roughness));
+    CHECK(sheen.value(w, w, 0.0f) == sheen.value(w, w, SheenAlbedo::min_roughness));
 }
 
 TEST_CASE("sheen is the formula of the extension, but where that makes light")

@@ -57,7 +57,7 @@ TEST_CASE("AliasTable draws in proportion to the weights")
         const test::ChiSquare test = test::chi_square(draw(table, samples, 11), expected);
         if (weights.size() > 1) {
             CHECK(test.p_value > significance);
-            CHECK(test.least_detectable(significance) < 0.03);
+            CHECK(test.min_detectable(significance) < 0.03);
         }
     }
 }
@@ -99,7 +99,7 @@ TEST_CASE("AliasTable hands on a fresh uniform number")
     }
     const test::ChiSquare test = test::chi_square(counts, expected);
     CHECK(test.p_value > 1e-3);
-    CHECK(test.least_detectable(1e-3) < 0.03);
+    CHECK(test.min_detectable(1e-3) < 0.03);
 }
 
 TEST_CASE("AliasTable of two million items is not coarse")

@@ -41,8 +41,8 @@ TEST_CASE("chi_square says what it cannot see")
     const std::array<double, 2> probabilities{0.5, 0.5};
     const std::array<double, 2> few{50, 50};
     const std::array<double, 2> many{500000, 500000};
-    CHECK(chi_square(few, probabilities).least_detectable(0.01) > 0.3);
-    CHECK(chi_square(many, probabilities).least_detectable(0.01) < 0.01);
+    CHECK(chi_square(few, probabilities).min_detectable(0.01) > 0.3);
+    CHECK(chi_square(many, probabilities).min_detectable(0.01) < 0.01);
 }
 
 }  // namespace bdpt::test::chi_square_test

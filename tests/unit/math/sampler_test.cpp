@@ -139,7 +139,7 @@ TEST_CASE("across pixels a sample's numbers are uniform", "[sampler]")
                 const auto result = test::chi_square(counts, expected);
                 CAPTURE(static_cast<int>(kind), index, d, result.p_value);
                 CHECK(result.p_value > significance);
-                CHECK(result.least_detectable(significance) < 0.06);
+                CHECK(result.min_detectable(significance) < 0.06);
             }
         }
     }

@@ -38,7 +38,7 @@ void check_uniform(const std::function<Vec2(Vec2)>& coordinates)
     const std::vector<double> expected(counts.size(), 1.0 / (grid * grid));
     const test::ChiSquare test = test::chi_square(counts, expected);
     CHECK(test.p_value > significance);
-    CHECK(test.least_detectable(significance) < 0.04);
+    CHECK(test.min_detectable(significance) < 0.04);
 }
 
 float turn_of(float x, float y)

@@ -142,11 +142,11 @@ TEST_CASE("joining and hitting agree about the densities of the same path", "[mi
             const float distance_squared = dot(along, along);
             const Vec3 wi = along / std::sqrt(distance_squared);
             const BsdfEval f = x1.bsdf->eval(wi, TransportMode::radiance);
-            const Flight flight =
-                world.media().flight(x1.end, x0.end, along, std::sqrt(distance_squared));
+            const SegmentTransmission transmission =
+                world.media().transmission(x1.end, x0.end, along, std::sqrt(distance_squared));
             const float joined =
                 to_area(f.pdf_fwd, std::abs(dot(x0.end.ng, wi)), distance_squared).value *
-                flight.pass;
+                transmission.p_unscattered;
             CHECK(made.from_camera[0].value == Approx(joined).epsilon(1e-3));
             // L_2 as a join would compute it equals what the walk stored for a reversed walk.
             const PathVertex& x2 = path[path.size() - 3];

@@ -1,7 +1,7 @@
 #include "pilot/path_shares.h"
 
 #include "catch.hpp"
-#include "pilot/sample_moments.h"
+#include "pilot/candidate_moments.h"
 
 #include <array>
 #include <cmath>
@@ -180,7 +180,7 @@ TEST_CASE("the value of a path is its own part of the second moment over that of
 
 TEST_CASE("cross terms of a sample are those of its definition", "[pilot]")
 {
-    SampleMoments sample;
+    CandidateMoments sample;
     const auto add = [&](int s, int light_path, float value) {
         PathContribution path = path_of(s);
         path.light_path = light_path;

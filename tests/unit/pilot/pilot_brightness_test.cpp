@@ -23,7 +23,8 @@ public:
     {
         shares_[static_cast<std::size_t>(strategy.s)] = 1.0f;
     }
-    RenderStats do_part(std::int64_t /*part*/, SampleRange /*samples*/, const Films& films) override
+    RenderStats render_chunk(std::int64_t /*part*/, SampleRange /*samples*/,
+                             const Films& films) override
     {
         if (strategy_.t <= 1) {
             report(films);
@@ -55,20 +56,21 @@ private:
     std::array<float, 5> shares_{};
 };
 
-PilotFinds finds_of(Lamp lamp)
+PilotContributions contributions_of(Lamp lamp)
 {
-    PilotFinds finds{.grid = PilotGrid(side, side),
-                     .light_paths = 1.0,
-                     .rows = std::vector<PilotRow>(side),
-                     .parts = std::vector<PilotSplats>(1)};
+    PilotContributions contributions{.grid = PilotGrid(side, side),
+                                     .light_paths = 1.0,
+                                     .rows = std::vector<PilotRow>(side),
+                                     .parts = std::vector<PilotSplats>(1)};
     for (int index = 0; index < PilotRow::samples_of_cell; ++index) {
-        finds.parts[0].trace(lamp, 0, index, finds.grid, Heuristic::power, finds.light_paths);
+        contributions.parts[0].trace(lamp, 0, index, contributions.grid, Heuristic::power,
+                                     contributions.light_paths);
         for (int row = 0; row < side; ++row) {
-            finds.rows[static_cast<std::size_t>(row)].render(lamp, finds.grid, Heuristic::power,
-                                                             row, index, finds.light_paths);
+            contributions.rows[static_cast<std::size_t>(row)].render(
+                lamp, contributions.grid, Heuristic::power, row, index, contributions.light_paths);
         }
     }
-    return finds;
+    return contributions;
 }
 
 }  // namespace
@@ -77,13 +79,13 @@ TEST_CASE("errors of a pilot are relative to the brightness of the cells around"
 {
     for (const Strategy strategy : {Strategy{.s = 1, .t = 3}, Strategy{.s = 3, .t = 1}}) {
         CAPTURE(strategy.s);
-        const PilotFinds finds = finds_of(Lamp(strategy));
-        const PilotBrightness brightness(finds);
+        const PilotContributions contributions = contributions_of(Lamp(strategy));
+        const PilotBrightness brightness(contributions);
         for (int y = 0; y < side; ++y) {
             for (int x = 0; x < side; ++x) {
                 const bool near = std::abs(x - middle) <= 1 && std::abs(y - middle) <= 1;
                 const double mean = near ? 1.0 : 0.0;
-                CHECK(brightness.scale(finds.grid.index(x, y)) ==
+                CHECK(brightness.scale(contributions.grid.index(x, y)) ==
                       Approx(1.0 / (mean * mean + floor_of_squares)));
             }
         }
@@ -92,9 +94,9 @@ TEST_CASE("errors of a pilot are relative to the brightness of the cells around"
 
 TEST_CASE("a splat does not count for its own place", "[pilot]")
 {
-    const PilotFinds finds = finds_of(Lamp({.s = 3, .t = 1}));
-    const PilotBrightness brightness(finds);
-    const auto& splats = finds.parts[0].finds();
+    const PilotContributions contributions = contributions_of(Lamp({.s = 3, .t = 1}));
+    const PilotBrightness brightness(contributions);
+    const auto& splats = contributions.parts[0].contributions();
     REQUIRE(splats.size() == PilotRow::samples_of_cell);
     const double others = 1.0 - 1.0 / PilotRow::samples_of_cell;
     CHECK(brightness.scale(splats.front()) == Approx(1.0 / (others * others + floor_of_squares)));

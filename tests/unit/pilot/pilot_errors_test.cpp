@@ -1,7 +1,7 @@
 #include "pilot/pilot_errors.h"
 
 #include "catch.hpp"
-#include "pilot/left_by_sobol.h"
+#include "pilot/qmc_variance_factor.h"
 
 #include <cstddef>
 #include <vector>
@@ -38,14 +38,15 @@ private:
 };
 
 /// In an image of one pixel.
-PilotFinds finds_of(const TwoLights& lights)
+PilotContributions contributions_of(const TwoLights& lights)
 {
-    PilotFinds finds{
+    PilotContributions contributions{
         .grid = PilotGrid(1, 1), .light_paths = 1.0, .rows = std::vector<PilotRow>(1), .parts = {}};
     for (int index = 0; index < PilotRow::samples_of_cell; ++index) {
-        finds.rows[0].render(lights, finds.grid, Heuristic::power, 0, index, finds.light_paths);
+        contributions.rows[0].render(lights, contributions.grid, Heuristic::power, 0, index,
+                                     contributions.light_paths);
     }
-    return finds;
+    return contributions;
 }
 
 }  // namespace
@@ -55,17 +56,17 @@ TEST_CASE("of the variance of sums a part is left, of direct light another than 
 {
     const bool direct = GENERATE(true, false);
     CAPTURE(direct);
-    const PilotFinds finds = finds_of(TwoLights(direct ? 2 : 3));
-    const PilotBrightness brightness(finds);
+    const PilotContributions contributions = contributions_of(TwoLights(direct ? 2 : 3));
+    const PilotBrightness brightness(contributions);
     const double scale = brightness.scale(0);
-    REQUIRE(finds.rows[0].joined().size() == 2);
+    REQUIRE(contributions.rows[0].joined().size() == 2);
     const PerCandidate<double> of_one_path =
-        remaining_errors(finds.rows[0].joined()[0].shares, scale);
+        remaining_errors(contributions.rows[0].joined()[0].shares, scale);
     // Sums of 2 L and of 0: the products of different paths of a sample are 2 L^2 and 0.
     const double variance_of_sums = static_cast<double>(radiance * radiance);
     const double left = direct ? left_of_direct_sums : left_of_indirect_sums;
     constexpr double with_unseen = 1.2;
-    const PerCandidate<double> errors = predicted_errors(finds, brightness);
+    const PerCandidate<double> errors = predicted_errors(contributions, brightness);
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         CHECK(errors[k] / with_unseen == Approx(of_one_path[k] + left * scale * variance_of_sums));
     }

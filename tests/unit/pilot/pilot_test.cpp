@@ -3,8 +3,8 @@
 #include "pilot/pilot.h"
 
 #include "catch.hpp"
+#include "pilot/cost_model.h"
 #include "pilot/path_shares.h"
-#include "pilot/prices.h"
 #include "render/open_camera.h"
 #include "scene/world.h"
 #include "scene_builder.h"
@@ -172,9 +172,9 @@ TEST_CASE("a pilot predicts alike for images of any size", "[pilot]")
 TEST_CASE("a pilot predicts how well lamps are seen with and without points of them", "[pilot]")
 {
     const Scene scene = far_lamp();
-    const SeenLampErrors predicted = pilot_of(scene, inside(), small()).seen_lamps;
-    constexpr double left_by_sobol = 0.25;  // as pilots assume
-    const double by_hits = predicted.by_hits / left_by_sobol;
+    const VisibleLightErrors predicted = pilot_of(scene, inside(), small()).visible_lights;
+    constexpr double qmc_variance_factor = 0.25;  // as pilots assume
+    const double by_hits = predicted.by_hits / qmc_variance_factor;
     const double measured = variance_of_samples(scene, IntegratorKind::mis) /
                             variance_of_samples(scene, IntegratorKind::bdpt);
     CAPTURE(predicted.by_hits, predicted.by_both, measured);
@@ -194,7 +194,7 @@ TEST_CASE("a pilot depends on the scene, not on which samples are wanted", "[pil
     other.bidirectional.light_paths = 3.0;
     const PilotResult again = pilot_of(scene, inside(), other);
     CHECK(again.errors == pilot.errors);
-    CHECK(again.seen_lamps.by_hits == pilot.seen_lamps.by_hits);
+    CHECK(again.visible_lights.by_hits == pilot.visible_lights.by_hits);
     CHECK(again.costs == pilot.costs);
     CHECK(again.stats == pilot.stats);
     other.transport.max_depth = 2;
@@ -287,14 +287,14 @@ TEST_CASE("points of lamps are joined to the lens where that is worth its cost",
     const auto disabled = [&] { return with_best(pilot, small()).bidirectional.disabled; };
     const std::vector<Strategy> see_lamp{{.s = 1, .t = 1}};
     CHECK(disabled() == see_lamp);
-    pilot.seen_lamps = {.by_hits = 0.1, .by_both = 0.01};
+    pilot.visible_lights = {.by_hits = 0.1, .by_both = 0.01};
     CHECK(disabled().empty());
-    pilot.seen_lamps = {.by_hits = 0.01, .by_both = 0.1};
+    pilot.visible_lights = {.by_hits = 0.01, .by_both = 0.1};
     CHECK(disabled() == see_lamp);
     // Path tracing has to hit them.
     pilot.errors[0] = 0.15;
     CHECK(with_best(pilot, small()).integrator == IntegratorKind::mis);
-    pilot.seen_lamps = {.by_hits = 1.0, .by_both = 0.01};
+    pilot.visible_lights = {.by_hits = 1.0, .by_both = 0.01};
     CHECK(with_best(pilot, small()).integrator == IntegratorKind::bdpt);
 }
 

@@ -104,7 +104,7 @@ TEST_CASE("shadows on the ground are blurred as things and lights move", "[groun
     SceneBuilder builder = square(lambertian(Rgb(0.5f)));
     DirectionalLightDesc sun = low_sun();
     if (sun_turns) {
-        sun.turn = motion_of<Vec3>(1, [](float t) { return Vec3(1.0f, -1.0f, t); });
+        sun.later_directions = motion_of<Vec3>(1, [](float t) { return Vec3(1.0f, -1.0f, t); });
     } else {
         move_last(builder, 1, [](float t) { return translation({0.0f, 0.0f, t}); });
     }

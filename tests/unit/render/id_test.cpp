@@ -109,7 +109,7 @@ std::vector<float> alpha(const RenderResult& result)
     return result.aovs.develop(result.film).at(0).values;
 }
 
-std::size_t most_ids(const RenderResult& result, IdKind kind)
+std::size_t max_ids(const RenderResult& result, IdKind kind)
 {
     return result.ids.ranks()[static_cast<std::size_t>(kind)];
 }
@@ -132,7 +132,7 @@ TEST_CASE("shares of objects and of materials add up to alpha", "[ids]")
         partial += covered[i] > 0.0f && covered[i] < 1.0f ? 1U : 0U;
     }
     CHECK(partial > 10);
-    CHECK(most_ids(result, IdKind::object) >= 2);
+    CHECK(max_ids(result, IdKind::object) >= 2);
 }
 
 TEST_CASE("the matte of an object is the alpha of it alone, where nothing hides it", "[ids]")
@@ -235,7 +235,7 @@ TEST_CASE("counts of ids are the same for any threads, tiles, parts, crops and i
     RenderOptions o = options({Aov::object, Aov::material});
     o.transport.max_depth = 3;
     const RenderResult whole = render(scene, view, o);
-    REQUIRE(most_ids(whole, IdKind::object) >= 2);
+    REQUIRE(max_ids(whole, IdKind::object) >= 2);
     for (const int threads : {1, 2, 5}) {
         RenderOptions other = o;
         other.system.threads = threads;

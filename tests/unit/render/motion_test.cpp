@@ -52,10 +52,10 @@ Scene everything()
                                 .outer_cone_angle = 0.6f,
                                 .radius = 0.1f,
                                 .motion = {{0.3f, 0.5f, 0.3f}},
-                                .turn = {{0.5f, -1.0f, 0.0f}, {1.0f, -1.0f, 0.0f}}});
+                                .later_directions = {{0.5f, -1.0f, 0.0f}, {1.0f, -1.0f, 0.0f}}});
     builder.light(DirectionalLightDesc{.direction = {0.0f, -1.0f, -0.5f},
                                        .illuminance = Rgb(0.5f),
-                                       .turn = {{0.5f, -1.0f, -0.5f}}});
+                                       .later_directions = {{0.5f, -1.0f, -0.5f}}});
     return Scene(std::move(builder.desc));
 }
 
@@ -277,10 +277,11 @@ TEST_CASE("motions that make no sense are refused by name", "[motion][validate]"
         std::get<SpotLightDesc>(d.lights[1]).motion = {Vec3(0.0f), Vec3(1e16f, 0, 0)};
     });
     check_refused("spot light 1: motion, step 0: direction turns by 90 degrees", [](SceneDesc& d) {
-        std::get<SpotLightDesc>(d.lights[1]).turn = {Vec3(0, 0, 1)};
+        std::get<SpotLightDesc>(d.lights[1]).later_directions = {Vec3(0, 0, 1)};
     });
-    check_refused("spot light 1: motion, step 0: direction is zero",
-                  [](SceneDesc& d) { std::get<SpotLightDesc>(d.lights[1]).turn = {Vec3(0.0f)}; });
+    check_refused("spot light 1: motion, step 0: direction is zero", [](SceneDesc& d) {
+        std::get<SpotLightDesc>(d.lights[1]).later_directions = {Vec3(0.0f)};
+    });
 }
 
 TEST_CASE("cameras that move through nothing are refused", "[motion][validate]")

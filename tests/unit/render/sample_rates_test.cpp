@@ -39,8 +39,8 @@ std::shared_ptr<const SampleRates> random_rates(unsigned seed = 1)
 {
     std::mt19937 engine(seed);
     return rates_of([&engine] {
-        return std::uniform_int_distribution<int>(SampleRates::least_exponent,
-                                                  SampleRates::greatest_exponent)(engine);
+        return std::uniform_int_distribution<int>(SampleRates::min_exponent,
+                                                  SampleRates::max_exponent)(engine);
     });
 }
 

@@ -80,7 +80,7 @@ TEST_CASE("an emitter within glass has the material that surroundings give it", 
 TEST_CASE("what the greatest power brings is finite", "[light_power]")
 {
     // pi * 2 m^2 for each of two triangles
-    const SceneDesc desc = lit_floor(0.9f * greatest_light_power / 6.2832f).desc;
+    const SceneDesc desc = lit_floor(0.9f * max_light_power / 6.2832f).desc;
     for (const IntegratorKind integrator :
          {IntegratorKind::bdpt, IntegratorKind::mis, IntegratorKind::lt}) {
         const FilmDefects found = defects(desc, integrator);

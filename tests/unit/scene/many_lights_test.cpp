@@ -134,7 +134,7 @@ TEST_CASE("lights are chosen as often as their probabilities say", "[light][tree
                 ++several;
                 CAPTURE(seed, i, result.statistic, result.degrees);
                 CHECK(result.p_value > test::sidak(significance, 36));
-                CHECK(result.least_detectable(test::sidak(significance, 36)) < 0.1);
+                CHECK(result.min_detectable(test::sidak(significance, 36)) < 0.1);
             }
         }
     }

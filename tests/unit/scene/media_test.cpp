@@ -53,14 +53,15 @@ TEST_CASE("a medium is known from either end, and the rule is symmetric", "[medi
     const MediumId tint = media.add({.extinction = {1, 2, 0}});
     const SegmentEnd glass = above(tint);
     const SegmentEnd opaque = above(MediumId::clear, {0, 0, -1});
-    const Rgb one_way = media.flight(glass, opaque, down, 1.0f).transmittance;
+    const Rgb one_way = media.transmission(glass, opaque, down, 1.0f).transmittance;
     CHECK(one_way.r == Approx(std::exp(-1.0f)));
     CHECK(one_way.g == Approx(std::exp(-2.0f)));
     CHECK(one_way.b == 1.0f);
-    CHECK(media.flight(opaque, glass, -down, 1.0f).transmittance == one_way);
+    CHECK(media.transmission(opaque, glass, -down, 1.0f).transmittance == one_way);
     // Leaves on the outside.
-    CHECK(media.flight(glass, opaque, -down, 1.0f).transmittance == Rgb(1.0f));
-    CHECK(media.flight(glass, opaque, down, 1.0f).pass == 1.0f);  // nobody is scattered there
+    CHECK(media.transmission(glass, opaque, -down, 1.0f).transmittance == Rgb(1.0f));
+    CHECK(media.transmission(glass, opaque, down, 1.0f).p_unscattered ==
+          1.0f);  // nobody is scattered there
     CHECK_FALSE(media.scatter(glass, opaque, down));
     CHECK(media.add({.extinction = {1, 2, 0}}) == tint);
     CHECK(media.add({}) == MediumId::clear);
@@ -73,8 +74,8 @@ TEST_CASE("where two ends disagree, the denser medium that scatters counts alone
     const MediumId thin = media.add(scattering(Rgb(0.5f)));
     const MediumId dense = media.add(scattering(Rgb(2.0f)));
     const auto transmittance = [&](MediumId a, MediumId b) {
-        const float there = media.flight(in(a), in(b), down, 1.0f).transmittance.r;
-        CHECK(media.flight(in(b), in(a), -down, 1.0f).transmittance.r == there);
+        const float there = media.transmission(in(a), in(b), down, 1.0f).transmittance.r;
+        CHECK(media.transmission(in(b), in(a), -down, 1.0f).transmittance.r == there);
         return there;
     };
     CHECK(transmittance(tint, thin) == Approx(std::exp(-0.5f)));
@@ -106,11 +107,12 @@ TEST_CASE("walks are scattered with the density that is told", "[media]")
     constexpr int steps = 64;
     for (int i = 0; i < bins * steps; ++i) {
         const float distance = 1.5f * (static_cast<float>(i) + 0.5f) / (bins * steps);
-        const Flight flight = media.flight(start, in(id, distance * down), down, distance);
+        const SegmentTransmission transmission =
+            media.transmission(start, in(id, distance * down), down, distance);
         probabilities[static_cast<std::size_t>(i / steps)] +=
-            static_cast<double>(flight.stop) * 1.5 / (bins * steps);
+            static_cast<double>(transmission.pdf_scatter) * 1.5 / (bins * steps);
     }
-    const Flight whole = media.flight(start, end, down, 1.5f);
+    const SegmentTransmission whole = media.transmission(start, end, down, 1.5f);
     probabilities[bins] = static_cast<double>(whole.pass);
     CHECK(whole.pass == Approx(mean(whole.transmittance)));
     CHECK(whole.transmittance.b == Approx(std::exp(-4.5f)));
@@ -137,7 +139,8 @@ TEST_CASE("the mean free path is one over the extinction", "[media]")
     }
     CHECK(sum == Approx(0.25).epsilon(1e-3));
     // Nothing gets through.
-    const Flight out = media.flight(in(id), {}, down, std::numeric_limits<float>::max());
+    const SegmentTransmission out =
+        media.transmission(in(id), {}, down, std::numeric_limits<float>::max());
     CHECK(out.transmittance == Rgb(0.0f));
     CHECK(out.pass == 0.0f);
 }
@@ -153,9 +156,9 @@ TEST_CASE("fog ends at its sphere, from wherever one looks", "[media]")
         const float distance = glm::distance(from, to);
         const Vec3 along = to - from;
         const float left =
-            media.flight(in(medium, from), in(medium, to), along, distance).transmittance.g;
-        CHECK(media.flight(in(medium, to), in(medium, from), -along, distance).transmittance.g ==
-              Approx(left).epsilon(1e-5));
+            media.transmission(in(medium, from), in(medium, to), along, distance).transmittance.g;
+        CHECK(media.transmission(in(medium, to), in(medium, from), -along, distance)
+                  .transmittance.g == Approx(left).epsilon(1e-5));
         return -std::log(left) / 0.5f;
     };
     CHECK(depth(fog, {0, 0, 9}, {0, 0, -9}) == Approx(4.0f).epsilon(1e-4));

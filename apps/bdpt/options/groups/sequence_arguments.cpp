@@ -13,14 +13,14 @@
 namespace bdpt::app {
 namespace {
 
-constexpr int most_frames = 1'000'000;
+constexpr int max_frames = 1'000'000;
 
 std::optional<int> parse_int(std::string_view text)
 {
     int value = 0;
     const char* const end = text.data() + text.size();
     const auto [stop, error] = std::from_chars(text.data(), end, value);
-    const bool good = error == std::errc{} && stop == end && std::abs(value) <= 100 * most_frames;
+    const bool good = error == std::errc{} && stop == end && std::abs(value) <= 100 * max_frames;
     return good ? std::optional(value) : std::nullopt;
 }
 
@@ -49,7 +49,7 @@ std::optional<FrameRange> parse_frames(const std::string& text)
     const auto last = parts.size() > 1 ? parse_int(parts[1]) : first;
     const auto step = parts.size() > 2 ? parse_int(parts[2]) : 1;
     if (!first || !last || !step || *last < *first || *step < 1 ||
-        (*last - *first) / *step >= most_frames) {
+        (*last - *first) / *step >= max_frames) {
         return std::nullopt;
     }
     return FrameRange{.first = *first, .last = *last, .step = *step};
@@ -90,7 +90,7 @@ void add_sequence_options(OptionList& options, Sequence& sequence)
         .add("--orbit", "N",
              "Turntable: N views, numbered from 1, by a camera that goes once around the "
              "vertical axis through --look-at or, without it, what it looks at",
-             sequence.orbit, whole_number(1, most_frames))
+             sequence.orbit, whole_number(1, max_frames))
         .uses.python_render = true;
     const Choices<TurntableMotion> motions{
         {{"camera", TurntableMotion::camera}, {"object", TurntableMotion::object}}};

@@ -34,14 +34,14 @@ std::string integrator_help()
 /// "s2t1".
 std::optional<Strategy> parse_strategy(std::string_view text)
 {
-    constexpr std::size_t most_vertices = max_path_edges + 1;
+    constexpr std::size_t max_vertices = max_path_edges + 1;
     const std::size_t middle = text.find('t');
     if (!text.starts_with('s') || middle == std::string_view::npos) {
         return std::nullopt;
     }
     const auto s = parse_index(text.substr(1, middle - 1));
     const auto t = parse_index(text.substr(middle + 1));
-    if (!s || !t || *s > most_vertices || *t > most_vertices || *s + *t < 2) {
+    if (!s || !t || *s > max_vertices || *t > max_vertices || *s + *t < 2) {
         return std::nullopt;
     }
     return Strategy{static_cast<int>(*s), static_cast<int>(*t)};
@@ -119,15 +119,15 @@ void check_values(const RenderOptions& render, const OptionList& options)
 /// Paths with one bounce and less are direct light, all others indirect.
 TransportOptions with_only(PathsOnly only, TransportOptions transport)
 {
-    constexpr int longest_direct = 2;
+    constexpr int max_direct_depth = 2;
     if (only == PathsOnly::direct) {
-        transport.max_depth = std::min(transport.max_depth, longest_direct);
+        transport.max_depth = std::min(transport.max_depth, max_direct_depth);
     } else if (only == PathsOnly::indirect) {
-        if (transport.max_depth <= longest_direct) {
+        if (transport.max_depth <= max_direct_depth) {
             throw OptionError(
                 "--only indirect needs --max-depth 3 or more, where indirect light begins");
         }
-        transport.min_depth = longest_direct + 1;
+        transport.min_depth = max_direct_depth + 1;
     }
     return transport;
 }

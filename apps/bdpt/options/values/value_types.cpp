@@ -205,7 +205,7 @@ ValueType<Rgb> albedo()
 
 ValueType<float> anisotropy()
 {
-    constexpr auto most = static_cast<double>(most_anisotropy);
+    constexpr auto most = static_cast<double>(max_anisotropy);
     const ValueType<double> wide =
         number(-most, most, fmt::format("a number from {:.4f} to {:.4f}", -most, most));
     const auto parse = [parse = wide.parse](const std::string& text) {

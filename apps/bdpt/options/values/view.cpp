@@ -14,14 +14,14 @@ namespace {
 
 std::string list_cameras(std::span<const CameraDesc> cameras)
 {
-    constexpr std::size_t longest_list = 8;
+    constexpr std::size_t max_listed = 8;
     std::string result;
-    for (std::size_t i = 0; i < std::min(cameras.size(), longest_list); ++i) {
+    for (std::size_t i = 0; i < std::min(cameras.size(), max_listed); ++i) {
         const std::string& name = cameras[i].name;
         result += fmt::format("{}{}{}", i == 0 ? "" : ", ", i,
                               name.empty() ? "" : fmt::format(" \"{}\"", name));
     }
-    return result + (cameras.size() > longest_list ? ", ..." : "");
+    return result + (cameras.size() > max_listed ? ", ..." : "");
 }
 
 /// Camera axes that look from `eye` to `target`, upright where that is defined.

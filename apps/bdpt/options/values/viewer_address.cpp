@@ -9,7 +9,7 @@ namespace bdpt::app {
 
 std::optional<DisplayAddress> parse_address(const std::string& text)
 {
-    constexpr std::size_t greatest_port = 65535;
+    constexpr std::size_t max_port = 65535;
     DisplayAddress address{.host = text, .port = "14158"};
     const std::size_t bracket = text.find(']');
     const bool bracketed = text.starts_with('[') && bracket != std::string::npos;
@@ -18,7 +18,7 @@ std::optional<DisplayAddress> parse_address(const std::string& text)
         address.host = text.substr(0, colon);
         address.port = text.substr(colon + 1);
         const std::optional<std::size_t> port = parse_index(address.port);
-        if (!port || *port < 1 || *port > greatest_port) {
+        if (!port || *port < 1 || *port > max_port) {
             return std::nullopt;
         }
     }

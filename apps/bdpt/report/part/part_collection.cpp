@@ -188,7 +188,7 @@ PartCollection collect_parts(const MergeArguments& arguments, const std::optiona
                              Console& console)
 {
     // Looking is reading all there is: it takes a tenth of the time at most.
-    constexpr Seconds least_pause{1.0};
+    constexpr Seconds min_pause{1.0};
     constexpr double pause_of_looks = 10.0;
     const Clock::time_point start = Clock::now();
     const std::optional<PlannedIdentity> planned =
@@ -203,7 +203,7 @@ PartCollection collect_parts(const MergeArguments& arguments, const std::optiona
             return result;
         }
         show_waiting(console, result, passed);
-        const Seconds pause = std::max(least_pause, pause_of_looks * Seconds(Clock::now() - look));
+        const Seconds pause = std::max(min_pause, pause_of_looks * Seconds(Clock::now() - look));
         std::this_thread::sleep_for(std::min(pause, Seconds(left)));
     }
 }

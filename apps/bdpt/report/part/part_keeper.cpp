@@ -12,7 +12,7 @@
 namespace bdpt::app {
 namespace {
 
-constexpr std::chrono::duration<double> least_write_interval{60.0};
+constexpr std::chrono::duration<double> min_write_interval{60.0};
 /// Of the time that the last write took: checkpoints take at most 1 % of the time.
 constexpr double interval_of_writes = 100.0;
 /// Of the interval, after a write that failed.
@@ -26,7 +26,7 @@ PartKeeper::PartKeeper(PartChoice choice, std::optional<PlannedIdentity> planned
       planned_(std::move(planned)),
       old_(choice_.existing == ExistingPart::restart ? io::OldPart::replace
                                                      : io::OldPart::keep_if_more),
-      interval_(least_write_interval)
+      interval_(min_write_interval)
 {
     std::error_code ignored;
     const bool exists = std::filesystem::exists(choice_.file, ignored);
@@ -105,7 +105,7 @@ void PartKeeper::write(const RenderPart& part)
     const io::PartWrite write = io::write_part(choice_.file, part, notes_, old_);
     last_ = Clock::now();
     const std::chrono::duration<double> taken = last_ - start;
-    interval_ = std::max(least_write_interval, interval_of_writes * taken);
+    interval_ = std::max(min_write_interval, interval_of_writes * taken);
     if (write == io::PartWrite::kept) {
         console_.note(
             fmt::format("{}: has more samples by now, and stays as it is", choice_.file.string()));

@@ -15,7 +15,7 @@ namespace {
 using std::chrono::duration;
 using std::chrono::duration_cast;
 
-constexpr duration<double> least_image_interval{1.0};
+constexpr duration<double> min_image_interval{1.0};
 /// Of the time that the last image took: developing them takes at most 1 % of the time.
 constexpr double interval_of_images = 99.0;
 constexpr duration<double> reconnect_interval{2.0};
@@ -81,7 +81,7 @@ void Display::develop(const Film& film)
         Shown{.name = name_, .image = film.develop(), .layout = film.layout()});
     const Clock::time_point end = Clock::now();
     const duration<double> taken = end - start;
-    const duration<double> interval = std::max(least_image_interval, interval_of_images * taken);
+    const duration<double> interval = std::max(min_image_interval, interval_of_images * taken);
     next_ = end + duration_cast<Clock::duration>(interval);
     const std::lock_guard lock(mutex_);
     newest_ = std::move(shown);
@@ -122,7 +122,7 @@ void Display::serve(const std::stop_token& stop)
         std::uint64_t number = 0;
         {
             std::unique_lock lock(mutex_);
-            changed_.wait_for(lock, stop, least_image_interval, [this] { return shown_ != made_; });
+            changed_.wait_for(lock, stop, min_image_interval, [this] { return shown_ != made_; });
             if (shown_ != made_) {
                 shown = newest_;
                 number = made_;

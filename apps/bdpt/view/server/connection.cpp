@@ -19,9 +19,9 @@ using boost::system::error_code;
 namespace {
 
 constexpr std::chrono::seconds patience{10};  // with those who say nothing
-constexpr std::uint32_t most_header_bytes = 8192;
-constexpr std::size_t most_message_bytes = 65536;
-constexpr std::size_t most_answers = 256;  // that wait for one window
+constexpr std::uint32_t max_header_bytes = 8192;
+constexpr std::size_t max_message_bytes = 65536;
+constexpr std::size_t max_waiting_answers = 256;  // that wait for one window
 
 std::string_view view_of(boost::beast::string_view text)
 {
@@ -66,7 +66,7 @@ Connection::~Connection()
 void Connection::read()
 {
     parser_.emplace();
-    parser_->header_limit(most_header_bytes);
+    parser_->header_limit(max_header_bytes);
     stream_.expires_after(patience);
     http::async_read_header(
         stream_, buffer_, *parser_,
@@ -102,12 +102,11 @@ void Connection::serve()
         refuse(400, "a request has one Host");
         return;
     }
-    const RequestHead head{.method = view_of(request.method_string()),
-                           .target = view_of(request.target()),
-                           .host = view_of(host),
-                           .origin = origin != request.end()
-                                         ? std::optional(view_of(origin->value()))
-                                         : std::nullopt};
+    const RequestHead head{
+        .method = view_of(request.method_string()),
+        .target = view_of(request.target()),
+        .host = view_of(host),
+        .origin = origin != request.end() ? std::optional(view_of(origin->value())) : std::nullopt};
     if (const auto refusal = server_.access->refusal(head)) {
         refuse(refusal->status, refusal->line);
         return;
@@ -195,22 +194,20 @@ void Connection::send(Response answer)
     kept->keep_alive(kept->keep_alive() && parser_->get().keep_alive());
     kept->prepare_payload();
     stream_.expires_after(3 * patience);
-    http::async_write(stream_, *kept,
-                      [self = shared_from_this(), kept](const error_code& error, std::size_t) {
-                          if (!error && kept->keep_alive()) {
-                              self->read();
-                              return;
-                          }
-                          error_code ignored;
-                          self->stream_.socket().shutdown(asio::ip::tcp::socket::shutdown_send,
-                                                          ignored);
-                      });
+    http::async_write(
+        stream_, *kept, [self = shared_from_this(), kept](const error_code& error, std::size_t) {
+            if (!error && kept->keep_alive()) {
+                self->read();
+                return;
+            }
+            error_code ignored;
+            self->stream_.socket().shutdown(asio::ip::tcp::socket::shutdown_send, ignored);
+        });
 }
 
 Window::Window(beast::tcp_stream stream, ServerState& server)
     : stream_(std::move(stream)), server_(server), client_(server.next_client++)
-{
-}
+{}
 
 Window::~Window()
 {
@@ -228,7 +225,7 @@ void Window::open(const http::request<http::empty_body>& request)
     times.idle_timeout = std::chrono::seconds(60);
     times.keep_alive_pings = true;
     stream_.set_option(times);
-    stream_.read_message_max(most_message_bytes);
+    stream_.read_message_max(max_message_bytes);
     stream_.async_accept(request, [self = shared_from_this()](const error_code& error) {
         if (error) {
             return;
@@ -250,9 +247,8 @@ void Window::read()
             return;  // the window is closed, or says what is no message
         }
         // Who asks and does not listen is left.
-        if (self->answers_.size() < most_answers) {
-            self->server_.doors.ask(self->client_,
-                                    beast::buffers_to_string(self->buffer_.data()));
+        if (self->answers_.size() < max_waiting_answers) {
+            self->server_.doors.ask(self->client_, beast::buffers_to_string(self->buffer_.data()));
             self->buffer_.consume(self->buffer_.size());
             self->read();
         } else {
@@ -293,8 +289,8 @@ void Window::write()
     } else if (std::exchange(has_news_, false)) {
         text_ = server_.text;
     } else {
-        frame_ = frames_[0] ? std::exchange(frames_[0], nullptr)
-                            : std::exchange(frames_[1], nullptr);
+        frame_ =
+            frames_[0] ? std::exchange(frames_[0], nullptr) : std::exchange(frames_[1], nullptr);
         if (!frame_) {
             return;
         }

@@ -11,15 +11,15 @@ namespace {
 std::uint16_t half_of(float value)
 {
     constexpr float greatest = 65504.0f;
-    constexpr float least_normal = 6.103515625e-5f;  // 2^-14
-    constexpr float subnormal_steps = 16777216.0f;   // 2^24
+    constexpr float min_normal = 6.103515625e-5f;   // 2^-14
+    constexpr float subnormal_steps = 16777216.0f;  // 2^24
     if (!(value > 0.0f)) {
         return 0;
     }
     if (value >= greatest) {
         return 0x7bff;
     }
-    if (value < least_normal) {
+    if (value < min_normal) {
         return static_cast<std::uint16_t>(std::nearbyint(value * subnormal_steps));
     }
     const auto bits = std::bit_cast<std::uint32_t>(value);
@@ -35,18 +35,12 @@ FrameHeader frame_header(const Frame& frame, ClientId client)
     constexpr std::uint32_t version = 2;
     const auto seen = frame.sequences.find(client);
     const std::array<std::uint32_t, frame_header_bytes / 4> numbers{
-        version,
-        frame.slot,
-        frame.generation,
-        seen != frame.sequences.end() ? seen->second : 0,
-        frame.grid_width,
-        frame.grid_height,
-        frame.x,
-        frame.y,
-        frame.width,
-        frame.height,
-        frame.samples,
-        frame.channels};
+        version,          frame.slot,
+        frame.generation, seen != frame.sequences.end() ? seen->second : 0,
+        frame.grid_width, frame.grid_height,
+        frame.x,          frame.y,
+        frame.width,      frame.height,
+        frame.samples,    frame.channels};
     FrameHeader bytes{};
     for (std::size_t i = 0; i < bytes.size(); ++i) {
         bytes[i] = static_cast<std::uint8_t>(numbers[i / 4] >> (8 * (i % 4)));

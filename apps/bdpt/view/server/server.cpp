@@ -18,12 +18,12 @@
 namespace bdpt::app {
 
 namespace asio = boost::asio;
-using boost::system::error_code;
 using asio::ip::tcp;
+using boost::system::error_code;
 
 namespace {
 
-constexpr int most_connections = 64;
+constexpr int max_connections = 64;
 
 /// With brackets around what has colons.
 std::string host_text(const std::string& host)
@@ -51,8 +51,7 @@ public:
         } catch (const boost::system::system_error& error) {
             throw Error(ErrorCode::output,
                         fmt::format("--listen {}:{}: cannot listen there: {}",
-                                    host_text(address.host), address.port,
-                                    error.code().message()));
+                                    host_text(address.host), address.port, error.code().message()));
         }
         url_ = fmt::format("http://{}:{}/{}/", host_text(address.host),
                            acceptor_.local_endpoint().port(), token_);
@@ -152,7 +151,7 @@ private:
                 return;
             }
             // Those that are too many are closed, as the socket goes.
-            if (state_.connections < most_connections) {
+            if (state_.connections < max_connections) {
                 std::make_shared<Connection>(std::move(socket), state_)->read();
             }
             accept();
@@ -172,8 +171,7 @@ private:
 
 Server::Server(const DisplayAddress& address, std::string page)
     : impl_(std::make_unique<Impl>(address, std::move(page)))
-{
-}
+{}
 
 Server::~Server()
 {

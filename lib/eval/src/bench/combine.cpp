@@ -9,7 +9,7 @@ namespace bdpt::eval {
 namespace {
 
 /// Above this, noise does not explain the difference of two images.
-constexpr double most_disagreement = 2.0;
+constexpr double max_disagreement = 2.0;
 
 /// Mean of (a - b)^2 / (r^2 + e), where r is `base`.
 double relative_difference(const Image& a, const Image& b, const Image& base, double epsilon)
@@ -61,7 +61,7 @@ CombinedReference combine(const HalvedImage& all_light, const HalvedImage& most_
         relative_difference(all_light.image, most_light.image, middle, epsilon);
     // Two images without noise agree only if they are the same but for rounding.
     const double agreement = difference / std::max(noise, 1e-10);
-    const double share = agreement > most_disagreement ? 1.0 : noise > 0.0 ? noise_b / noise : 0.5;
+    const double share = agreement > max_disagreement ? 1.0 : noise > 0.0 ? noise_b / noise : 0.5;
     CombinedReference result{.image = mix(all_light.image, most_light.image, share),
                              .noise = 0.0,
                              .share = share,

@@ -7,8 +7,8 @@
 namespace bdpt::eval {
 namespace {
 
-constexpr double least_share = 0.1;  // of the error; a smaller floor does not spoil a comparison
-constexpr double least_errors = 3.0;
+constexpr double min_share = 0.1;  // of the error; a smaller floor does not spoil a comparison
+constexpr double min_errors = 3.0;
 
 /// Mean of (a - r) (b - r) / (r^2 + e).
 double product(const Image& a, const Image& b, const Image& reference, double epsilon)
@@ -39,8 +39,8 @@ std::optional<double> error_floor(std::span<const Image> images, const Image& re
         }
     }
     const double floor = common.mean() - noise;
-    const bool matters = floor > least_share * own.mean() && floor > noise;
-    const bool sure = common.count() < 2 || floor > least_errors * common.standard_error();
+    const bool matters = floor > min_share * own.mean() && floor > noise;
+    const bool sure = common.count() < 2 || floor > min_errors * common.standard_error();
     return matters && sure ? std::optional(floor) : std::nullopt;
 }
 

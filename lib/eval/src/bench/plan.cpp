@@ -125,7 +125,7 @@ std::int64_t Plan::number(const std::string& member, const std::string& name) co
     const ordered_json& object = member.empty() ? json_ : json_.at(member);
     const auto found = object.find(name);
     if (found == object.end() || !found->is_number_integer() || *found < 1 ||
-        *found > most_samples) {
+        *found > max_samples) {
         throw Error(ErrorCode::invalid_input, file_.string() + ": " + name +
                                                   " is no number of samples; delete the folder to "
                                                   "start anew");

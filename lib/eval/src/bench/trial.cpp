@@ -12,7 +12,7 @@
 namespace bdpt::eval {
 namespace {
 
-constexpr double least_seconds = 1e-6;  // the step of the clock
+constexpr double min_seconds = 1e-6;  // the step of the clock
 
 struct TimedRender {
     RenderResult result;
@@ -86,7 +86,7 @@ std::optional<std::int64_t> samples_in(const TrialSetup& setup, double seconds)
     const double left = seconds - start.cpu_seconds;
     std::int64_t samples = 2;
     auto timed = render_range(chosen, {.begin = 0, .end = samples});
-    while (timed && timed->cpu_seconds < left / 6.0 && samples < most_samples) {
+    while (timed && timed->cpu_seconds < left / 6.0 && samples < max_samples) {
         samples *= 2;
         timed = render_range(chosen, {.begin = 0, .end = samples});
     }
@@ -94,8 +94,8 @@ std::optional<std::int64_t> samples_in(const TrialSetup& setup, double seconds)
         return std::nullopt;
     }
     const double fitting =
-        static_cast<double>(samples) * left / std::max(timed->cpu_seconds, least_seconds);
-    const double most = static_cast<double>(most_samples);
+        static_cast<double>(samples) * left / std::max(timed->cpu_seconds, min_seconds);
+    const double most = static_cast<double>(max_samples);
     return 2 * static_cast<std::int64_t>(std::clamp(fitting, 2.0, most) / 2.0);
 }
 
@@ -116,7 +116,7 @@ std::optional<Checkpoint> measure_once(const TrialSetup& setup, std::int64_t sam
         return std::nullopt;
     }
     Checkpoint point{.samples = samples,
-                     .cpu_seconds = std::max(timed->cpu_seconds, least_seconds),
+                     .cpu_seconds = std::max(timed->cpu_seconds, min_seconds),
                      .wall_seconds = timed->wall_seconds};
     judge(timed->result.film.develop(), reference, bench_scale(reference.image), point);
     return point;
@@ -162,7 +162,7 @@ std::optional<Trial> make_trial(const TrialSetup& setup, const BenchGoals& goals
         }
         trial.run.stats += timed->result.stats;
         point.samples = end;
-        point.cpu_seconds += std::max(timed->cpu_seconds, least_seconds);
+        point.cpu_seconds += std::max(timed->cpu_seconds, min_seconds);
         point.wall_seconds += timed->wall_seconds;
         Image image = film->develop();
         judge(image, reference, scale, point);

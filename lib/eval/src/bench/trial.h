@@ -28,7 +28,7 @@ struct TrialSetup {
 inline constexpr std::uint64_t reference_seed = 1'000'003;
 
 /// Renders that samples are taken to be endless for: more than anybody has time for.
-inline constexpr std::int64_t most_samples = std::int64_t{1} << 20;
+inline constexpr std::int64_t max_samples = std::int64_t{1} << 20;
 
 /// How many samples, an even number, take about `seconds` of CPU time: from renders that grow until
 /// one takes a good part of it. What a choice of the integrator takes counts once. None if stopped.

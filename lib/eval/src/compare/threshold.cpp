@@ -20,7 +20,7 @@ double metric_value(const ComparisonReport& report, Metric metric)
                 "threshold " + std::string(to_string(metric)) + ": is not among the metrics");
 }
 
-double lowest_p(const ComparisonReport& report)
+double min_p(const ComparisonReport& report)
 {
     if (report.biased_tiles.empty()) {
         throw Error(ErrorCode::usage, "threshold p: needs images of at least two seeds");
@@ -28,7 +28,7 @@ double lowest_p(const ComparisonReport& report)
     return report.biased_tiles.front().p;
 }
 
-double greatest_bias(const Bias& bias)
+double max_bias(const Bias& bias)
 {
     double greatest = 0.0;
     for (std::size_t c = 0; c < 3; ++c) {
@@ -79,11 +79,11 @@ ThresholdResult check_threshold(const ComparisonReport& report, const Threshold&
             break;
         case ThresholdKind::bias:
             result.name = "bias";
-            result.value = greatest_bias(report.bias);
+            result.value = max_bias(report.bias);
             break;
         case ThresholdKind::p:
             result.name = "p";
-            result.value = lowest_p(report);
+            result.value = min_p(report);
             more_is_better = true;
             break;
     }

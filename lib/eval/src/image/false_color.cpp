@@ -23,7 +23,7 @@ constexpr int bar_height = 10;
 constexpr int numbers_top = bar_top + bar_height + 3;
 constexpr int title_top = numbers_top + glyph_height + 3;
 constexpr int strip_height = title_top + glyph_height + 4;
-constexpr int least_width = 160;    // three numbers side by side
+constexpr int min_width = 160;      // three numbers side by side
 constexpr int width_at_zoom = 640;  // images this wide have glyphs of twice the size, and so on
 constexpr int margin = 4;
 
@@ -100,7 +100,7 @@ io::DisplayImage false_color(const ErrorMap& map, const FalseColorOptions& optio
 {
     const std::vector<Color8> colors = heat_colors();
     const double last = static_cast<double>(colors.size() - 1);
-    const int width = std::max(map.width, least_width);
+    const int width = std::max(map.width, min_width);
     const int zoom = 1 + width / width_at_zoom;
     Canvas canvas(width, map.height + strip_height * zoom);
     for (int y = 0; y < map.height; ++y) {

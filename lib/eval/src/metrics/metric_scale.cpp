@@ -48,7 +48,7 @@ double mean_of(const Image& image)
     return sum / (3.0 * static_cast<double>(image.pixels.size()));
 }
 
-double greatest_of(const Image& image)
+double max_value(const Image& image)
 {
     float greatest = 0.0f;
     for (const Rgb& pixel : image.pixels) {
@@ -73,7 +73,7 @@ MetricScale make_scale(const Image& reference, const MetricOptions& options)
     }
     return {.epsilon = options.epsilon * unit,
             .squared_epsilon = options.epsilon * unit * unit,
-            .peak = options.peak.value_or(greatest_of(reference)),
+            .peak = options.peak.value_or(max_value(reference)),
             .pixels_per_degree = options.pixels_per_degree,
             .exposures = options.exposures ? *options.exposures : flip_exposures(reference),
             .exposure = options.exposure ? *options.exposure : io::automatic_exposure(reference)};

@@ -11,8 +11,8 @@ namespace {
 
 constexpr int mantissa_bits = 9;
 constexpr int exponent_bias = 15;
-constexpr int greatest_exponent = 31;
-constexpr float greatest_value = 65408.0f;  // 511 / 512 * 2^16
+constexpr int max_exponent = 31;
+constexpr float max_value = 65408.0f;  // 511 / 512 * 2^16
 
 std::string base64(std::span<const Bytef> bytes)
 {
@@ -38,7 +38,7 @@ std::string base64(std::span<const Bytef> bytes)
 std::uint32_t pack_rgb9e5(Rgb rgb)
 {
     const auto clamped = [](float value) {
-        return value > 0.0f ? std::min(value, greatest_value) : 0.0f;  // NaN is not above 0
+        return value > 0.0f ? std::min(value, max_value) : 0.0f;  // NaN is not above 0
     };
     const Rgb color(clamped(rgb.r), clamped(rgb.g), clamped(rgb.b));
     const float greatest = std::max({color.r, color.g, color.b});
@@ -55,7 +55,7 @@ std::uint32_t pack_rgb9e5(Rgb rgb)
         ++exponent;  // it was rounded up to the next power of two
     }
     const auto biased =
-        static_cast<std::uint32_t>(std::min(exponent + exponent_bias, greatest_exponent));
+        static_cast<std::uint32_t>(std::min(exponent + exponent_bias, max_exponent));
     return mantissa(color.r) | mantissa(color.g) << 9 | mantissa(color.b) << 18 | biased << 27;
 }
 

@@ -12,13 +12,13 @@ namespace {
 /// 1e-4 count as none, for whoever found the path.
 double share_of_merges(const PathContribution& path)
 {
-    constexpr double least_share = 1e-4;
+    constexpr double min_share = 1e-4;
     double joins = 0.0;
     for (const float share : path.shares) {
         joins += static_cast<double>(share);
     }
     const double share = 1.0 - joins;
-    return share >= least_share ? share : 0.0;
+    return share >= min_share ? share : 0.0;
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ void MergeSums::add(const PathContribution& path)
     const double sample = g * weighted / share;  // f over the sum of the densities of merges
     sums.expected += g * weighted;
     // Of all merges of so long a path, this one is thinned most by roulette.
-    const double most = roulette_.greatest_weight({.s = edges, .t = 2});
+    const double most = roulette_.max_weight({.s = edges, .t = 2});
     sums.second_moment.add(most * sample, most * weighted * g * sample);
     if (path.merged) {
         sums.tested += sample;

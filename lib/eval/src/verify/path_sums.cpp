@@ -12,14 +12,14 @@ double square(double x)
 }
 
 /// A strategy that finds a path.
-struct Finder {
+struct Technique {
     double share = 0.0;
-    double greatest_weight = 1.0;  // by roulette
+    double max_weight = 1.0;  // by roulette
 };
 
 /// The samples of two strategies, weighed by the power heuristic, along a path of which all
 /// strategies together make `all`; none without a share.
-void add_pair(SecondMoment& moment, double weighted, double all, Finder a, Finder b)
+void add_pair(SecondMoment& moment, double weighted, double all, Technique a, Technique b)
 {
     const double greater = std::max(a.share, b.share);
     if (!(greater > 0.0)) {
@@ -30,8 +30,8 @@ void add_pair(SecondMoment& moment, double weighted, double all, Finder a, Finde
     const double y = b.share / greater;
     const double sum = x * x + y * y;
     const double size = all / greater / sum;
-    moment.add(size * x * a.greatest_weight, weighted * size / sum * x * x * x * a.greatest_weight);
-    moment.add(size * y * b.greatest_weight, weighted * size / sum * y * y * y * b.greatest_weight);
+    moment.add(size * x * a.max_weight, weighted * size / sum * x * x * x * a.max_weight);
+    moment.add(size * y * b.max_weight, weighted * size / sum * y * y * y * b.max_weight);
 }
 
 double share_of(const PathContribution& path, std::size_t s)
@@ -124,7 +124,7 @@ void PathSums::add(const PathContribution& path)
     for (std::size_t s = 0; s < path.shares.size(); ++s) {
         const double share = share_of(path, s);
         // w / b with w = b^2 / squares
-        const double sample = share / squares * all * greatest_weight(edges, s);
+        const double sample = share / squares * all * max_weight(edges, s);
         measure.moment += sample * square(share) / squares;
         measure.largest = std::max(measure.largest, sample);
     }
@@ -164,7 +164,7 @@ void PathSums::add_to_strategies(const PathContribution& path, const PathValue& 
         // Found by u, the path adds g (1 - w_u) / b_u to the difference; found by v, it takes g w_v
         // / b_v from it.
         const double by_own = (1.0 - weight) * g * all / share;
-        const double most = greatest_weight(edges, u);
+        const double most = max_weight(edges, u);
         sums.second_moment.add(most * by_own, weighted * most * by_own * (1.0 - weight) * g);
         const double by_others = moment - square(weight) * most * all / share;
         sums.second_moment.add(g * largest, weighted * square(g) * std::max(by_others, 0.0));
@@ -181,19 +181,19 @@ void PathSums::add_to_length(LengthSums& sums, const PathContribution& path,
 {
     const std::size_t n = path.shares.size() - 1;  // vertices
     const int edges = path.strategy.s + path.strategy.t - 1;
-    const auto finder = [&](std::size_t s) {
-        return Finder{.share = share_of(path, s), .greatest_weight = greatest_weight(edges, s)};
+    const auto technique = [&](std::size_t s) {
+        return Technique{.share = share_of(path, s), .max_weight = max_weight(edges, s)};
     };
-    const Finder hit = finder(0);
+    const Technique hit = technique(0);
     // Of paths of one edge, s = 1 goes through the lens: no path tracer has that.
-    const Finder next_event = n > 2 ? finder(1) : Finder{};
+    const Technique next_event = n > 2 ? technique(1) : Technique{};
     // Light tracing has one light path for each pixel, whatever bdpt has.
-    const auto from_one = [&](Finder of_all) {
-        return Finder{.share = of_all.share / counts_.light_paths,
-                      .greatest_weight = of_all.greatest_weight};
+    const auto from_one = [&](Technique of_all) {
+        return Technique{.share = of_all.share / counts_.light_paths,
+                         .max_weight = of_all.max_weight};
     };
-    const Finder to_lens = from_one(finder(n - 1));
-    const Finder hit_lens = from_one(finder(n));
+    const Technique to_lens = from_one(technique(n - 1));
+    const Technique hit_lens = from_one(technique(n));
     const double weighted = measure.weighted;
     const double all = measure.all;
     const auto reach = [&](ReachSums& reached) {

@@ -143,11 +143,11 @@ private:
     /// By roulette, of a path of so many edges that the strategy with `s` light vertices finds.
     /// Light samples of one vertex depend on each other, so they count as one that is as great as
     /// all.
-    [[nodiscard]] double greatest_weight(int edges, std::size_t s) const
+    [[nodiscard]] double max_weight(int edges, std::size_t s) const
     {
         const auto light = static_cast<int>(s);
         const int together = s == 1 && edges > 1 ? counts_.light_samples : 1;
-        return together * roulette_.greatest_weight({.s = light, .t = edges + 1 - light});
+        return together * roulette_.max_weight({.s = light, .t = edges + 1 - light});
     }
 
     TileGrid grid_;

@@ -30,7 +30,7 @@ RenderOptions render_options(const VerifyOptions& options, IntegratorKind integr
     result.transport.min_depth = shortest;
     result.transport.max_depth = longest;
     result.transport.rr_start = Roulette::start;
-    result.transport.rr_survival = Roulette(options.max_depth).least_survival();
+    result.transport.rr_survival = Roulette(options.max_depth).min_survival();
     // Sobol points of one sequence depend on each other; those of other seeds do not.
     result.sampling.samples = {.begin = 0, .end = samples_of(integrator, shortest)};
     if (integrator != IntegratorKind::lt && integrator != IntegratorKind::pt) {

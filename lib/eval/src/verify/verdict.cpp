@@ -187,7 +187,7 @@ double unchecked(const Evidence& evidence, int max_depth)
 bool is_sharp(const VerifyReport& report, const VerifyOptions& options)
 {
     return report.detectable <= options.detectable_bias &&
-           (report.merges.empty() || report.detectable_of_merging <= most_error_of_merging);
+           (report.merges.empty() || report.detectable_of_merging <= max_error_of_merging);
 }
 
 VerifyReport judge(const Evidence& evidence, const VerifyOptions& options)

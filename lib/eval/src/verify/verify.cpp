@@ -23,7 +23,7 @@
 namespace bdpt::eval {
 namespace {
 
-constexpr std::int64_t fewest_batches = 8;
+constexpr std::int64_t min_batches = 8;
 
 void require(bool holds, const char* what)
 {
@@ -55,7 +55,7 @@ void check_options(const VerifyOptions& options)
             "the chance of a false alarm must be between 0 and 1");
     require(options.detectable_bias > 0.0, "the bias to detect must be greater than 0");
     require(options.seconds > 0.0, "the time must be greater than 0");
-    require(options.most_batches >= 2, "there must be at least 2 batches");
+    require(options.max_batches >= 2, "there must be at least 2 batches");
     require(options.threads >= 0 && options.threads <= 4096,
             "the number of threads must be in [0, 4096]");
 }
@@ -86,10 +86,10 @@ VerifyReport verify(const Scene& scene, const CameraDesc& camera, const VerifyOp
     // it asks is how much noise there is, not how much difference: p-values know of one look only.
     std::int64_t next_look = 32;
     double detectable = 1.0;
-    while (evidence.batches() < options.most_batches) {
+    while (evidence.batches() < options.max_batches) {
         const std::int64_t first = evidence.batches();
         const std::int64_t count =
-            std::min({std::int64_t{2} * threads, options.most_batches - first, next_look - first});
+            std::min({std::int64_t{2} * threads, options.max_batches - first, next_look - first});
         std::vector<std::optional<Batch>> batches(static_cast<std::size_t>(count));
         arena.execute([&] {
             tbb::parallel_for(std::size_t{0}, batches.size(), [&](std::size_t i) {
@@ -113,7 +113,7 @@ VerifyReport verify(const Scene& scene, const CameraDesc& camera, const VerifyOp
                                  .seconds = seconds_since(start),
                                  .detectable = detectable});
         }
-        if (evidence.batches() >= fewest_batches &&
+        if (evidence.batches() >= min_batches &&
             (control.stop.stop_requested() || seconds_since(start) >= options.seconds)) {
             break;
         }

@@ -17,12 +17,12 @@ struct RenderOptions;
 /// camera sample counts 1 / rate, so that all pixels have the sums of equally many rounds.
 class BDPT_EXPORT SampleRates {
 public:
-    /// Rates are 2^exponent, from least_exponent to greatest_exponent.
-    static constexpr int least_exponent = -2;
-    static constexpr int greatest_exponent = 2;
+    /// Rates are 2^exponent, from min_exponent to max_exponent.
+    static constexpr int min_exponent = -2;
+    static constexpr int max_exponent = 2;
     /// So many rounds, from a multiple of that on, give each pixel samples in both halves of the
     /// film. Renders with rates begin and end there.
-    static constexpr std::int64_t group = std::int64_t{2} << -least_exponent;
+    static constexpr std::int64_t group = std::int64_t{2} << -min_exponent;
 
     /// `exponents` go row by row from the top left. Throws `Error` (usage) when they are not width
     /// x height, or out of range.
@@ -46,8 +46,8 @@ public:
     /// 2^exponent
     [[nodiscard]] static float rate_of(int exponent)
     {
-        return static_cast<float>(1 << (exponent - least_exponent)) /
-               static_cast<float>(1 << -least_exponent);
+        return static_cast<float>(1 << (exponent - min_exponent)) /
+               static_cast<float>(1 << -min_exponent);
     }
     [[nodiscard]] bool operator==(const SampleRates&) const = default;
 

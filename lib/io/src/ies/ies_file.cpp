@@ -71,7 +71,7 @@ bool has_ballast_lamp_factor(std::string_view first_line, const std::string& pla
 void skip_tilt(IesNumbers& numbers)
 {
     static_cast<void>(numbers.next("the lamp-to-luminaire geometry"));
-    const long pairs = numbers.next_integer("the number of tilt angles", 0, most_ies_values);
+    const long pairs = numbers.next_integer("the number of tilt angles", 0, max_ies_values);
     for (long i = 0; i < 2 * pairs; ++i) {
         static_cast<void>(numbers.next("a tilt angle or factor"));
     }
@@ -79,11 +79,11 @@ void skip_tilt(IesNumbers& numbers)
 
 std::vector<double> read_angles(IesNumbers& numbers, std::string_view what, long count)
 {
-    constexpr double least_step = 2e-3;  // [degrees] no measurement is finer
+    constexpr double min_step = 2e-3;  // [degrees] no measurement is finer
     std::vector<double> angles;
     for (long i = 0; i < count; ++i) {
         const double angle = numbers.next(fmt::format("{} angle {}", what, i));
-        if (!angles.empty() && !(angle >= angles.back() + least_step)) {
+        if (!angles.empty() && !(angle >= angles.back() + min_step)) {
             numbers.fail(fmt::format("{} angle {} is {}, not above {} before it", what, i, angle,
                                      angles.back()));
         }
@@ -124,10 +124,10 @@ void read_candelas(IesNumbers& numbers, double factor, const std::string& place,
 
 IesFile read_ies(ByteView bytes, const std::string& place, Warnings& warnings)
 {
-    if (bytes.size() > most_ies_bytes) {
+    if (bytes.size() > max_ies_bytes) {
         throw Error(ErrorCode::invalid_input,
                     fmt::format("a light profile of {} bytes, but the limit is {}", bytes.size(),
-                                most_ies_bytes));
+                                max_ies_bytes));
     }
     const std::string all(bytes.begin(), bytes.end());
     constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
@@ -157,9 +157,9 @@ IesFile read_ies(ByteView bytes, const std::string& place, Warnings& warnings)
     static_cast<void>(numbers.next("the number of lamps"));
     static_cast<void>(numbers.next("the lumens per lamp"));
     double factor = read_factor(numbers, "the candela multiplier");
-    const long vertical = numbers.next_integer("the number of vertical angles", 2, most_ies_values);
+    const long vertical = numbers.next_integer("the number of vertical angles", 2, max_ies_values);
     const long horizontal =
-        numbers.next_integer("the number of horizontal angles", 1, most_ies_values / vertical);
+        numbers.next_integer("the number of horizontal angles", 1, max_ies_values / vertical);
     file.photometry = static_cast<Photometry>(numbers.next_integer("the photometric type", 1, 3));
     for (const char* what : {"the units type", "the width", "the length", "the height"}) {
         static_cast<void>(numbers.next(what));

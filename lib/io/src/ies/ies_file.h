@@ -26,8 +26,8 @@ struct IesFile {
 };
 
 /// The greatest file that is read [bytes], and the most intensities of one.
-inline constexpr std::uint64_t most_ies_bytes = std::uint64_t{32} << 20;
-inline constexpr long most_ies_values = 1'000'000;
+inline constexpr std::uint64_t max_ies_bytes = std::uint64_t{32} << 20;
+inline constexpr long max_ies_values = 1'000'000;
 
 /// Reads a light profile of LM-63-95, LM-63-02 or LM-63-19; older ones pass for LM-63-95. Keywords,
 /// TILT, lamps, measures and watts do not count. `place` is where warnings come from. Throws

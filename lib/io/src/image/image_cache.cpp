@@ -10,7 +10,7 @@ const TexelImage* ImageCache::find(const ContentHash& encoded) const
 
 void ImageCache::keep(const ContentHash& encoded, const TexelImage& image)
 {
-    if (image.bytes.size() > most_bytes_ - bytes_) {
+    if (image.bytes.size() > max_bytes_ - bytes_) {
         return;
     }
     if (images_.try_emplace({encoded.high, encoded.low}, image).second) {

@@ -19,7 +19,7 @@ namespace {
 using Message = std::array<char, JMSG_LENGTH_MAX>;
 
 /// Encoders write some ten. Each costs the time of a whole image, whatever its size in the file.
-constexpr int most_scans = 500;
+constexpr int max_scans = 500;
 
 /// Inks are stored as 255 minus their amount, as Adobe's programs do: what each leaves of the
 /// light.
@@ -72,7 +72,7 @@ struct JpegImage::State {
     static void limit_scans(j_common_ptr codec)
     {
         State& state = of(codec);
-        if (state.codec.input_scan_number > most_scans) {
+        if (state.codec.input_scan_number > max_scans) {
             state.fail("too many scans");
         }
     }

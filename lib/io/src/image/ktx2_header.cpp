@@ -120,11 +120,11 @@ void check_ktx2_shape(const Ktx2Head& head)
     if (head.width == 0 || head.height == 0 || head.width > most || head.height > most) {
         fail_ktx2("{} x {} pixels", head.width, head.height);
     }
-    const auto most_levels =
+    const auto max_levels =
         static_cast<std::uint32_t>(std::bit_width(std::max(head.width, head.height)));
-    if (head.levels > most_levels) {
+    if (head.levels > max_levels) {
         fail_ktx2("{} levels, but {} x {} pixels have {} at most", head.levels, head.width,
-                  head.height, most_levels);
+                  head.height, max_levels);
     }
 }
 

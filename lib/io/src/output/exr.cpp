@@ -26,7 +26,7 @@
 namespace bdpt::io {
 namespace {
 
-constexpr float largest_half = 65504.0f;
+constexpr float max_half = 65504.0f;
 
 /// The crop in the whole image; Imath's boxes hold their upper corner.
 Imath::Box2i data_window(const Image& image, const ExrPlacement& placement)
@@ -74,7 +74,7 @@ private:
         std::vector<half>& result = halves_.emplace_back();
         result.reserve(values.size());
         for (const float value : values) {
-            result.push_back(half(std::min(value, largest_half)));
+            result.push_back(half(std::min(value, max_half)));
         }
         return result.data();
     }
@@ -156,7 +156,7 @@ ExrReport make_report(const Image& image, const ExrOptions& options)
     if (options.type == ExrChannelType::half_float) {
         for (const Rgb& pixel : image.pixels) {
             const float greatest = std::max({pixel.r, pixel.g, pixel.b});
-            report.clamped_pixels += greatest > largest_half ? 1u : 0u;
+            report.clamped_pixels += greatest > max_half ? 1u : 0u;
         }
     }
     return report;

@@ -33,10 +33,10 @@
 namespace bdpt::io {
 namespace {
 
-constexpr std::uint64_t most_header_bytes = 64 << 20;
-constexpr int most_side = 1 << 16;  // [pixels]
+constexpr std::uint64_t max_header_bytes = 64 << 20;
+constexpr int max_image_side = 1 << 16;  // [pixels]
 /// No line of zeros is smaller than that; what claims to be would only take our memory.
-constexpr std::uint64_t greatest_compression = 1100;
+constexpr std::uint64_t max_compression = 1100;
 
 /// Lets OpenEXR read a sealed file.
 class SealedStream : public Imf::IStream {
@@ -64,10 +64,10 @@ private:
 /// Before OpenEXR asks for memory by it.
 void check_file_header(const SealedFile& file)
 {
-    Bytes bytes(static_cast<std::size_t>(std::min(file.size(), most_header_bytes)));
+    Bytes bytes(static_cast<std::size_t>(std::min(file.size(), max_header_bytes)));
     file.read(0, {reinterpret_cast<char*>(bytes.data()), bytes.size()});
     ReadLimits limits;
-    limits.image_side = most_side;
+    limits.image_side = max_image_side;
     check_exr_header(bytes, limits);
 }
 
@@ -116,7 +116,7 @@ void check_planes(const Imf::Header& exr, const PartHeader& header, const Sealed
     }
     const std::uint64_t pixels =
         static_cast<std::uint64_t>(r.width()) * static_cast<std::uint64_t>(r.height());
-    if (pixels * channels * sizeof(std::uint32_t) > greatest_compression * file.size()) {
+    if (pixels * channels * sizeof(std::uint32_t) > max_compression * file.size()) {
         fail("claims more pixels than it can hold");
     }
     // Films of one pixel have the names.

@@ -15,9 +15,8 @@ namespace {
 /// The exponent of the rate `value`; one more than the greatest if it is none.
 std::int8_t exponent_of(Rgb value)
 {
-    int exponent = SampleRates::least_exponent;
-    while (exponent <= SampleRates::greatest_exponent &&
-           value != Rgb(SampleRates::rate_of(exponent))) {
+    int exponent = SampleRates::min_exponent;
+    while (exponent <= SampleRates::max_exponent && value != Rgb(SampleRates::rate_of(exponent))) {
         ++exponent;
     }
     return static_cast<std::int8_t>(exponent);
@@ -46,7 +45,7 @@ SampleRates read_rates(const std::filesystem::path& file)
     exponents.reserve(image.pixels.size());
     for (const Rgb& pixel : image.pixels) {
         exponents.push_back(exponent_of(pixel));
-        if (exponents.back() > SampleRates::greatest_exponent) {
+        if (exponents.back() > SampleRates::max_exponent) {
             const std::size_t i = exponents.size() - 1;
             const auto width = static_cast<std::size_t>(image.width);
             throw Error(

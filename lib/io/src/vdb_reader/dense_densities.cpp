@@ -57,7 +57,7 @@ void check_background(const openvdb::GridBase& grid)
 
 }  // namespace
 
-io::VdbReply header_of(const openvdb::GridBase& grid, std::uint64_t most_bytes)
+io::VdbReply header_of(const openvdb::GridBase& grid, std::uint64_t max_bytes)
 {
     check_background(grid);
     const CoordBBox box = grid.evalActiveVoxelBoundingBox();
@@ -66,7 +66,7 @@ io::VdbReply header_of(const openvdb::GridBase& grid, std::uint64_t most_bytes)
     }
     io::VdbReply header;
     std::array<std::uint64_t, 3> sides{};
-    std::uint64_t most = most_bytes / sizeof(float);
+    std::uint64_t most = max_bytes / sizeof(float);
     constexpr std::uint64_t longest = 32768;
     bool fits = true;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -80,7 +80,7 @@ io::VdbReply header_of(const openvdb::GridBase& grid, std::uint64_t most_bytes)
     }
     if (!fits || most == 0) {
         fail(grid, "its box of ", sides[0], " x ", sides[1], " x ", sides[2],
-             " voxels is too large: the limit is ", most_bytes, " bytes, at 4 for each voxel, and ",
+             " voxels is too large: the limit is ", max_bytes, " bytes, at 4 for each voxel, and ",
              longest, " voxels along a side");
     }
     // Of row vectors, row after row: of column vectors, column after column.

@@ -12,8 +12,8 @@ namespace bdpt::vdb {
 
 /// Where the densities of `grid` lie: in the box of its active voxels, and one voxel around it.
 /// Throws `Error` (invalid_input) if it has none, if its background is not 0, or if they take more
-/// than `most_bytes`.
-[[nodiscard]] io::VdbReply header_of(const openvdb::GridBase& grid, std::uint64_t most_bytes);
+/// than `max_bytes`.
+[[nodiscard]] io::VdbReply header_of(const openvdb::GridBase& grid, std::uint64_t max_bytes);
 
 /// What all of them take, and what is in memory of them at a time [bytes].
 [[nodiscard]] std::uint64_t density_bytes(const io::VdbReply& header);

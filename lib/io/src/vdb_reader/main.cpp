@@ -25,7 +25,7 @@
 namespace bdpt::vdb {
 namespace {
 
-void read(const std::string& name, const std::string& wanted, std::uint64_t most_bytes,
+void read(const std::string& name, const std::string& wanted, std::uint64_t max_bytes,
           io::Allowance allowance)
 {
     openvdb::initialize();
@@ -33,7 +33,7 @@ void read(const std::string& name, const std::string& wanted, std::uint64_t most
     openvdb::io::File file(name);
     file.open(/*delayLoad=*/false);
     const openvdb::GridBase::Ptr grid = file.readGrid(chosen_grid(file, wanted));
-    const io::VdbReply header = header_of(*grid, most_bytes);
+    const io::VdbReply header = header_of(*grid, max_bytes);
     io::write_output(&header, sizeof(header));
     // From here on the work is as large as the densities, which `header_of` has limited.
     constexpr std::uint64_t bytes_per_second = std::uint64_t{64} << 20U;

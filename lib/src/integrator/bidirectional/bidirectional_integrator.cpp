@@ -43,9 +43,9 @@ BidirectionalIntegrator::BidirectionalIntegrator(const World& world, const Movin
       cache_(LightPathCounts(options), options)
 {}
 
-std::int64_t BidirectionalIntegrator::most_samples_in_pass() const
+std::int64_t BidirectionalIntegrator::max_samples_in_pass() const
 {
-    return cache_.counts().shared ? 1 : Integrator::most_samples_in_pass();
+    return cache_.counts().shared ? 1 : Integrator::max_samples_in_pass();
 }
 
 int BidirectionalIntegrator::own_light_paths() const
@@ -78,7 +78,7 @@ std::int64_t BidirectionalIntegrator::begin_pass(SampleRange samples)
     return cache_.counts().shared ? cache_.chunks() : 0;
 }
 
-void BidirectionalIntegrator::end_parts()
+void BidirectionalIntegrator::end_chunks()
 {
     if (cache_.counts().merged) {
         grid_.build(cache_, world_.bounding_sphere().center, merging_.radius);
@@ -151,8 +151,8 @@ void BidirectionalIntegrator::add_sample(int x, int y, const ScheduledSample& sc
     sink.end_sample();
 }
 
-RenderStats BidirectionalIntegrator::do_part(std::int64_t chunk, SampleRange samples,
-                                             const Films& films)
+RenderStats BidirectionalIntegrator::render_chunk(std::int64_t chunk, SampleRange samples,
+                                                  const Films& films)
 {
     Scratch scratch(*this, films);
     const std::int64_t index = samples.begin;
@@ -164,7 +164,7 @@ RenderStats BidirectionalIntegrator::do_part(std::int64_t chunk, SampleRange sam
         // Whatever may merge has one time and one wavelength: those of the first light path.
         Sampler sampler = cache_.sampler(index, counts.merged ? 0 : bundle, 0);
         sampler.start(SampleUse::film);
-        const SampleMoment moment = draw_moment(sampler, world_, camera_);
+        const TimeAndWavelength moment = draw_time_and_wavelength(sampler, world_, camera_);
         cache_.add_bundle(chunk, moment);
         const TimedCamera camera(camera_, moment.time);
         for (int i = 0; i < counts.bundle; ++i) {

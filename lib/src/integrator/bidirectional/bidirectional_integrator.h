@@ -22,11 +22,11 @@ public:
     BidirectionalIntegrator(const World& world, const MovingCamera& camera,
                             const RenderOptions& options,
                             const EnvironmentVisibility* visibility = nullptr);
-    [[nodiscard]] std::int64_t most_samples_in_pass() const override;
+    [[nodiscard]] std::int64_t max_samples_in_pass() const override;
     [[nodiscard]] std::int64_t begin_pass(SampleRange samples) override;
-    [[nodiscard]] RenderStats do_part(std::int64_t part, SampleRange samples,
-                                      const Films& films) override;
-    void end_parts() override;
+    [[nodiscard]] RenderStats render_chunk(std::int64_t part, SampleRange samples,
+                                           const Films& films) override;
+    void end_chunks() override;
     [[nodiscard]] RenderStats render_tile(const Tile& tile, SampleRange samples,
                                           const Films& films) const override;
 

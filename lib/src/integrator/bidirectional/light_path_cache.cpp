@@ -91,7 +91,7 @@ void LightPathCache::begin_chunk(std::int64_t chunk)
     filled.bsdfs.clear();
 }
 
-void LightPathCache::add_bundle(std::int64_t chunk, const SampleMoment& moment)
+void LightPathCache::add_bundle(std::int64_t chunk, const TimeAndWavelength& moment)
 {
     chunks_[static_cast<std::size_t>(chunk)].moments.push_back(moment);
 }
@@ -127,7 +127,7 @@ LightPathCache::Choice LightPathCache::choose(int x, int y, const ScheduledSampl
     const std::uint64_t seed = split_mix(seed_ + golden_ratio_64);
     // The radical inverse of the pixel's number, with an Owen scramble, in 32 bits.
     const std::uint32_t u =
-        reverse_bits(permute_upwards(pixel, static_cast<std::uint32_t>(seed))) + sample.turn;
+        reverse_bits(permute_upwards(pixel, static_cast<std::uint32_t>(seed))) + sample.sub_index;
     const std::uint64_t place = std::uint64_t{u} * static_cast<std::uint64_t>(counts_.bundles);
     Choice choice{.bundle = static_cast<std::int64_t>(place >> 32U)};
     // What is left of the number is even over the pixels of one bundle; from one sample to the next

@@ -48,7 +48,7 @@ public:
     // Filling: a chunk is begun, gets its bundles in their order, each with its light paths, and is
     // ended. Different threads may fill different chunks.
     void begin_chunk(std::int64_t chunk);
-    void add_bundle(std::int64_t chunk, const SampleMoment& moment);
+    void add_bundle(std::int64_t chunk, const TimeAndWavelength& moment);
     void add_path(std::int64_t chunk, std::span<const PathVertex> path);
     void end_chunk(std::int64_t chunk);
 
@@ -61,7 +61,7 @@ public:
     /// anywhere in more of it than a processor's cache holds.
     void prefetch(const Choice& choice) const;
     /// That of its light paths, and of the camera paths that are joined to them.
-    [[nodiscard]] const SampleMoment& moment(std::int64_t bundle) const
+    [[nodiscard]] const TimeAndWavelength& moment(std::int64_t bundle) const
     {
         return chunk_of(bundle).moments[place_of(bundle)];
     }
@@ -87,7 +87,7 @@ private:
         std::size_t bsdfs = 0;
     };
     struct Chunk {
-        std::vector<SampleMoment> moments;  // by bundle
+        std::vector<TimeAndWavelength> moments;  // by bundle
         std::vector<PathEnd> path_ends;
         std::vector<PathVertex> vertices;  // of one path after another
         std::vector<Bsdf> bsdfs;           // of the vertices that can be joined, in their order

@@ -67,8 +67,8 @@ void PathJoiner::join_light_path(SampleContext& sample, Subpath& path)
             sample.enter(Phase::connect);
         }
     };
-    const int longest_s = std::min(path.size(), options_.transport.max_depth);
-    for (int s = 2; s <= longest_s; ++s) {
+    const int max_s = std::min(path.size(), options_.transport.max_depth);
+    for (int s = 2; s <= max_s; ++s) {
         if (strategies_.uses(s, 1)) {
             deliver(connect_to_lens(sample, path.first(s), weigher_), {.s = s, .t = 1});
         }
@@ -86,9 +86,9 @@ void PathJoiner::join_paths(const SampleContext& sample, std::span<const PathVer
                             const Subpath& camera)
 {
     for (int t = 2; t <= camera.size(); ++t) {
-        const int longest_s =
+        const int max_s =
             std::min(static_cast<int>(light.size()), options_.transport.max_depth + 1 - t);
-        for (int s = 2; s <= longest_s; ++s) {
+        for (int s = 2; s <= max_s; ++s) {
             if (!strategies_.uses(s, t)) {
                 continue;
             }

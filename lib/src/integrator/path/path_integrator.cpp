@@ -4,7 +4,7 @@
 #include "integrator/sample_start.h"
 #include "math/rgb.h"
 #include "math/shifted_points.h"
-#include "path/encounter.h"
+#include "path/segment_sample.h"
 #include "profile/sample_timer.h"
 
 #include <glm/geometric.hpp>
@@ -136,20 +136,20 @@ void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, Contribution
     for (int depth = 1; depth <= options_.transport.max_depth; ++depth) {
         ++sample.rays.camera;
         const SegmentKey segment = sample.segment(0, depth);
-        const Encounter met = follow(sample, ray.origin, ray.direction, segment,
-                                     {.from_camera = true, .vertices = depth});
+        const SegmentSample event = sample_segment(sample, ray.origin, ray.direction, segment,
+                                                   {.from_camera = true, .vertices = depth});
         std::optional<FogArrival> arrival;
-        if (met.fog && fog_sampling_) {
-            const FogSegment fog{ray.origin.p, ray.direction, *met.fog};
+        if (event.fog && fog_sampling_) {
+            const FogSegment fog{ray.origin.p, ray.direction, *event.fog};
             if (depth < options_.transport.max_depth && depth + 1 >= options_.transport.min_depth) {
                 const PhaseScope scope(sample.clock, Phase::connect);
                 add({.s = 1, .t = depth + 1}, beta * sample_fog(sample, ray, fog, depth));
             }
-            if (met.in_medium) {
-                arrival = {fog, met.in_medium->distance, met.flight.stop};
+            if (event.in_medium) {
+                arrival = {fog, event.in_medium->distance, event.transmission.pdf_scatter};
             }
         }
-        if (met.is_nothing()) {
+        if (event.is_nothing()) {
             const auto id = world_.lights().environment();
             const bool visible =
                 depth > 1 || options_.transport.background == Background::environment;
@@ -157,21 +157,22 @@ void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, Contribution
                 const PhaseScope scope(sample.clock, Phase::weigh);
                 const auto& light = std::get<EnvironmentLight>(world_.lights()[*id].model());
                 add({.s = 0, .t = depth + 1},
-                    beta * met.weight() *
+                    beta * event.weight() *
                         emission(ray, *id, {.p = ray.direction}, light.radiance(ray.direction),
-                                 met.probability()));
+                                 event.probability()));
             }
             break;
         }
         sample.enter(Phase::shade);
-        const SurfacePoint point = point_of(sample, met, ray.origin, ray.direction, segment);
+        const SurfacePoint point =
+            make_interaction(sample, event, ray.origin, ray.direction, segment);
         sample.enter(Phase::walk);
         const Vec3 along = point.end.p - ray.origin.p;
         const float distance_squared = dot(along, along);
         if (distance_squared < coincident) {
             break;
         }
-        beta *= met.weight();
+        beta *= event.weight();
         if (point.light) {
             const PhaseScope scope(sample.clock, Phase::weigh);
             const LightPoint on_light{.p = point.end.p,
@@ -179,7 +180,7 @@ void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, Contribution
                                       .barycentrics = point.barycentrics,
                                       .time = sample.time};
             add({.s = 0, .t = depth + 1},
-                beta * emission(ray, *point.light, on_light, point.emission, met.probability()));
+                beta * emission(ray, *point.light, on_light, point.emission, event.probability()));
         }
         if (depth == options_.transport.max_depth) {
             break;
@@ -320,16 +321,16 @@ Rgb PathIntegrator::sample_fog(SampleContext& sample, const Ray& ray, const FogS
     if (!found) {
         return Rgb(0.0f);
     }
-    const Flight flight =
-        world_.media().flight(ray.origin, point.end, ray.direction, chosen->distance);
+    const SegmentTransmission transmission =
+        world_.media().transmission(ray.origin, point.end, ray.direction, chosen->distance);
     const Rgb through = world_.volumes().transmittance(ray.origin.p, ray.direction,
                                                        chosen->distance, sample.segment(0, depth));
     const float probability =
         world_.lights().context_probability(chosen->light, receiver, next_event_sampling_.lights);
     const TechniqueDensities densities{
-        flight.stop * found->light_pdf * (probability * light_samples_),
-        flight.stop * found->bsdf_pdf, samples * chosen->pdf * found->light_pdf};
-    return found->value * flight.transmittance * through *
+        transmission.pdf_scatter * found->light_pdf * (probability * light_samples_),
+        transmission.pdf_scatter * found->bsdf_pdf, samples * chosen->pdf * found->light_pdf};
+    return found->value * transmission.transmittance * through *
            (weight(densities, LightTechnique::fog_sample) / (samples * chosen->pdf));
 }
 
@@ -346,17 +347,17 @@ std::optional<PathIntegrator::LightConnection> PathIntegrator::connect(
     }
     ++sample.rays.shadow;
     const SegmentKey segment = sample.segment(1, depth + 1);
-    const auto flight = light.is_infinite()
-                            ? world_.flight_to_infinity(point.end, incident.wi, segment)
-                            : world_.flight(point.end, incident.end, segment);
-    if (!flight) {
+    const auto transmission = light.is_infinite()
+                                  ? world_.transmission_to_infinity(point.end, incident.wi, segment)
+                                  : world_.transmission(point.end, incident.end, segment);
+    if (!transmission) {
         return std::nullopt;
     }
     const bool can_be_hit = options_.integrator == IntegratorKind::mis && !light.is_delta();
     return LightConnection{
-        .value = f.f_cos * light.incident_weight(incident) * flight->transmittance,
+        .value = f.f_cos * light.incident_weight(incident) * transmission->transmittance,
         .light_pdf = incident.pdf_solid_angle.value,
-        .bsdf_pdf = can_be_hit ? f.pdf_fwd.value * flight->pass : 0.0f};
+        .bsdf_pdf = can_be_hit ? f.pdf_fwd.value * transmission->p_unscattered : 0.0f};
 }
 
 }  // namespace bdpt

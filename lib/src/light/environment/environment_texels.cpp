@@ -8,13 +8,13 @@
 namespace bdpt {
 namespace {
 
-constexpr float greatest_half = 65504.0f;
+constexpr float max_half = 65504.0f;
 
 /// The nearest half, ties to even, of a float in [0, 65504].
 std::uint16_t half_of(float value)
 {
-    constexpr float least_normal = 0x1p-14f;
-    if (value < least_normal) {
+    constexpr float min_normal = 0x1p-14f;
+    if (value < min_normal) {
         // Subnormal halves are multiples of 2^-24, and this sum rounds to them.
         constexpr float magic = 0.5f;
         return static_cast<std::uint16_t>(std::bit_cast<std::uint32_t>(value + magic) -
@@ -64,10 +64,10 @@ bool EnvironmentTexels::encode(const Image& image)
 {
     static_assert(sizeof(Rgb) == 3 * sizeof(float));
     // As great as halves can be, so that no texel is subnormal without need.
-    while (greatest_ / scale_ > greatest_half) {
+    while (greatest_ / scale_ > max_half) {
         scale_ *= 2.0f;
     }
-    while (scale_ > 0x1p-100f && greatest_ / (0.5f * scale_) <= greatest_half) {
+    while (scale_ > 0x1p-100f && greatest_ / (0.5f * scale_) <= max_half) {
         scale_ *= 0.5f;
     }
     constexpr float relative = 0x1p-11f;

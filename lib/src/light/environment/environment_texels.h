@@ -47,9 +47,9 @@ private:
     /// subnormal floats to zero.
     [[nodiscard]] static float decoded(std::uint16_t half) noexcept
     {
-        constexpr std::uint32_t least_normal = 0x400;
+        constexpr std::uint32_t min_normal = 0x400;
         constexpr std::uint32_t exponent_offset = 112U << 23U;
-        return half >= least_normal
+        return half >= min_normal
                    ? std::bit_cast<float>((std::uint32_t{half} << 13U) + exponent_offset)
                    : static_cast<float>(half) * 0x1p-24f;
     }

@@ -40,7 +40,7 @@ struct TileCone {
 /// has no axis, and counts the same for all normals.
 TileCone cone_around(Vec2 begin, Vec2 end)
 {
-    constexpr float least_cosine = 0.5f;
+    constexpr float min_cosine = 0.5f;
     constexpr float rounding = 1e-3f;
     const SinCos phi = sin_cos(pi * (begin.x + end.x - 1.0f));
     const SinCos theta = sin_cos(0.5f * pi * (begin.y + end.y));
@@ -51,7 +51,7 @@ TileCone cone_around(Vec2 begin, Vec2 end)
         const SinCos edge = sin_cos(pi * v);
         cosine = std::min(cosine, theta.cos * edge.cos + theta.sin * edge.sin * cos_half_width);
     }
-    if (cosine < least_cosine) {
+    if (cosine < min_cosine) {
         return {};
     }
     return {.axis = {theta.sin * phi.sin, theta.cos, -theta.sin * phi.cos},
@@ -144,7 +144,7 @@ public:
     }
     /// The most that a texel of this row has of it: half of what it would have if all weight were
     /// even over the sphere.
-    [[nodiscard]] float most_dim(int y) const
+    [[nodiscard]] float max_dim_weight(int y) const
     {
         return weights_.row_shares.empty()
                    ? 0.0f
@@ -166,7 +166,7 @@ EnvironmentTiles::EnvironmentTiles(const EnvironmentWeights& weights)
     : cells_of_weight_((tile_columns - 1) / static_cast<std::uint32_t>(weights.width) + 1),
       width_(static_cast<std::uint32_t>(weights.width) * cells_of_weight_),
       height_(static_cast<std::uint32_t>(weights.height)),
-      rows_(std::min(height_, most_rows)),
+      rows_(std::min(height_, max_rows)),
       all_{},
       bright_{}
 {
@@ -187,18 +187,18 @@ EnvironmentTiles::EnvironmentTiles(const EnvironmentWeights& weights)
         }
         for (std::uint32_t y = row_begins_[j]; y < row_begins_[j + 1]; ++y) {
             const std::span<const float> row = rows.row(static_cast<int>(y));
-            const float most_dim = rows.most_dim(static_cast<int>(y));
+            const float max_dim_weight = rows.max_dim_weight(static_cast<int>(y));
             for (std::uint32_t i = 0; i < tile_columns; ++i) {
                 for (std::uint32_t x = column_begins_[i]; x < column_begins_[i + 1]; ++x) {
                     const float weight = row[x / cells_of_weight_];
-                    const float below = std::min(weight, most_dim);
+                    const float below = std::min(weight, max_dim_weight);
                     bright[i].push_back(weight - below);
                     dim[i].push_back(below);
                 }
             }
         }
         for (std::uint32_t i = 0; i < tile_columns; ++i) {
-            const std::size_t tile = i * most_rows + j;
+            const std::size_t tile = i * max_rows + j;
             add_shape(tile, {column_begins_[i], column_begins_[i + 1]},
                       {row_begins_[j], row_begins_[j + 1]});
             add_tile(tile, bright[i], dim[i], rows.total());
@@ -245,7 +245,7 @@ void EnvironmentTiles::add_tile(std::size_t tile, std::span<const float> bright,
 
 void EnvironmentTiles::Worth::sum_up() noexcept
 {
-    static_assert(tile_columns == 16 && most_rows == 8);
+    static_assert(tile_columns == 16 && max_rows == 8);
     alignas(16) std::array<float, 64> sums;
     for (std::size_t i = 0; i < sums.size(); ++i) {
         sums[i] = of[i] + of[i + sums.size()];
@@ -253,7 +253,7 @@ void EnvironmentTiles::Worth::sum_up() noexcept
     fold<32>(sums.data());
     fold<16>(sums.data());
     fold<8>(sums.data());
-    std::copy_n(sums.begin(), most_rows, row_sums.begin());
+    std::copy_n(sums.begin(), max_rows, row_sums.begin());
     fold<4>(sums.data());
     sum = (sums[0] + sums[2]) + (sums[1] + sums[3]);
 }
@@ -315,8 +315,8 @@ std::optional<EnvironmentTiles::Sample> EnvironmentTiles::sample(
     }
     const Pick row = pick<1>(worth.row_sums.data(), rows_, worth.sum, u.y);
     const Pick column =
-        pick<most_rows>(&worth.of[row.index], tile_columns, worth.row_sums[row.index], u.x);
-    const std::size_t tile = column.index * most_rows + row.index;
+        pick<max_rows>(&worth.of[row.index], tile_columns, worth.row_sums[row.index], u.x);
+    const std::size_t tile = column.index * max_rows + row.index;
     const CellTables::Cell cell = sample_cell(tile, {column.u, row.u}, sampling);
     const float pdf = density(tile, worth, cell_pdf(tile, cell.column, cell.row, sampling));
     if (!(pdf > 0.0f)) {
@@ -368,7 +368,7 @@ std::optional<EnvironmentTiles::Sample> EnvironmentTiles::sample(
 
 std::size_t EnvironmentTiles::tile_of(int column, int row) const noexcept
 {
-    return part_of(static_cast<std::uint32_t>(column), tile_columns, width_) * most_rows +
+    return part_of(static_cast<std::uint32_t>(column), tile_columns, width_) * max_rows +
            part_of(static_cast<std::uint32_t>(row), rows_, height_);
 }
 
@@ -381,8 +381,8 @@ float EnvironmentTiles::pdf(int column, int row, const std::optional<Vec3>& norm
         return 0.0f;
     }
     const float of_cell =
-        cell_pdf(tile, static_cast<std::uint32_t>(column) - column_begins_[tile / most_rows],
-                 static_cast<std::uint32_t>(row) - row_begins_[tile % most_rows], sampling);
+        cell_pdf(tile, static_cast<std::uint32_t>(column) - column_begins_[tile / max_rows],
+                 static_cast<std::uint32_t>(row) - row_begins_[tile % max_rows], sampling);
     if ((!normal && factors == nullptr) || !(of_cell > 0.0f)) {
         return density(tile, known, of_cell);
     }

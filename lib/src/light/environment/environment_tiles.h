@@ -79,14 +79,14 @@ public:
 
 private:
     static constexpr std::uint32_t tile_columns = 16;
-    static constexpr std::uint32_t most_rows = 8;
+    static constexpr std::uint32_t max_rows = 8;
     /// A number of each tile, one column of tiles after the other; zero where there are fewer.
     using PerTile = std::array<float, tile_count>;
-    static_assert(tile_columns * most_rows == tile_count);
+    static_assert(tile_columns * max_rows == tile_count);
     /// What tiles are worth to a receiver, in no unit.
     struct Worth {
         alignas(16) PerTile of;
-        std::array<float, most_rows> row_sums;
+        std::array<float, max_rows> row_sums;
         float sum;
 
         /// Sets the sums.
@@ -114,11 +114,11 @@ private:
     // Numbers of cells in the tile.
     [[nodiscard]] std::uint32_t columns_of(std::size_t tile) const noexcept
     {
-        return column_begins_[tile / most_rows + 1] - column_begins_[tile / most_rows];
+        return column_begins_[tile / max_rows + 1] - column_begins_[tile / max_rows];
     }
     [[nodiscard]] std::uint32_t rows_of(std::size_t tile) const noexcept
     {
-        return row_begins_[tile % most_rows + 1] - row_begins_[tile % most_rows];
+        return row_begins_[tile % max_rows + 1] - row_begins_[tile % max_rows];
     }
 
     std::uint32_t cells_of_weight_;
@@ -126,7 +126,7 @@ private:
     std::uint32_t height_;
     std::uint32_t rows_;                                           // of tiles
     std::array<std::uint32_t, tile_columns + 1> column_begins_{};  // first cells of tiles
-    std::array<std::uint32_t, most_rows + 1> row_begins_{};
+    std::array<std::uint32_t, max_rows + 1> row_begins_{};
     // The share of each tile in all weights.
     Worth all_;
     Worth bright_;

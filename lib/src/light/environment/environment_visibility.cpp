@@ -64,7 +64,7 @@ void EnvironmentVisibility::build(std::uint32_t node, std::vector<Trial>::iterat
     TileFactors& factors = cells_.emplace_back();
     for (std::size_t tile = 0; tile < here.size(); ++tile) {
         // The share of samples that has the least variance goes with the root of the second moment.
-        factors.of[tile] = std::max(smallest_factor, std::sqrt(here[tile]));
+        factors.of[tile] = std::max(min_factor, std::sqrt(here[tile]));
     }
 }
 

@@ -25,7 +25,7 @@ public:
     /// The order of `trials` does not matter. Without any, all is visible.
     explicit EnvironmentVisibility(std::vector<Trial> trials);
 
-    /// Factors of the tiles' shares of the samples at `p`, in [smallest_factor, 1].
+    /// Factors of the tiles' shares of the samples at `p`, in [min_factor, 1].
     [[nodiscard]] const TileFactors& at(Vec3 p) const noexcept
     {
         std::uint32_t node = 0;
@@ -38,7 +38,7 @@ public:
     [[nodiscard]] std::size_t cells() const noexcept { return cells_.size(); }
 
     /// The factor of a tile that no ray reached: its light is still sampled, if rarely.
-    static constexpr float smallest_factor = 0.05f;
+    static constexpr float min_factor = 0.05f;
 
 private:
     static constexpr int leaf = -1;

@@ -44,8 +44,8 @@ Angle less(Angle a, Angle b)
 constexpr float slack = 2e-3f;
 // Lights at grazing angles keep a little, for the bounds say nothing about textures, spheres that
 // rise above a horizon or shading normals.
-constexpr float least_emitted = 0.01f;
-constexpr float least_received = 0.05f;
+constexpr float min_emitted = 0.01f;
+constexpr float min_received = 0.05f;
 
 /// A probability as what is weighed and divided by: 0 where a float has no digits left.
 float usable(double probability)
@@ -60,7 +60,7 @@ LightQuad::Four<double> LightQuad::importance(const LightSampleContext& receiver
 {
     const Vec3 p = receiver.p;
     const Vec3 normal = receiver.normal.value_or(Vec3(0.0f));
-    const float least_cosine = receiver.normal ? -1.0f : 1.0f;
+    const float min_cosine = receiver.normal ? -1.0f : 1.0f;
     Four<float> factor;
     Four<float> squared;
     // Selections in place of branches, and one type of numbers: all four at once.
@@ -78,9 +78,9 @@ LightQuad::Four<double> LightQuad::importance(const LightSampleContext& receiver
         const Angle from_axis = angle_of(both_sides[i] > 0.0f ? std::abs(along) : along);
         const float emitted = less(less(from_axis, {cos_spread[i], sin_spread[i]}), size).cos;
         const float above = inverse * (normal.x * dx + normal.y * dy + normal.z * dz);
-        const float received = greater(less(angle_of(above), size).cos, least_cosine);
+        const float received = greater(less(angle_of(above), size).cos, min_cosine);
 
-        float cosines = greater(emitted, least_emitted) * greater(received, least_received);
+        float cosines = greater(emitted, min_emitted) * greater(received, min_received);
         cosines = emitted >= cos_falloff[i] - slack ? cosines : 0.0f;
         cosines = received >= -slack ? cosines : 0.0f;
         factor[i] = to_center > inside ? cosines : 1.0f;  // from within no angle is known

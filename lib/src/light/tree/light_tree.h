@@ -71,8 +71,8 @@ public:
 private:
     friend class LightTreeBuilder;
 
-    static constexpr std::size_t most_children = 32;
-    static constexpr std::size_t most_quads = most_children / LightQuad::width;
+    static constexpr std::size_t max_children = 32;
+    static constexpr std::size_t max_quads = max_children / LightQuad::width;
     static constexpr std::uint32_t no_slot = 0xffffffffU;
 
     struct Node {
@@ -82,7 +82,7 @@ private:
     };
     /// What a receiver sees of the children of a node.
     struct View {
-        std::array<double, most_children> importance;
+        std::array<double, max_children> importance;
         double sum = 0.0;
     };
     [[nodiscard]] View look(const Node& node, const LightSampleContext& receiver) const noexcept;

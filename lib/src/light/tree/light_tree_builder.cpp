@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t bin_count = 12;
 /// Of so many lights, spread over a group, the division of a larger one is decided.
-constexpr std::size_t most_binned = 4096;
+constexpr std::size_t max_binned = 4096;
 /// Below this depth lights are halved whatever that costs, so that no way down is long.
 constexpr int deepest_choice = 16;
 
@@ -110,7 +110,7 @@ LightTreeBuilder::Group LightTreeBuilder::group_of(std::span<std::uint32_t> ids)
 
 void LightTreeBuilder::build(std::span<std::uint32_t> ids, std::uint32_t parent_slot, int depth)
 {
-    std::array<Group, LightTree::most_children> groups;
+    std::array<Group, LightTree::max_children> groups;
     std::size_t count = 1;
     if (ids.size() <= groups.size()) {
         for (count = 0; count < ids.size(); ++count) {
@@ -203,7 +203,7 @@ std::size_t LightTreeBuilder::split(std::span<std::uint32_t> ids, const LightBou
     };
     const Vec3 extent = whole.max - whole.min;
     const float longest = std::max({extent.x, extent.y, extent.z});
-    const std::size_t step = 1 + ids.size() / most_binned;
+    const std::size_t step = 1 + ids.size() / max_binned;
     Division best;
     for (int axis = 0; axis < 3; ++axis) {
         if (!(high[axis] > low[axis])) {

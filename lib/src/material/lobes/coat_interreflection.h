@@ -41,7 +41,7 @@ public:
         const float below_metal = mean.below - mean.below_f0 - mean.below_f90 + mean.below_f0_f0 +
                                   mean.below_f0_f90 + mean.below_f90_f90;
         const float average = lost_of(mean, scattered_again(below_metal), below);
-        if (!(average > least_average)) {
+        if (!(average > min_average)) {
             weight_ = 0.0f;  // what has no width loses nothing
             return;
         }
@@ -74,7 +74,7 @@ public:
     }
 
 private:
-    static constexpr float least_average = 1e-5f;
+    static constexpr float min_average = 1e-5f;
 
     /// What rough metal scatters after more than one reflection.
     [[nodiscard]] float scattered_again(float below_metal) const

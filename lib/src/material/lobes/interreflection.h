@@ -20,7 +20,7 @@ public:
     Interreflection(Rgb f0, float average, float share)
     {
         const Rgb reflectance = f0 + (1.0f - f0) * mean_schlick_weight;
-        const float missing = std::max(1.0f - average, least_missing);
+        const float missing = std::max(1.0f - average, min_missing);
         // Light is reflected once, as often again as microfacets mask it, and leaves.
         albedo_ = share * reflectance * reflectance * average /
                   (Rgb(1.0f) - reflectance * (1.0f - average));
@@ -37,7 +37,7 @@ public:
     }
 
 private:
-    static constexpr float least_missing = 1e-6f;
+    static constexpr float min_missing = 1e-6f;
 
     Rgb albedo_;
     float per_coupling_;

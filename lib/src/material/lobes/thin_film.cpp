@@ -50,7 +50,7 @@ namespace {
 }
 
 /// No channel of `sensitivity` is further from 0 (that of red goes to 1.785).
-constexpr float greatest_sensitivity = 1.8f;
+constexpr float max_sensitivity = 1.8f;
 
 /// A film's two interfaces, in one channel: sums over all paths by how often they run through the
 /// film.
@@ -97,7 +97,7 @@ float ThinFilm::bound(float bare, float split_f0, float split_f90) const noexcep
     return glm::mix(bare, std::max(bare, filmed), factor);
 }
 
-float ThinFilm::greatest_over(float bare, float cosine, Rgb f0) const noexcept
+float ThinFilm::max_albedo_over(float bare, float cosine, Rgb f0) const noexcept
 {
     return factor > 0.0f ? bare + factor * std::max(0.0f, greatest(cosine, f0) - bare) : bare;
 }
@@ -129,7 +129,7 @@ float ThinFilm::greatest(float cosine, Rgb f0) const noexcept
     for (int c = 0; c < 3; ++c) {
         const Interfaces sum = interfaces(index, index_of(f0[c]), cosine, cos_film);
         const float waves = std::abs(sum.first) * (1.0f + sum.quotient);
-        greatest = std::max(greatest, sum.mean + 2.0f * greatest_sensitivity * waves);
+        greatest = std::max(greatest, sum.mean + 2.0f * max_sensitivity * waves);
     }
     return std::min(greatest, 1.0f);
 }

@@ -10,7 +10,7 @@ namespace bdpt {
 //   the cosine outside; `f0` is that of the bare surface at normal incidence.
 // - `bound`: bounds an albedo that is `bare` without the film, by the coefficients of F0 and F90
 //   in it (`SpecularAlbedo::Split`).
-// - `greatest_over`: bounds such an albedo by what the film reflects at its cosine.
+// - `max_albedo_over`: bounds such an albedo by what the film reflects at its cosine.
 
 /// No film.
 struct NoFilm {
@@ -18,7 +18,7 @@ struct NoFilm {
     void bind(Rgb) noexcept {}
     [[nodiscard]] Rgb over(Rgb bare, Rgb, float) const noexcept { return bare; }
     [[nodiscard]] float bound(float bare, float, float) const noexcept { return bare; }
-    [[nodiscard]] float greatest_over(float bare, float, Rgb) const noexcept { return bare; }
+    [[nodiscard]] float max_albedo_over(float bare, float, Rgb) const noexcept { return bare; }
 };
 
 /// A thin film on a surface, whose reflectance is coloured by interference [Belcour and Barla 2017,
@@ -34,7 +34,7 @@ struct ThinFilm {
     void bind(Rgb f0) noexcept { f0_bound = exists() ? greatest(1.0f, f0) : 0.0f; }
     [[nodiscard]] Rgb over(Rgb bare, Rgb f0, float cosine) const noexcept;
     [[nodiscard]] float bound(float bare, float split_f0, float split_f90) const noexcept;
-    [[nodiscard]] float greatest_over(float bare, float cosine, Rgb f0) const noexcept;
+    [[nodiscard]] float max_albedo_over(float bare, float cosine, Rgb f0) const noexcept;
 
     /// Of film and surface together, in [0, 1], from the cosine outside. `f0` is the reflectance of
     /// the bare surface at normal incidence.

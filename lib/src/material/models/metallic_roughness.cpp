@@ -10,7 +10,7 @@
 namespace bdpt {
 
 /// Rough refraction into an index this close to the outer one has no half vector.
-constexpr float least_refraction = 1.001f;
+constexpr float min_refraction = 1.001f;
 
 template <typename Film, typename Roughness, typename Base>
 BasicMetallicRoughness<Film, Roughness, Base>::BasicMetallicRoughness(
@@ -34,13 +34,13 @@ BasicMetallicRoughness<Film, Roughness, Base>::BasicMetallicRoughness(
         .albedo = PackedPointer(&albedo),
         .film = film};
     boundary_.film.bind(boundary_.f0);
-    if (boundary_.is_solid && roughness_.is_rough() && boundary_.ior < least_refraction) {
+    if (boundary_.is_solid && roughness_.is_rough() && boundary_.ior < min_refraction) {
         // Equal indices: a dielectric boundary cannot be seen, however rough; where it is mixed
         // with metal, a refraction too weak to be noticed keeps the metal's roughness.
         if (metallic == 0.0f) {
             roughness_.make_smooth();
         } else {
-            boundary_.ior = least_refraction;
+            boundary_.ior = min_refraction;
         }
     }
     const float diffuse = dielectric * (1.0f - transmission);
@@ -53,11 +53,11 @@ BasicMetallicRoughness<Film, Roughness, Base>::BasicMetallicRoughness(
 template <typename Film, typename Roughness, typename Base>
 float BasicMetallicRoughness<Film, Roughness, Base>::reaches_base() const noexcept
 {
-    constexpr float least_loss = 1e-6f;  // a base below a perfect mirror gets no light at all
+    constexpr float min_loss = 1e-6f;  // a base below a perfect mirror gets no light at all
     const float average = roughness_.average([&](SpecularAlbedo::Roughness row) {
         return boundary_.reflected(boundary_.albedo->average(row));
     });
-    return std::max(1.0f - average, least_loss);
+    return std::max(1.0f - average, min_loss);
 }
 
 template <typename Film, typename Roughness, typename Base>
@@ -104,7 +104,7 @@ auto BasicMetallicRoughness<Film, Roughness, Base>::side(float z) const noexcept
     const float bare = roughness_.directional([&](SpecularAlbedo::Roughness row) {
         return boundary_.reflected(boundary_.albedo->directional(cosine, row));
     });
-    const float reflected = boundary_.film.greatest_over(bare, cosine, boundary_.f0);
+    const float reflected = boundary_.film.max_albedo_over(bare, cosine, boundary_.f0);
     const float rest = std::max(0.0f, 1.0f - reflected);
     const float specular = (1.0f - boundary_.metallic) * reflected +
                            transmission_weight_ * std::max(0.0f, rest - lost_share) +

@@ -70,7 +70,7 @@ GroundLamps::GroundLamps(const LightSet& lights, const GroundOccluders& occluder
         shares[place] = lamps / (lamps + elsewhere);
     });
     // The greatest share around each place, for the estimate of one may have missed a lamp.
-    constexpr float least_chance = 1.0f / 16.0f;
+    constexpr float min_chance = 1.0f / 16.0f;
     constexpr float certain_share = 0.125f;
     constexpr std::size_t side = GroundOccluders::side;
     chances_.resize(shares.size());
@@ -84,7 +84,7 @@ GroundLamps::GroundLamps(const LightSet& lights, const GroundOccluders& occluder
                     most = std::max(most, shares[j * side + i]);
                 }
             }
-            chances_[z * side + x] = std::clamp(most / certain_share, least_chance, 1.0f);
+            chances_[z * side + x] = std::clamp(most / certain_share, min_chance, 1.0f);
         }
     }
 }

@@ -63,7 +63,7 @@ struct Block {
 template <typename Visit>
 void for_each_block(const SceneGeometry& geometry, double ground, const Visit& visit)
 {
-    constexpr std::size_t most_corners = 6'000'000;
+    constexpr std::size_t max_corners = 6'000'000;
     std::size_t corners = 0;
     for (const PlacedMesh& mesh : geometry.placed) {
         corners += 3 * mesh.mesh().triangles.size() * (mesh.steps() + 1);
@@ -74,7 +74,7 @@ void for_each_block(const SceneGeometry& geometry, double ground, const Visit& v
         if (!box) {
             continue;
         }
-        if (corners > most_corners && !mesh.deforms()) {
+        if (corners > max_corners && !mesh.deforms()) {
             Block block;
             for (std::size_t step = 0; step <= mesh.steps(); ++step) {
                 const Placement at(mesh.transform_at(step));

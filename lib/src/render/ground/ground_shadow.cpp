@@ -39,7 +39,7 @@ std::uint32_t number_of_ray(std::uint32_t kind, int sample)
 struct GroundShadow::Point {
     SegmentEnd end;
     std::size_t place;  // among `occluders_`
-    SampleMoment moment;
+    TimeAndWavelength moment;
     Sampler& sampler;
     RayCounts& rays;
 
@@ -98,8 +98,9 @@ std::optional<SegmentEnd> GroundShadow::meet(const CameraRay& ray) const
     return SegmentEnd{.p = p, .error = rounding_bound(8) * farthest, .ng = up};
 }
 
-std::optional<GroundLight> GroundShadow::light_at(const CameraRay& ray, const SampleMoment& moment,
-                                                  Sampler& sampler, RayCounts& rays) const
+std::optional<GroundLight> GroundShadow::light_at(const CameraRay& ray,
+                                                  const TimeAndWavelength& moment, Sampler& sampler,
+                                                  RayCounts& rays) const
 {
     const auto end = meet(ray);
     if (!end) {
@@ -246,9 +247,9 @@ bool GroundShadow::hides_itself(const Point& point, LightId id, const IncidentSa
         return false;
     }
     // Whatever else there is on the way, it does not matter.
-    constexpr int most_surfaces = 64;
+    constexpr int max_surfaces = 64;
     SegmentEnd from = point.end;
-    for (int i = 0; i < most_surfaces; ++i) {
+    for (int i = 0; i < max_surfaces; ++i) {
         ++point.rays.aov;
         const auto hit = world_.first_hit(from, light.wi, segment);
         if (!hit || hit->sphere != no_sphere) {

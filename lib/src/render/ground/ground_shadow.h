@@ -31,8 +31,8 @@ public:
     /// irradiance, and the shadow rays that it took. Nothing where the ray does not come down to
     /// the ground within reach of rays.
     [[nodiscard]] std::optional<GroundLight> light_at(const CameraRay& ray,
-                                                      const SampleMoment& moment, Sampler& sampler,
-                                                      RayCounts& rays) const;
+                                                      const TimeAndWavelength& moment,
+                                                      Sampler& sampler, RayCounts& rays) const;
 
 private:
     struct Point;

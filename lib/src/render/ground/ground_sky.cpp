@@ -62,9 +62,9 @@ GroundSky::GroundSky(const EnvironmentLight& sky, const GroundOccluders& occlude
 /// apart add up to one, wherever the points are.
 void GroundSky::fill_cells()
 {
-    const int most_points = 16;
-    const auto points = [most_points](int texels, int cells) {
-        return std::clamp((texels + cells - 1) / cells, 2, most_points);
+    const int max_points = 16;
+    const auto points = [max_points](int texels, int cells) {
+        return std::clamp((texels + cells - 1) / cells, 2, max_points);
     };
     const int across = points(sky_.width(), static_cast<int>(columns));
     const int along = points(sky_.height(), 2 * static_cast<int>(rows));
@@ -92,7 +92,7 @@ void GroundSky::fill_cells()
         }
     });
     // A cell where all points are dark may have light between them if its neighbours do.
-    constexpr float least_share = 0.01f;
+    constexpr float min_share = 0.01f;
     tbb::parallel_for(std::size_t{0}, columns, [&](std::size_t column) {
         RowSums& sums = weights_[column];
         sums[0] = 0.0;
@@ -105,7 +105,7 @@ void GroundSky::fill_cells()
                     most = std::max(most, means[x][y]);
                 }
             }
-            const float weight = std::max(means[column][row], least_share * most);
+            const float weight = std::max(means[column][row], min_share * most);
             sums[row + 1] = sums[row] + static_cast<double>(weight);
         }
     });

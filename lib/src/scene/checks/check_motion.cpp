@@ -43,8 +43,8 @@ bool is_finite(const T& value)
 
 void check_steps(const std::string& item, std::size_t steps)
 {
-    if (steps > most_time_steps) {
-        fail(item, ": motion of ", steps, " steps, but ", most_time_steps, " is the most");
+    if (steps > max_time_steps) {
+        fail(item, ": motion of ", steps, " steps, but ", max_time_steps, " is the most");
     }
 }
 
@@ -141,8 +141,8 @@ void check_moving(const Light& light, std::size_t index, float reach)
     if constexpr (requires { light.motion; }) {
         check_positions(light_label(light, index), light.motion, reach);
     }
-    if constexpr (requires { light.turn; }) {
-        check_directions(light_label(light, index), light.direction, light.turn);
+    if constexpr (requires { light.later_directions; }) {
+        check_directions(light_label(light, index), light.direction, light.later_directions);
     }
 }
 

@@ -10,7 +10,7 @@
 namespace bdpt {
 namespace {
 
-float greatest_channel(Rgb value)
+float max_channel(Rgb value)
 {
     return std::max({value.r, value.g, value.b});
 }
@@ -18,8 +18,8 @@ float greatest_channel(Rgb value)
 /// A NaN, as it comes from products of infinity and zero, is too great, too.
 bool is_too_great(Rgb power)
 {
-    return !(power.r <= greatest_light_power && power.g <= greatest_light_power &&
-             power.b <= greatest_light_power);
+    return !(power.r <= max_light_power && power.g <= max_light_power &&
+             power.b <= max_light_power);
 }
 
 }  // namespace
@@ -40,8 +40,8 @@ void check_powers(const SharedSceneDesc& desc, std::span<const MaterialId> mater
             if (is_too_great(power)) {
                 const Material& material = materials[static_cast<std::size_t>(material_ids[i])];
                 fail(label("instance", i, instance.name), ": triangle ", t, " with an emission of ",
-                     greatest_channel(material.mean_emission()), " nit shines with ",
-                     greatest_channel(power), " lm, but ", greatest_light_power, " lm is the most");
+                     max_channel(material.mean_emission()), " nit shines with ", max_channel(power),
+                     " lm, but ", max_light_power, " lm is the most");
             }
         }
     }
@@ -50,7 +50,7 @@ void check_powers(const SharedSceneDesc& desc, std::span<const MaterialId> mater
         if (is_too_great(power)) {
             const std::string item = std::visit(
                 [i](const auto& light) { return light_label(light, i); }, desc.lights[i]);
-            fail(item, ": shines with ", greatest_channel(power), " lm, but ", greatest_light_power,
+            fail(item, ": shines with ", max_channel(power), " lm, but ", max_light_power,
                  " lm is the most");
         }
     }

@@ -129,13 +129,13 @@ void check(const VolumeDesc& volume, const std::string& item)
         densest = std::max(densest, static_cast<double>(volume.density[i]));
     }
     // Rays stop so many times on their way through it.
-    constexpr double most_depth = 1e5;
+    constexpr double max_depth = 1e5;
     const glm::dvec3 diagonal = glm::dmat3(volume.world_from_grid) * glm::dvec3(size);
     const double depth =
         densest * static_cast<double>(max_component(volume.extinction)) * glm::length(diagonal);
-    if (!(depth <= most_depth)) {
+    if (!(depth <= max_depth)) {
         fail(item, ": its greatest extinction, all along its diagonal, is an optical depth of ",
-             depth, ", but must be at most ", most_depth);
+             depth, ", but must be at most ", max_depth);
     }
 }
 

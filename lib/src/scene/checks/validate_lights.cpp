@@ -104,7 +104,7 @@ constexpr bool is_always_checked(const Field& field)
         return true;
     } else {
         return field.name == "name" || field.name == "position" || field.name == "direction" ||
-               field.name == "axes" || field.name == "motion" || field.name == "turn";
+               field.name == "axes" || field.name == "motion" || field.name == "later_directions";
     }
 }
 
@@ -218,7 +218,7 @@ std::string limit_text(float reach)
 {
     std::ostringstream text;
     text << " m from the origin, but " << reach << " m is the most";
-    if (reach < greatest_coordinate) {
+    if (reach < max_coordinate) {
         text << ", as a mesh that is used more than once or moves is scaled down very much";
     }
     return text.str();

@@ -129,7 +129,8 @@ TEST_CASE("rotation and scale are animated, rotations as integers too")
     CHECK(scaled.matrix(1.0)[1] == Vec4(0, 3, 0, 0));
 
     Animated turned;
-    turned.add("turn", "rotation", "LINEAR", {0, 1}, "VEC4", {0, 0, 0, 1, 0, 0, 1, 0}, 2);
+    turned.add("later_directions", "rotation", "LINEAR", {0, 1}, "VEC4", {0, 0, 0, 1, 0, 0, 1, 0},
+               2);
     const int output = turned.fixture.add_accessor(
         i16, "VEC4", 2, bytes_of<std::int16_t>({0, 0, 0, 32767, 0, 0, 32767, 0}));
     const Mat4 floats = turned.matrix(0.5);

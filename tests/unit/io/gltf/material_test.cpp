@@ -112,7 +112,7 @@ TEST_CASE("bodies that scatter are read, by either name of their colour")
     const LoadedScene beyond =
         scatter({{"multiscatterColor", {2, 0, 0}}, {"scatterAnisotropy", -1}});
     CHECK(of(beyond).color == Rgb(1, 0, 0));
-    CHECK(of(beyond).anisotropy == -most_anisotropy);
+    CHECK(of(beyond).anisotropy == -max_anisotropy);
     CHECK(warns(beyond.warnings, {"/materials/0/", "multiscatterColor", "and 1 more"}));
     CHECK_THROWS_AS(scatter({{"multiscatterColor", "red"}}), Error);
     CHECK_THROWS_AS(scatter({{"scatterAnisotropy", {1}}}), Error);

@@ -228,11 +228,11 @@ TEST_CASE("cameras and lights move with their nodes")
     const auto& spot = std::get<SpotLightDesc>(loaded.scene.lights[0]);
     REQUIRE(spot.motion.size() > 1);
     CHECK(spot.motion.back().z == Approx(-1.0));
-    REQUIRE(spot.turn.size() >= 8);
-    CHECK(spot.turn.back().x == Approx(-1.0));
+    REQUIRE(spot.later_directions.size() >= 8);
+    CHECK(spot.later_directions.back().x == Approx(-1.0));
     const auto& point = std::get<PointLightDesc>(loaded.scene.lights[1]);
     CHECK(point.motion.back().z == Approx(-1.0));
-    CHECK(std::get<DirectionalLightDesc>(loaded.scene.lights[2]).turn.size() >= 8);
+    CHECK(std::get<DirectionalLightDesc>(loaded.scene.lights[2]).later_directions.size() >= 8);
     CHECK(loaded.scene.instances.at(0).motion.empty());
 }
 
@@ -271,7 +271,7 @@ TEST_CASE("cameras and lights start where they are when the shutter opens")
     const auto& spot = std::get<SpotLightDesc>(loaded.scene.lights[0]);
     check(spot.position, {s, 0, -s});
     check(spot.direction, -back);
-    check(spot.turn.back(), {-1, 0, 0});
+    check(spot.later_directions.back(), {-1, 0, 0});
     check(std::get<PointLightDesc>(loaded.scene.lights[1]).position, {s, 0, -s});
     check(std::get<DirectionalLightDesc>(loaded.scene.lights[2]).direction, -back);
 }

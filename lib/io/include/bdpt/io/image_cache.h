@@ -14,9 +14,9 @@ namespace bdpt::io {
 /// file again and again, as for the frames of an animation. For one load at a time.
 class BDPT_EXPORT ImageCache {
 public:
-    /// Keeps images of up to `most_bytes` in all: the first ones, as a file that is loaded again
+    /// Keeps images of up to `max_bytes` in all: the first ones, as a file that is loaded again
     /// asks for them in the same order.
-    explicit ImageCache(std::uint64_t most_bytes) : most_bytes_(most_bytes) {}
+    explicit ImageCache(std::uint64_t max_bytes) : max_bytes_(max_bytes) {}
 
     /// The image that was decoded from bytes of this hash; null if it was not kept.
     [[nodiscard]] const TexelImage* find(const ContentHash& encoded) const;
@@ -26,7 +26,7 @@ public:
     [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
 
 private:
-    std::uint64_t most_bytes_;
+    std::uint64_t max_bytes_;
     std::uint64_t bytes_ = 0;
     std::map<std::pair<std::uint64_t, std::uint64_t>, TexelImage> images_;
 };

@@ -118,7 +118,7 @@ std::map<std::size_t, std::vector<T>> every_second(
 NodeMotion::NodeMotion(tinygltf::Model& model, std::span<const AnimatedProperty> properties,
                        double open, double close, LoadContext& context)
 {
-    constexpr std::size_t most_steps = 64;
+    constexpr std::size_t max_steps = 64;
     pose(model, properties, open);
     const Movable movable = find_movable(model, properties);
     if (!(open < close) || (movable.nodes.empty() && movable.weighted.empty())) {
@@ -128,13 +128,13 @@ NodeMotion::NodeMotion(tinygltf::Model& model, std::span<const AnimatedProperty>
     for (const std::size_t node : movable.weighted) {
         weights += model.nodes[node].weights.size();
     }
-    for (std::size_t steps = 1; steps <= most_steps; steps *= 2) {
+    for (std::size_t steps = 1; steps <= max_steps; steps *= 2) {
         // Twice as many, to see whether lines are close halfway between two.
         context.budget.spend("/animations", 2 * steps + 1,
                              movable.nodes.size() * sizeof(glm::dmat4) + weights * sizeof(double));
         const Samples samples =
             take_samples(model, properties, movable, open, close, 2 * steps, context);
-        if (steps == most_steps || samples_are_close(samples)) {
+        if (steps == max_steps || samples_are_close(samples)) {
             world_ = every_second(samples.world);
             weights_ = every_second(samples.weights);
             steps_ = world_.empty() && weights_.empty() ? 0 : steps;

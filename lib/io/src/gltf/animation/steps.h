@@ -52,7 +52,7 @@ inline constexpr double way_tolerance = 1.0 / 256.0;
 }
 
 template <typename T>
-[[nodiscard]] double longest_way(std::span<const T> values)
+[[nodiscard]] double max_distance(std::span<const T> values)
 {
     double way = 0.0;
     for (const T& value : values) {
@@ -66,7 +66,7 @@ template <typename T>
 template <typename T>
 [[nodiscard]] bool are_close(std::span<const T> values, std::size_t stride)
 {
-    const double way = longest_way(values);
+    const double way = max_distance(values);
     for (std::size_t first = 0; first + stride < values.size(); first += stride) {
         for (std::size_t i = 1; i < stride; ++i) {
             const double u = static_cast<double>(i) / static_cast<double>(stride);

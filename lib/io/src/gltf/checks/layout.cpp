@@ -17,12 +17,12 @@ constexpr std::uint64_t unsigned_short = 5123;
 constexpr std::uint64_t unsigned_int = 5125;
 // More bytes than any machine has; sums and products of numbers below it fit in 64 bits after the
 // checks in product().
-constexpr std::uint64_t most_bytes = std::uint64_t{1} << 56;
+constexpr std::uint64_t max_bytes = std::uint64_t{1} << 56;
 
 /// count * size, or nothing where that is more than any machine has.
 std::uint64_t product(const JsonPlace& place, std::uint64_t count, std::uint64_t size)
 {
-    if (size != 0 && count > most_bytes / size) {
+    if (size != 0 && count > max_bytes / size) {
         place.fail(fmt::format(
             "{} elements need {}", count,
             human_bytes(static_cast<long double>(count) * static_cast<long double>(size))));

@@ -18,21 +18,20 @@ namespace {
 /// "the file has 2 scenes: 0 "day", 1 "night"".
 std::string list(std::string_view what, const std::vector<std::string>& names)
 {
-    constexpr std::size_t longest_list = 20;
+    constexpr std::size_t max_listed = 20;
     if (names.empty()) {
         return fmt::format("the file has no {}s", what);
     }
     std::string text = names.size() == 1 ? fmt::format("the file has one {}:", what)
                                          : fmt::format("the file has {} {}s:", names.size(), what);
-    for (std::size_t i = 0; i < std::min(names.size(), longest_list); ++i) {
+    for (std::size_t i = 0; i < std::min(names.size(), max_listed); ++i) {
         text += fmt::format("{} {}", i == 0 ? "" : ",", i);
         if (!names[i].empty()) {
             text += fmt::format(" {}", quote(names[i]));
         }
     }
-    return names.size() > longest_list
-               ? text + fmt::format(" and {} more", names.size() - longest_list)
-               : text;
+    return names.size() > max_listed ? text + fmt::format(" and {} more", names.size() - max_listed)
+                                     : text;
 }
 
 std::optional<std::size_t> to_index(std::string_view text)

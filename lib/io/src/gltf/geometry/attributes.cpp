@@ -11,14 +11,14 @@ namespace bdpt::io {
 namespace {
 
 // Squared length at which a direction is noise: quantised unit vectors are far above.
-constexpr float least_length_squared = 1e-12f;
+constexpr float min_length_squared = 1e-12f;
 
 /// The unit vector, if there is one. In double, so that huge and tiny ones survive the square.
 std::optional<Vec3> unit(Vec3 v)
 {
     const glm::dvec3 wide(v);
     const double squared = glm::dot(wide, wide);
-    if (!(squared > static_cast<double>(least_length_squared)) || !std::isfinite(squared)) {
+    if (!(squared > static_cast<double>(min_length_squared)) || !std::isfinite(squared)) {
         return std::nullopt;
     }
     return Vec3(wide / std::sqrt(squared));

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double half_pi = 1.5707963267948966;
 // A cone needs some width; angles below would lose all digits in the cosine.
-constexpr double least_cone = 1e-3;
+constexpr double min_cone = 1e-3;
 
 Rgb read_intensity(const tinygltf::Light& light, const std::string& place, LoadContext& context)
 {
@@ -41,7 +41,7 @@ SpotLightDesc read_spot(const tinygltf::Light& light, const std::string& place,
                         LoadContext& context)
 {
     SpotLightDesc spot;
-    const double outer = std::clamp(light.spot.outerConeAngle, least_cone, half_pi);
+    const double outer = std::clamp(light.spot.outerConeAngle, min_cone, half_pi);
     const double inner = std::clamp(light.spot.innerConeAngle, 0.0, outer);
     if (outer != light.spot.outerConeAngle || inner != light.spot.innerConeAngle) {
         context.warn("the cone angles of a spot light are brought into their ranges",

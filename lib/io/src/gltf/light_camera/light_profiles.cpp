@@ -58,7 +58,7 @@ const LightProfiles::Known& LightProfiles::get(std::size_t index)
     const int view = source.Has("bufferView") ? source.Get("bufferView").GetNumberAsInt() : -1;
     try {
         const Bytes bytes = read_source(
-            model_, uri, view, std::min(context_.limits.file_bytes, most_ies_bytes), context_);
+            model_, uri, view, std::min(context_.limits.file_bytes, max_ies_bytes), context_);
         IesProfile read =
             make_profile(read_ies(bytes, place, context_.warnings), place, context_.warnings);
         // An intensity is there several times: in the scene, to look it up and to sample it.

@@ -79,9 +79,9 @@ void move_light(LightDesc& light, std::span<const glm::dmat4> worlds, std::size_
         point->motion = position_motion(worlds);
     } else if (auto* spot = std::get_if<SpotLightDesc>(&light)) {
         spot->motion = position_motion(worlds);
-        spot->turn = direction_turn(worlds, spot->direction, node, context);
+        spot->later_directions = direction_turn(worlds, spot->direction, node, context);
     } else if (auto* sun = std::get_if<DirectionalLightDesc>(&light)) {
-        sun->turn = direction_turn(worlds, sun->direction, node, context);
+        sun->later_directions = direction_turn(worlds, sun->direction, node, context);
     } else if (auto* luminaire = std::get_if<ProfileLightDesc>(&light)) {
         luminaire->motion = position_motion(worlds);
         const auto turned = [first = glm::dmat3(worlds.front())](const glm::dmat4& world) {

@@ -94,9 +94,10 @@ void ImageTable::open(Job& job)
                             : read_image_file(source.uri, context_);
         job.bytes = job.own_bytes;
         packed_bytes_ += job.own_bytes.size();
-        if (packed_bytes_ > most_packed_) {
+        if (packed_bytes_ > max_packed_bytes_) {
             context_.budget.memory().spend(
-                "the packed image", packed_bytes_ - std::exchange(most_packed_, packed_bytes_));
+                "the packed image",
+                packed_bytes_ - std::exchange(max_packed_bytes_, packed_bytes_));
         }
     }
     if (take_kept(job)) {

@@ -58,8 +58,8 @@ private:
     std::map<std::size_t, std::optional<ImageId>> known_;
     std::map<ImageId, SaidEncoding> encodings_;  // of images that say one
     std::uint64_t total_bytes_ = 0;
-    std::uint64_t packed_bytes_ = 0;  // of the batch
-    std::uint64_t most_packed_ = 0;   // of any batch so far
+    std::uint64_t packed_bytes_ = 0;      // of the batch
+    std::uint64_t max_packed_bytes_ = 0;  // of any batch so far
 };
 
 }  // namespace bdpt::io

@@ -198,7 +198,7 @@ private:
         const char* color =
             value->Has("multiscatterColor") ? "multiscatterColor" : "multiscatterColorFactor";
         desc_.volume_scatter.color = values_.color(*value, color, 1.0, Rgb(0.0f));
-        constexpr auto most = static_cast<double>(most_anisotropy);
+        constexpr auto most = static_cast<double>(max_anisotropy);
         desc_.volume_scatter.anisotropy =
             values_.in_range(number_or(*value, "scatterAnisotropy", 0.0), -most, most,
                              "extensions/KHR_materials_volume_scatter/scatterAnisotropy");
@@ -231,7 +231,7 @@ private:
                               fmt::format("{}/{}{}", place_, at, texture));
             }
         }
-        constexpr auto most = static_cast<double>(most_anisotropy);
+        constexpr auto most = static_cast<double>(max_anisotropy);
         desc_.volume_scatter = {
             .color = strength * values_.color(*value, "multiscatterColorFactor", 1.0),
             .anisotropy = values_.in_range(number_or(*value, "scatterAnisotropy", 0.0), -most, most,

@@ -42,7 +42,7 @@ struct VerifyOptions {
     /// 90 % chance; else the verdict is `inconclusive`.
     double detectable_bias = 0.01;
     double seconds = 120.0;  ///< after which no more batches start
-    std::int64_t most_batches = std::numeric_limits<std::int64_t>::max();
+    std::int64_t max_batches = std::numeric_limits<std::int64_t>::max();
     std::uint64_t seed = 0;
     int threads = 0;  ///< 0: one for each hardware thread; no influence on what a batch brings
 };

@@ -119,7 +119,7 @@ struct VerifyReport {
 };
 
 /// An error of merging by this fraction has to be detectable, or the verdict is inconclusive.
-constexpr double most_error_of_merging = 0.25;
+constexpr double max_error_of_merging = 0.25;
 
 /// Does this comparison fail? Each of the two families of tests, whole images and tiles, has half
 /// of the false alarms.

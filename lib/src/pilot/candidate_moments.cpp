@@ -1,4 +1,4 @@
-#include "pilot/sample_moments.h"
+#include "pilot/candidate_moments.h"
 
 #include "math/rgb.h"
 
@@ -6,7 +6,7 @@
 
 namespace bdpt {
 
-void SampleMoments::add(const PathContribution& path, const PathShares& shares)
+void CandidateMoments::add(const PathContribution& path, const PathShares& shares)
 {
     const auto unweighted = static_cast<double>(luminance(path.unweighted));
     const PerCandidate<double> weights = shares.weights();
@@ -21,14 +21,14 @@ void SampleMoments::add(const PathContribution& path, const PathShares& shares)
     }
 }
 
-double SampleMoments::value(std::size_t k) const
+double CandidateMoments::value(std::size_t k) const
 {
     const bool connects = candidates[k].connections > 0.0;
     const double both = connected_[0][k].total + connected_[1][k].total;
     return own_[k].total + (connects ? 0.5 * both : 0.0);
 }
 
-double SampleMoments::cross_terms(std::size_t k) const
+double CandidateMoments::cross_terms(std::size_t k) const
 {
     // E[(A + (B_1 + ... + B_c) / c)^2] without squares of single paths. Below one connection, all
     // but the part c of the camera paths have none.
@@ -44,7 +44,7 @@ double SampleMoments::cross_terms(std::size_t k) const
            std::max(0.0, 1.0 - 1.0 / c) * first.total * second.total;
 }
 
-void VarianceOfSamples::add(const SampleMoments& sample)
+void VarianceOfSamples::add(const CandidateMoments& sample)
 {
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         cross_[k] += sample.cross_terms(k);

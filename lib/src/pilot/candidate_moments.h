@@ -8,7 +8,7 @@
 namespace bdpt {
 
 /// What one camera path of a pilot brings to its own pixel, for all candidates at once.
-class SampleMoments {
+class CandidateMoments {
 public:
     /// `path` was found by a strategy with t >= 2; `shares` are its shares.
     void add(const PathContribution& path, const PathShares& shares);
@@ -39,7 +39,7 @@ private:
 /// Variance of what the camera paths of a pixel bring, from independent samples.
 class VarianceOfSamples {
 public:
-    void add(const SampleMoments& sample);
+    void add(const CandidateMoments& sample);
     /// Without the squares of single paths, after `samples` of them, at least two.
     [[nodiscard]] double variance(std::size_t candidate, int samples) const;
 

@@ -1,4 +1,4 @@
-#include "pilot/left_by_sobol.h"
+#include "pilot/qmc_variance_factor.h"
 
 #include <algorithm>
 #include <cmath>

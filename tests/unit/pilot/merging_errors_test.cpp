@@ -78,7 +78,7 @@ TEST_CASE("a pilot knows by merging what rare hits of a lamp bring", "[pilot]")
     }
 }
 
-TEST_CASE("a pilot leaves out light that no render of usual length finds", "[pilot]")
+TEST_CASE("a pilot leaves out light that no render of usual length contributions", "[pilot]")
 {
     // One in a hundred million samples hits it.
     for (const double error : pilot_of(under_glass(0.0003f)).errors) {

@@ -1,4 +1,4 @@
-#include "pilot/seen_lamps.h"
+#include "pilot/visible_lights.h"
 
 #include <algorithm>
 #include <span>
@@ -8,10 +8,10 @@
 namespace bdpt {
 namespace {
 
-std::vector<PilotLamp> by_pixel(const PilotFinds& finds)
+std::vector<PilotLamp> by_pixel(const PilotContributions& contributions)
 {
     std::vector<PilotLamp> lamps;
-    for (const PilotRow& row : finds.rows) {
+    for (const PilotRow& row : contributions.rows) {
         lamps.insert(lamps.end(), row.lamps().begin(), row.lamps().end());
     }
     // Equal ones stay in their order, so that sums have the same bits.
@@ -25,7 +25,7 @@ std::vector<PilotLamp> by_pixel(const PilotFinds& finds)
 /// [nit^2].
 double variance_of_hits(std::span<const PilotLamp> pixel, double points_per_pixel)
 {
-    constexpr double left_by_sobol = 0.25;  // as of direct light
+    constexpr double qmc_variance_factor = 0.25;  // as of direct light
     double light = 0.0;
     double filled = 0.0;
     for (const PilotLamp& lamp : pixel) {
@@ -37,17 +37,18 @@ double variance_of_hits(std::span<const PilotLamp> pixel, double points_per_pixe
     }
     const double radiance = light / filled;
     const double part = std::min(1.0, filled);
-    return left_by_sobol * radiance * radiance * part * (1.0 - part);
+    return qmc_variance_factor * radiance * radiance * part * (1.0 - part);
 }
 
 }  // namespace
 
-SeenLampErrors seen_lamp_errors(const PilotFinds& finds, const PilotBrightness& brightness)
+VisibleLightErrors visible_light_errors(const PilotContributions& contributions,
+                                        const PilotBrightness& brightness)
 {
-    const double points = finds.camera_paths();
-    const double pixels = finds.grid.pixels();
-    const std::vector<PilotLamp> lamps = by_pixel(finds);
-    SeenLampErrors errors;
+    const double points = contributions.camera_paths();
+    const double pixels = contributions.grid.pixels();
+    const std::vector<PilotLamp> lamps = by_pixel(contributions);
+    VisibleLightErrors errors;
     for (auto first = lamps.begin(); first != lamps.end();) {
         const auto last = std::find_if(first, lamps.end(), [first](const PilotLamp& lamp) {
             return lamp.x != first->x || lamp.y != first->y;

@@ -1,4 +1,4 @@
-#include "pilot/prices.h"
+#include "pilot/cost_model.h"
 
 #include "pilot/path_shares.h"
 
@@ -7,21 +7,21 @@ namespace {
 
 /// Fitted to the CPU time of 26 scenes x 8 candidates, up to a factor of each scene (root mean
 /// square of what is left: 5 %). Only their ratios matter [ns].
-struct Prices {
+struct CostModel {
     double sample;
     double segment;  ///< of a walk
     double shadow;   ///< ray of a join, with its BSDFs and weights
 };
-constexpr Prices path_tracing{.sample = 485.0, .segment = 125.0, .shadow = 240.0};
-constexpr Prices camera_path{.sample = 400.0, .segment = 190.0, .shadow = 320.0};
-constexpr Prices light_path{.sample = 30.0, .segment = 285.0, .shadow = 250.0};
+constexpr CostModel path_tracing{.sample = 485.0, .segment = 125.0, .shadow = 240.0};
+constexpr CostModel camera_path{.sample = 400.0, .segment = 190.0, .shadow = 320.0};
+constexpr CostModel light_path{.sample = 30.0, .segment = 285.0, .shadow = 250.0};
 constexpr double connection = 180.0;         // its shadow ray
 constexpr double shared_light_path = 330.0;  // to keep it in memory
 constexpr double shared_choice = 70.0;       // to get it from there
 
-double price(const Prices& prices, double segments, double shadow_rays)
+double cost(const CostModel& model, double segments, double shadow_rays)
 {
-    return prices.sample + prices.segment * segments + prices.shadow * shadow_rays;
+    return model.sample + model.segment * segments + model.shadow * shadow_rays;
 }
 
 }  // namespace
@@ -36,14 +36,14 @@ double sample_cost(const Candidate& candidate, const RenderStats& pilot)
     const double next_event =
         per(rays.shadow - rays.shadow_to_lens - rays.shadow_interior, pilot.paths.camera);
     if (candidate.light_paths == 0.0) {
-        return price(path_tracing, segments, next_event);
+        return cost(path_tracing, segments, next_event);
     }
-    const double light = price(light_path, per(rays.light, pilot.paths.light),
-                               per(rays.shadow_to_lens, pilot.paths.light));
+    const double light = cost(light_path, per(rays.light, pilot.paths.light),
+                              per(rays.shadow_to_lens, pilot.paths.light));
     const double interior =
         connection * per(rays.shadow_interior, PathShares::pilot_connections * pilot.paths.camera);
     const bool own = candidate.light_paths == candidate.connections && candidate.light_paths >= 1.0;
-    return price(camera_path, segments, next_event) +
+    return cost(camera_path, segments, next_event) +
            candidate.light_paths * (light + (own ? 0.0 : shared_light_path)) +
            candidate.connections * (interior + (own ? 0.0 : shared_choice));
 }

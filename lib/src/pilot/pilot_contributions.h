@@ -9,7 +9,7 @@
 namespace bdpt {
 
 /// All that a pilot has found.
-struct PilotFinds {
+struct PilotContributions {
     PilotGrid grid;
     double light_paths;  ///< for each pixel of the image
     std::vector<PilotRow> rows;

@@ -9,10 +9,10 @@ namespace bdpt {
 
 /// A segment sample: the first interaction along a ray, which is a scattering point in a medium or
 /// a volume, a surface, or nothing; and the segment's transmittance and densities.
-struct Encounter {
+struct SegmentSample {
     /// With the surface alone, which `find_surface()` finds.
     template <typename FindSurface>
-    explicit Encounter(const FindSurface& find_surface) : surface(find_surface())
+    explicit SegmentSample(const FindSurface& find_surface) : surface(find_surface())
     {}
 
     std::optional<MediumEvent> in_medium;
@@ -20,16 +20,19 @@ struct Encounter {
     Rgb volume_weight{1.0f};            ///< of `VolumePassage`
     std::optional<RayHit> surface;      ///< of the ray, whether or not it gets there
     std::optional<FogSpan> fog;         ///< on the way there, scattered or not
-    Flight flight;                      ///< to where it ends
+    SegmentTransmission transmission;   ///< to where it ends
     MediumId around = MediumId::clear;  ///< of a point in a volume
 
     /// Probability of reaching the surface, or density of scattering along the ray. Transmittance
     /// and extinction of volumes are left out.
-    [[nodiscard]] float probability() const { return flight.to(in_medium.has_value()); }
+    [[nodiscard]] float probability() const
+    {
+        return transmission.pdf_of_end(in_medium.has_value());
+    }
     /// The factor of the throughput: transmittance over probability.
     [[nodiscard]] Rgb weight() const
     {
-        return flight.transmittance / probability() * volume_weight;
+        return transmission.transmittance / probability() * volume_weight;
     }
     [[nodiscard]] bool is_nothing() const { return !in_medium && !in_volume && !surface; }
     [[nodiscard]] VertexKind kind() const
@@ -47,20 +50,22 @@ struct WalkPlace {
 };
 
 /// Samples a segment of the ray from `origin` in the unit direction `direction`.
-[[nodiscard]] Encounter follow(SampleContext& sample, const SegmentEnd& origin, Vec3 direction,
-                               SegmentKey segment, const WalkPlace& place);
+[[nodiscard]] SegmentSample sample_segment(SampleContext& sample, const SegmentEnd& origin,
+                                           Vec3 direction, SegmentKey segment,
+                                           const WalkPlace& place);
 
 /// The interaction at the end of the segment, if there is one: the walk's next vertex.
-[[nodiscard]] inline SurfacePoint point_of(const SampleContext& sample, const Encounter& met,
-                                           const SegmentEnd& origin, Vec3 direction,
-                                           SegmentKey segment)
+[[nodiscard]] inline SurfacePoint make_interaction(const SampleContext& sample,
+                                                   const SegmentSample& event,
+                                                   const SegmentEnd& origin, Vec3 direction,
+                                                   SegmentKey segment)
 {
-    if (met.in_volume) {
-        return sample.world.volume_point(origin, direction, *met.in_volume, met.around);
+    if (event.in_volume) {
+        return sample.world.volume_point(origin, direction, *event.in_volume, event.around);
     }
-    return met.in_medium ? sample.world.medium_point(origin, direction, *met.in_medium)
-                         : sample.world.surface_at(*met.surface, direction, segment,
-                                                   sample.camera.pixel_cone());
+    return event.in_medium ? sample.world.medium_point(origin, direction, *event.in_medium)
+                           : sample.world.surface_at(*event.surface, direction, segment,
+                                                     sample.camera.pixel_cone());
 }
 
 }  // namespace bdpt

@@ -12,6 +12,6 @@ namespace bdpt {
 [[nodiscard]] double sample_cost(const Candidate& candidate, const RenderStats& pilot);
 
 /// What it costs more to join a point of a lamp to the lens [ns].
-inline constexpr double seen_lamp_cost = 230.0;
+inline constexpr double visible_light_cost = 230.0;
 
 }  // namespace bdpt

@@ -1,0 +1,60 @@
+#include "path/segment_sample.h"
+
+#include <glm/geometric.hpp>
+
+#include <limits>
+
+namespace bdpt {
+namespace {
+
+/// Is the ray, to which nothing but its surface is known, scattered before that?
+void pass_media(SampleContext& sample, const SegmentEnd& origin, Vec3 direction, SegmentKey segment,
+                const WalkPlace& place, SegmentSample& event)
+{
+    const Media& media = sample.world.media();
+    SegmentEnd end;
+    float distance = std::numeric_limits<float>::max();
+    if (event.surface) {
+        end = sample.world.end_at(*event.surface, direction, segment.time);
+        distance = glm::distance(end.p, origin.p);
+    }
+    event.fog = media.fog_between(origin, end, direction, distance);
+    if (media.scatter(origin, end, direction)) {
+        const auto vertex = static_cast<std::uint32_t>(2 * place.vertices);
+        sample.sampler.start(SampleUse::scatter_distance, vertex + (place.from_camera ? 0U : 1U));
+        const Vec2 u = sample.sampler.next_2d();
+        event.in_medium = media.draw_event(origin, end, direction, distance, u);
+    }
+    if (event.in_medium) {
+        distance = event.in_medium->distance;
+        end = {.p = origin.p + distance * direction,
+               .media = SideMedia::around(event.in_medium->medium)};
+    }
+    const Volumes& volumes = sample.world.volumes();
+    if (volumes.any()) {
+        const VolumePassage passage = volumes.walk(origin.p, direction, distance, segment);
+        event.in_volume = passage.event;
+        event.volume_weight = passage.weight;
+    }
+    if (event.in_volume) {
+        event.in_medium.reset();
+        event.around = media.along(origin, end, direction);
+        distance = event.in_volume->distance;
+        end = {.p = origin.p + distance * direction, .media = SideMedia::around(event.around)};
+    }
+    event.transmission = media.transmission(origin, end, direction, distance);
+}
+
+}  // namespace
+
+SegmentSample sample_segment(SampleContext& sample, const SegmentEnd& origin, Vec3 direction,
+                             SegmentKey segment, const WalkPlace& place)
+{
+    SegmentSample event([&] { return sample.world.first_hit(origin, direction, segment); });
+    if (sample.world.media().any() || sample.world.volumes().any()) {
+        pass_media(sample, origin, direction, segment, place, event);
+    }
+    return event;
+}
+
+}  // namespace bdpt

@@ -103,10 +103,10 @@ TEST_CASE("roulette gives no path more than its greatest weight")
             const double rounds = std::max(0, s - 4) + std::max(0, longest - s - 3);
             CHECK(weight ==
                   Approx(std::pow(static_cast<double>(roulette.min_survival()), -rounds)));
-            CHECK(weight <= Roulette::max_weight * (1.0 + 1e-9));
+            CHECK(weight <= Roulette::max_roulette_weight * (1.0 + 1e-9));
         }
     }
-    CHECK(Roulette(5).max_weight(thinned) == Approx(Roulette::max_weight));
+    CHECK(Roulette(5).max_weight(thinned) == Approx(Roulette::max_roulette_weight));
     CHECK(Roulette(5).max_weight(whole) == 1.0);
 }
 
@@ -116,7 +116,7 @@ TEST_CASE("second moments of what roulette thins are not taken for less than the
     test::Random random(3);
     StrategySums sums;
     for (int i = 0; i < 100; ++i) {
-        const Batch batch = batch_with_roulette(random, 1.0 / Roulette::max_weight);
+        const Batch batch = batch_with_roulette(random, 1.0 / Roulette::max_roulette_weight);
         const StrategyRow row(edges);
         for (std::size_t tile = 0; tile < grid.size(); ++tile) {
             sums += batch.bdpt.strategy(tile, row.index(whole));
@@ -134,7 +134,7 @@ TEST_CASE("survivors of roulette are no false alarm")
         test::Random random(7000 + seed);
         Evidence evidence(grid, edges, 4);
         for (int i = 0; i < 24; ++i) {
-            evidence.add(batch_with_roulette(random, 1.0 / Roulette::max_weight));
+            evidence.add(batch_with_roulette(random, 1.0 / Roulette::max_roulette_weight));
         }
         alarms += judge(evidence, options).verdict == Verdict::fail ? 1 : 0;
     }

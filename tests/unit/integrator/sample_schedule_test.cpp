@@ -67,7 +67,7 @@ TEST_CASE("samples of a round have different turns", "[rates]")
     const auto four = samples_of(SampleSchedule(options), 4, {.begin = 3, .end = 4});
     REQUIRE(four.size() == 4);
     for (std::uint32_t i = 0; i < 4; ++i) {
-        CHECK(four[i].later_directions == i << 30U);
+        CHECK(four[i].sub_index == i << 30U);
     }
 }
 
@@ -95,7 +95,7 @@ TEST_CASE("without rates each round is one sample", "[rates]")
     for (std::size_t i = 0; i < samples.size(); ++i) {
         CHECK(samples[i].index == static_cast<std::int64_t>(5 + i));
         CHECK(samples[i].round == samples[i].index);
-        CHECK(samples[i].later_directions == 0);
+        CHECK(samples[i].sub_index == 0);
         CHECK(samples[i].scale.camera == 1.0f);
         CHECK(samples[i].scale.splat == 1.0f);
     }

@@ -18,7 +18,7 @@ namespace bdpt::emission_test {
 namespace {
 
 using test::bin_of;
-using test::later_directions;
+using test::turn;
 
 constexpr int samples = 200000;
 constexpr int steps = 8;

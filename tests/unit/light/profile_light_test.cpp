@@ -198,7 +198,7 @@ TEST_CASE("profile light: light leaves by its densities, which follow the intens
         const auto bin_of_direction = [](Vec3 w) {
             return test::bin_of<2>(
                 {0.5 + 0.5 * static_cast<double>(w.z),
-                 test::later_directions(static_cast<double>(w.x), static_cast<double>(w.y))},
+                 test::turn(static_cast<double>(w.x), static_cast<double>(w.y))},
                 steps);
         };
         std::vector<double> expected(steps * steps);

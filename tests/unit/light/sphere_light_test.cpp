@@ -19,7 +19,7 @@ namespace {
 
 using test::bin_of;
 using test::check_uniform;
-using test::later_directions;
+using test::turn;
 
 PointLightDesc bulb(float radius)
 {

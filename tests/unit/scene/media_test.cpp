@@ -113,8 +113,8 @@ TEST_CASE("walks are scattered with the density that is told", "[media]")
             static_cast<double>(transmission.pdf_scatter) * 1.5 / (bins * steps);
     }
     const SegmentTransmission whole = media.transmission(start, end, down, 1.5f);
-    probabilities[bins] = static_cast<double>(whole.pass);
-    CHECK(whole.pass == Approx(mean(whole.transmittance)));
+    probabilities[bins] = static_cast<double>(whole.p_unscattered);
+    CHECK(whole.p_unscattered == Approx(mean(whole.transmittance)));
     CHECK(whole.transmittance.b == Approx(std::exp(-4.5f)));
     double sum = 0.0;
     for (std::size_t i = 0; i <= bins; ++i) {
@@ -142,7 +142,7 @@ TEST_CASE("the mean free path is one over the extinction", "[media]")
     const SegmentTransmission out =
         media.transmission(in(id), {}, down, std::numeric_limits<float>::max());
     CHECK(out.transmittance == Rgb(0.0f));
-    CHECK(out.pass == 0.0f);
+    CHECK(out.p_unscattered == 0.0f);
 }
 
 TEST_CASE("fog ends at its sphere, from wherever one looks", "[media]")

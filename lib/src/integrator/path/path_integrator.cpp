@@ -223,7 +223,8 @@ void PathIntegrator::trace_path(SampleContext& sample, Vec2 raster, Contribution
     }
 }
 
-float PathIntegrator::fog_odds(const std::optional<FogArrival>& arrival, LightId light) const
+float PathIntegrator::fog_density_ratio(const std::optional<FogArrival>& arrival,
+                                        LightId light) const
 {
     return arrival ? fog_sampling_->samples() *
                          fog_sampling_->pdf(arrival->fog, light, arrival->distance) / arrival->pdf
@@ -244,7 +245,7 @@ Rgb PathIntegrator::emission(const Ray& ray, LightId light, const LightPoint& hi
         ray.arrival ? lights[light]
                               .pdf_incident(ray.receiver, hit, next_event_sampling_.environments)
                               .value *
-                          fog_odds(ray.arrival, light)
+                          fog_density_ratio(ray.arrival, light)
                     : 0.0f;
     if (options_.integrator == IntegratorKind::nee) {
         return by_light + by_fog > 0.0f ? Rgb(0.0f) : radiance;
@@ -286,9 +287,9 @@ Rgb PathIntegrator::sample_light(SampleContext& sample, const SurfacePoint& poin
     if (!found) {
         return Rgb(0.0f);
     }
-    const TechniqueDensities densities{found->light_pdf * (sampled.probability * light_samples_),
-                                       found->bsdf_pdf,
-                                       found->light_pdf * fog_odds(arrival, sampled.light)};
+    const TechniqueDensities densities{
+        found->light_pdf * (sampled.probability * light_samples_), found->bsdf_pdf,
+        found->light_pdf * fog_density_ratio(arrival, sampled.light)};
     return found->value / sampled.probability * weight(densities, LightTechnique::light_sample);
 }
 

@@ -51,7 +51,8 @@ private:
                                                          int depth) const;
     /// How much more often `FogSampling` finds the light at the point of fog than a walk comes
     /// there.
-    [[nodiscard]] float fog_odds(const std::optional<FogArrival>& arrival, LightId light) const;
+    [[nodiscard]] float fog_density_ratio(const std::optional<FogArrival>& arrival,
+                                          LightId light) const;
     [[nodiscard]] float weight(const TechniqueDensities& densities, LightTechnique used) const
     {
         return mis_weight(densities, used, options_.transport.heuristic);

@@ -37,7 +37,7 @@ BREAKAGES = (
     Breakage("reverse densities take points of media for surfaces", "lib/src/path/path_vertex.h",
              "transmission.pdf_of_end(vertex.kind == VertexKind::medium)", "transmission.pdf_of_end(false)", options=FOG),
     Breakage("media choose distances by all colours and weigh them by one", "lib/src/scene/media.cpp",
-             ".pass = mean(left)", ".pass = left.r", options=FOG),
+             ".p_unscattered = mean(left)", ".pass = left.r", options=FOG),
     Breakage("phase functions sample backwards", "lib/src/material/models/henyey_greenstein.cpp",
              ".wi = {sine * c, sine * s, z}", ".wi = {sine * c, sine * s, -z}", options=FOG),
     Breakage("a join lacks 1/d^2", CONNECT, "f_y.f_cos * y.beta * (1.0f / distance_squared)",

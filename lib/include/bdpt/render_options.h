@@ -69,7 +69,7 @@ enum class EnvironmentSampling : std::uint8_t {
     /// "MIS Compensation"): BSDF sampling finds the rest well enough. Integrators that cannot rely
     /// on BSDF sampling for it use `plain`: nee, and bdpt when such strategies are disabled.
     compensated,
-    /// Like `compensated`, and by the fraction of the environment that is visible from a place, which
+    /// Like `compensated`, and by the fraction of the environment visible from a place, which
     /// a short pilot learns from a fixed number of paths
     /// (docs/decisions/0068-learned-visibility.md).
     learned,

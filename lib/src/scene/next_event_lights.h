@@ -54,9 +54,9 @@ private:
 
     std::vector<Slot> slots_;  ///< one per light
     LightTree tree_;
-    std::vector<LightId> placed_;    ///< ids of the table's indices
-    std::vector<LightId> infinite_;  ///< chooses a light at infinity, if the tree is not chosen
-    AliasTable infinite_table_;      ///< one of those, if it is not the tree
+    std::vector<LightId> placed_;    ///< ids of the tree's indices
+    std::vector<LightId> infinite_;  ///< ids of the table's indices
+    AliasTable infinite_table_;      ///< chooses a light at infinity, if the tree is not chosen
     double placed_share_ = 0.0;      ///< probability of the tree
 };
 

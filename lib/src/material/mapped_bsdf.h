@@ -83,7 +83,7 @@ typename MappedBsdf<Model>::Ways MappedBsdf<Model>::eye_ways(Vec3 eye) const noe
     const float share = facet_.mirrored_share(eye);
     const Vec3 other = facet_.mirrored(eye);
     const float choice = facet_.mirror_choice();
-    // Of the two directions at the facet that a sample could stand for, only one may be visible.
+    // A sample could stand for two directions at the facet, of which only one may be visible.
     const float plain_choice = facet_.mirrored_share(other) > 0.0f ? 1.0f - choice : 1.0f;
     return {Way{eye, 1.0f - share, share < 1.0f ? plain_choice : 0.0f},
             Way{other, share, share > 0.0f ? choice : 0.0f}};

@@ -62,7 +62,7 @@ Number(const char*, T Desc::*, Limits) -> Number<Desc, T>;
 enum class OptionRole : std::uint8_t {
     image,    ///< affects bits of the image: part of the identity of a render
     samples,  ///< selects samples, each of which is independent of the others
-    limit,    ///< limits what is accepted
+    limit,    ///< limits the accepted values
     machine,  ///< affects how the machine does the work
 };
 

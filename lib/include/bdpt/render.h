@@ -79,7 +79,7 @@ struct RenderResult {
     std::optional<TimeProfile> profile{};  ///< profile of the same samples, with Profiling::on
 };
 
-/// The choice of choose_integrator(), and what the pilot learned about it.
+/// The choice of choose_integrator(), and the pilot's estimate about it.
 struct IntegratorChoice {
     RenderOptions options{};
     /// Estimated fraction of the image's light that `options` cannot find, in [0, 1]: caustics of

@@ -34,7 +34,7 @@ public:
     /// multiple of SampleRates::group. Throws `Error` (usage) for other numbers, and exceptions of
     /// `control`: the samples rendered until then are kept.
     void render(std::int64_t samples, const RenderControl& control = {});
-    /// Renders the missing samples of those in the options.
+    /// Renders all missing samples of the options.
     void finish(const RenderControl& control = {});
     /// Adds samples of the same render that were rendered elsewhere. Throws `Error` (invalid_input)
     /// for samples of another render, and for samples that are already here.

@@ -60,7 +60,7 @@ public:
     [[nodiscard]] bool deforms() const { return !mesh_->motion.empty(); }
     /// Returns the number of motion steps after shutter open; 0 if static.
     [[nodiscard]] std::size_t steps() const { return steps_; }
-    /// Return transform and vertex at step `step`, in [0, steps()].
+    /// Returns the transform, or a vertex in world space, at step `step` in [0, steps()].
     [[nodiscard]] const Mat4& transform_at(std::size_t step) const;
     [[nodiscard]] Vec3 world_point_at(std::size_t step, std::size_t vertex) const;
 

@@ -24,8 +24,8 @@ struct TriangleEmission {
 };
 
 /// Reads the emission and its textures on a regular grid, fine enough for their texels but of at
-/// most `max_samples` per side. A small uniform part covers what the grid may have missed, so that
-/// no emitting point has a density of zero.
+/// most `max_samples` per side. A small uniform part covers emission that the grid may have missed,
+/// so that no emitting point has a density of zero.
 [[nodiscard]] TriangleEmission measure_emission(const PlacedMesh& mesh, const Material& material,
                                                 std::uint32_t triangle, int max_samples);
 

@@ -60,7 +60,7 @@ struct Cosines {
     float shading;
 
     /// Tests whether the signs agree; otherwise nothing scatters, as light neither leaks through a
-    /// surface nor comes from below it.
+    /// surface nor arrives from below it.
     [[nodiscard]] bool agree() const { return geometric * shading > 0.0f; }
     /// Returns the ratio of the cosines; requires `agree()`.
     [[nodiscard]] float ratio() const { return geometric / shading; }

@@ -187,7 +187,7 @@ std::optional<BsdfSample> MappedBsdf<Model>::sample_eye(Vec3 light, float u_lobe
     std::optional<BsdfSample> sampled =
         model_.sample(from.w, mirror.u, u, TransportMode::importance);
     if (!sampled || !facet_.faces(sampled->wi)) {
-        return std::nullopt;  // no eye is there
+        return std::nullopt;  // no eye direction sees the facet
     }
     const Vec3 other = facet_.mirrored(sampled->wi);
     const bool is_mirrored = mirror.taken && facet_.mirrored_share(other) > 0.0f;

@@ -49,7 +49,7 @@ using Sobol4 = std::array<std::uint32_t, 4>;
 [[nodiscard]] constexpr std::array<std::array<std::uint32_t, 32>, 4> sobol_columns()
 {
     struct Dimension {
-        std::size_t degree;                  // of the primitive polynomial
+        std::size_t degree;                  // degree of the primitive polynomial
         std::uint32_t inner;                 // its coefficients without the first and the last
         std::array<std::uint32_t, 3> first;  // odd, entry k below 2^(k + 1)
     };

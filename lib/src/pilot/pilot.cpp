@@ -171,7 +171,7 @@ RenderOptions with_best(const PilotResult& pilot, const RenderOptions& asked)
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         for (const bool sees_lamps : {false, true}) {
             if (sees_lamps && candidates[k].light_paths == 0.0) {
-                continue;  // path tracing does not
+                continue;  // path tracing has no such strategy
             }
             const double product = error_of(pilot, k, sees_lamps) *
                                    (pilot.costs[k] + (sees_lamps ? visible_light_cost : 0.0));

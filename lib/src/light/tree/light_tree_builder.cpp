@@ -57,7 +57,7 @@ Division cheapest(const Bins& bins, int axis, double elongation)
     sum.reset();
     for (std::size_t i = 1; i < bin_count && after[i] >= 0.0; ++i) {
         if (!bins[i - 1]) {
-            continue;  // the same as the one before
+            continue;  // equal to the previous split
         }
         add(sum, *bins[i - 1]);
         const double both = elongation * (cost(*sum) + after[i]);

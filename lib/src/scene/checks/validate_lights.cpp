@@ -161,7 +161,7 @@ struct OwnCheck {
             const Rgb& pixel = image.pixels[i];
             const float least = std::min({pixel.r, pixel.g, pixel.b});
             if (least >= 0.0f && pixel.r + pixel.g + pixel.b <= any_positive) {
-                continue;  // texts of places take longer than all else
+                continue;  // formatting the position would dominate the time
             }
             const auto column = i % static_cast<std::size_t>(image.width);
             const auto row = i / static_cast<std::size_t>(image.width);

@@ -81,12 +81,13 @@ struct Range {
 /// The documentation and range of an option. Its command-line flag is "--" and its name, with '-'
 /// for '_'.
 struct OptionInfo {
-    Range range{};             ///< valid range of numbers
-    std::string_view value{};  ///< placeholder of the value in help texts, such as "N"; empty for
-                               ///< enumerations with names (`enumerators`)
-    std::string_view help{};   ///< description of the effect; empty: not an option of commands
-    std::string_view otherwise{};  ///< the default in words; empty: the default is printed as a
-                                   ///< value
+    Range range{};  ///< valid range of numbers
+    /// Placeholder of the value in help texts, such as "N"; empty for enumerations with names
+    /// (`enumerators`).
+    std::string_view value{};
+    std::string_view help{};  ///< description of the effect; empty: not an option of commands
+    /// The default in words; empty: the default is printed as a value.
+    std::string_view otherwise{};
     OptionRole role = OptionRole::image;
 };
 

@@ -31,15 +31,15 @@ enum class InspectedKind : std::uint8_t {
 /// A vertex of a subpath.
 struct InspectedVertex {
     InspectedKind kind = InspectedKind::surface;
-    Vec3 position{0.0f};      ///< position in world space [m]; for `infinite`: the unit direction
-                              ///< towards the light
-    Vec3 normal{0.0f};        ///< unit shading normal of surfaces; else zero
-    Rgb beta{1.0f};           ///< throughput up to this vertex, excluding its own scattering
-    Rgb emission{0.0f};       ///< camera paths: radiance emitted towards the previous vertex [nit]
-    float pdf_fwd = 0.0f;     ///< density with which the walk sampled the vertex [1/m^2]; for
-                              ///< `infinite`: [1/sr]
-    bool is_light = false;    ///< the vertex emits
-    bool connectible = true;  ///< the vertex has a lobe that is not delta
+    /// Position in world space [m]; for `infinite`: the unit direction towards the light.
+    Vec3 position{0.0f};
+    Vec3 normal{0.0f};   ///< unit shading normal of surfaces; else zero
+    Rgb beta{1.0f};      ///< throughput up to this vertex, excluding its own scattering
+    Rgb emission{0.0f};  ///< camera paths: radiance emitted towards the previous vertex [nit]
+    /// Density with which the walk sampled the vertex [1/m^2]; for `infinite`: [1/sr].
+    float pdf_fwd = 0.0f;
+    bool is_light = false;         ///< the vertex emits
+    bool connectible = true;       ///< the vertex has a lobe that is not delta
     bool scattered_delta = false;  ///< the walk left the vertex through a delta lobe
 };
 

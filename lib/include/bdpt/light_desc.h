@@ -43,20 +43,20 @@ struct SpotLightDesc {
     /// Radius [m], as in `PointLightDesc`; the falloff depends on the direction in which light
     /// leaves the sphere.
     float radius = 0.0f;
-    std::vector<Vec3> motion{};            ///< later positions
-    std::vector<Vec3> later_directions{};  ///< later values of `direction`, less than 90 degrees
-                                           ///< apart
+    std::vector<Vec3> motion{};  ///< later positions
+    /// Later values of `direction`, less than 90 degrees apart.
+    std::vector<Vec3> later_directions{};
 };
 
 /// The intensities of a luminaire by direction, on a grid of two angles: the polar angle from -z,
 /// and the azimuth around that axis, from +x towards +y. Intensities are interpolated bilinearly in
 /// the angles; outside of the grid they are zero.
 struct LightProfile {
-    std::vector<float> polar_angles;  ///< [rad] two or more, ascending, in [0, pi]
-    std::vector<float> azimuths;      ///< [rad] ascending over at most a turn; one: rotationally
-                                      ///< symmetric
-    std::vector<float> intensities;   ///< [cd] the intensities of all polar angles for each
-                                      ///< azimuth, >= 0
+    std::vector<float> polar_angles;  ///< polar angles [rad], two or more, ascending, in [0, pi]
+    /// Azimuths [rad], ascending over at most a turn; one: rotationally symmetric.
+    std::vector<float> azimuths;
+    /// Intensities of all polar angles for each azimuth [cd], >= 0.
+    std::vector<float> intensities;
 };
 
 /// A point light with the intensity distribution of a measured luminaire [EXT_lights_ies].
@@ -76,11 +76,11 @@ struct DirectionalLightDesc {
     static constexpr std::string_view kind = "directional light";  ///< human-readable name
 
     std::string name{};
-    Vec3 direction{0.0f, 0.0f, -1.0f};     ///< direction in which the light travels; any length but
-                                           ///< 0
-    Rgb illuminance{1.0f};                 ///< illuminance of a surface that faces the light [lx]
-    std::vector<Vec3> later_directions{};  ///< later values of `direction`, less than 90 degrees
-                                           ///< apart
+    /// Direction in which the light travels; any length but 0.
+    Vec3 direction{0.0f, 0.0f, -1.0f};
+    Rgb illuminance{1.0f};  ///< illuminance of a surface that faces the light [lx]
+    /// Later values of `direction`, less than 90 degrees apart.
+    std::vector<Vec3> later_directions{};
 };
 
 /// Light from all directions at infinity. `radiance` is equirectangular [nit]: its top row is +y,

@@ -32,8 +32,8 @@ struct TextureRef {
 enum class AlphaMode : std::uint8_t {
     opaque,  ///< alpha is ignored
     mask,    ///< the surface exists where alpha is at least `alpha_cutoff`
-    blend,   ///< alpha is the fraction of light that hits the surface; the rest passes straight
-             ///< through
+    /// Alpha is the fraction of light that hits the surface; the rest passes straight through.
+    blend,
 };
 
 /// Clear varnish over everything else, of index 1.5 [KHR_materials_clearcoat].
@@ -43,8 +43,8 @@ struct ClearcoatDesc {
     float normal_scale = 1.0f;
     std::optional<TextureRef> texture;            ///< linear; R, times factor
     std::optional<TextureRef> roughness_texture;  ///< linear; G, times roughness
-    std::optional<TextureRef> normal_texture;     ///< linear; none: normals of the coat are not
-                                                  ///< perturbed
+    /// Linear; none: normals of the coat are not perturbed.
+    std::optional<TextureRef> normal_texture;
 };
 
 /// Fibres on top of a cloth, above everything but a coat [KHR_materials_sheen].
@@ -58,18 +58,18 @@ struct SheenDesc {
 /// Grooves that blur reflections along one direction [KHR_materials_anisotropy].
 struct AnisotropyDesc {
     float strength = 0.0f;  ///< [0, 1]; 0: round highlights
-    float rotation = 0.0f;  ///< rotation of the blur direction from the tangent to the bitangent
-                            ///< [rad]
+    /// Rotation of the blur direction from the tangent to the bitangent [rad].
+    float rotation = 0.0f;
     std::optional<TextureRef> texture;  ///< linear; RG direction, B times strength
 };
 
 /// A thin film whose interference colours reflections [KHR_materials_iridescence].
 struct IridescenceDesc {
-    float factor = 0.0f;                          ///< [0, 1]; 0: no film
-    float ior = 1.3f;                             ///< index of refraction of the film, >= 1
-    float thickness_minimum = 100.0f;             ///< thickness where the texture is 0 [nm]
-    float thickness_maximum = 400.0f;             ///< thickness where the texture is 1, or without
-                                                  ///< a texture [nm]
+    float factor = 0.0f;               ///< [0, 1]; 0: no film
+    float ior = 1.3f;                  ///< index of refraction of the film, >= 1
+    float thickness_minimum = 100.0f;  ///< thickness where the texture is 0 [nm]
+    /// Thickness where the texture is 1, or without a texture [nm].
+    float thickness_maximum = 400.0f;
     std::optional<TextureRef> texture;            ///< linear; R, times factor
     std::optional<TextureRef> thickness_texture;  ///< linear; G
 };
@@ -86,8 +86,8 @@ struct DiffuseTransmissionDesc {
 /// Scattering within a body, whose attenuation sets the density [KHR_materials_volume_scatter and
 /// KHR_materials_scatter, drafts].
 struct VolumeScatterDesc {
-    Rgb color{0.0f};          ///< [0, 1], multiple-scattering albedo: approximately the colour of a
-                              ///< dense body
+    /// Multiple-scattering albedo, [0, 1]: approximately the colour of a dense body.
+    Rgb color{0.0f};
     float anisotropy = 0.0f;  ///< g of Henyey and Greenstein, in (-1, 1); > 0 scatters forwards
 };
 

@@ -12,8 +12,8 @@ inline constexpr float max_anisotropy = 0.9999f;
 /// A homogeneous medium that absorbs and scatters light, such as fog [Pharr et al. 2023, Physically
 /// Based Rendering, ch. 11].
 struct MediumDesc {
-    Rgb extinction{0.0f};     ///< extinction coefficient [1/m], >= 0: absorption and scattering; 1
-                              ///< / the mean free path
+    /// Extinction coefficient [1/m], >= 0: absorption and scattering; 1 / the mean free path.
+    Rgb extinction{0.0f};
     Rgb albedo{1.0f};         ///< single-scattering albedo, [0, 1]
     float anisotropy = 0.0f;  ///< g of Henyey and Greenstein, in (-1, 1); > 0 scatters forwards
 };

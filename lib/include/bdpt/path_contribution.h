@@ -13,12 +13,12 @@ struct PathContribution {
     Strategy strategy;
     /// True if the last light vertex and the last camera vertex were merged into one (vcm).
     bool merged = false;
-    int light_path = 0;    ///< index among the light paths of the sample; 0 for s <= 1
-    Vec2 raster{0.0f};     ///< raster position in the pixel it contributes to [pixels, origin at
-                           ///< the top left]
-    Rgb unweighted{0.0f};  ///< contribution if this were the only strategy, divided by its number
-                           ///< of samples [nit]
-    float weight = 1.0f;   ///< MIS weight
+    int light_path = 0;  ///< index among the light paths of the sample; 0 for s <= 1
+    /// Raster position in the pixel it contributes to [pixels, origin at the top left].
+    Vec2 raster{0.0f};
+    /// Contribution if this were the only strategy, divided by its number of samples [nit].
+    Rgb unweighted{0.0f};
+    float weight = 1.0f;  ///< MIS weight
     /// Balance-heuristic weight of every strategy for this path, by s, computed from the
     /// definition: N_s p_s over the sum of all; 0 for strategies that cannot sample the path. Where
     /// paths merge, the sum includes merging, so the shares add up to less than one. They are

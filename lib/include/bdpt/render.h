@@ -123,11 +123,11 @@ struct IntegratorChoice {
 
 /// The result of render_part().
 struct PartResult {
-    RenderPart part;                       ///< `so_far` and the rendered samples
-    RenderOptions options{};               ///< as in `RenderResult`
-    double seconds = 0.0;                  ///< time of this call
-    std::optional<TimeProfile> profile{};  ///< profile of the samples of this call, with
-                                           ///< Profiling::on
+    RenderPart part;          ///< `so_far` and the rendered samples
+    RenderOptions options{};  ///< as in `RenderResult`
+    double seconds = 0.0;     ///< time of this call
+    /// Profile of the samples of this call, with Profiling::on.
+    std::optional<TimeProfile> profile{};
 };
 
 /// Continues `so_far`, or begins if it has no samples: renders the missing samples of `options`

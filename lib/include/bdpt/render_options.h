@@ -18,14 +18,15 @@ class SampleRates;
 /// The light transport algorithm.
 enum class IntegratorKind : std::uint8_t {
     automatic,  ///< mis, or bdpt with numbers of light paths and connections that suit the image
-    bdpt,       ///< bidirectional path tracing with all strategies, MIS-weighted [Veach 1997, ch.
-                ///< 10]
+    /// Bidirectional path tracing with all strategies, MIS-weighted [Veach 1997, ch. 10].
+    bdpt,
     pt,   ///< BSDF sampling only; light sampling for delta lights, which no BSDF sample can hit
     mis,  ///< light and BSDF sampling, MIS-weighted [Veach 1997, ch. 9]
     nee,  ///< light sampling; BSDF samples count only where no light sample can reach
     lt,   ///< light tracing: light paths connected to the lens (t <= 1)
-    vcm,  ///< vertex connection and merging: bdpt that also merges nearby light and camera
-          ///< vertices; biased, but less so with each sample [Georgiev et al. 2012]
+    /// Vertex connection and merging: bdpt that also merges nearby light and camera vertices;
+    /// biased, but less so with each sample [Georgiev et al. 2012].
+    vcm,
 };
 
 /// MIS heuristic: weights of the strategies that can sample the same path [Veach 1997, sec. 9.2].
@@ -77,9 +78,9 @@ enum class EnvironmentSampling : std::uint8_t {
 
 /// Selection of one of many lights in next-event estimation.
 enum class LightSampling : std::uint8_t {
-    automatic,  ///< tree for many lights, and for lights at infinity combined with others; else
-                ///< power
-    power,      ///< proportional to power, independent of position
+    /// Tree for many lights, and for lights at infinity combined with others; else power.
+    automatic,
+    power,  ///< proportional to power, independent of position
     /// By estimated contribution to the shading point [Conty Estevez and Kulla 2018, "Importance
     /// Sampling of Many Lights with Adaptive Tree Splitting", without splitting].
     tree,

@@ -6,13 +6,13 @@ namespace bdpt {
 
 /// Rays traced through the scene, by purpose.
 struct RayCounts {
-    std::uint64_t camera = 0;           ///< rays of camera subpaths
-    std::uint64_t light = 0;            ///< rays of light subpaths
-    std::uint64_t shadow = 0;           ///< shadow rays between two points, or to a light at
-                                        ///< infinity
-    std::uint64_t aov = 0;              ///< rays for AOVs, including shadow rays from the ground
-    std::uint64_t shadow_to_lens = 0;   ///< part of `shadow`: from light subpaths to the lens (t =
-                                        ///< 1)
+    std::uint64_t camera = 0;  ///< rays of camera subpaths
+    std::uint64_t light = 0;   ///< rays of light subpaths
+    /// Shadow rays between two points, or to a light at infinity.
+    std::uint64_t shadow = 0;
+    std::uint64_t aov = 0;  ///< rays for AOVs, including shadow rays from the ground
+    /// Part of `shadow`: from light subpaths to the lens (t = 1).
+    std::uint64_t shadow_to_lens = 0;
     std::uint64_t shadow_interior = 0;  ///< part of `shadow`: between both subpaths (s, t >= 2)
 
     [[nodiscard]] std::uint64_t total() const { return camera + light + shadow + aov; }

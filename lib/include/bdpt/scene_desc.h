@@ -87,9 +87,9 @@ struct CameraDesc {
     Projection projection = Projection::perspective;
     float vertical_fov = 0.7853982f;  ///< perspective: [rad], in (0, pi)
     float vertical_extent = 2.0f;     ///< orthographic: height of the view [m], > 0
-    float lens_radius = 0.0f;         ///< perspective: radius of a thin lens [m], >= 0; 0 is a
-                                      ///< pinhole
-    float focus_distance = 1.0f;      ///< distance of the plane in focus of a thin lens [m], > 0
+    /// Perspective: radius of a thin lens [m], >= 0; 0 is a pinhole.
+    float lens_radius = 0.0f;
+    float focus_distance = 1.0f;  ///< distance of the plane in focus of a thin lens [m], > 0
     /// Aspect ratio, width over height, intended by the scene's author, if any. The film's aspect
     /// ratio takes precedence.
     std::optional<float> aspect_ratio{};

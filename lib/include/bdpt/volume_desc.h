@@ -19,8 +19,8 @@ struct VolumeDesc {
     /// Transforms grid coordinates, where voxel (0, 0, 0) fills the unit cube. Affine and
     /// invertible.
     Mat4 world_from_grid{1.0f};
-    Rgb extinction{1.0f};     ///< extinction where the density is 1 [1/m], >= 0: absorption and
-                              ///< scattering
+    /// Extinction where the density is 1 [1/m], >= 0: absorption and scattering.
+    Rgb extinction{1.0f};
     Rgb albedo{1.0f};         ///< single-scattering albedo, [0, 1]
     float anisotropy = 0.0f;  ///< g of Henyey and Greenstein, in (-1, 1); > 0 scatters forwards
 };

@@ -12,10 +12,10 @@ namespace bdpt {
 
 /// A primary ray. Importance over density is one: a camera subpath starts with beta = 1.
 struct CameraRay {
-    SegmentEnd lens;              ///< origin; ng is set if light can hit the lens
-    Vec3 direction{0.0f};         ///< unit
-    AreaPdf pdf_lens;             ///< density of the point on the lens; 1 for a pinhole and
-                                  ///< parallel rays
+    SegmentEnd lens;       ///< origin; ng is set if light can hit the lens
+    Vec3 direction{0.0f};  ///< unit
+    /// Density of the point on the lens; 1 for a pinhole and parallel rays.
+    AreaPdf pdf_lens;
     SolidAnglePdf pdf_direction;  ///< density of the direction, for perspective
     std::optional<PlanarPdf>
         pdf_plane;  ///< orthographic: density of the ray's position; the direction is fixed
@@ -103,7 +103,7 @@ private:
     bool perspective_;
     Vec2 half_extent_;  // half size of the film: one unit in front of the lens; orthographic: in
                         // the world [m]
-    float film_area_;  // area of the whole film at that distance
+    float film_area_;   // area of the whole film at that distance
     float lens_radius_;
     float focus_distance_;
     AreaPdf pdf_lens_{1.0f};

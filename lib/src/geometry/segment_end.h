@@ -14,10 +14,10 @@ struct SegmentEnd {
     Vec3 p{0.0f};
     float error = 0.0f;  ///< bound of the error of p and of the surface hit there [m]
     Vec3 ng{0.0f};       ///< unit geometric normal on the front; zero if not on a surface
-    std::uint32_t sphere = no_sphere;  ///< sphere that contains p; segments touch spheres from
-                                       ///< outside only
-    SideMedia media{};                 ///< media on both sides, or around a point that is not on a
-                                       ///< surface
+    /// Sphere that contains p; segments touch spheres from outside only.
+    std::uint32_t sphere = no_sphere;
+    /// Media on both sides, or around a point that is not on a surface.
+    SideMedia media{};
 };
 
 }  // namespace bdpt

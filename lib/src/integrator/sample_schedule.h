@@ -15,8 +15,8 @@ struct SampleScale {
 
 /// A scheduled sample of a pixel.
 struct ScheduledSample {
-    std::int64_t index = 0;       ///< index of its random numbers; the halves have even and odd
-                                  ///< ones
+    /// Index of its random numbers; the halves have even and odd ones.
+    std::int64_t index = 0;
     std::int64_t round = 0;       ///< round of the light paths that all pixels share
     std::uint32_t sub_index = 0;  ///< distributes the samples that a pixel takes in a round [2^-32]
     SampleScale scale{};

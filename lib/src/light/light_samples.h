@@ -34,22 +34,22 @@ struct LightPoint {
 /// Light leaving a light: the first vertex of a light subpath and the direction to the second. Its
 /// densities exclude the probability of choosing this light.
 struct EmissionSample {
-    SegmentEnd end;               ///< on the light; infinite: entry point of the ray into the scene
-    Vec2 barycentrics{0.0f};      ///< barycentric coordinates on triangles
-    Vec3 direction{0.0f};         ///< unit, the direction in which the light travels
-    Rgb weight{0.0f};             ///< Le |cos| / (both densities)
-    AreaPdf pdf_position;         ///< density of x_0; infinite: of the direction; 1 for a delta
-                                  ///< light
+    SegmentEnd end;           ///< on the light; infinite: entry point of the ray into the scene
+    Vec2 barycentrics{0.0f};  ///< barycentric coordinates on triangles
+    Vec3 direction{0.0f};     ///< unit, the direction in which the light travels
+    Rgb weight{0.0f};         ///< Le |cos| / (both densities)
+    /// Density of x_0; infinite: of the direction; 1 for a delta light.
+    AreaPdf pdf_position;
     SolidAnglePdf pdf_direction;  ///< density of the direction, for finite lights
 };
 
 /// Light arriving at a point from a sampled point of a light: next-event estimation, s = 1.
 struct IncidentSample {
-    SegmentEnd end;           ///< on the light; not set for infinite lights
-    Vec2 barycentrics{0.0f};  ///< barycentric coordinates on triangles; environments: position in
-                              ///< the image
-    Vec3 wi{0.0f};            ///< unit, from the receiver towards the light
-    float distance = 0.0f;    ///< infinite lights: infinity
+    SegmentEnd end;  ///< on the light; not set for infinite lights
+    /// Barycentric coordinates on triangles; environments: position in the image.
+    Vec2 barycentrics{0.0f};
+    Vec3 wi{0.0f};          ///< unit, from the receiver towards the light
+    float distance = 0.0f;  ///< infinite lights: infinity
     /// Incident radiance over the density of wi, to be multiplied by f_cos; environments: one over
     /// the density, for most of their light is blocked, and `Light::incident_weight` looks the
     /// radiance up later.

@@ -20,11 +20,11 @@ enum class SampleUse : std::uint32_t {
     next_event,   ///< point on a light for a vertex of the camera subpath
     light_start,  ///< start of the light subpath: point and choice of the light (0), direction (1)
     light_walk,   ///< scattering at a vertex of the light subpath
-    lens,         ///< point on the lens: of the camera subpath (0), for a vertex of the light
-                  ///< subpath
-    ground,       ///< light (even numbers) or direction (odd) for the ground under the scene
-    scatter_distance,  ///< scattering distance in a medium of a camera path (even) or a light path
-                       ///< (odd)
+    /// Point on the lens: of the camera subpath (0), for a vertex of the light subpath.
+    lens,
+    ground,  ///< light (even numbers) or direction (odd) for the ground under the scene
+    /// Scattering distance in a medium of a camera path (even) or a light path (odd).
+    scatter_distance,
     /// A light, and a point in the fog for it, on a segment of the camera path. Only path tracing
     /// uses it: its numbers at a vertex are those of `film` at the next, which only splats use.
     fog,

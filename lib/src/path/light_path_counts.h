@@ -11,10 +11,10 @@ struct LightPathCounts {
     /// Computes the counts from valid `options`.
     explicit LightPathCounts(const RenderOptions& options);
 
-    double per_camera_path;  ///< light paths per camera path; a whole number of them for the whole
-                             ///< image
-    double connections;      ///< mean number of light paths that a camera path is connected to
-    bool merged;             ///< each camera path merges with the whole set (vcm)
+    /// Light paths per camera path; a whole number of them for the whole image.
+    double per_camera_path;
+    double connections;  ///< mean number of light paths that a camera path is connected to
+    bool merged;         ///< each camera path merges with the whole set (vcm)
     /// True if all camera paths of a sample index share one set of light paths; otherwise each has
     /// its own, `connections` in number.
     bool shared;

@@ -20,8 +20,8 @@ enum class VertexKind : std::uint8_t {
     light,    ///< start of a light path, or a point sampled by next-event estimation
     surface,  ///< point on a surface, which may emit
     medium,   ///< scattering event in a homogeneous medium
-    volume,   ///< scattering event in a heterogeneous volume: densities of walks exclude its
-              ///< extinction
+    /// Scattering event in a heterogeneous volume: densities of walks exclude its extinction.
+    volume,
     infinite  ///< point on a light at infinity: `end.p` is the unit direction towards it
 };
 

@@ -79,8 +79,8 @@ private:
     std::optional<WeightSums> sums_;
     bool uses_sums_ = false;
     bool keeps_paths_ = false;
-    std::vector<long double> densities_;  ///< densities of strategies, from which `shares_` is
-                                          ///< computed
+    /// Densities of strategies, from which `shares_` is computed.
+    std::vector<long double> densities_;
     std::vector<float> shares_;
 };
 

@@ -11,8 +11,8 @@ namespace bdpt {
 struct WalkLimits {
     int max_vertices = 1;  ///< vertices of the subpath, including the lens or the light
     int rr_start = std::numeric_limits<int>::max();  ///< edges before Russian roulette
-    float rr_survival = 0.0f;                        ///< minimum survival probability of Russian
-                                                     ///< roulette
+    /// Minimum survival probability of Russian roulette.
+    float rr_survival = 0.0f;
 };
 
 // Walks begin and end in Phase::walk.

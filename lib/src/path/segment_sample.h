@@ -17,9 +17,9 @@ struct SegmentSample {
 
     std::optional<MediumEvent> in_medium;
     std::optional<VolumeEvent> in_volume;
-    Rgb volume_weight{1.0f};            ///< weight of `VolumePassage`
-    std::optional<RayHit> surface;      ///< surface hit of the ray, even if the walk scatters
-                                        ///< before it
+    Rgb volume_weight{1.0f};  ///< weight of `VolumePassage`
+    /// Surface hit of the ray, even if the walk scatters before it.
+    std::optional<RayHit> surface;
     std::optional<FogSpan> fog;         ///< fog on the segment, whether or not it scatters
     SegmentTransmission transmission;   ///< transmission to the end of the segment
     MediumId around = MediumId::clear;  ///< medium around a scattering event in a volume

@@ -20,9 +20,9 @@ struct PilotResult {
     PerCandidate<double> errors{};
     VisibleLightErrors visible_lights;  ///< errors of directly visible light
     PerCandidate<double> costs{};       ///< cost of a sample [ns on the machine of the cost model]
-    double merging_alone = 0.0;         ///< fraction of the light that no candidate finds, in [0,
-                                        ///< 1]
-    RenderStats stats;                  ///< work of the pilot itself
+    /// Fraction of the light that no candidate finds, in [0, 1].
+    double merging_alone = 0.0;
+    RenderStats stats;  ///< work of the pilot itself
 };
 
 /// Renders a few samples all over the whole image with light paths of their own, and predicts error

@@ -8,12 +8,12 @@ namespace bdpt {
 /// the inside or the outside of an object.
 struct VisibilityProbe {
     Vec3 p{0.0f};
-    float front = 0.0f;           ///< fraction of directions that hit the front of a surface
-    float shell = 0.0f;           ///< fraction that hits a front near the bounds of the scene
-    float escaped = 0.0f;         ///< fraction that hits nothing
-    Vec3 escape_direction{0.0f};  ///< mean escaping direction; its length is close to 1 if they
-                                  ///< agree
-    float clearance = 0.0f;       ///< distance to the nearest surface [m]
+    float front = 0.0f;    ///< fraction of directions that hit the front of a surface
+    float shell = 0.0f;    ///< fraction that hits a front near the bounds of the scene
+    float escaped = 0.0f;  ///< fraction that hits nothing
+    /// Mean escaping direction; its length is close to 1 if they agree.
+    Vec3 escape_direction{0.0f};
+    float clearance = 0.0f;  ///< distance to the nearest surface [m]
 };
 
 [[nodiscard]] VisibilityProbe probe_visibility(const World& world, Vec3 p);

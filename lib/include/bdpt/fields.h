@@ -19,19 +19,19 @@ struct Limits {
     float high = 0.0f;
     bool low_is_excluded = false;
 
-    /// [0, 1]
+    /// Returns [0, 1].
     [[nodiscard]] static constexpr Limits unit() { return {.low = 0.0f, .high = 1.0f}; }
-    /// Any finite number.
+    /// Returns the range of all finite numbers.
     [[nodiscard]] static constexpr Limits finite()
     {
         return at_least(-std::numeric_limits<float>::max());
     }
-    /// Any finite number of at least `low`.
+    /// Returns the range of finite numbers of at least `low`.
     [[nodiscard]] static constexpr Limits at_least(float low)
     {
         return {.low = low, .high = std::numeric_limits<float>::max()};
     }
-    /// Any number above `low`, including infinity.
+    /// Returns the range of numbers above `low`, including infinity.
     [[nodiscard]] static constexpr Limits above(float low)
     {
         return {

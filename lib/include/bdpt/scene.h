@@ -72,7 +72,7 @@ public:
     /// on, including the instruction set and Embree.
     [[nodiscard]] const std::vector<IdentityComponent>& identity() const;
 
-    /// For the library's own use.
+    /// Returns the internal representation, for the library's own use.
     [[nodiscard]] const World& world() const;
 
 private:

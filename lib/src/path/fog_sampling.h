@@ -74,7 +74,7 @@ private:
     };
     struct Angles;
     [[nodiscard]] std::optional<Angles> angles(const FogSegment& fog, LightId light) const noexcept;
-    /// Receiver that represents all points of the segment.
+    /// Returns the receiver that represents all points of the segment.
     [[nodiscard]] static LightSampleContext receiver(const FogSegment& fog)
     {
         return {.p = fog.origin + 0.5f * (fog.span.begin + fog.span.end) * fog.direction};

@@ -22,8 +22,8 @@ double left_of_own(double value)
     return least + (1.0 - least) * value / (value + rare);
 }
 
-/// More connections of a sample are more points of one sequence, which reduce the remaining
-/// variance of each.
+/// Returns the remaining fraction by number of connections: more connections of a sample are more
+/// points of one sequence, which reduce the remaining variance of each.
 PerCandidate<double> left_by_more_connections()
 {
     PerCandidate<double> result;

@@ -72,7 +72,7 @@ public:
 
     [[nodiscard]] const FilmLayout& layout() const { return layout_; }
     [[nodiscard]] const PixelRect& region() const { return layout_.region; }
-    /// The size of the film's region [pixels].
+    /// Returns the size of the film's region [pixels].
     [[nodiscard]] int width() const { return region().width(); }
     [[nodiscard]] int height() const { return region().height(); }
     /// Returns the samples per pixel (and light paths per pixel) that the sums hold.

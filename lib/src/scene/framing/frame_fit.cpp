@@ -128,8 +128,8 @@ public:
 
     [[nodiscard]] Vec3 middle() const { return middle_; }
 
-    /// A point p is left of the right side of the frustum of an eye c if dot(p, right + slope back)
-    /// <= dot(c, right + slope back), and so on.
+    /// Computes the sides that touch the scene. A point p is left of the right side of the frustum
+    /// of an eye c if dot(p, right + slope back) <= dot(c, right + slope back), and so on.
     [[nodiscard]] Sides sides(Vec2 slope) const
     {
         const Vec3 aslant_x = slope.x * axes_[2];
